@@ -118,9 +118,12 @@ static void what_is_allowed_is_no_finding_and_is_said(void **state)
 
 static void limits_that_make_no_sense_are_trouble(void **state)
 {
-    static const char *const bad[] = {"ratio=0.9", "recall=1.1", "recall=-0.1", "ratio=nan",  "ratio=inf",
-                                      "ratio",     "ratio=1,",   "''",          "other=1",    "ratio=1,ratio=2",
-                                      "recall=",   "ratio=1=2",  ",recall=1",   "recall=0.9x"};
+    static const char *const bad[] = {
+        "ratio=0.9",       "recall=1.1",  "recall=-0.1",
+        "ratio=nan",       "ratio=inf",   "ratio",
+        "ratio=1,",        "''",          "other=1",
+        "ratio=1,ratio=2", "recall=",     "ratio=1=2",
+        ",recall=1",       "recall=0.9x", "ratio=1.000000000000000000000000000000000000000000000000000000000000000"};
     const place session = write_session_text(state, right);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         command_result result = run_script("%s audit %s --allow %s", octreel_program(), session.path, bad[i]);
@@ -187,6 +190,49 @@ static void points_of_the_page_lead_to_their_frames(void **state)
     free(within);
 }
 
+/* The way is that between the folders, however they are written. */
+static void a_page_elsewhere_leads_up_and_down_to_the_recording(void **state)
+{
+    static const char *const pages[][2] = {
+        {"pages/deep/a.html", "./../../x/film/"},
+        {"pages/../pages/.//deep/b.html", "./../../x/film/"},
+        {"x/fil/c.html", "./../film/"},
+        {"d.html", "./x/film/"},
+    };
+    const temp_folder *own = *state;
+    write_session_text(state, wrong);
+    command_result result = run_script("cd %s && mkdir -p pages/deep x/fil && %s record session.json --size 64x48 -o "
+                                       "x/film",
+                                       own->name, octreel_program());
+    assert_done(&result);
+    command_release(&result);
+    for (size_t i = 0; i < sizeof pages / sizeof pages[0]; i++) {
+        char link[80];
+        result = run_script("cd %s && %s audit x/film --html %s", own->name, octreel_program(), pages[i][0]);
+        assert_int_equal(result.status, 1);
+        command_release(&result);
+        char *page = file_read(place_in(own, pages[i][0]).path, NULL);
+        snprintf(link, sizeof link, "<a href=\"%sframe_000002.png\"><circle class=\"point wrong\"", pages[i][1]);
+        if (!strstr(page, link))
+            fail_msg("%s has no %s", pages[i][0], link);
+        free(page);
+    }
+}
+
+static void a_tick_without_frame_and_viewer_leads_nowhere(void **state)
+{
+    const place session = write_session_text(state, wrong), film = place_in(*state, "film");
+    command_result result = run_script(
+        "%s record -q %s --size 64x48 -o %s && rm %s/index.html %s/frame_000002.png && exec %s audit %s --html -",
+        octreel_program(), session.path, film.path, film.path, film.path, octreel_program(), film.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "frame_000001.png\"><circle class=\"point\""));
+    assert_null(strstr(result.out, "frame_000002.png"));
+    assert_null(strstr(result.out, "index.html"));
+    assert_non_null(strstr(result.out, "<li>tick 2, answer 1 of the tick: "));
+    command_release(&result);
+}
+
 static void a_page_of_a_session_leads_nowhere_and_says_so(void **state)
 {
     const place session = place_in(*state, "<b>&.json");
@@ -238,6 +284,62 @@ static void faults_of_nodes_are_a_finding(void **state)
     result = run_octreel(NULL, "audit %s --junit -", session.path);
     assert_int_equal(xml_count(result.out, "testcase"), 1);
     assert_int_equal(xml_count(result.out, "failure"), 1);
+    command_release(&result);
+}
+
+/* In JSON as in words, beside what is allowed; what is right about them is no finding. */
+static void nodes_are_counted_by_their_faults_in_json(void **state)
+{
+#define NODES(points)                                                                                                  \
+    START "{\"tick\":1,\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[9,9,9]},\"points\":" points "}]}\n"
+    const place session = write_session_text(state, NODES("[1,2]"));
+    command_result result = run_octreel(NULL, "audit %s --json --allow ratio=2,recall=0.5", session.path);
+    assert_int_equal(result.status, 1);
+    json_t *all = json_read(result.out);
+    const json_t *nodes = json_object_get(all, "nodes"), *allowed = json_object_get(all, "allowed");
+    assert_true(json_is_false(json_object_get(all, "right")) && json_is_false(json_object_get(all, "passes")));
+    assert_true(json_number_value(json_object_get(nodes, "faults")) == 3);
+    assert_true(json_number_value(json_object_get(nodes, "first_wrong_tick")) == 1);
+    assert_int_equal(json_object_size(nodes), 3);
+    assert_true(json_number_value(json_object_get(allowed, "ratio")) == 2);
+    assert_true(json_number_value(json_object_get(allowed, "recall")) == 0.5);
+    json_decref(all);
+    command_release(&result);
+    write_session_text(state, NODES("[1,2,3]"));
+    result = run_octreel(NULL, "audit %s --json", session.path);
+    assert_done(&result);
+    all = json_read(result.out);
+    assert_true(json_is_true(json_object_get(all, "right")) && !json_object_get(all, "allowed"));
+    assert_int_equal(json_object_size(json_object_get(all, "nodes")), 1);
+    json_decref(all);
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --html - --allow ratio=1", session.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "<section><h2>nodes</h2>\n<p>nodes: 0 faults</p>\n</section>"));
+    assert_non_null(strstr(result.out, "ratio of distances up to 1"));
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s", session.path);
+    assert_non_null(strstr(result.out, "\nnodes: 0 faults\n"));
+    command_release(&result);
+}
+
+/* Of what is missed four are named. */
+static void many_points_that_are_missed_are_counted(void **state)
+{
+    const place session = write_session_text(
+        state,
+        "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[3,0,0,3],"
+        "[4,0,0,4],[5,0,0,5]],\"ticks\":2}\n{\"tick\":1,\"queries\":[{\"radius\":9,\"at\":[0,0,0],\"answer\":[]},"
+        "{\"knearest\":1,\"at\":[0,0,0],\"answer\":[1,2]}]}\n");
+    command_result result = run_octreel(NULL, "audit %s", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "; 5 missed, 0 extra; missed 1 at (1, 0, 0), 2 at (2, 0, 0), 3 at (3, 0, 0), "
+                                       "4 at (4, 0, 0) and 1 more\n"));
+    assert_non_null(strstr(result.out, "a wrong number of neighbours (2 named, 1 expected)"));
+    command_release(&result);
+    result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "\nallowed: recall from 0 on\n"));
     command_release(&result);
 }
 
@@ -350,9 +452,13 @@ int main(void)
         IN_FOLDER(junit_has_a_case_for_each_kind),
         IN_FOLDER(reports_take_no_place_but_their_own),
         IN_FOLDER(points_of_the_page_lead_to_their_frames),
+        IN_FOLDER(a_page_elsewhere_leads_up_and_down_to_the_recording),
+        IN_FOLDER(a_tick_without_frame_and_viewer_leads_nowhere),
         IN_FOLDER(a_page_of_a_session_leads_nowhere_and_says_so),
         IN_FOLDER(a_chart_of_many_ticks_keeps_the_worst),
         IN_FOLDER(faults_of_nodes_are_a_finding),
+        IN_FOLDER(nodes_are_counted_by_their_faults_in_json),
+        IN_FOLDER(many_points_that_are_missed_are_counted),
         IN_FOLDER(faults_of_nodes_lead_to_their_ticks),
         IN_FOLDER(numbers_of_the_page_are_as_people_write_them),
         IN_FOLDER(sessions_without_answers_are_trouble),

@@ -47,6 +47,47 @@ static void the_headline_comes_second_and_causes_below_their_frames(void **state
     command_release(&result);
 }
 
+static void write_and_film(const temp_folder *own, const char *player, const char *shape, const char *more, place film)
+{
+    const place session = place_in(own, "s.json");
+    char text[400];
+    snprintf(text, sizeof text,
+             "{\"octreel\": \"session\", \"version\": 1, \"player\": %s, \"points\": [[1, 0, 0, 1]],\n"
+             "\"shapes\": [%s], \"ticks\": 1}\n",
+             player, shape);
+    file_write_text(session.path, text);
+    command_result result = run_octreel(NULL, "record -q %s --size 64x48 %s -o %s", session.path, more, film.path);
+    assert_done(&result);
+    command_release(&result);
+}
+
+/* Numbers, words, rules that are on or off, lists, objects, and null where there is nothing. */
+static void json_has_each_value_as_the_files_have_it(void **state)
+{
+    static const char *const parts[] = {
+        "{\"where\": \"leaves\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"reference\": false, \"frames\": "
+        "true}]}",
+        "{\"where\": \"closeup\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"reference\": true, \"frames\": "
+        "false}]}",
+        "[{\"reference\": {\"label\": \"one\", \"at\": [1, 2, 3]}, \"frames\": {\"label\": \"two\", \"at\": [1, 2, "
+        "3]}}]",
+        "{\"where\": \"player\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"reference\": null, \"frames\": "
+        "[0, 0, "
+        "0]}]}",
+        "{\"where\": \"slice\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"frames\": {\"z\": 1}}]}",
+    };
+    const place a = place_in(*state, "a"), b = place_in(*state, "b");
+    write_and_film(*state, "null", "{\"label\": \"one\", \"at\": [1, 2, 3]}", "", a);
+    write_and_film(*state, "{\"id\": 9}", "{\"label\": \"two\", \"at\": [1, 2, 3]}",
+                   "--leaves --no-closeup --slice z=1", b);
+    command_result result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
+    assert_int_equal(result.status, 1);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+        assert_says(&result, parts[i]);
+    json_decref(json_read(result.out));
+    command_release(&result);
+}
+
 static void all_or_no_frames_are_explained_where_that_is_asked_for(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
@@ -196,6 +237,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(the_headline_comes_second_and_causes_below_their_frames),
+        TEST(json_has_each_value_as_the_files_have_it),
         TEST(all_or_no_frames_are_explained_where_that_is_asked_for),
         TEST(json_has_the_facts),
         TEST(shapes_are_told_in_words_and_json),

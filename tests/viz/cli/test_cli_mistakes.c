@@ -133,6 +133,34 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
     ASSERT_MISTAKES(state, rows);
 }
 
+static void a_number_or_colour_that_is_none_is_refused(void **state)
+{
+    static const mistake rows[] = {
+        {"digest rec --background ff80", "--background takes a colour as in ff8000, not \"ff80\""},
+        {"digest rec --background ff80zz", "not \"ff80zz\""},
+        {"digest rec --background '#'", "not \"#\""},
+        {"diff a.png a.png --max-delta 2", "--max-delta takes a number from 0 to 1, not \"2\""},
+        {"diff a.png a.png --max-delta -0.1", "not \"-0.1\""},
+        {"diff a.png a.png --ignore 1,2,0,4", "--ignore takes left, top, width and height"},
+        {"diff a.png a.png --ignore 1,2,4,0", "not \"1,2,4,0\""},
+        {"diff a.png a.png --ignore 1,2,3", "not \"1,2,3\""},
+        {"inspect cloud.txt $(yes -- '--nearest 1,2,3' | head -n 101)", "at most 100 queries can be given"},
+    };
+    ASSERT_MISTAKES(state, rows);
+}
+
+/* As style sheets have it. */
+static void a_colour_may_begin_with_a_hash(void **state)
+{
+    command_result with = run_octreel(NULL, "digest %s --background #aBcdef", place_in(*state, "a.png").path);
+    command_result without = run_octreel(NULL, "digest %s --background abcdef", place_in(*state, "a.png").path);
+    assert_done(&with);
+    assert_non_null(strstr(with.out, "\nbackground abcdef\n"));
+    assert_string_equal(with.out, without.out);
+    command_release(&with);
+    command_release(&without);
+}
+
 static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
 {
     static const mistake rows[] = {
@@ -270,6 +298,8 @@ int main(void)
         IN_FOLDER(the_nearest_name_is_asked_for),
         IN_FOLDER(a_value_that_is_missing_or_too_much_is_named),
         IN_FOLDER(a_file_of_another_kind_names_the_command_for_it),
+        IN_FOLDER(a_number_or_colour_that_is_none_is_refused),
+        IN_FOLDER(a_colour_may_begin_with_a_hash),
         IN_FOLDER(an_output_is_named_by_its_option_and_as_what_it_is),
         IN_FOLDER(a_recording_that_is_there_is_resumed_whatever_its_name),
         IN_FOLDER(hints_name_the_program_as_it_was_called),

@@ -58,6 +58,20 @@ static void diff_compares_their_ticks(void **state)
     assert_says(*state, "diff a b -o evidence", 1, "evidence: evidence/report.html\n");
 }
 
+/* There is no frame to show beside the change. */
+static void annotations_tell_of_the_ticks(void **state)
+{
+    command_result result = run_in(*state, "diff a b --annotate");
+    assert_int_equal(result.status, 1);
+    assert_memory_equal(result.err, "::error title=octreel diff%3A the ticks differ::another key ", 60);
+    assert_ptr_equal(strchr(result.err, '\n'), result.err + strlen(result.err) - 1);
+    command_release(&result);
+    result = run_in(*state, "diff a b --annotate --causes 0");
+    assert_string_equal(result.err, "::error title=octreel diff%3A the ticks differ::ticks.jsonl differs\n");
+    command_release(&result);
+    assert_says(*state, "diff a same --annotate", 0, "same: the ticks");
+}
+
 static void a_file_that_was_changed_is_a_difference(void **state)
 {
     edit_file(place_in(*state, "same").path, "ticks.jsonl", "\"key\": \"d\"", "\"key\": \"a\"");
@@ -97,9 +111,10 @@ static void accept_takes_the_ticks_over(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b"), new = place_in(*state, "new");
     assert_says(*state, "accept a same", 0, "a: the ticks are those of before\n");
+    assert_says(*state, "accept a same --json", 0, "{\"reference\": \"a\", \"ticks\": \"same\"}\n");
     assert_says(*state, "accept a b", 0, "a: the ticks are new\n");
     assert_same_folders(a.path, b.path, NULL);
-    assert_says(*state, "accept new b", 0, "new: the ticks are new\n");
+    assert_says(*state, "accept new b --json", 0, "{\"reference\": \"new\", \"ticks\": \"new\"}\n");
     assert_same_folders(new.path, b.path, NULL);
 }
 
@@ -110,6 +125,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         OF_RECORDINGS(verify_says_by_what_it_is_identical),
         OF_RECORDINGS(diff_compares_their_ticks),
+        OF_RECORDINGS(annotations_tell_of_the_ticks),
         OF_RECORDINGS(a_file_that_was_changed_is_a_difference),
         OF_RECORDINGS(junit_has_a_case_of_the_ticks),
         OF_RECORDINGS(what_has_frames_is_not_compared_with_what_has_none),

@@ -107,6 +107,29 @@ static void the_name_is_that_of_the_session(void **state)
     command_release(&result);
 }
 
+/* A name that begins with its only dot has no ending, nor has one without; an empty file holds nothing to be lost. */
+static void any_name_and_an_empty_file_will_do(void **state)
+{
+    need_pages_that_play();
+    static const char session[] = HEADER "\"keys\": \"w\"}\n";
+    const place page = place_in(*state, "p.html");
+    file_write_text(place_in(*state, "walk").path, session);
+    file_write_text(place_in(*state, ".run").path, session);
+    file_write_text(page.path, "");
+    command_result result = play_in(*state, "walk");
+    assert_non_null(strstr(result.out, "walk.html: 2 ticks; "));
+    command_release(&result);
+    result = play_in(*state, ".run");
+    assert_non_null(strstr(result.out, ".run.html: 2 ticks; "));
+    command_release(&result);
+    result = play_in(*state, "walk -o \"$(pwd)/p.html\"");
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "open it in a browser: file:///"));
+    assert_non_null(strstr(result.out, "/p.html\n"));
+    command_release(&result);
+    free(assert_holds(page.path, "\"keys\": \"w\""));
+}
+
 static void points_without_room_are_told(void **state)
 {
     need_pages_that_play();
@@ -169,6 +192,7 @@ int main(void)
         IN_FOLDER(the_default_session_becomes_a_page),
         IN_FOLDER(it_is_the_page_of_a_recording_without_frames),
         IN_FOLDER(the_name_is_that_of_the_session),
+        IN_FOLDER(any_name_and_an_empty_file_will_do),
         IN_FOLDER(points_without_room_are_told),
         IN_FOLDER(what_is_no_page_of_play_stays),
         IN_FOLDER(frames_and_none_are_asked_for_alone),

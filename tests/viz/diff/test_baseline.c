@@ -122,7 +122,13 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
         {HEAD A7, "file:3: no line before says what 7f stands for"},
         {HEAD FIRST "accepted 7f 2026-11-23 24x16 runs another\n", "file:4: 7f stands for another reason already"},
         {HEAD "accepted 7f 2026-02-30 24x16 runs why\n", "file:3: expected"},
+        {HEAD FIRST "accepted 7f 2026-11-22 25x16 runs the first\n", "file:4: 7f stands for another reason"},
+        {HEAD FIRST "accepted 7f 2026-11-22 24x17 runs the first\n", "file:4: 7f stands for another reason"},
         {HEAD "accepted 7f 2026-13-01 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f-2026-11-22 24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22x24x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 24x16 runs  why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 24x16 runs why \n", "file:3: expected"},
         {HEAD "accepted 7f 2026-1-1 24x16 runs why\n", "file:3: expected"},
         {HEAD "accepted 7f 2026-11-22 24x16 runs\n", "file:3: expected"},
         {HEAD "accepted 7f 2026-11-22 24x16 runs \n", "file:3: expected"},
@@ -149,6 +155,30 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
             fail_msg("case %zu: \"%s\" does not say \"%s\"", i, error.text, cases[i].part);
         diff_side_release(&side);
     }
+}
+
+static void dates_are_those_of_the_calendar(void **state)
+{
+    (void)state;
+    static const char *const right[] = {"2026-11-22", "2024-02-29", "2000-02-29", "2026-02-28", "2026-12-31"};
+    static const char *const wrong[] = {"2026-02-29", "2100-02-29", "2024-02-30", "2026-00-01",  "2026-13-01",
+                                        "2026-01-00", "2026-04-31", "2026-1-01",  "2026-11-222", "2026/11/22",
+                                        "2026-11-2x", "2026-11-2:", "",           "2026-11-2"};
+    for (size_t i = 0; i < sizeof right / sizeof right[0]; i++)
+        if (!baseline_is_date(right[i]))
+            fail_msg("%s is a date", right[i]);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        if (baseline_is_date(wrong[i]))
+            fail_msg("%s is no date", wrong[i]);
+}
+
+/* As two branches leave them that were merged; the smaller first. */
+static void two_digests_of_one_reason_are_both_written(void **state)
+{
+    (void)state;
+#define BEFORE_A7 "7f 0000000000000007 a\n"
+    assert_written(HEAD FIRST A7 BEFORE_A7, HEAD FIRST BEFORE_A7 A7);
+    assert_written(HEAD FIRST BEFORE_A7 A7 BEFORE_A7, HEAD FIRST BEFORE_A7 A7);
 }
 
 /* What two branches accept for the same reason has one name in both; other reasons have others. */
@@ -278,6 +308,8 @@ int main(void)
         cmocka_unit_test(a_frame_has_all_its_variants_and_the_newest_stands_for_them),
         cmocka_unit_test(each_name_is_read_back_as_it_was),
         cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
+        cmocka_unit_test(dates_are_those_of_the_calendar),
+        cmocka_unit_test(two_digests_of_one_reason_are_both_written),
         cmocka_unit_test(a_reason_is_named_by_what_it_says),
         cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
         cmocka_unit_test(a_large_baseline_is_small),

@@ -2,20 +2,27 @@
 /* test_recorder_memory.c - the n-th allocation of a call fails, n = 0, 1, 2 ...: the call says so, and nothing is lost.
  *
  * The linker hands the program's allocations to the functions below (see tests/CMakeLists.txt). They fail in the thread
- * of the test alone: the worker has all that it wants.
+ * of the test, or in the one that films.
  */
 #include "fixture.h"
 
+#include <limits.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "film_again.h"
+#include "files.h"
 #include "moving_tree.h"
 
 /* The number of allocations that succeed; never beyond that: none fails. */
 static _Thread_local long left = -1;
-static _Thread_local bool failed;
+static _Thread_local bool failed, is_test;
+
+/* Likewise, of those of other threads, of which one fails; below 0 it has. */
+#define NEVER LONG_MAX
+static atomic_long left_elsewhere = NEVER;
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
@@ -26,6 +33,8 @@ void *__wrap_realloc(void *memory, size_t size);
 
 static bool is_refused(void)
 {
+    if (!is_test && atomic_load(&left_elsewhere) != NEVER)
+        return atomic_fetch_sub(&left_elsewhere, 1) == 0;
     if (left < 0)
         return false;
     if (left > 0) {
@@ -161,11 +170,75 @@ static void opening_without_memory_leaves_no_recorder(void **state)
     octreel_recorder_destroy(recorder);
 }
 
+/* ---- The thread that films ------------------------------------------------------------------------------------- */
+
+enum { FILMED = 4 };
+
+static bool has_failed(octreel_status status)
+{
+    return status != OCTREEL_OK && status != OCTREEL_GAPS;
+}
+
+/* One allocation fails in the thread that films: where not all is recorded, that is said. Whether one failed. */
+static bool film_with_failure(const place *folder, moving_tree_source source, size_t ring, long count)
+{
+    uint64_t digests[FILMED], told[FILMED];
+    octreel_recorder_def def = definition(folder->path, source, ring);
+    def.every = 0; /* Mesa has memory */
+    octreel_recorder *recorder = open_recorder(&def);
+    octreel_status status = OCTREEL_OK;
+    moving_tree m;
+    moving_edits edits = {.count = 0};
+    moving_tree_make(&m, full_leaf_of(source), 11);
+    left_elsewhere = count;
+    for (int tick = 0; tick < FILMED && !has_failed(status); tick++, moving_tree_step(&m)) {
+        moving_edits_make(&edits, &m);
+        digests[tick] = octree_digest(m.tree);
+        status = hand_over(recorder, &m, source, &edits);
+    }
+    if (ring && !has_failed(status))
+        status = octreel_recorder_write(recorder, folder->path, NULL);
+    const octreel_status closed = octreel_recorder_close(recorder);
+    const bool met = left_elsewhere < 0;
+    left_elsewhere = NEVER;
+    if (has_failed(status) || has_failed(closed))
+        assert_true(met && *octreel_recorder_error(recorder));
+    const bool begun = file_exists(place_below(folder->path, "ticks.jsonl").path);
+    const size_t ticks = begun ? tree_digests(folder->path, told, FILMED) : 0;
+    assert_memory_equal(told, digests, ticks * sizeof *told);
+    if (!has_failed(status) && !has_failed(closed))
+        assert_int_equal(ticks, FILMED);
+    octreel_recorder_destroy(recorder);
+    moving_tree_release(&m);
+    return met;
+}
+
+static void what_cannot_be_filmed_for_lack_of_memory_is_said(void **state)
+{
+    static const struct {
+        moving_tree_source source;
+        size_t ring;
+    } rows[] = {{MOVING_TREE, 0}, {MOVING_CHANGES, 0}, {MOVING_TREE, FILMED}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        bool met = true;
+        long count = 0;
+        for (; met; count++) {
+            char name[40];
+            snprintf(name, sizeof name, "film%zu-%ld", i, count);
+            const place folder = place_in(*state, name);
+            met = film_with_failure(&folder, rows[i].source, rows[i].ring, count);
+        }
+        assert_true(count > 50);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
 
 int main(void)
 {
+    is_test = true;
     const struct CMUnitTest tests[] = {
+        TEST(what_cannot_be_filmed_for_lack_of_memory_is_said),
         TEST(a_tick_without_memory_is_a_gap_and_can_be_handed_over_again),
         TEST(a_ring_without_memory_stays_as_it_was),
         TEST(opening_without_memory_leaves_no_recorder),
