@@ -66,7 +66,7 @@ static bool open_sides(accepting *a, octreel_error *error)
         return error_set(error, "%s: pictures are accepted, not digests of them", o->frames);
     if (a->frames.count == 0 && !a->frames.no_frames)
         return error_set(error, "%s: there is no PNG in it", o->frames);
-    a->is_new = access(o->reference, F_OK) != 0;
+    a->is_new = access(o->reference, F_OK) != 0 && errno == ENOENT;
     if (a->is_new) {
         const bool digests = o->words.reason || o->store || o->variant;
         a->reference = (diff_side){.path = o->reference,

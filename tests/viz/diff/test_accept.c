@@ -199,6 +199,18 @@ static void a_name_of_a_file_becomes_no_folder_and_no_other_picture(void **state
     assert_false(file_exists(golden.path));
 }
 
+/* Only what is not there is new: a link to itself is there. */
+static void a_reference_that_cannot_be_looked_up_is_trouble(void **state)
+{
+    const place frames = gallery_make(*state, "new", "1.png"), loop = place_in(*state, "golden.digests");
+    struct stat status;
+    assert_int_equal(symlink("golden.digests", loop.path), 0);
+    command_result result = run_octreel(NULL, "accept %s %s --reason first --date 2026-11-23", loop.path, frames.path);
+    assert_trouble(&result, "golden.digests: Too many levels of symbolic links");
+    assert_int_equal(lstat(loop.path, &status), 0);
+    assert_true(S_ISLNK(status.st_mode));
+}
+
 static void digests_are_accepted_line_by_line(void **state)
 {
     const change c = make_change(state);
@@ -301,6 +313,7 @@ int main(void)
         WITH_FOLDER(a_reference_that_cannot_be_read_is_replaced),
         WITH_FOLDER(a_reference_is_made_where_there_is_none),
         WITH_FOLDER(a_name_of_a_file_becomes_no_folder_and_no_other_picture),
+        WITH_FOLDER(a_reference_that_cannot_be_looked_up_is_trouble),
         WITH_FOLDER(digests_are_accepted_line_by_line),
         WITH_FOLDER(a_recording_is_taken_over_with_its_ticks),
         WITH_FOLDER(a_recording_is_no_reference_for_plain_pictures),

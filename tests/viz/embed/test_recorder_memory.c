@@ -1,70 +1,17 @@
 /* SPDX-License-Identifier: MIT */
 /* test_recorder_memory.c - the n-th allocation of a call fails, n = 0, 1, 2 ...: the call says so, and nothing is lost.
- *
- * The linker hands the program's allocations to the functions below (see tests/CMakeLists.txt). They fail in the thread
- * of the test, or in the one that films.
+ * Then one of the thread that films.
  */
 #include "fixture.h"
 
-#include <limits.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "failing_memory.h"
 #include "film_again.h"
 #include "files.h"
 #include "moving_tree.h"
-
-/* The number of allocations that succeed; never beyond that: none fails. */
-static _Thread_local long left = -1;
-static _Thread_local bool failed, is_test;
-
-/* Likewise, of those of other threads, of which one fails; below 0 it has. */
-#define NEVER LONG_MAX
-static atomic_long left_elsewhere = NEVER;
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *memory, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *memory, size_t size);
-
-static bool is_refused(void)
-{
-    if (!is_test && atomic_load(&left_elsewhere) != NEVER)
-        return atomic_fetch_sub(&left_elsewhere, 1) == 0;
-    if (left < 0)
-        return false;
-    if (left > 0) {
-        left--;
-        return false;
-    }
-    failed = true;
-    return true;
-}
-
-void *__wrap_malloc(size_t size)
-{
-    return is_refused() ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return is_refused() ? NULL : __real_calloc(count, size);
-}
-
-void *__wrap_realloc(void *memory, size_t size)
-{
-    return is_refused() ? NULL : __real_realloc(memory, size);
-}
-
-static void refuse_after(long count)
-{
-    left = count;
-    failed = false;
-}
 
 enum { BEFORE = 4, TICKS = 8 };
 
@@ -87,10 +34,9 @@ static bool record_with_failure(octreel_recorder *recorder, moving_tree_source s
             for (int i = 0; i < 20; i++)
                 moving_tree_step(&m); /* so that there are more points than at any time before, perhaps */
             moving_edits_make(&edits, &m);
-            refuse_after(count);
+            memory_fails_after(count);
             const octreel_status status = hand_over(recorder, &m, source, &edits);
-            left = -1;
-            refused = failed;
+            refused = memory_has_failed();
             assert_int_equal(status, refused ? OCTREEL_NO_MEMORY : OCTREEL_OK);
             digests[tick] = 0;
         } else
@@ -158,10 +104,9 @@ static void opening_without_memory_leaves_no_recorder(void **state)
     octreel_recorder *recorder;
     long count = 0;
     for (;; count++) {
-        refuse_after(count);
+        memory_fails_after(count);
         const octreel_status status = octreel_recorder_open(&def, &recorder, NULL);
-        left = -1;
-        if (!failed)
+        if (!memory_has_failed())
             break;
         assert_int_equal(status, OCTREEL_NO_MEMORY);
         assert_null(recorder);
@@ -190,7 +135,7 @@ static bool film_with_failure(const place *folder, moving_tree_source source, si
     moving_tree m;
     moving_edits edits = {.count = 0};
     moving_tree_make(&m, full_leaf_of(source), 11);
-    left_elsewhere = count;
+    memory_fails_elsewhere_after(count);
     for (int tick = 0; tick < FILMED && !has_failed(status); tick++, moving_tree_step(&m)) {
         moving_edits_make(&edits, &m);
         digests[tick] = octree_digest(m.tree);
@@ -199,8 +144,7 @@ static bool film_with_failure(const place *folder, moving_tree_source source, si
     if (ring && !has_failed(status))
         status = octreel_recorder_write(recorder, folder->path, NULL);
     const octreel_status closed = octreel_recorder_close(recorder);
-    const bool met = left_elsewhere < 0;
-    left_elsewhere = NEVER;
+    const bool met = memory_has_failed_elsewhere();
     if (has_failed(status) || has_failed(closed))
         assert_true(met && *octreel_recorder_error(recorder));
     const bool begun = file_exists(place_below(folder->path, "ticks.jsonl").path);
@@ -236,7 +180,6 @@ static void what_cannot_be_filmed_for_lack_of_memory_is_said(void **state)
 
 int main(void)
 {
-    is_test = true;
     const struct CMUnitTest tests[] = {
         TEST(what_cannot_be_filmed_for_lack_of_memory_is_said),
         TEST(a_tick_without_memory_is_a_gap_and_can_be_handed_over_again),
