@@ -199,6 +199,7 @@ static void an_edit_that_cannot_be_made_is_a_refusal(void **state)
     for (size_t i = 0; i < 8; i++) {
         assert_int_equal(tick->refusals[i].why, why[i]);
         assert_int_equal(tick->refusals[i].id, edits[i].body.id);
+        assert_memory_equal(tick->refusals[i].position, edits[i].body.position, sizeof edits[i].body.position);
     }
     for (size_t i = 0; i < 8; i++) { /* each is an event by itself */
         assert_int_equal(octree_game_play(game, &(octree_input){.edits = &edits[i], .edit_count = 1}), OCTREE_OK);

@@ -195,12 +195,14 @@ static octree_judgement judge_floats(const octree_body *bodies, size_t count, oc
 static void floats_that_coincide_are_left_out(void **state)
 {
     (void)state;
-    const octree_body near[] = {{.id = 1, .position = {1e-50, 0, 0}},
+    const octree_body near[] = {{.id = 3, .position = {2e-6, 0, 0}},
+                                {.id = 1, .position = {1e-50, 0, 0}},
                                 {.id = 2, .position = {0, 1e-50, 0}},
-                                {.id = 3, .position = {2e-6, 0, 0}},
                                 {.id = 4, .position = {7, 0, 0}}};
     octree_query q = {.kind = OCTREE_QUERY_KNEAREST, .k = 1, .skip = OCTREE_SKIP_COINCIDENT};
-    octree_judgement j = judge_floats(near, 4, q, IDS(3));
+    octree_judgement j = judge_floats(near + 1, 3, q, NULL, 0);
+    assert_true(j.fault == OCTREE_FAULT_COUNT && j.missed_count == 1 && j.missed[0].id == 4);
+    j = judge_floats(near, 4, q, IDS(3));
     assert_true(j.fault == OCTREE_FAULT_NONE && j.expected == 1);
     j = judge_floats(near, 4, q, IDS(1));
     assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == 1);
@@ -213,6 +215,35 @@ static void floats_that_coincide_are_left_out(void **state)
     const octree_body twins[] = {{.id = 1}, {.id = 2}, {.id = 3}, {.id = 4, .position = {7, 0, 0}}};
     q.k = 2; /* one is there, and it is not known how far others are */
     assert_int_equal(judge_floats(twins, 4, q, IDS(4)).fault, OCTREE_FAULT_NONE);
+}
+
+/* Point 4 is nearest in doubles and on the target in floats, so that balls grow: twice the first is one of 2.5. It has
+ * point 2, whose rounded position is beyond it, and not point 3, which rounds down in two coordinates and is nearer.
+ * What the query before listed does not matter. */
+static void the_kth_of_floats_is_nearer_than_all_that_a_ball_left_out(void **state)
+{
+    (void)state;
+    const octree_body bodies[] = {{.id = 1, .position = {1.25 - 10 * 0x1p-23, 0, 0}},
+                                  {.id = 2, .position = {2.5 + 4.875 * 0x1p-22, 0, 0}},
+                                  {.id = 3, .position = {0x1.b8b000ep+0, 0x1.d01b48ep+0, 0}},
+                                  {.id = 4, .position = {1e-50, 0, 0}},
+                                  {.id = 5},
+                                  {.id = 6}};
+    const octree_query at_target = {
+        .kind = OCTREE_QUERY_KNEAREST, .k = 4, .answered = true, .precision = OCTREE_FLOATS};
+    octree_query queries[] = {at_target, at_target};
+    queries[1].k = 2;
+    queries[1].skip = OCTREE_SKIP_COINCIDENT;
+    const octree_session session = {.tree = define(cube(-10, 10), 2, 21, OCTREE_GROW),
+                                    .player.kind = OCTREE_PLAYER_NONE,
+                                    .bodies = bodies,
+                                    .body_count = 6,
+                                    .queries = queries,
+                                    .query_count = 2};
+    octree_game_destroy(last_game);
+    assert_int_equal(octree_game_create(&session, &last_game), OCTREE_OK);
+    const octree_judgement j = octree_game_tick(last_game)->answers[1].judgement;
+    assert_true(j.missed_count == 2 && j.missed[0].id == 1 && j.missed[1].id == 3);
 }
 
 /* Floats end long before doubles do. */
@@ -297,6 +328,13 @@ static void names_are_those_of_files(void **state)
     assert_string_equal(octree_precision_name(OCTREE_FLOATS), "float");
     assert_null(octree_precision_name(OCTREE_PRECISIONS));
     assert_string_equal(octree_event_name(OCTREE_EVENT_WRONG), "wrong");
+    assert_string_equal(octree_met_name(OCTREE_MET_HIT), "hit");
+    assert_null(octree_met_name(OCTREE_MET_KINDS));
+    assert_string_equal(octree_node_fault_name(OCTREE_NODE_PRUNED_POINT), "pruned_point");
+    assert_null(octree_node_fault_name(OCTREE_NODE_FAULTS));
+    assert_null(octree_node_fault_words(OCTREE_NODE_FAULTS));
+    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
+        assert_non_null(octree_node_fault_words((octree_node_fault_kind)kind));
 }
 
 static int forget_game(void **state)
@@ -316,6 +354,7 @@ int main(void)
         cmocka_unit_test(what_judges_has_no_epsilon),
         cmocka_unit_test(answers_that_cannot_be_judged_are_refused),
         cmocka_unit_test(floats_that_coincide_are_left_out),
+        cmocka_unit_test(the_kth_of_floats_is_nearer_than_all_that_a_ball_left_out),
         cmocka_unit_test(floats_are_judged_in_worlds_beyond_them),
         cmocka_unit_test(a_promise_beyond_doubles_is_held_to_it),
         cmocka_unit_test(names_are_those_of_files),

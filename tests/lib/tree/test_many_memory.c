@@ -302,6 +302,40 @@ static void batches_and_a_new_world_keep_memory_linear(void **state)
     free(points);
 }
 
+/* The most bytes while all points move, whose ids are those from `first` on. */
+static size_t peak_of_moves(uint64_t first)
+{
+    enum { count = 10000 };
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 16, 21, OCTREE_GROW);
+    octree_point *points = make_points(count);
+    double(*to)[3] = malloc(count * sizeof *to);
+    assert_non_null(to);
+    for (size_t i = 0; i < count; i++) {
+        points[i].id = first + i;
+        for (int axis = 0; axis < 3; axis++)
+            to[i][axis] = -points[i].position[axis];
+    }
+    assert_int_equal(insert_many(tree, points, count), count);
+    counts.peak = counts.bytes;
+    assert_int_equal(octree_move_many(tree, points, (const double(*)[3])to, count, NULL, NULL), OCTREE_OK);
+    const size_t peak = counts.peak;
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    free(to);
+    free(points);
+    return peak;
+}
+
+/* Ids side by side are looked up by themselves, wherever they begin. */
+static void moves_take_as_much_memory_wherever_ids_begin(void **state)
+{
+    (void)state;
+    const size_t peak = peak_of_moves(0);
+    assert_int_equal(peak_of_moves(UINT64_C(1) << 40), peak);
+    assert_int_equal(peak_of_moves(UINT64_MAX - 5000), peak);
+}
+
 static void a_million_equal_points_are_one_leaf_or_refused(void **state)
 {
     (void)state;
@@ -402,6 +436,7 @@ int main(void)
         cmocka_unit_test(many_failures_on_one_tree_do_not_add_up),
         cmocka_unit_test(a_million_points_take_at_most_48_bytes_each),
         cmocka_unit_test(batches_and_a_new_world_keep_memory_linear),
+        cmocka_unit_test(moves_take_as_much_memory_wherever_ids_begin),
         cmocka_unit_test(a_million_equal_points_are_one_leaf_or_refused),
         cmocka_unit_test(a_million_times_the_same_pair_is_one_point),
         cmocka_unit_test(refused_points_take_no_memory),
