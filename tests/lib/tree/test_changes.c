@@ -249,6 +249,30 @@ static void a_mark_of_another_tree_knows_nothing(void **state)
     octree_destroy(other);
 }
 
+/* Not even where somebody gave the name of the log before it to the log after it. */
+static void no_mark_outlives_a_new_world(void **state)
+{
+    (void)state;
+    const octree_box world = cube(-2, 2);
+    for (int kind = 0; kind < 2; kind++) {
+        octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
+        follower one = {.name = 1}, other = {.name = 1};
+        assert_false(follow(&one, tree) || follow(&other, tree));
+        for (uint64_t id = 0; id < 7; id++) {
+            if (id == 3) {
+                assert_true(follow(&other, tree));
+                assert_int_equal(kind ? octree_reworld(tree, &world) : octree_compact(tree), OCTREE_OK);
+                assert_false(follow(&one, tree));
+            }
+            assert_int_equal(octree_insert(tree, (double[3]){0, 0, 0}, id), OCTREE_OK);
+        }
+        assert_false(follow(&other, tree));
+        brute_free(&one.copy);
+        brute_free(&other.copy);
+        octree_destroy(tree);
+    }
+}
+
 static size_t memory_of(const octree *tree)
 {
     octree_stats stats;
@@ -380,6 +404,7 @@ int main(void)
         cmocka_unit_test(a_point_may_be_removed_by_its_place_in_the_tree),
         cmocka_unit_test(nothing_is_known_without_a_mark_or_a_name),
         cmocka_unit_test(a_mark_of_another_tree_knows_nothing),
+        cmocka_unit_test(no_mark_outlives_a_new_world),
         cmocka_unit_test(too_many_changes_are_not_known),
         cmocka_unit_test(a_log_without_memory_stands_in_no_ones_way),
         cmocka_unit_test(what_is_refused_as_null_is_no_change),

@@ -200,12 +200,40 @@ static void filling_survives_the_failure_of_each_allocation(void **state)
     }
 }
 
+/* The most bytes while a tree is filled of points of which all but a few crowd in one corner. */
+static size_t peak_of_corner(bool upper)
+{
+    static octree_point points[COUNT];
+    counting_allocator counts = {0};
+    octree *tree = make_counted_tree(&counts, cube(-1, 1), 8, 21, OCTREE_GROW);
+    uint64_t random = 6;
+    for (size_t i = 0; i < COUNT; i++) {
+        points[i].id = i;
+        for (int axis = 0; axis < 3; axis++) {
+            const double from_corner = octree_random_unit(&random) * (i % 50 ? 1.0 / 64 : 2);
+            points[i].position[axis] = upper ? 1 - from_corner : from_corner - 1;
+        }
+    }
+    assert_int_equal(octree_insert_many(tree, points, COUNT, NULL, NULL), OCTREE_OK);
+    octree_destroy(tree);
+    assert_all_returned(&counts);
+    return counts.peak;
+}
+
+/* Whether a grid is worth it is asked of all of its cells. */
+static void a_crowd_costs_the_same_in_either_corner(void **state)
+{
+    (void)state;
+    assert_int_equal(peak_of_corner(false), peak_of_corner(true));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_that_is_filled_is_that_of_one_by_one),
         cmocka_unit_test(a_tree_that_moves_is_that_of_one_by_one),
         cmocka_unit_test(ids_of_any_kind_move),
+        cmocka_unit_test(a_crowd_costs_the_same_in_either_corner),
         cmocka_unit_test(filling_survives_the_failure_of_each_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
