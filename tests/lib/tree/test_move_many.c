@@ -293,6 +293,27 @@ static void a_full_leaf_is_met_in_the_order_given(void **state)
     octree_destroy(tree);
 }
 
+/* The first arrives where two are, one of which then moves on within the leaf: with whatever allocation fails. */
+static void a_leaf_is_full_of_what_moves_within_it_later(void **state)
+{
+    (void)state;
+    static const octree_point points[] = {
+        {{-0.6, -0.6, -0.6}, 1}, {{0.6, 0.6, 0.6}, 2}, {{0.7, 0.7, 0.7}, 3}, {{-0.4, -0.4, -0.4}, 4}};
+    static const double to[][3] = {{0.8, 0.8, 0.8}, {0.2, 0.2, 0.2}};
+    octree_status done = OCTREE_NO_MEMORY;
+    for (size_t n = 0; done != OCTREE_OK; n++) {
+        counting_allocator counts = {0};
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), 2, 2, OCTREE_REFUSE);
+        assert_int_equal(octree_insert_many(tree, points, 4, NULL, NULL), OCTREE_OK);
+        octree_status statuses[2] = {OCTREE_OK, OCTREE_OK};
+        counting_allocator_fail_at(&counts, n);
+        done = octree_move_many(tree, points, to, 2, statuses, NULL);
+        assert_true(done == OCTREE_NO_MEMORY || (statuses[0] == OCTREE_FULL && statuses[1] == OCTREE_OK));
+        assert_valid(tree);
+        octree_destroy(tree);
+    }
+}
+
 static void a_pair_moves_on_within_one_batch(void **state)
 {
     (void)state;
@@ -426,6 +447,7 @@ int main(void)
         cmocka_unit_test(every_share_moves_the_same),
         cmocka_unit_test(many_moves_find_their_own_among_points_of_one_id),
         cmocka_unit_test(a_full_leaf_is_met_in_the_order_given),
+        cmocka_unit_test(a_leaf_is_full_of_what_moves_within_it_later),
         cmocka_unit_test(a_pair_moves_on_within_one_batch),
         cmocka_unit_test(null_and_endless_arrays_are_refused),
         cmocka_unit_test(moves_of_what_is_absent_leave_a_tree_as_it_was),
