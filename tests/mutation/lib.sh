@@ -63,7 +63,7 @@ compile_tests()
     done
     for file in "$root"/tests/lib/*/test_*.c "$root"/tests/threads/test_executor.c; do
         name=$(basename "$file" .c)
-        echo "${file#"$root"/tests/}" | sed 's|^lib/||' | grep -qE "$tests" || continue
+        echo "${file#"$root"/tests/}" | sed 's|^lib/||; s|\.c$||' | grep -qE "$tests" || continue
         case $name in
             test_exact*) [ -n "$oracle" ] || continue ;;
         esac
