@@ -156,6 +156,7 @@ static char *write_session(const octree_session *session, bool sampled)
     rest.keys = NULL;
     rest.sampled.known = rest.sampled.known && sampled;
     rest.ticks = octree_session_length(session);
+    rest.unplayed = 0;
     if (text_stream_begin(&s))
         session_write(&rest, NULL, s.stream);
     return text_stream_end(&s, &text) ? text : NULL;

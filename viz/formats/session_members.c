@@ -192,6 +192,11 @@ static bool has_end(const void *from)
     return *(const uint64_t *)from != SESSION_ENDLESS;
 }
 
+static bool is_cut(const void *from)
+{
+    return *(const uint64_t *)from > 0;
+}
+
 /* The most ticks from one object to the next: all between are played, and filmed, for what is more likely a wrong
  * number. */
 #define MOST_BETWEEN 1000000
@@ -271,6 +276,8 @@ const json_member session_header_members[] = {
     {"player", JSON_CODEC(read_player, write_player, NULL), HEADER(session.player)},
     {"keys", JSON_CODEC(read_keys, write_keys, has_keys), HEADER(session.keys)},
     {"ticks", JSON_CODEC(read_ticks, json_write_uint64, has_end), HEADER(session.ticks), .max = SESSION_LAST_TICK},
+    {"unplayed", JSON_CODEC(json_read_uint64, json_write_uint64, is_cut), HEADER(session.unplayed),
+     .max = SESSION_LAST_TICK},
     {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
     {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},
     {"nodes", &session_nodes_codec, HEADER(standing.foreign)},

@@ -121,7 +121,8 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
     return true;
 }
 
-/* The session as it came out: one that was to be longer ends with the last tick, and so do its keys. */
+/* The session as it came out: one that was to be longer ends with the last tick. Keys that were to come stay: frames
+ * show them. */
 static octree_session end_header(live_recording *live, uint64_t ticks)
 {
     octree_session header = live->start.session;
@@ -129,8 +130,8 @@ static octree_session end_header(live_recording *live, uint64_t ticks)
     if (octree_session_length(&header) <= live->ticks)
         return header;
     header.ticks = live->ticks;
-    if (header.keys && strlen(header.keys) > live->ticks)
-        ((char *)header.keys)[live->ticks] = 0;
+    header.unplayed = 0;
+    header.unplayed = octree_session_length(&header) - live->ticks;
     return header;
 }
 

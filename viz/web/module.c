@@ -435,6 +435,7 @@ bool web_keys(double last, size_t count)
     free((char *)s->keys);
     s->keys = keys;
     s->ticks = before + count;
+    s->unplayed = 0;
     CUT_AFTER((octree_edit *)s->edits, s->edit_count, before);
     for (size_t i = 0; i < s->query_count; i++)
         if (s->queries[i].tick > before && s->queries[i].tick != OCTREE_EVERY_TICK)

@@ -181,6 +181,7 @@ typedef struct octree_session {
     size_t body_count;
     const char *keys;         /* one a tick; null or a string */
     uint64_t ticks;           /* ticks after tick 0 to play at least; keys that are missing are waits */
+    uint64_t unplayed;        /* the last so many of these ticks are not played: the session broke off */
     const octree_edit *edits; /* ascending by tick */
     size_t edit_count;
     const octree_query *queries; /* ascending by tick, OCTREE_EVERY_TICK last */

@@ -13,7 +13,8 @@ uint64_t octree_session_length(const octree_session *session)
         return 0;
     const size_t keys = session->keys ? strcspn(session->keys, "q") : 0;
     const bool quits = session->keys && session->keys[keys] == 'q';
-    return quits || keys > session->ticks ? keys : session->ticks;
+    const uint64_t length = quits || keys > session->ticks ? keys : session->ticks;
+    return session->unplayed < length ? length - session->unplayed : 0;
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */

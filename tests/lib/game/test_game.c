@@ -246,13 +246,15 @@ static void a_session_ends_with_its_keys_its_ticks_or_q(void **state)
     (void)state;
     static const struct {
         const char *keys;
-        uint64_t ticks, length;
-    } sessions[] = {{NULL, 0, 0}, {"", 0, 0},      {"wwd", 0, 3}, {"wwd", 2, 3}, {"wwd", 5, 5},
-                    {NULL, 7, 7}, {"wwqdd", 0, 2}, {"q", 0, 0},   {"wwq", 0, 2}};
+        uint64_t ticks, length, unplayed;
+    } sessions[] = {{NULL, 0, 0, 0},  {"", 0, 0, 0},      {"wwd", 0, 3, 0}, {"wwd", 2, 3, 0},         {"wwd", 5, 5, 0},
+                    {NULL, 7, 7, 0},  {"wwqdd", 0, 2, 0}, {"q", 0, 0, 0},   {"wwq", 0, 2, 0},         {"wwd", 0, 2, 1},
+                    {"wwd", 5, 1, 4}, {"wwqdd", 0, 1, 1}, {"wwd", 5, 0, 5}, {"wwd", 0, 0, UINT64_MAX}};
     for (size_t i = 0; i < sizeof sessions / sizeof sessions[0]; i++) {
         octree_session session = small_session(NULL, 0);
         session.keys = sessions[i].keys;
         session.ticks = sessions[i].ticks;
+        session.unplayed = sessions[i].unplayed;
         assert_int_equal(octree_session_length(&session), sessions[i].length);
         assert_int_equal(ticks_played(&session), sessions[i].length);
     }

@@ -137,17 +137,18 @@ static void what_came_before_broken_text_is_whole(void **state)
            "standard input:4: queries[0].answer[1]: expected a whole number");
 }
 
-/* Ticks and keys that were announced and did not come are not made up. */
+/* Ticks that were announced and did not come are not made up. Their keys are seen in frames. */
 static void a_session_that_breaks_off_ends_with_its_last_tick(void **state)
 {
     const place folder = place_in(*state, "film");
     command_result result = run_script("printf '{\"octreel\":\"session\",\"version\":1,\"ticks\":50,\"keys\":"
-                                       "\"wdwdwd\"}\\n{\"tick\":2}\\n{\"tick\":x}' | %s record - --size 16x16 -o %s",
+                                       "\"wdwdwd\"}\\n{\"tick\":2}\\n{\"tick\":x}' | %s record - --size 640x360 -o %s",
                                        octreel_program(), folder.path);
     assert_trouble(&result, "standard input:3: invalid token near 'x'; ");
     char *session = file_read(place_below(folder.path, "session.json").path, NULL);
-    assert_non_null(strstr(session, "\"keys\": \"wd\""));
-    assert_non_null(strstr(session, "\"ticks\": 2,"));
+    assert_non_null(strstr(session, "\"keys\": \"wdwdwd\",\n"));
+    assert_non_null(strstr(session, "\"ticks\": 2,\n"));
+    assert_non_null(strstr(session, "\"unplayed\": 4"));
     free(session);
     result = run_octreel(NULL, "verify %s", folder.path);
     assert_done(&result);
