@@ -385,8 +385,10 @@ json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *er
     if (value)
         error->position = (int)(p.at - text);
     skip_blanks(&p);
-    if (value && p.at < p.limit && !(flags & JSON_DISABLE_EOF_CHECK))
-        value = unexpected(&p, "end of file expected") ? value : NULL;
+    if (value && p.at < p.limit && !(flags & JSON_DISABLE_EOF_CHECK)) {
+        unexpected(&p, "end of file expected");
+        value = NULL;
+    }
     free(p.items);
     if (!value)
         json_free_arena(p.first);

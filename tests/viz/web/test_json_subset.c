@@ -39,6 +39,7 @@ void json_delete(json_t *json);
 #undef json_real_value
 #undef json_number_value
 
+#include "failing_memory.h"
 #include "fixture.h"
 
 static void assert_same(json_t *ours, const json_t *theirs)
@@ -147,6 +148,11 @@ static void texts_are_read_or_refused_as_by_jansson(void **state)
         "true",
         "[\"\\u\"]",
         "{\"\":[]}",
+        "[\"\\ud83d\\u0041\"]",
+        "[\"\\ud83d\\uffff\"]",
+        "[0.10000000000000000000000000000000000000000000000000000000000000000000000001]",
+        "[thisWordIsLongerThanWhatTheReaderSaysOfIt]",
+        "[this:Word]",
     };
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -154,6 +160,87 @@ static void texts_are_read_or_refused_as_by_jansson(void **state)
         read_both(texts[i], strlen(texts[i]), FLAGS | JSON_DISABLE_EOF_CHECK);
         read_both(texts[i], strlen(texts[i]), FLAGS | JSON_DECODE_ANY | JSON_DISABLE_EOF_CHECK);
     }
+}
+
+/* What only looks for a place in a text that was read does not ask for that. */
+static void names_that_are_there_twice_are_refused_where_that_is_asked_for(void **state)
+{
+    static const char text[] = "{\"a\": 1, \"b\": 2, \"a\": 3}";
+    json_error_t error;
+    (void)state;
+    assert_false(read_both(text, sizeof text - 1, FLAGS));
+    json_t *value = subset_loadb(text, sizeof text - 1, FLAGS & ~(size_t)JSON_REJECT_DUPLICATES, &error);
+    assert_non_null(value);
+    subset_delete(value);
+}
+
+static void zero_bytes_are_refused_as_by_jansson(void **state)
+{
+    static const char texts[][8] = {"\0[1]", "[\0]", "[1\0]", "[\"\\\0\"]", "[\"\0\"]", "[1]\0"};
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        assert_false(read_both(texts[i], sizeof texts[i] - 1, FLAGS));
+}
+
+/* Whoever asks a value for what it has not gets what jansson gives, and so does who has no value. */
+static void values_of_other_types_answer_as_jansson_s(void **state)
+{
+    static const char text[] = "[{\"a\": 1}, [2], \"text\", 3, true, null]";
+    json_error_t error;
+    json_t *ours = subset_loadb(text, strlen(text), FLAGS, &error),
+           *theirs = json_loadb(text, strlen(text), FLAGS, &error);
+    (void)state;
+    for (size_t i = 0; i <= json_array_size(theirs); i++) {
+        json_t *a = subset_array_get(ours, i), *b = json_array_get(theirs, i);
+        assert_int_equal(a == NULL, b == NULL);
+        assert_int_equal(subset_array_size(a), json_array_size(b));
+        assert_int_equal(subset_object_size(a), json_object_size(b));
+        assert_int_equal(subset_string_length(a), json_string_length(b));
+        assert_int_equal(subset_string_value(a) == NULL, json_string_value(b) == NULL);
+        assert_true(subset_real_value(a) == json_real_value(b) && subset_number_value(a) == json_number_value(b));
+        assert_int_equal(subset_array_get(a, 0) == NULL, json_array_get(b, 0) == NULL);
+        assert_int_equal(subset_object_get(a, "a") == NULL, json_object_get(b, "a") == NULL);
+        assert_int_equal(subset_object_iter(a) == NULL, json_object_iter(b) == NULL);
+    }
+    json_t *object = subset_array_get(ours, 0);
+    void *first = subset_object_iter(object);
+    assert_string_equal(subset_object_iter_key(first), "a");
+    assert_ptr_equal(subset_object_key_to_iter(subset_object_iter_key(first)), first);
+    assert_ptr_equal(subset_object_iter_value(first), subset_object_get(object, "a"));
+    assert_null(subset_object_iter_next(object, first));
+    assert_null(subset_object_iter_next(object, NULL));
+    assert_null(subset_object_iter_key(NULL));
+    assert_null(subset_object_iter_value(NULL));
+    assert_null(subset_object_key_to_iter(NULL));
+    subset_delete(ours);
+    json_decref(theirs);
+}
+
+/* jansson's sign of it is a line of -1. */
+static void a_text_without_memory_is_no_value(void **state)
+{
+    char *text = malloc(200000), *at = text;
+    bool failed = true;
+    long count = 0;
+    (void)state;
+    assert_non_null(text);
+    at += sprintf(at, "[{\"name\": \"%0*d\"}", 5000, 7); /* longer than a piece of memory */
+    for (int i = 0; i < 400; i++)
+        at += sprintf(at, ", %d, \"%0*d\", {\"%d\": [true, 1%0*d.5]}", i, i, i, i, i % 3 ? 0 : 65, 0);
+    at += sprintf(at, "]");
+    for (; failed; count++) {
+        json_error_t error;
+        memory_fails_after(count);
+        json_t *value = subset_loadb(text, (size_t)(at - text), FLAGS, &error);
+        failed = memory_has_failed();
+        assert_int_equal(value == NULL, failed);
+        if (failed)
+            assert_int_equal(error.line, -1);
+        else
+            subset_delete(value);
+    }
+    assert_true(count > 5);
+    free(text);
 }
 
 /* Bytes of a session are changed, left out and doubled; what is not ASCII stays out, as the page has valid UTF-8. */
@@ -198,6 +285,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(texts_are_read_or_refused_as_by_jansson),
         cmocka_unit_test(texts_with_faults_are_read_or_refused_as_by_jansson),
+        cmocka_unit_test(names_that_are_there_twice_are_refused_where_that_is_asked_for),
+        cmocka_unit_test(zero_bytes_are_refused_as_by_jansson),
+        cmocka_unit_test(values_of_other_types_answer_as_jansson_s),
+        cmocka_unit_test(a_text_without_memory_is_no_value),
         cmocka_unit_test(lists_within_each_other_are_refused_beyond_a_depth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
