@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_describe.c - every element that a tick can show is told in words, of what it is about. */
 #include "describe.h"
+#include "golden_frames.h"
 #include "scenes.h"
 
 #include <inttypes.h>
@@ -149,6 +150,52 @@ static void every_element_of_every_layer_is_told(void **state)
     octree_game_destroy(game);
 }
 
+/* One phrase: it begins with a word, and has none twice in a row nor a hole. */
+static void assert_is_a_phrase(const char *text)
+{
+    static const char *const holes[] = {"(null)", "  ", " ,", ",,", "( ", "the the "};
+    if (!*text || strchr(" ,;:", *text) || strlen(text) + 1 >= ELEMENT_WORDS)
+        fail_msg("\"%s\" is no phrase", text);
+    for (size_t i = 0; strncmp(text, "text ", 5) != 0 && i < sizeof holes / sizeof *holes;
+         i++) /* what quotes a text may have them */
+        if (strstr(text, holes[i]))
+            fail_msg("\"%s\" has \"%s\"", text, holes[i]);
+}
+
+/* Also of frames with a close-up, bars, points painted, and another program's nodes. */
+static void every_element_of_the_reference_frames_is_told_in_a_phrase(void **state)
+{
+    bool told_scale = false, told_frame = false, told_bar = false;
+    (void)state;
+    for (size_t i = 0; i < golden_frame_count; i++) {
+        golden_play play;
+        octreel_error error;
+        tick_history h = {0};
+        scene s = {0};
+        if (!golden_is_played(&golden_frames[i]))
+            continue;
+        assert_true(golden_open(&golden_frames[i], &play, &error));
+        assert_true(tick_history_add(&h, &play.view, play.game));
+        for (uint64_t tick = 0; tick < golden_frames[i].tick; tick++) {
+            play_tick(play.game);
+            assert_true(tick_history_add(&h, &play.view, play.game));
+        }
+        assert_true(tick_scene_build(&s, &play.view, play.game, &h, NULL));
+        const size_t all = scene_count(&s) + (s.has_closeup ? scene_count(s.closeup) : 0);
+        for (uint32_t number = 1; number <= all; number++) {
+            const element_subject told = describe_element(play.game, &h.heat, &s, scene_element_at(&s, number));
+            assert_is_a_phrase(told.text);
+            told_scale |= strstr(told.text, "the close-up's scale") != NULL;
+            told_frame |= strcmp(told.text, "the frame of what the close-up shows") == 0;
+            told_bar |= strstr(told.text, "in the diagram, a bar: nodes of depth ") == told.text;
+        }
+        scene_release(&s);
+        tick_history_release(&h);
+        octree_game_destroy(play.game);
+    }
+    assert_true(told_scale && told_frame && told_bar);
+}
+
 static void words_of_a_node_and_of_a_point_are_these(void **state)
 {
     octree_game *game;
@@ -184,6 +231,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_element_of_every_layer_is_told),
+        cmocka_unit_test(every_element_of_the_reference_frames_is_told_in_a_phrase),
         cmocka_unit_test(words_of_a_node_and_of_a_point_are_these),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
