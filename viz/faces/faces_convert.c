@@ -62,7 +62,7 @@ static void read_font(font *f, const char *path)
         stop(path, "cannot be read");
     f->size = (unsigned)size;
     read_header(f, path);
-    if (f->width > MOST_WIDTH || f->height > MOST_HEIGHT || f->each != (f->width + 7) / 8 * f->height)
+    if (f->width > MOST_WIDTH || f->height > MOST_HEIGHT || f->each == 0 || f->each != (f->width + 7) / 8 * f->height)
         stop(path, "has letters of a size that there is no room for");
     if (f->count < GLYPH_FIRST + GLYPH_COUNT || f->at > f->size || (f->size - f->at) / f->each < f->count)
         stop(path, "ends too early");

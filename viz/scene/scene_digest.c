@@ -107,9 +107,18 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
 
-/* Each element's digest is computed independently, so that a processor can work on several at once. Those of runs are
- * known, as far as the run is of the elements that are there. */
-#define DIGEST_ALL(digest, array, digest_one, runs)                                                                    \
+/* Each element's digest is computed independently, so that a processor can work on several at once. That of the first
+ * ones is known. */
+#define DIGEST_FROM(first, known, digest, array, digest_one)                                                           \
+    do {                                                                                                               \
+        uint64_t all = known;                                                                                          \
+        for (size_t i = first; i < (array).count; i++)                                                                 \
+            all = all * DIGEST_BASE + digest_one(&names, &(array).items[i]);                                           \
+        digest = octree_digest_word(octree_digest_word(digest, (array).count), all);                                   \
+    } while (0)
+
+/* The digests of runs are known, as far as the run is of the elements that are there. */
+#define DIGEST_RUNS(digest, array, digest_one, runs)                                                                   \
     do {                                                                                                               \
         uint64_t sum = 0;                                                                                              \
         size_t at = 0;                                                                                                 \
@@ -119,9 +128,7 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
             sum = sum * (runs).items[run].power + (runs).items[run].sum;                                               \
             at = (runs).items[run].end;                                                                                \
         }                                                                                                              \
-        for (; at < (array).count; at++)                                                                               \
-            sum = sum * DIGEST_BASE + digest_one(&names, &(array).items[at]);                                          \
-        digest = octree_digest_word(octree_digest_word(digest, (array).count), sum);                                   \
+        DIGEST_FROM(at, sum, digest, array, digest_one);                                                               \
     } while (0)
 
 uint64_t scene_digest(const scene *s)
@@ -130,11 +137,11 @@ uint64_t scene_digest(const scene *s)
     const digest_runs none = {.count = 0}, boxes = s->kept ? s->kept->box_runs : none,
                       markers = s->kept ? s->kept->marker_runs : none;
     uint64_t digest = digest_view(s);
-    DIGEST_ALL(digest, s->boxes, digest_box, boxes);
-    DIGEST_ALL(digest, s->segments, digest_segment, none);
-    DIGEST_ALL(digest, s->markers, digest_marker, markers);
-    DIGEST_ALL(digest, s->labels, digest_label, none);
-    DIGEST_ALL(digest, s->panels, digest_panel, none);
+    DIGEST_RUNS(digest, s->boxes, digest_box, boxes);
+    DIGEST_FROM(0, 0, digest, s->segments, digest_segment);
+    DIGEST_RUNS(digest, s->markers, digest_marker, markers);
+    DIGEST_FROM(0, 0, digest, s->labels, digest_label);
+    DIGEST_FROM(0, 0, digest, s->panels, digest_panel);
     if (!s->has_closeup)
         return digest;
     digest =

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+/* test_faces.c - the program of the build that makes rectangles of fonts: fonts of both versions, and files that are
+ * none. */
+#include "commands.h"
+#include "files.h"
+#include "fixture.h"
+#include "glyphs.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GLYPHS = 256, HEIGHT = 4, HEADER = 32, ROOM = HEADER + GLYPHS * 2 * HEIGHT };
+
+typedef struct font {
+    unsigned char bytes[ROOM];
+    size_t size;
+} font;
+
+static void put(font *f, size_t at, unsigned value)
+{
+    for (int i = 0; i < 4; i++)
+        f->bytes[at + (size_t)i] = (unsigned char)(value >> 8 * i);
+}
+
+/* Version 1: letters of 8 x 4 pixels. The first letter has a square of 4 x 2 and a pixel apart. */
+static font make_first(void)
+{
+    font f = {.bytes = {0x36, 0x04, 0, HEIGHT}, .size = 4 + GLYPHS * HEIGHT};
+    unsigned char *letter = f.bytes + 4 + GLYPH_FIRST * HEIGHT;
+    letter[0] = letter[1] = 0xf0;
+    letter[3] = 0x01;
+    return f;
+}
+
+/* Version 2: letters of 12 x 4. The first has a line over the border of two bytes. */
+static font make_second(void)
+{
+    font f = {.bytes = {0x72, 0xb5, 0x4a, 0x86}, .size = HEADER + GLYPHS * 2 * HEIGHT};
+    put(&f, 8, HEADER);
+    put(&f, 16, GLYPHS);
+    put(&f, 20, 2 * HEIGHT);
+    put(&f, 24, HEIGHT);
+    put(&f, 28, 12);
+    unsigned char *letter = f.bytes + HEADER + GLYPH_FIRST * 2 * HEIGHT;
+    letter[2] = 0x03;
+    letter[3] = 0xc0;
+    return f;
+}
+
+static command_result convert(const temp_folder *own, const font *f)
+{
+    const place in = place_in(own, "font.psf"), out = place_in(own, "glyphs.c");
+    file_write(in.path, f->bytes, f->size);
+    return run_script("'%s' %s %s", OCTREEL_FACES_CONVERT, out.path, in.path);
+}
+
+static void assert_converted(const temp_folder *own, const font *f, const char *parts, const char *set)
+{
+    command_result made = convert(own, f);
+    assert_done(&made);
+    command_release(&made);
+    char *text = file_read(place_in(own, "glyphs.c").path, NULL);
+    assert_non_null(strstr(text, parts));
+    assert_non_null(strstr(text, set));
+    free(text);
+}
+
+static void letters_become_the_largest_rectangles_first(void **state)
+{
+    const font first = make_first(), second = make_second();
+    assert_converted(*state, &first, "parts_0[] = {\n{0, 0, 4, 2},\n{7, 3, 1, 1},\n};\n", "{8, 4, parts_0, {0, 2, 2,");
+    assert_converted(*state, &second, "parts_0[] = {\n{6, 1, 4, 1},\n};\n", "{12, 4, parts_0, {0, 1, 1,");
+}
+
+static void assert_refused(const temp_folder *own, const font *f, const char *why)
+{
+    command_result made = convert(own, f);
+    assert_int_equal(made.status, 2);
+    if (!strstr(made.err, why))
+        fail_msg("\"%s\" does not say \"%s\"", made.err, why);
+    command_release(&made);
+}
+
+static void files_that_are_no_fonts_are_refused(void **state)
+{
+    static const struct {
+        size_t at, size; /* 0: as it is */
+        unsigned value;
+        const char *why;
+    } rows[] = {
+        {0, 0, 0, "is no console font"},        {28, 0, 17, "of a size that there is no room for"},
+        {24, 0, 33, "of a size that there is"}, {20, 0, 9, "of a size that there is no room for"},
+        {16, 0, 127 - 32, "ends too early"},    {8, 0, ROOM + 1, "ends too early"},
+        {16, 0, GLYPHS + 1, "ends too early"},  {28, HEADER - 1, 12, "is no console font"},
+        {28, 3, 12, "is no console font"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        font f = make_second();
+        put(&f, rows[i].at, rows[i].value);
+        f.size = rows[i].size ? rows[i].size : f.size;
+        assert_refused(*state, &f, rows[i].why);
+    }
+    font f = make_first();
+    f.bytes[2] = 1; /* it would have 512 letters */
+    assert_refused(*state, &f, "ends too early");
+}
+
+/* Nothing is divided by their size. */
+static void letters_without_pixels_are_refused(void **state)
+{
+    font f = make_second();
+    put(&f, 20, 0);
+    put(&f, 24, 0);
+    assert_refused(*state, &f, "of a size that there is no room for");
+    f = make_first();
+    f.bytes[3] = 0;
+    assert_refused(*state, &f, "of a size that there is no room for");
+}
+
+static void assert_fails(const char *arguments, const char *why)
+{
+    command_result made = run_script("'%s' %s", OCTREEL_FACES_CONVERT, arguments);
+    assert_int_equal(made.status, 2);
+    if (!strstr(made.err, why))
+        fail_msg("\"%s\" does not say \"%s\"", made.err, why);
+    command_release(&made);
+}
+
+static void files_that_cannot_be_read_or_written_are_named(void **state)
+{
+    const font f = make_first();
+    const place in = place_in(*state, "font.psf"), out = place_in(*state, "glyphs.c");
+    char arguments[3000];
+    file_write(in.path, f.bytes, f.size);
+    snprintf(arguments, sizeof arguments, "%s %s.gone", out.path, in.path);
+    assert_fails(arguments, "font.psf.gone cannot be read");
+    snprintf(arguments, sizeof arguments, "%s/below %s", in.path, in.path);
+    assert_fails(arguments, "below cannot be written");
+    snprintf(arguments, sizeof arguments, "/dev/full %s", in.path);
+    assert_fails(arguments, "/dev/full cannot be written");
+    assert_fails(out.path, "glyphs.c cannot be written");
+    assert_fails("", "cannot be written");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(letters_become_the_largest_rectangles_first),
+        TEST(files_that_are_no_fonts_are_refused),
+        TEST(letters_without_pixels_are_refused),
+        TEST(files_that_cannot_be_read_or_written_are_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
