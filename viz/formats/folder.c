@@ -81,8 +81,8 @@ static bool refuse_held(const char *folder, const char *first, octreel_error *er
 {
     if (folder_has(folder, "recording.json") || folder_has(folder, FOLDER_ASIDE))
         return error_set(error,
-                         "%s: already holds a recording: complete it (--resume), replace it (--replace; in a program "
-                         "`replace` of the definition), or choose another folder (-o)",
+                         "%s: already holds a recording: complete it (--resume), replace it (--replace), "
+                         "or choose another folder (-o)",
                          folder);
     return error_set(error, "%s: already holds %s, which a recording might write over: choose another folder (-o)",
                      folder, first);

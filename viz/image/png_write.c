@@ -77,7 +77,7 @@ static _Noreturn void raise_error(png_structp png, png_const_charp message)
     const output *out = png_get_error_ptr(png);
     char reason[200]; /* it may quote a keyword */
     snprintf(reason, sizeof reason, "%s", message);
-    error_set(out->error, "%s: %s", out->file.path, make_printable(reason));
+    error_set(out->error, "%s: cannot be written: %s", out->file.path, make_printable(reason));
     png_longjmp(png, 1);
 }
 

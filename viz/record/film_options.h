@@ -38,6 +38,7 @@ typedef struct film_start {
 typedef struct film_summary {
     uint64_t ticks; /* tick 0 included; of a chunk, its own */
     uint64_t frames;
+    uint64_t kept;          /* of these: they were there and right, and were not filmed again */
     uint64_t gaps;          /* ticks of which nothing is known */
     uint64_t left_out;      /* elements of all frames that could not be drawn: not finite, or too far off for doubles */
     uint64_t over_budget;   /* frames that leave out what is beyond the view's budget */

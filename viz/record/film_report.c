@@ -34,7 +34,7 @@ static void put_uses(FILE *out, const film_summary *summary, const char *folder)
 
 static double rate_of(const film_summary *summary, double seconds)
 {
-    return seconds > 0 ? (double)summary->frames / seconds : 0;
+    return seconds > 0 ? (double)(summary->frames - summary->kept) / seconds : 0;
 }
 
 /* The members that both reports have. */
@@ -72,6 +72,8 @@ static void report_counts(FILE *out, const film_summary *summary, const char *fo
         fputs("no frames", out);
     else
         fprintf(out, "%" PRIu64 " frame%s", summary->frames, plural(summary->frames));
+    if (summary->kept > 0)
+        fprintf(out, ", of which %" PRIu64 " %s there", summary->kept, summary->kept == 1 ? "was" : "were");
 }
 
 const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT])
@@ -123,7 +125,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     }
     report_counts(out, summary, options->folder);
     fprintf(out, ", %.1f s", seconds);
-    if (summary->frames > 0)
+    if (summary->frames > summary->kept)
         fprintf(out, ", %.0f frames a second", rate_of(summary, seconds));
     putc('\n', out);
     report_left_out(out, summary);

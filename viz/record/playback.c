@@ -73,12 +73,13 @@ static uint64_t session_of(playback *p)
     return p->session_digest;
 }
 
-static bool draw_frame(playback *p, frame_origin *origin, octreel_error *error)
+static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_error *error)
 {
     octreel_error unlike;
     const playback_target *target = &p->target;
     origin->session = target->frames == FRAMES_KEEP ? session_of(p) : 0;
-    if (target->frames == FRAMES_KEEP && frame_check(target->folder, origin, &unlike))
+    *kept = target->frames == FRAMES_KEEP && frame_check(target->folder, origin, &unlike);
+    if (*kept)
         return true;
     if (!picture_draw(&p->picture, &p->scene, error))
         return false;
@@ -93,7 +94,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
         return false;
     p->extras.scene_digest = scene_digest(&p->scene);
     frame_origin origin = {.tick = step->tick, .scene = p->extras.scene_digest};
-    const bool done = draw_frame(p, &origin, error);
+    const bool done = draw_frame(p, &origin, &step->kept, error);
     step->left_out = origin.left_out;
     step->over_budget = scene_left_out_beyond(&p->scene.tally);
     step->below_lod = scene_left_out_small(&p->scene.tally);

@@ -53,7 +53,8 @@ typedef struct film_step {
     size_t refusals;      /* of points, edits and steps */
     bool program_nodes;   /* a program has said nodes of its own by then */
     bool gap;             /* nothing is known of it */
-    bool filmed;          /* it has a frame */
+    bool filmed;          /* it has a frame, */
+    bool kept;            /* and had the right one already */
     unsigned over_budget; /* what that leaves out beyond the view's budget, as bits of scene.h, */
     unsigned below_lod;   /* or smaller than its lod */
     uint64_t left_out;

@@ -106,6 +106,7 @@ static void add_to_summary(film_summary *summary, const film_step *step)
 {
     summary->ticks++;
     summary->frames += step->filmed;
+    summary->kept += step->kept;
     summary->gaps += step->gap;
     summary->left_out += step->left_out;
     summary->over_budget += step->over_budget != 0;

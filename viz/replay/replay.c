@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* replay.c - opens a recording and plays it to a tick. */
 #include "replay.h"
+#include "file.h"
 #include "folder_files.h"
 #include "recording_file.h"
 
@@ -9,6 +10,11 @@
 bool replay_read(replay *r, const char *folder, octreel_error *error)
 {
     *r = (replay){.film.folder = folder};
+    if (folder_has(folder, "session.json.live") && !folder_has(folder, "session.json"))
+        return error_set(error,
+                         "%s: its program is still recording, or was ended amid it: octreel record --resume makes a "
+                         "recording of what there is",
+                         folder);
     if (!recording_read(folder, &r->film.view, &r->film.every, error) ||
         !read_session_file(folder, &r->session, &r->session_digest, error))
         return false;

@@ -96,6 +96,9 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
+/* What a recording lacks at its end, it lacks because its filming broke off. */
+#define COMPLETED "; octreel record --resume completes what broke off"
+
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
 {
     const playback *p = &v->replay.playback;
@@ -113,12 +116,12 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
         v->report->findings[v->report->count++] = differs;
     else if (state == LINE_NONE)
         add_finding(v, VERIFY_LINES, step->tick,
-                    "ticks.jsonl ends before it, and lacks %" PRIu64 " of %" PRIu64 " line%s",
-                    v->replay.ticks - step->tick, v->replay.ticks, plural(v->replay.ticks));
+                    "ticks.jsonl ends before it, and lacks %" PRIu64 " of %" PRIu64 " line%s%s",
+                    v->replay.ticks - step->tick, v->replay.ticks, plural(v->replay.ticks), COMPLETED);
     else
-        add_finding(v, VERIFY_LINES, step->tick,
-                    state == LINE_TORN ? "its line in ticks.jsonl is torn: the file ends within it"
-                                       : "its line in ticks.jsonl does not end where it should");
+        add_finding(v, VERIFY_LINES, step->tick, "its line in ticks.jsonl %s%s",
+                    state == LINE_TORN ? "is torn: the file ends within it" : "does not end where it should",
+                    state == LINE_TORN ? COMPLETED : "");
     v->stopped = true;
     return true;
 }

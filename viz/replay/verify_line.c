@@ -20,7 +20,8 @@ bool lines_open(line_reader *reader, const char *folder, octreel_error *error)
         return error_no_memory(error);
     reader->stream = file_open(path, NULL, reason);
     if (!reader->stream)
-        error_set(error, "%s: %s", path, reason);
+        error_set(error, "%s: %s%s", path, reason,
+                  folder_has(folder, "ticks.jsonl") ? "" : "; where the folder holds chunks, octreel join makes it");
     free(path);
     return reader->stream;
 }

@@ -211,6 +211,8 @@ static void a_recording_that_is_there_is_resumed_whatever_its_name(void **state)
                                        "cd rec.png && ../octreel record --resume -o .",
                                        own->name);
     assert_done(&result);
+    const char *frames = strstr(result.out, " frames, of which "), *there = strstr(result.out, " were there, ");
+    assert_true(frames && there && strstr(result.out, "frames a second") == NULL);
     command_release(&result);
 }
 

@@ -246,6 +246,8 @@ static void what_a_kill_leaves_is_resumed(void **state)
     command_result result = end_of(&s.film);
     command_release(&result);
     close(s.write);
+    result = run_octreel(NULL, "verify %s", s.folder.path);
+    assert_trouble(&result, "its program is still recording, or was ended amid it: octreel record --resume");
     result = run_octreel(NULL, "record --resume -o %s", s.folder.path);
     assert_done(&result);
     command_release(&result);

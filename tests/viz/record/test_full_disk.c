@@ -29,7 +29,7 @@ static void recording_that_outgrows_the_disk_leaves_only_whole_files_and_is_resu
         const command_setting full = {.file_limit = limits[i]};
         result = run_octreel(&full, FILM " --jobs %d -o %s", (int)(i % 2) + 1, folder.path);
         assert_non_null(strstr(result.err, folder.path));
-        assert_trouble(&result, "File too large");
+        assert_trouble(&result, "cannot be written: File too large");
         assert_nothing_half_written(folder.path);
         result = run_octreel(NULL, FILM " --resume -o %s", folder.path);
         assert_done(&result);

@@ -100,7 +100,7 @@ static void lines_that_are_missing_torn_or_too_many_are_found(void **state)
     const place folder = film_short(*state), lines = place_below(folder.path, "ticks.jsonl");
     char *last = copy_line(folder.path, SHORT_TICKS - 1);
     replace_line(folder.path, SHORT_TICKS - 1, "");
-    assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "lacks 1 of 14 lines");
+    assert_found(&folder, VERIFY_LINES, SHORT_TICKS - 1, "lacks 1 of 14 lines; octreel record --resume");
     for (size_t cut = 1; cut < strlen(last); cut += 40) {
         size_t size;
         char *text = file_read(lines.path, &size);
