@@ -44,7 +44,28 @@ static const char PREPARE[] =
     "\"$octreel\" accept film.baseline film --reason first --date 2026-11-22 --store pictures && "
     "printf '{\"octreel\": \"session\", \"version\": 1, \"points\": [[10, 0, 0], [0, 20, 0]], "
     "\"ticks\": 2}\\n{\"tick\": 1, \"queries\": [{\"knearest\": 2, \"at\": [0, 0, 0], "
-    "\"answer\": [0]}]}\\n' >answers.json";
+    "\"answer\": [0]}]}\\n' >answers.json && "
+    "printf '{\"octreel\": \"session\", \"version\": 1, \"points\": {\"file\": \"classes.ply\"}, \"ticks\": 1}\\n"
+    "' >cloud.json && "
+    "printf '{\"octreel\": \"session\", \"version\": 1, \"player\": null, "
+    "\"points\": [[1, 0, 0, 1], [2, 5, 0, 2]], \"velocities\": [[2, 1, 0, 0]], \"ticks\": 2}\\n"
+    "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 3, \"position\": [9, 9, 9]}}], "
+    "\"nodes\": [{\"id\": 1, \"box\": {\"min\": [0, 0, 0], \"max\": [4, 4, 4]}, \"points\": [1, 7]}, "
+    "{\"id\": 2, \"parent\": 1, \"box\": {\"min\": [0, 0, 0], \"max\": [4, 5, 4]}, \"kind\": \"leaf\"}], "
+    "\"queries\": [{\"range\": {\"min\": [0, 0, 0], \"max\": [9, 9, 9]}, \"answer\": [1, 8], "
+    "\"visited\": [1], \"pruned\": [2], \"hit\": []}, "
+    "{\"nearest\": [0, 0, 0], \"answer\": [2]}], \"shapes\": [{\"label\": \"here\", \"at\": [1, 2, 3]}]}\\n"
+    "' >nodes.json && "
+    "sed 's/\"hit\": \\[\\]/\"hit\": [1]/; s/9, 9, 9]}}/9, 9, 8]}}/; s/\\[4, 5, 4\\]/[4, 4, 4]/' "
+    "nodes.json >nodes_other.json && "
+    "\"$octreel\" record nodes.json " SMALL " --jobs 1 -o nodes && "
+    "\"$octreel\" record nodes_other.json " SMALL " --jobs 1 -o nodes_other && "
+    "\"$octreel\" record nodes.json --no-frames -o ticks && "
+    "\"$octreel\" record nodes_other.json --no-frames -o ticks_other && "
+    "cp -r nodes changed && cp nodes/frame_000000.png changed/frame_000002.png && "
+    "sed -i '2s/\"points\": *[0-9]*/\"points\":7/' changed/ticks.jsonl && rm changed/frame_000000.png && "
+    "mkdir frames frames_other && cp film/*.png frames && cp other/*.png frames_other && "
+    "printf 'frame_000001.png\\n' >list";
 
 /* Each is run in a copy of that folder. */
 static const struct {
@@ -57,23 +78,43 @@ static const struct {
     {"record-resume", "record --resume --jobs 1 -o half >times"},
     {"record-no-frames", "record session.json --no-frames -o new >times"},
     {"record-stream", "record - " SMALL " -o new <session.json >times"},
+    {"record-cloud", "record cloud.json " SMALL " --jobs 1 -o new >times"},
+    {"record-chunk", "record session.json --camera-from film --ticks 1:3 --jobs 1 -o new >times"},
+    {"record-nodes", "record nodes.json " SMALL " --diagram beside --jobs 1 --json -o new >times"},
     {"verify", "verify film"},
+    {"verify-changed", "verify changed"},
+    {"verify-ticks", "verify ticks"},
     {"verify-json", "verify --json film"},
     {"inspect", "inspect points.xyz " SMALL " -o tree.png"},
     {"inspect-json", "inspect points.xyz " SMALL " --json -o tree.png"},
     {"inspect-classes", "inspect classes.ply --json"},
+    {"inspect-asked", "inspect classes.ply " SMALL " --nodes nodes.csv --node root --nearest 0,0,0,2 "
+                      "--radius 1,1,1,3 --range 0,0,0,2,2,2 -o tree.png"},
+    {"inspect-asked-json", "inspect classes.ply --json --node root --nearest 0,0,0 --radius 1,1,1,3"},
     {"diff", "diff film other"},
+    {"diff-nodes", "diff nodes nodes_other -o evidence"},
+    {"diff-nodes-json", "diff nodes nodes_other --each --json"},
+    {"diff-ticks", "diff ticks ticks_other --json"},
+    {"diff-layers", "diff film other --ignore-layer nodes,text --antialias --max-delta 0.1"},
+    {"diff-folders", "diff frames frames_other -o evidence"},
     {"diff-reports", "diff film other --json --junit diff.xml --markdown diff.md -o evidence"},
     {"digest", "digest other -o new.digests"},
     {"audit", "audit answers.json"},
+    {"audit-json", "audit nodes.json --json"},
+    {"audit-reports", "audit nodes --html audit.html --junit audit.xml"},
     {"join", "join chunks >times"},
     {"pick", "pick film/frame_000001.png 32 18"},
+    {"pick-json", "pick nodes/frame_000001.png 32 18 --json"},
+    {"play-cloud", "play cloud.json -o page.html"},
     {"play", "play session.json -o page.html"},
     {"accept", "accept film other"},
+    {"accept-from", "accept film other --from list --json"},
     {"accept-new", "accept new film"},
     {"accept-digests", "accept film.digests other"},
     {"accept-baseline", "accept film.baseline other --variant --reason why --date 2026-11-23 --store pictures"},
     {"diff-baseline", "diff film.baseline other --store pictures -o evidence"},
+    {"help", "help session"},
+    {"manual", "help --man record"},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -130,7 +171,7 @@ static void read_options(int argc, char **argv)
                  "those behind it each, or each N-th; or of those that come by the same calls one. Exit status: 0 no "
                  "findings, 1 findings, 2 trouble.");
             for (size_t i = 0; i < COMMANDS; i++)
-                printf("  %-17s octreel %s\n", commands[i].name, commands[i].line);
+                printf("  %-18s octreel %s\n", commands[i].name, commands[i].line);
             finish(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */
@@ -311,7 +352,7 @@ static size_t fail_each(const char *folder, size_t command, const struct family 
     for (uint64_t n = asked.first; n <= MOST && there; n += asked.every)
         for (int i = 0; i < family->error_count && there; i++, runs += there)
             there = fail_one(folder, command, family, n, family->errors[i], &without, &findings);
-    printf("%-17s %5zu failures of %-6s %zu findings\n", commands[command].name, runs, family->name, findings);
+    printf("%-18s %5zu failures of %-6s %zu findings\n", commands[command].name, runs, family->name, findings);
     assert_true(runs > 0 || asked.first > MOST);
     fflush(stdout);
     command_release(&without);

@@ -10,13 +10,23 @@ enum { LINE = 78 };
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* A character as it stands: typesetting would make others of some, such as a true minus of none. */
-static void put_literal(FILE *out, char c)
+/* A character as it is written. */
+typedef struct literal {
+    char text[5];
+} literal;
+
+/* It is to be read as it stands: typesetting would make others of some, such as a true minus of none. */
+static literal literal_of(char c)
 {
     static const char from[] = "\\-'`^~";
-    static const char *const to[] = {"\\e", "\\-", "\\(aq", "\\(ga", "\\(ha", "\\(ti"};
+    static const literal to[] = {{"\\e"}, {"\\-"}, {"\\(aq"}, {"\\(ga"}, {"\\(ha"}, {"\\(ti"}};
     const char *found = strchr(from, c);
-    fputs(found ? to[found - from] : (char[]){c, 0}, out);
+    return found ? to[found - from] : (literal){{c}};
+}
+
+static void put_literal(FILE *out, char c)
+{
+    fputs(literal_of(c).text, out);
 }
 
 /* No line of text may begin as a macro does. */
@@ -49,23 +59,29 @@ static size_t option_length(const char *word, size_t length)
     return named || (end == 2 && word[0] == '-' && isalpha((unsigned char)word[1])) ? end : 0;
 }
 
+enum { WORD = 512 }; /* as it is written */
+
+static void add(char set[WORD], const char *text)
+{
+    strncat(set, text, WORD - 1 - strlen(set));
+}
+
 /* A word of a sentence, of which hyphens are hyphens, and options bold, and what is within `` is code. */
-static void put_word(FILE *out, const char *word, size_t length, bool *code)
+static void set_word(char set[WORD], const char *word, size_t length, bool *code)
 {
     const size_t before = strspn(word, "(\""), quoted = before < length ? before : 0;
-    const size_t option = *code ? 0 : option_length(word + quoted, length - quoted);
-    put_code(out, word, quoted);
-    if (option)
-        put_bold(out, word + quoted, option);
-    for (size_t i = quoted + option; i < length; i++)
-        if (word[i] == '`')
-            fputs((*code = !*code) ? "\\fB" : "\\fR", out);
-        else if (*code)
-            put_literal(out, word[i]);
-        else if (word[i] == '\'' || (word[i] == '-' && i > 0 && isalpha((unsigned char)word[i - 1])))
-            putc(word[i], out);
+    const size_t option = *code ? 0 : option_length(word + quoted, length - quoted), rest = quoted + option;
+    for (size_t i = 0; i < length; i++) {
+        const bool plain = word[i] == '\'' || (word[i] == '-' && i > 0 && isalpha((unsigned char)word[i - 1]));
+        if (option && i == quoted)
+            add(set, "\\fB");
+        if (i >= rest && word[i] == '`')
+            add(set, (*code = !*code) ? "\\fB" : "\\fR");
         else
-            put_literal(out, word[i]);
+            add(set, i >= rest && !*code && plain ? (char[]){word[i], 0} : literal_of(word[i]).text);
+        if (option && i + 1 == rest)
+            add(set, "\\fR");
+    }
 }
 
 /* Words in lines that are not long. */
@@ -75,12 +91,8 @@ static void put_words(FILE *out, const char *text, size_t length)
     size_t size, column = 0;
     bool code = false;
     while ((word = prose_word(&at, text + length, &size))) {
-        char set[512] = "";
-        FILE *memory = fmemopen(set, sizeof set, "w");
-        if (!memory)
-            return;
-        put_word(memory, word, size, &code);
-        fclose(memory);
+        char set[WORD] = "";
+        set_word(set, word, size, &code);
         const size_t width = strlen(set);
         if (column && column + 1 + width > LINE)
             putc('\n', out), column = 0;

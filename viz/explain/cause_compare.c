@@ -180,7 +180,9 @@ static void compare_told(const cause_place *place, json_t *a, json_t *b)
 static void compare_queries(const cause_place *place, json_t *a, json_t *b)
 {
     json_t *const asked[2] = {untold(a), untold(b)};
-    if (is_same(place, asked[0], asked[1]))
+    if (!asked[0] || !asked[1])
+        place->facts->out_of_memory = true;
+    else if (is_same(place, asked[0], asked[1]))
         compare_told(place, a, b);
     else
         add(place, "queries", CAUSE_OTHER, CAUSE_NO_ID, a, b);
@@ -270,7 +272,9 @@ static void compare_asked(const cause_place *place, const char *where, json_t *a
     json_t *const asked[2] = {list_asked(where, a), list_asked(where, b)};
     size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
     bool *met = calloc(json_array_size(a) + 1, sizeof *met);
-    if (mates && met && cause_pair(asked[0], asked[1], mates))
+    const bool whole =
+        json_array_size(asked[0]) == json_array_size(a) && json_array_size(asked[1]) == json_array_size(b);
+    if (whole && mates && met && cause_pair(asked[0], asked[1], mates))
         compare_paired(place, where, a, b, mates, met);
     else
         place->facts->out_of_memory = true;

@@ -111,6 +111,16 @@ static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *er
     return ok;
 }
 
+static void keep_foreign(pick_element *e)
+{
+    if (!e->subject.foreign)
+        return;
+    e->place = *e->subject.foreign;
+    e->node = *e->place.node;
+    e->place.node = &e->node;
+    e->subject.foreign = &e->place;
+}
+
 static bool name_elements(pick *p, renderer *r, const playback *from, octreel_error *error)
 {
     const scene *s = &from->scene;
@@ -120,13 +130,14 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
     ok = ok && (p->elements || touches.count == 0 || error_no_memory(error));
     for (size_t i = 0; ok && i < touches.count; i++) {
         const scene_element element = scene_element_at(s, touches.items[i].number);
-        p->elements[p->count++] = (pick_element){
+        p->elements[p->count] = (pick_element){
             .touch = touches.items[i],
             .kind = element.kind,
             .in_closeup = element.in_closeup,
             .layer = layer_rows[scene_head_of(s, element).style.layer].name,
             .subject = describe_element(from->game, &from->history.heat, s, element),
         };
+        keep_foreign(&p->elements[p->count++]);
     }
     draw_touches_release(&touches);
     return ok;

@@ -25,6 +25,8 @@ typedef struct pick_element {
     const char *layer;
     bool in_closeup;
     element_subject subject;
+    octree_foreign_place place; /* copies of what subject.foreign shows: the game may end before the pick */
+    octree_foreign_node node;
 } pick_element;
 
 typedef struct pick {

@@ -306,6 +306,60 @@ static void help_teaches(void **state)
     command_release(&result);
 }
 
+/* A session with a tree of its own: the leaf leaves its parent's box, and lists a point that is not there. */
+static void nodes_of_a_program_are_named_with_what_is_wrong(void **state)
+{
+    const place session = place_in(*state, "s.json"), film = place_in(*state, "film");
+    file_write_text(
+        session.path,
+        "{\"octreel\": \"session\", \"version\": 1, \"player\": null, \"points\": [[1, 1, 1, 1]], \"world\": "
+        "{\"min\": [0, 0, 0], \"max\": [8, 8, 8]}, \"ticks\": 1}\n{\"tick\": 1, \"nodes\": [{\"id\": 7, "
+        "\"box\": {\"min\": [0, 0, 0], \"max\": [4, 4, 4]}}, {\"id\": 9, \"parent\": 7, \"kind\": \"leaf\", "
+        "\"box\": {\"min\": [0, 0, 0], \"max\": [6, 4, 4]}, \"points\": [1, 5]}]}\n");
+    command_result result =
+        run_octreel(NULL, "record -q %s --size 64x48 --camera top --layers nodes -o %s", session.path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    const json_t *node = NULL;
+    json_t *said = NULL;
+    for (int x = 0; x < 64 && !node; x++) {
+        json_decref(said);
+        result = run_octreel(NULL, "pick %s %d 36 --radius 0 --json", frame_place(film.path, 1).path, x);
+        assert_done(&result);
+        said = json_read(result.out);
+        command_release(&result);
+        json_t *id = json_real(9);
+        const json_t *element = element_with(said, "program_node", "id", id);
+        node = json_object_get(element, "program_node");
+        json_decref(id);
+    }
+    assert_non_null(node);
+    assert_true(json_number_value(json_object_get(node, "parent")) == 7);
+    assert_string_equal(json_string_value(json_object_get(node, "kind")), "leaf");
+    const json_t *wrong = json_object_get(node, "wrong");
+    assert_int_equal(json_array_size(wrong), 2);
+    assert_string_equal(json_string_value(json_array_get(wrong, 0)), "outside_parent");
+    json_decref(said);
+}
+
+/* Beside the frame no folder need be named. On an edge of two nodes both are told, one of them as what is beneath. */
+static void samples_and_shared_edges_are_told_from_the_folder_itself(void **state)
+{
+    shown what;
+    show(&what, *state, "--aa 2 --camera top --layers nodes", 4);
+    bool shared = false, samples = false;
+    for (int x = 100; x < 220 && !(shared && samples); x++) {
+        command_result result = run_script("cd %s && exec %s pick frame_000004.png %d 90 --radius 0", what.folder.path,
+                                           octreel_program(), x);
+        assert_done(&result);
+        shared = shared || strstr(result.out, "\n      its edge is also that of node ");
+        samples = samples || strstr(result.out, " of 4 samples: node ");
+        command_release(&result);
+    }
+    assert_true(shared && samples);
+    replay_close(&what.replay);
+}
+
 /* The player is in the middle of the close-up; its frame has a name, too. Without one nothing is drawn there. */
 static void elements_of_the_close_up_are_named(void **state)
 {
@@ -352,6 +406,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(every_point_is_named_at_its_pixel),
         IN_FOLDER(nodes_are_named_at_their_edges),
+        IN_FOLDER(nodes_of_a_program_are_named_with_what_is_wrong),
+        IN_FOLDER(samples_and_shared_edges_are_told_from_the_folder_itself),
         IN_FOLDER(elements_of_the_close_up_are_named),
         IN_FOLDER(a_recording_without_the_member_has_no_close_up),
         IN_FOLDER(the_panel_is_beneath_its_text),
