@@ -196,6 +196,31 @@ static void an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter(void **
     }
 }
 
+/* As far from there as a line and a half is high, on the way from the axis's start. */
+static void a_letter_stands_beyond_the_end_of_its_axis(void **state)
+{
+    (void)state;
+    const octree_box world = cube(-1000, 1000);
+    const view v = view_of(1280, 720, CAMERA_ISO, VIEW_ALL_LAYERS);
+    scene s = scene_of_world(&world, &v);
+    size_t letters = 0;
+    for (size_t i = 0; i < s.labels.count; i++) {
+        const scene_label *label = &s.labels.items[i];
+        if (label->style.layer != LAYER_WORLD || label->id >= 3)
+            continue;
+        double start[2], end[2], corner[3] = {-1000, -1000, -1000};
+        assert_true(camera_pixel(&s.camera, corner, start));
+        corner[label->id] = 1000;
+        assert_true(camera_pixel(&s.camera, corner, end));
+        const double length = hypot(end[0] - start[0], end[1] - start[1]), beyond = 1.5 * s.text.height / length;
+        assert_true(fabs(label->at[0] + s.text.width / 2.0 - end[0] - beyond * (end[0] - start[0])) <= 1);
+        assert_true(fabs(label->at[1] + s.text.height / 2.0 - end[1] - beyond * (end[1] - start[1])) <= 1);
+        letters++;
+    }
+    assert_int_equal(letters, 3);
+    scene_release(&s);
+}
+
 /* Numbers of an orbit do not come and go with another distance between them. */
 static void an_orbit_keeps_its_ticks(void **state)
 {
@@ -249,6 +274,7 @@ int main(void)
         cmocka_unit_test(a_fitted_box_has_the_axes_and_not_the_world),
         cmocka_unit_test(without_text_or_world_there_are_none),
         cmocka_unit_test(an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter),
+        cmocka_unit_test(a_letter_stands_beyond_the_end_of_its_axis),
         cmocka_unit_test(an_orbit_keeps_its_ticks),
         cmocka_unit_test(worlds_without_room_for_numbers_have_none),
     };
