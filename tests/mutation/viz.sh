@@ -146,7 +146,7 @@ start_test()
 {
     rm -rf tmp
     mkdir -p tmp build/tests
-    limit=$((20 + 2 * $3))
+    limit=$((60 + 5 * $3))
     library=$PWD/$1
     program=$PWD/programs/$2
     export TMPDIR="$PWD/tmp"
