@@ -304,6 +304,29 @@ static void its_elements_are_numbered_after_those_of_the_scene(void **state)
     octree_game_destroy(game);
 }
 
+/* Of a part of the world it shows what lies in that part. */
+static void a_close_up_of_a_region_shows_no_more_than_it(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    octree_game *game = open_game(&session);
+    scene s = {.refused = 0};
+    view v = view_default();
+    build_tick(&s, &v, game);
+    const octree_box whole = s.closeup->view.filter.region;
+    for (int axis = 0; axis < 3; axis++) {
+        octree_box expected = whole;
+        v.filter.by_region = true;
+        v.filter.region = cube(-1000, 1000);
+        v.filter.region.min[axis] = expected.min[axis] = -7;
+        v.filter.region.max[axis] = expected.max[axis] = 9;
+        build_tick(&s, &v, game);
+        assert_memory_equal(&s.closeup->view.filter.region, &expected, sizeof expected);
+    }
+    scene_release(&s);
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -317,6 +340,7 @@ int main(void)
         cmocka_unit_test(every_world_has_a_close_up_of_finite_numbers),
         cmocka_unit_test(the_digest_counts_it),
         cmocka_unit_test(its_elements_are_numbered_after_those_of_the_scene),
+        cmocka_unit_test(a_close_up_of_a_region_shows_no_more_than_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
