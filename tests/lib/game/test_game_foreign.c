@@ -302,7 +302,6 @@ static void boxes_of_floats_are_compared_in_floats(void **state)
     nodes[0].has_points = nodes[1].has_points = false; /* held by the box alone */
     session.body_count = 2;
     nodes[1].box.min[0] = 0.1f;
-    nodes[1].precision = OCTREE_FLOATS;
     game = start_game(&session);
     assert_faultless(octree_game_tick(game));
     octree_game_destroy(game);
@@ -378,6 +377,7 @@ static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
     memcpy(nodes, right_nodes, sizeof nodes);
     nodes[LEFT] = (octree_foreign_node){.id = 7, UNDER(50), X_BOX(-10, 5), POINTS(3)};
     assert_faultless(tick_with(nodes, NODES, ASK(RANGE, PRUNED(60))));
+    assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(7))), OCTREE_NODE_PRUNED_POINT, 7, 2); /* not of 3 */
     assert_int_equal(tick_with(nodes, NODES, ASK(RANGE, PRUNED(60, 7)))->foreign.faults[OCTREE_NODE_PRUNED_POINT], 2);
     /* Leaves that do not say: by their boxes. */
     nodes[LEFT] = right_nodes[LEFT];
