@@ -107,6 +107,9 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     if (!strstr(subject.text, expected[i].part) && !(element.kind == SCENE_PANEL && strstr(subject.text, "diagram")) &&
         !(element.kind == SCENE_PANEL && strstr(subject.text, "a sign in the panel")))
         fail_msg("\"%s\" says nothing of \"%s\"", subject.text, expected[i].part);
+    if (expected[i].layer == LAYER_BOX && element.kind == SCENE_BOX) /* of two, one is where it is */
+        assert_int_equal(strncmp(subject.text, "the player's", 12) == 0,
+                         scene_head_of(s, element).id == octree_game_session(game)->player.id);
     assert_true(strlen(subject.text) + 1 < ELEMENT_WORDS);
     assert_true(expected[i].about_node <= subject.has_node);
     assert_int_equal(expected[i].about_point && !is_ring(s, element), subject.has_point);
