@@ -115,7 +115,8 @@ static void what_is_large_or_not_wanted_has_none(void **state)
     assert_false(has_closeup(&session, &v));
 }
 
-/* It overlaps neither text nor diagram nor the world's space, and the frame of what it shows lies in that. */
+/* It overlaps neither text nor diagram nor the world's space, and the frame of what it shows lies in that. Two lines
+ * lead from there to corners of its border. */
 static void it_has_a_place_of_its_own(void **state)
 {
     (void)state;
@@ -136,13 +137,18 @@ static void it_has_a_place_of_its_own(void **state)
         if (!s.has_closeup)
             continue;
         assert_true(is_within(&w, &all) && are_apart(&w, &space) && are_apart(&w, &diagram));
+        const double rim = fmax(s.unit / 2, 1); /* whole pixels */
+        size_t corners = 0;
         for (size_t n = 0; n < s.segments.count; n++) {
             const scene_segment *line = &s.segments.items[n];
             for (int end = 0; line->style.layer == LAYER_CLOSEUP && end < 2; end++) {
                 const camera_window at = {floor(line->ends[end][0]), floor(line->ends[end][1]), 0, 0};
                 assert_true(is_within(&at, &all) && are_apart(&at, &diagram));
+                corners += (at.x == w.x - rim || at.x == w.x + w.width + rim) &&
+                           (at.y == w.y - rim || at.y == w.y + w.height + rim);
             }
         }
+        assert_int_equal(corners, 2);
     }
     scene_release(&s);
     octree_game_destroy(game);
