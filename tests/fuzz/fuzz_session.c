@@ -1,16 +1,32 @@
 /* SPDX-License-Identifier: MIT */
 /* fuzz_session.c - libFuzzer entry of the session reader and writer: what is read is written, and reads back to the
- * same bytes. Build with clang -fsanitize=fuzzer,address,undefined; run with
- * ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=32 -malloc_limit_mb=64, for inputs may ask for a
- * hundred million points.
+ * same bytes. Inputs change value by value. Build with clang -fsanitize=fuzzer,address,undefined.
  */
 #include "session_file.h"
+#include "support/edited_json.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed);
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
+
+const char *__asan_default_options(void);
+
+/* An input may ask for a hundred million points. */
+const char *__asan_default_options(void)
+{
+    return "allocator_may_return_null=1:max_allocation_size_mb=32";
+}
+
+/* Bytes change in one of eight, and where there is no object yet. */
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed)
+{
+    const size_t made = seed % 8 ? edited_json(data, size, most, seed) : 0;
+    return made ? made : LLVMFuzzerMutate(data, size, most);
+}
 
 static char *write_session(const session_file *file, size_t *size)
 {
