@@ -96,6 +96,9 @@ static void columns_without_names_are_colours_where_every_line_says_so(void **st
     static const reading rows[] = {
         {"1 2 3 255 0 16\n4 5 6 0 0 0\n", "#ff0010 - -, #000000 - -", 255, THREE_READ},
         {"1;2;3;255;0;16\n", "#ff0010 - -", 255, THREE_READ},
+        {"1 2 3 128 0 16\n", "#800010 - -", 255, THREE_READ},
+        {"1 2 3 127 0 16\n", "- - -", 0, UNREAD}, /* none is bright */
+        {"1 2 3 0 0.25 0.5\n", "#004080 - -", 1, THREE_READ ", from 0 to 1"},
         {"1 2 3 -1340 49 51 201\n4 5 6 7 1 1 1\n", "#3133c9 -1340 -, #010101 7 -", 255, FOUR_READ},
         {"1 2 3 0.25 49 51 201\n", "#3133c9 0.25 -", 255, FOUR_READ},
         {"1 2 3 7 49 51 201\n", "- - -", 0, FOUR_LEFT},

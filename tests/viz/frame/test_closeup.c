@@ -82,6 +82,18 @@ static void everything_is_as_many_times_as_large_as_it_says(void **state)
     build_tick(&s, &v, game);
     const double before = camera_box_pixels(&s.camera, &box), after = camera_box_pixels(&s.closeup->camera, &box);
     assert_true(fabs(after / before - s.closeup->times) < 1e-9 && after > 60 && before < 40);
+    double marks[2][2] = {{0}}; /* the ends of its scale, from top to bottom */
+    size_t count = 0;
+    for (size_t i = 0; i < s.closeup->segments.count; i++) {
+        const scene_segment *line = &s.closeup->segments.items[i];
+        if (line->style.layer != LAYER_CLOSEUP || line->ends[0][0] != line->ends[1][0])
+            continue;
+        for (int end = 0; end < 2; end++)
+            marks[count % 2][end] = line->ends[end][1];
+        count++;
+    }
+    assert_int_equal(count, 2);
+    assert_memory_equal(marks[0], marks[1], sizeof marks[0]);
     scene_release(&s);
     octree_game_destroy(game);
 }

@@ -107,6 +107,21 @@ static void expect_same(const scene *kept, const scene *whole)
     assert_true(scene_digest(kept) == scene_digest(whole));
 }
 
+/* How many subtrees are in the same memory as one of the scene before. */
+static size_t count_kept_on(const kept_list *now)
+{
+    static const kept_node *before[BODIES];
+    static size_t before_count;
+    size_t count = 0;
+    for (size_t i = 0; i < now->count; i++)
+        for (size_t j = 0; j < before_count; j++)
+            count += now->items[i].nodes == before[j];
+    assert_true(now->count <= BODIES);
+    for (before_count = 0; before_count < now->count; before_count++)
+        before[before_count] = now->items[before_count].nodes;
+    return count;
+}
+
 /* Scenes of every so many ticks; in how many something was kept. */
 static unsigned compare_scenes(const view *v, uint64_t every)
 {
@@ -114,6 +129,7 @@ static unsigned compare_scenes(const view *v, uint64_t every)
     octree_game *game;
     scene kept = {0};
     unsigned count = 0;
+    size_t kept_on = count_kept_on(&(kept_list){0}); /* none before the first */
     assert_int_equal(octree_game_create(&p->session, &game), OCTREE_OK);
     for (uint64_t tick = 0; tick < TICKS; tick++) {
         if (tick > 0)
@@ -125,11 +141,13 @@ static unsigned compare_scenes(const view *v, uint64_t every)
         assert_true(tick_scene_build(&whole, v, game, NULL, NULL));
         expect_same(&kept, &whole);
         count += kept.kept && kept.kept->now.count > 0;
+        kept_on += kept.kept ? count_kept_on(&kept.kept->now) : 0;
         scene_release(&whole);
     }
     scene_release(&kept);
     octree_game_destroy(game);
     release_session(p);
+    assert_true(kept_on > 0 || count < TICKS / 2);
     return count;
 }
 
