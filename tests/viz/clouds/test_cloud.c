@@ -47,6 +47,7 @@ static void text_that_is_no_cloud_is_refused_with_its_line(void **state)
         {"", "a.xyz: holds no points"},
         {"\n\n# nothing\n", "a.xyz: holds no points"},
         {"x y z\n", "a.xyz: holds no points"},
+        {"1", "a.xyz:1: has 1 of the three coordinates x y z"},
         {"1 2 3\n4 5\n", "a.xyz:2: has 2 of the three coordinates x y z"},
         {"1 2 3\n4 # 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
         {"1 2 3\n\n4 five 6\n", "a.xyz:3: 'five' is not a number"},

@@ -70,6 +70,7 @@ static void values_that_do_not_fit_are_refused(void **state)
         {"zoom", "inf", "--zoom"},
         {"slice", "w=1", "--slice takes an axis and a place as in z=100, not \"w=1\""},
         {"slice", "x=1,2", "--slice"},
+        {"slice", "x:1", "--slice"},
         {"depths", ":", "--depths takes levels from 0 to 21"},
         {"depths", "3:2", "--depths"},
         {"depths", "22", "--depths"},

@@ -317,6 +317,7 @@ static void a_tree_of_forty_thousand_leaves_still_reads(void **state)
     assert_true(drawn >= 2); /* eight nodes always have room */
     snprintf(wanted, sizeof wanted, "depths %u to %u", drawn, stats.depth);
     assert_true(panel_says(&s, wanted));
+    assert_string_equal(find_words(&s, "0"), "0"); /* the first level's number */
     scene_release(&s);
     octree_destroy(tree);
 }

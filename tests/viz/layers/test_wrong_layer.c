@@ -4,9 +4,11 @@
 #include "column.h"
 #include "layout.h"
 #include "draw_list.h"
+#include "judgement_words.h"
 #include "layer_type.h"
 #include "scenes.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -263,6 +265,24 @@ static void what_is_right_or_unanswered_stays_as_it_was(void **state)
     scene_release(&s);
 }
 
+static void a_ratio_near_one_is_told_by_what_it_is_above(void **state)
+{
+    const struct {
+        double ratio;
+        const char *words;
+    } rows[] = {{INFINITY, "infinite ratio"},
+                {1.01, "1.01 times as far"},
+                {nextafter(1.01, 1), "1% farther"},
+                {1.005, "0.5% farther"},
+                {8.0625, "8.06 times as far"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const octree_judgement made = {.fault = OCTREE_FAULT_FARTHER, .ratio = rows[i].ratio};
+        char text[JUDGEMENT_WORDS];
+        assert_string_equal(judgement_words(&made, text), rows[i].words);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -274,6 +294,7 @@ int main(void)
         cmocka_unit_test(words_that_have_no_room_are_left_out),
         cmocka_unit_test(words_at_one_place_do_not_cover_each_other),
         cmocka_unit_test(what_is_right_or_unanswered_stays_as_it_was),
+        cmocka_unit_test(a_ratio_near_one_is_told_by_what_it_is_above),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
