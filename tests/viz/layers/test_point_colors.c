@@ -2,6 +2,7 @@
 /* test_point_colors.c - what the colour of a painted point tells, and that the legend says it with round numbers. */
 #include "scenes.h"
 #include "brute.h"
+#include "point_colors.h"
 #include "point_scale.h"
 
 #include <stdlib.h>
@@ -180,6 +181,35 @@ static void every_colouring_builds_without_values_and_says_what_it_lacks(void **
     }
 }
 
+/* The classes of LAS 1.4, of which 19 and more are a program's own. */
+static void classes_are_of_these_kinds(void **state)
+{
+    static const char *const kinds[] = {"unclassified",
+                                        "unclassified",
+                                        "ground",
+                                        "vegetation",
+                                        "vegetation",
+                                        "vegetation",
+                                        "building",
+                                        "noise",
+                                        "ground",
+                                        "water",
+                                        "road, rail, bridge",
+                                        "road, rail, bridge",
+                                        "other",
+                                        "other",
+                                        "other",
+                                        "other",
+                                        "other",
+                                        "road, rail, bridge",
+                                        "noise",
+                                        "other"};
+    (void)state;
+    for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        assert_string_equal(class_kind_names[kind_of_class(i)], kinds[i]);
+    assert_string_equal(class_kind_names[kind_of_class(UINT16_MAX)], "other");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -187,6 +217,7 @@ int main(void)
         cmocka_unit_test(leaves_beside_each_other_are_dark_and_light),
         cmocka_unit_test(values_are_those_of_the_points_id_and_points_without_are_plain),
         cmocka_unit_test(every_colouring_builds_without_values_and_says_what_it_lacks),
+        cmocka_unit_test(classes_are_of_these_kinds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
