@@ -8,7 +8,6 @@
 
 #include "json_read.h"
 #include "json_write.h"
-#include "text.h"
 
 #include <float.h>
 #include <math.h>
@@ -128,36 +127,6 @@ static void utf8_passes_and_other_bytes_are_replaced(void **state)
 #undef REPLACEMENT
 }
 
-/* Those beside the first and the last of each range that is not shown, too. */
-static void only_characters_that_deceive_are_unfit_to_be_shown(void **state)
-{
-    static const char unfit[][4] = {"\xc2\x80",     "\xc2\x9f",     "\xd8\x9c",     "\xe2\x80\x8e",
-                                    "\xe2\x80\x8f", "\xe2\x80\xa8", "\xe2\x80\xae", "\xe2\x81\xa6",
-                                    "\xe2\x81\xa9", "\xef\xbf\xbe", "\xef\xbf\xbf"};
-    static const char fit[][4] = {"a",
-                                  "\xc2\xa0",
-                                  "\xc3\x9f",
-                                  "\xd8\x9b",
-                                  "\xd8\x9d",
-                                  "\xe2\x80\x8d",
-                                  "\xe2\x80\x90",
-                                  "\xe2\x80\xa7",
-                                  "\xe2\x80\xaf",
-                                  "\xe2\x81\xa5",
-                                  "\xe2\x81\xaa",
-                                  "\xe2\x81\x8e",
-                                  "\xe2\x82\xa6",
-                                  "\xe2\x82\x8e",
-                                  "\xef\xbf\xa5",
-                                  "\xef\xbf\xbd",
-                                  "\xef\xbe\xbf"};
-    (void)state;
-    for (size_t i = 0; i < sizeof unfit / sizeof *unfit; i++)
-        assert_true(utf8_is_unfit((const unsigned char *)unfit[i]));
-    for (size_t i = 0; i < sizeof fit / sizeof *fit; i++)
-        assert_false(utf8_is_unfit((const unsigned char *)fit[i]));
-}
-
 static void numbers_are_shortest_and_never_other_than_json(void **state)
 {
     page page;
@@ -273,7 +242,6 @@ int main(void)
         cmocka_unit_test(lines_break_where_they_are_told_to),
         cmocka_unit_test(strings_are_escaped),
         cmocka_unit_test(utf8_passes_and_other_bytes_are_replaced),
-        cmocka_unit_test(only_characters_that_deceive_are_unfit_to_be_shown),
         cmocka_unit_test(numbers_are_shortest_and_never_other_than_json),
         cmocka_unit_test(many_numbers_are_written_as_one_by_one),
         cmocka_unit_test(failed_stream_keeps_its_error),

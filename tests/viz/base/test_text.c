@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* test_text.c - foreign text made fit to be shown: all characters and all sequences of bytes that are none, streams
- * into memory, and lists that are cut. */
+ * into memory, lists that are cut, and base64. */
 #include "fixture.h"
 #include "text.h"
 
@@ -112,6 +112,26 @@ static void a_list_that_is_cut_says_by_how_much(void **state)
     free(text);
 }
 
+/* The test vectors of RFC 4648. */
+static void data_are_base64(void **state)
+{
+    static const char *const texts[] = {"", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
+    (void)state;
+    for (size_t length = 0; length < sizeof texts / sizeof *texts; length++) {
+        char *text = NULL;
+        size_t size;
+        FILE *in = tmpfile(), *out = open_memstream(&text, &size);
+        assert_true(in && out);
+        assert_int_equal(fwrite("foobar", 1, length, in), length);
+        rewind(in);
+        base64_copy(in, out);
+        assert_int_equal(fclose(out), 0);
+        assert_string_equal(text, texts[length]);
+        fclose(in);
+        free(text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -120,6 +140,7 @@ int main(void)
         cmocka_unit_test(each_language_is_escaped_by_its_own_rules),
         cmocka_unit_test(bytes_that_cannot_be_printed_are_question_marks),
         cmocka_unit_test(a_list_that_is_cut_says_by_how_much),
+        cmocka_unit_test(data_are_base64),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
