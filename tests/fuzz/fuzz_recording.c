@@ -217,8 +217,8 @@ static void audit(void)
     audit_report report = {0};
     octreel_error error = {""};
     const audit_limits limits = {.by_ratio = true, .ratio = 1.5};
-    const audit_verdict verdict = {edited, true, &report, &limits};
-    if (told(audit_read(edited, NULL, NULL, &report, &error), &error)) {
+    const audit_verdict verdict = {edited, true, &report};
+    if (told(audit_read(edited, &limits, NULL, NULL, &report, &error), &error)) {
         audit_print_text(nowhere, &verdict);
         audit_print_json(nowhere, &verdict);
         check(audit_print_junit(nowhere, &verdict) && audit_print_page(nowhere, &verdict, "."));

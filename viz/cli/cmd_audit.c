@@ -114,9 +114,10 @@ static void print_verdict(const arguments *a, const audit_verdict *verdict)
 static bool audit_to(const arguments *a, const char *path, const char *page, audit_report *report, octreel_error *error)
 {
     progress p = progress_start("ticks");
-    const bool done = check_files(path, page, a->junit, error) && audit_read(path, on_progress, &p, report, error);
+    const bool done =
+        check_files(path, page, a->junit, error) && audit_read(path, &a->limits, on_progress, &p, report, error);
     progress_end(&p);
-    const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report, &a->limits};
+    const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report};
     if (!done || !write_file(page, audit_print_page, &verdict, error) ||
         !write_file(a->junit, print_junit, &verdict, error))
         return false;
@@ -134,7 +135,7 @@ static int audit_it(const arguments *a, const char *path)
     char *page = a->html ? page_file(a->html) : NULL;
     if (a->html && !page)
         return trouble("there is no memory");
-    const bool done = audit_to(a, path, page, &report, &error), passes = done && audit_passes(&report, &a->limits);
+    const bool done = audit_to(a, path, page, &report, &error), passes = done && audit_passes(&report);
     free(page);
     audit_release(&report);
     return !done ? trouble("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;

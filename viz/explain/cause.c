@@ -2,7 +2,7 @@
 /* cause.c - two sessions played tick by tick. */
 #include "cause.h"
 #include "array.h"
-#include "judgement_words.h"
+#include "judgement.h"
 #include "layer_type.h"
 
 #include <inttypes.h>

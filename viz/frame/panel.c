@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* panel.c - the text layer: the column at the left, which describes the tick. */
 #include "foreign_nodes.h"
-#include "judgement_words.h"
+#include "judgement.h"
 #include "layer_type.h"
 #include "layout.h"
 #include "text.h"

@@ -2,7 +2,7 @@
 /* wrong_layer.c - the layer of a program's answers that are wrong: what it missed, what it named wrongly, and a ring of
  * a fixed size about the place, so that it is found in the picture, however small it is in the world. */
 #include "foreign_nodes.h"
-#include "judgement_words.h"
+#include "judgement.h"
 #include "layer_type.h"
 #include "layout.h"
 

@@ -4,7 +4,7 @@
 #include "file.h"
 #include "file_kind.h"
 #include "folder_files.h"
-#include "judgement_words.h"
+#include "judgement.h"
 #include "number.h"
 #include "session_file.h"
 #include "text.h"
@@ -32,12 +32,37 @@ static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from,
         memcpy(to, from, (count < AUDIT_POINTS ? count : AUDIT_POINTS) * sizeof *to);
 }
 
-/* Keep a wrong answer where it is among the worst. False when there is no memory. */
-static bool keep_worst(audit_kind *kind, uint64_t tick, size_t place, const octree_answer *answer)
+/* Whether a wrong answer is a less exact one, as approximate searches give: farther neighbours, fewer of them, or fewer
+ * points. Nothing allows any other. */
+static bool is_inexact(const octree_judgement *made)
 {
-    audit_case c = {.tick = tick, .place = place, .made = answer->judgement};
+    return made->fault == OCTREE_FAULT_FARTHER ||
+           (made->fault == OCTREE_FAULT_COUNT && made->given_count < made->expected) ||
+           (made->fault == OCTREE_FAULT_MISSED && made->extra_count == 0);
+}
+
+/* Whether a wrong answer is allowed, unless there are too many. */
+static bool is_allowed(const octree_judgement *made, const audit_limits *limits)
+{
+    if (limits->by_ratio && made->ratio > limits->ratio)
+        return false;
+    return (limits->by_recall && is_inexact(made)) || (limits->by_ratio && made->fault == OCTREE_FAULT_FARTHER);
+}
+
+static bool is_worse(const audit_case *c, const audit_case *than)
+{
+    if (c->allowed != than->allowed)
+        return than->allowed;
+    if (is_inexact(&c->made) != is_inexact(&than->made))
+        return is_inexact(&than->made);
+    return judgement_is_worse(&c->made, &than->made);
+}
+
+/* Keep a wrong answer where it is among the worst. False when there is no memory. */
+static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answer)
+{
     size_t at = kind->worst_count;
-    while (at > 0 && judgement_is_worse(&c.made, &kind->worst[at - 1].made))
+    while (at > 0 && is_worse(&c, &kind->worst[at - 1]))
         at--;
     if (at == AUDIT_WORST)
         return true;
@@ -92,11 +117,13 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     return true;
 }
 
-static void count_fault(audit_kind *kind, const octree_judgement *made)
+/* False when there is no memory. */
+static bool count_wrong(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
-    kind->faults[made->fault]++;
-    kind->fewer += made->fault == OCTREE_FAULT_COUNT && made->given_count < made->expected;
-    kind->mixed += made->fault == OCTREE_FAULT_MISSED && made->extra_count > 0;
+    if (kind->wrong++ == 0)
+        kind->first_wrong = c.tick;
+    kind->beyond += !c.allowed;
+    return keep_worst(kind, c, answer);
 }
 
 static bool count_answer(audit_report *report, uint64_t tick, size_t place, const octree_answer *answer)
@@ -108,16 +135,14 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     kind->expected += made->expected;
     kind->missed += made->missed_count;
     kind->extra += made->extra_count;
-    count_fault(kind, made);
+    kind->faults[made->fault]++;
     if (!count_in_tick(kind, tick, made) ||
         (octree_query_about(answer->kind)->neighbors && !keep_ratio(kind, made->ratio)))
         return false;
     if (!made->fault)
         return true;
-    if (kind->wrong++ == 0)
-        kind->first_wrong = tick;
     report->wrong++;
-    return keep_worst(kind, tick, place, answer);
+    return count_wrong(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
 }
 
 static void keep_first(audit_nodes *nodes, const octree_tick *tick)
@@ -199,11 +224,12 @@ static bool play_session(const char *path, const octree_session *session, audit_
     return done;
 }
 
-bool audit_read(const char *path, audit_progress *progress, void *context, audit_report *report, octreel_error *error)
+bool audit_read(const char *path, const audit_limits *limits, audit_progress *progress, void *context,
+                audit_report *report, octreel_error *error)
 {
     session_file file = {0};
     uint64_t digest;
-    *report = (audit_report){0};
+    *report = (audit_report){.limits = *limits};
     const bool done = (file_kind_of(path) == KIND_RECORDING ? read_session_file(path, &file, &digest, error)
                                                             : session_read(path, &file, error)) &&
                       play_session(path, &file.session, progress, context, report, error);
@@ -276,19 +302,14 @@ bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *e
 
 bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits)
 {
-    uint64_t allowed = 0;
-    if (limits->by_ratio || limits->by_recall)
-        allowed += kind->faults[OCTREE_FAULT_FARTHER];
-    if (limits->by_recall)
-        allowed += kind->fewer + kind->faults[OCTREE_FAULT_MISSED] - kind->mixed;
-    return kind->wrong == allowed && (!limits->by_ratio || audit_ratio(kind, 1) <= limits->ratio) &&
+    return kind->beyond == 0 && (!limits->by_ratio || audit_ratio(kind, 1) <= limits->ratio) &&
            (!limits->by_recall || audit_recall(kind) >= limits->recall);
 }
 
-bool audit_passes(const audit_report *report, const audit_limits *limits)
+bool audit_passes(const audit_report *report)
 {
     bool passes = report->nodes.faults == 0;
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
-        passes = passes && audit_kind_passes(&report->kinds[i], limits);
+        passes = passes && audit_kind_passes(&report->kinds[i], &report->limits);
     return passes;
 }

@@ -11,10 +11,20 @@
 #define AUDIT_WORST 3
 #define AUDIT_POINTS 4
 
+/* How wrong the answers of a kind may be. `ratio` allows neighbours that are farther, as long as none is more than so
+ * many times as far as the true one of its rank; `recall` allows points that are missed, as long as so much of all true
+ * points is named, and the farther neighbours that are named for them. Nothing allows ids that no point has, points
+ * that are named twice, left out or outside, nor more neighbours than there are, nor faults of nodes. */
+typedef struct audit_limits {
+    bool by_ratio, by_recall; /* neither: every answer must be right */
+    double ratio, recall;
+} audit_limits;
+
 /* A wrong answer. */
 typedef struct audit_case {
     uint64_t tick;
     size_t place;                                           /* among the answers of its tick, as in ticks.jsonl */
+    bool allowed;                                           /* by itself: too many of them may be beyond a recall */
     octree_judgement made;                                  /* without its lists */
     octree_point missed[AUDIT_POINTS], extra[AUDIT_POINTS]; /* the first of them */
     char *answer; /* what was asked, found and answered: the object of ticks.jsonl */
@@ -32,12 +42,12 @@ typedef struct audit_kind {
     uint64_t expected, missed; /* points of the true answers, and those of them that were missed */
     uint64_t extra;
     uint64_t faults[OCTREE_FAULTS]; /* answers, by what is wrong first */
-    uint64_t fewer;                 /* of those with another count, those that name fewer than there are */
-    uint64_t mixed;                 /* of those that miss points of a box or ball, those that have extra ones too */
+    uint64_t beyond;                /* wrong answers that the limits do not allow by themselves */
     uint64_t first_wrong;           /* tick; where one is wrong */
     double *ratios;                 /* neighbours: of each answer, ascending */
     size_t ratio_count, ratio_room;
-    audit_case worst[AUDIT_WORST]; /* the worst first: by ratio, then by points missed and extra, then by time */
+    audit_case
+        worst[AUDIT_WORST]; /* the worst first: those beyond, what nothing allows, by judgement_is_worse(), by time */
     size_t worst_count;
     audit_tick *ticks; /* in which it was asked */
     size_t tick_count, tick_room;
@@ -56,16 +66,18 @@ typedef struct audit_nodes {
 } audit_nodes;
 
 typedef struct audit_report {
+    audit_limits limits;
     audit_kind kinds[OCTREE_QUERY_KINDS];
     audit_nodes nodes;
     uint64_t ticks, asked, wrong;
 } audit_report;
 
-/* Play a recording, by its folder, or a session, by its file. False with an error, also where no query of it carries an
- * answer and no nodes are said. Release the report in any case. `progress` may be null. Cost: that of playing; 8 bytes
- * an answer, and 48 a tick and kind. */
+/* Play a recording, by its folder, or a session, by its file, and judge it by the limits. False with an error, also
+ * where no query of it carries an answer and no nodes are said. Release the report in any case. `progress` may be null.
+ * Cost: that of playing; 8 bytes an answer, and 48 a tick and kind. */
 typedef void audit_progress(uint64_t done, uint64_t total, void *context);
-bool audit_read(const char *path, audit_progress *progress, void *context, audit_report *report, octreel_error *error);
+bool audit_read(const char *path, const audit_limits *limits, audit_progress *progress, void *context,
+                audit_report *report, octreel_error *error);
 void audit_release(audit_report *report);
 
 /* What `share` of the ratios do not exceed; 1 where there are none. */
@@ -75,22 +87,11 @@ double audit_ratio(const audit_kind *kind, double share);
 double audit_recall(const audit_kind *kind);
 double audit_tick_recall(const audit_tick *tick);
 
-/* ---- What is allowed ------------------------------------------------------------------------------------------ */
-
-/* How wrong the answers of a kind may be. `ratio` allows neighbours that are farther, as long as none is more than so
- * many times as far as the true one of its rank; `recall` allows points that are missed, as long as so much of all true
- * points is named, and the farther neighbours that are named for them. Nothing allows ids that no point has, points
- * that are named twice, left out or outside, nor more neighbours than there are, nor faults of nodes. */
-typedef struct audit_limits {
-    bool by_ratio, by_recall; /* neither: every answer must be right */
-    double ratio, recall;
-} audit_limits;
-
 /* "ratio=1.01,recall=0.99", or one of them. False with an error that says what fits. */
 bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *error);
 
-/* Whether a kind is within the limits; and all kinds, with nothing wrong about nodes. */
+/* Whether a kind is within the limits that it was read with; and all kinds, with nothing wrong about nodes. */
 bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits);
-bool audit_passes(const audit_report *report, const audit_limits *limits);
+bool audit_passes(const audit_report *report);
 
 #endif

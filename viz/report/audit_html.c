@@ -225,7 +225,7 @@ static void write_point(const page *p, const chart *c, const audit_tick *tick)
 
 static void write_chart(const page *p, const audit_kind *kind, bool ratio)
 {
-    const chart c = chart_of(kind, ratio, p->verdict->limits);
+    const chart c = chart_of(kind, ratio, &p->verdict->report->limits);
     const size_t points = kind->tick_count < AUDIT_PAGE_POINTS ? kind->tick_count : AUDIT_PAGE_POINTS;
     fprintf(p->out, "<h3>%s, by tick</h3>\n<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"%s by tick\">\n",
             ratio ? "Ratio of distances" : "Recall", WIDTH, HEIGHT, ratio ? "Ratio of distances" : "Recall");
@@ -300,7 +300,7 @@ static bool write_kind(const page *p, int of)
     text_stream s;
     bool ok = text_stream_begin(&s);
     fprintf(p->out, "<section%s><h2>%s</h2>\n<p>",
-            audit_kind_passes(kind, p->verdict->limits) ? "" : " class=\"fails\"", about->name);
+            audit_kind_passes(kind, &p->verdict->report->limits) ? "" : " class=\"fails\"", about->name);
     if (ok) {
         audit_print_kind(s.stream, p->verdict, of);
         ok = write_escaped_stream(p->out, &s, escape_xml_text);
@@ -325,7 +325,7 @@ static bool write_head(const page *p)
     const audit_verdict *v = p->verdict;
     text_stream s;
     bool ok = text_stream_begin(&s);
-    fprintf(p->out, "<h1%s>", audit_passes(v->report, v->limits) ? "" : " class=\"fails\"");
+    fprintf(p->out, "<h1%s>", audit_passes(v->report) ? "" : " class=\"fails\"");
     if (ok) {
         audit_print_all(s.stream, v);
         ok = write_escaped_stream(p->out, &s, escape_xml_text);
@@ -333,9 +333,9 @@ static bool write_head(const page *p)
     fputs("</h1>\n<p>octreel audit of ", p->out);
     write_escaped(p->out, v->path, escape_xml);
     fputs("</p>\n", p->out);
-    if (v->limits->by_ratio || v->limits->by_recall) {
+    if (v->report->limits.by_ratio || v->report->limits.by_recall) {
         fputs("<p>Allowed: ", p->out);
-        audit_print_limits(p->out, v->limits);
+        audit_print_limits(p->out, &v->report->limits);
         fputs("</p>\n", p->out);
     }
     fputs(p->base

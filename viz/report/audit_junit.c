@@ -60,7 +60,7 @@ static void write_counts(FILE *out, const audit_verdict *v)
     unsigned tests = v->report->nodes.given, failures = v->report->nodes.faults > 0;
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
         tests += v->report->kinds[i].asked > 0;
-        failures += !audit_kind_passes(&v->report->kinds[i], v->limits);
+        failures += !audit_kind_passes(&v->report->kinds[i], &v->report->limits);
     }
     fprintf(out, " tests=\"%u\" failures=\"%u\" errors=\"0\" skipped=\"0\" time=\"0\">\n", tests, failures);
 }
@@ -76,16 +76,16 @@ bool audit_print_junit(FILE *out, const audit_verdict *v)
     write_counts(out, v);
     for (int i = 0; ok && i < OCTREE_QUERY_KINDS; i++)
         if (v->report->kinds[i].asked)
-            ok = write_case(out, v, i, audit_kind_passes(&v->report->kinds[i], v->limits));
+            ok = write_case(out, v, i, audit_kind_passes(&v->report->kinds[i], &v->report->limits));
     if (v->report->nodes.given)
         ok = ok && write_case(out, v, OCTREE_QUERY_KINDS, v->report->nodes.faults == 0);
     ok = ok && text_stream_begin(&s);
     if (ok) {
         fputs("    <system-out>", out);
         audit_print_all(s.stream, v);
-        if (v->limits->by_ratio || v->limits->by_recall)
+        if (v->report->limits.by_ratio || v->report->limits.by_recall)
             fputs("; allowed: ", s.stream);
-        audit_print_limits(s.stream, v->limits);
+        audit_print_limits(s.stream, &v->report->limits);
         ok = write_escaped_stream(out, &s, escape_xml_text);
         fputs("</system-out>\n", out);
     }

@@ -102,8 +102,8 @@ void audit_print_all(FILE *out, const audit_verdict *v)
         fputs(", all right", out);
     if (report->nodes.faults)
         fprintf(out, ", %" PRIu64 " fault%s of nodes", report->nodes.faults, plural(report->nodes.faults));
-    print_within(out, v->limits, audit_passes(report, v->limits));
-    if (report->nodes.faults && (v->limits->by_ratio || v->limits->by_recall))
+    print_within(out, &v->report->limits, audit_passes(report));
+    if (report->nodes.faults && (v->report->limits.by_ratio || v->report->limits.by_recall))
         fputs("; nothing allows faults of nodes", out);
 }
 
@@ -122,7 +122,11 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
         fprintf(out, ", %" PRIu64 " missed, %" PRIu64 " extra", kind->missed, kind->extra);
     if (kind->wrong)
         fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
-    print_within(out, v->limits, audit_kind_passes(kind, v->limits));
+    print_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
+    for (int i = OCTREE_FAULT_NONE + 1; i < OCTREE_FAULTS; i++)
+        if (kind->faults[i])
+            fprintf(out, "; %" PRIu64 " time%s: %s", kind->faults[i], plural(kind->faults[i]),
+                    reason_words((octree_fault)i));
 }
 
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
@@ -183,9 +187,9 @@ void audit_print_text(FILE *out, const audit_verdict *v)
         audit_print_nodes(out, &v->report->nodes);
         putc('\n', out);
     }
-    if (v->limits->by_ratio || v->limits->by_recall) {
+    if (v->report->limits.by_ratio || v->report->limits.by_recall) {
         fputs("allowed: ", out);
-        audit_print_limits(out, v->limits);
+        audit_print_limits(out, &v->report->limits);
         putc('\n', out);
     }
 }
@@ -234,7 +238,7 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
     json_member_begin_object(w, about->name);
     json_member_integer(w, "asked", kind->asked);
     json_member_integer(w, "wrong", kind->wrong);
-    json_member_bool(w, "passes", audit_kind_passes(kind, v->limits));
+    json_member_bool(w, "passes", audit_kind_passes(kind, &v->report->limits));
     json_member_number(w, "recall", audit_recall(kind));
     json_member_integer(w, "missed", kind->missed);
     json_member_integer(w, "extra", kind->extra);
@@ -289,8 +293,8 @@ void audit_print_json(FILE *out, const audit_verdict *v)
     json_write_begin_object(w);
     json_member_text(w, "path", v->path);
     json_member_bool(w, "right", report->wrong == 0 && report->nodes.faults == 0);
-    json_member_bool(w, "passes", audit_passes(report, v->limits));
-    write_limits(w, v->limits);
+    json_member_bool(w, "passes", audit_passes(report));
+    write_limits(w, &v->report->limits);
     json_member_integer(w, "ticks", report->ticks);
     json_member_integer(w, "asked", report->asked);
     json_member_integer(w, "wrong", report->wrong);

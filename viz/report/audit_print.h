@@ -7,12 +7,11 @@
 
 #include <stdio.h>
 
-/* What is told: of which recording or session, what came of it, and what is allowed. */
+/* What is told: of which recording or session, and what came of it. */
 typedef struct audit_verdict {
     const char *path;
     bool recording; /* the path is one: it has frames or a page */
     const audit_report *report;
-    const audit_limits *limits;
 } audit_verdict;
 
 /* A line for the whole and for each kind, and below each kind its worst cases; or one JSON object on one line. Errors

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* judgement_words.h - what is wrong with a program's answer, in few words. */
-#ifndef LAYERS_JUDGEMENT_WORDS_H
-#define LAYERS_JUDGEMENT_WORDS_H
+/* judgement.h - what is wrong with a program's answer, in few words, and which of several is the worst. */
+#ifndef LAYERS_JUDGEMENT_H
+#define LAYERS_JUDGEMENT_H
 
 #include "octree/game.h"
 

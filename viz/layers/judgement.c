@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include "judgement_words.h"
+#include "judgement.h"
 #include "number.h"
 
 #include <inttypes.h>
