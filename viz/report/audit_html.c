@@ -268,7 +268,7 @@ static void write_worst(const page *p, const audit_case *c, bool neighbors, text
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
     write_links(p, c->tick);
-    fprintf(p->out, ", answer %zu of the tick: ", c->place + 1);
+    fputs(", ", p->out);
     audit_print_case(words->stream, c, neighbors);
     write_escaped_stream(p->out, words, escape_xml_text);
     fputs("<details><summary>as in ticks.jsonl</summary><pre>", p->out);

@@ -9,7 +9,7 @@
 static void print_worst(FILE *out, const audit_kind *kind, bool neighbors)
 {
     for (size_t i = 0; i < kind->worst_count; i++) {
-        fprintf(out, "\ntick %" PRIu64 ", answers[%zu]: ", kind->worst[i].tick, kind->worst[i].place);
+        fprintf(out, "\ntick %" PRIu64 ", ", kind->worst[i].tick);
         audit_print_case(out, &kind->worst[i], neighbors);
         fprintf(out, "\n%s", kind->worst[i].answer);
     }

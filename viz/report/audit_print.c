@@ -59,7 +59,7 @@ static void print_points(FILE *out, const char *what, const octree_point *points
 void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
 {
     char text[AUDIT_RATIO_TEXT];
-    fputs(reason_words(c->made.fault), out);
+    fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.fault));
     if (c->made.fault <= OCTREE_FAULT_SKIPPED)
         fprintf(out, " (%" PRIu64 ")", c->made.fault_id);
     if (c->made.fault == OCTREE_FAULT_COUNT)
@@ -178,7 +178,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
         putc('\n', out);
         for (size_t j = 0; j < kind->worst_count; j++) {
             const audit_case *c = &kind->worst[j];
-            fprintf(out, "  tick %" PRIu64 ", answers[%zu]: ", c->tick, c->place);
+            fprintf(out, "  tick %" PRIu64 ", ", c->tick);
             audit_print_case(out, c, octree_query_about((octree_query_kind)i)->neighbors);
             fprintf(out, "\n    %s\n", c->answer);
         }

@@ -44,7 +44,8 @@ void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);               
 void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind); /* how often, and the first */
 void audit_print_limits(FILE *out, const audit_limits *limits);
 
-/* What is wrong with a case, and the points that it missed and named wrongly. */
+/* Which of the tick's answers a case is, as in ticks.jsonl, what is wrong with it, and the points that it missed and
+ * named wrongly. */
 void audit_print_case(FILE *out, const audit_case *c, bool neighbors);
 
 #endif

@@ -225,7 +225,7 @@ static void points_of_the_page_lead_to_their_frames(void **state)
     assert_non_null(strstr(within, "<a href=\"./frame_000002.png\"><circle"));
     assert_non_null(strstr(within, "<title>tick 2: ratio 3.60555, 1 of 1 wrong</title>"));
     assert_non_null(strstr(within, "<li>tick 2 (<a href=\"./frame_000002.png\">frame</a>, <a "
-                                   "href=\"./index.html#t=2\">page</a>), answer 1 of the tick: a neighbour"));
+                                   "href=\"./index.html#t=2\">page</a>), answers[0]: a neighbour"));
     assert_null(strstr(within, "<script"));
     free(beside);
     free(within);
