@@ -37,7 +37,7 @@ typedef struct cloud {
     double (*positions)[3];  /* `count` rows of x, y, z, in the file's order and units; all finite; owned */
     size_t count;            /* at least 1 in a cloud that was read */
     size_t skipped;          /* points of the file that are left out */
-    const char *why_skipped; /* what they are: "without finite coordinates", the sign of PLY and PCD for "no return", or
+    const char *why_skipped; /* what they are: "without finite coordinates", the sign of many files for "no return", or
                               * "marked as withheld", LAS's for deleted; null when none are; a constant */
     size_t *rows;            /* `count`: which point of the file, skipped ones counted, each is; null: all are; owned */
     point_values values;     /* colours, intensities and classes by cloud_row(); of skipped points nothing; owned */

@@ -63,13 +63,19 @@ bool cloud_expect_rows(cloud_file *file, uint64_t count, uint64_t columns)
     return cloud_expect(file, count < most ? count : most);
 }
 
+bool cloud_skips(const cloud_file *file, const double *position)
+{
+    const bool finite = isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]);
+    if (!finite)
+        cloud_skip(file, "without finite coordinates");
+    return !finite;
+}
+
 bool cloud_add(cloud_file *file, const double *position)
 {
     cloud *points = file->out;
-    if (!isfinite(position[0]) || !isfinite(position[1]) || !isfinite(position[2])) {
-        cloud_skip(file, "without finite coordinates");
+    if (cloud_skips(file, position))
         return true;
-    }
     void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
     if (grown)
         points->positions = grown;

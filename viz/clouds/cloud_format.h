@@ -87,6 +87,9 @@ bool cloud_add(cloud_file *file, const double *numbers);
 /* Pass over a point of the file; `why` is a constant, the same for all of a file. */
 void cloud_skip(const cloud_file *file, const char *why);
 
+/* Pass over a point whose position is not finite: whether it is one. */
+bool cloud_skips(const cloud_file *file, const double *position);
+
 /* Report at each 65536th call that `done` of `total` have been read. `times` counts the calls. */
 void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total);
 

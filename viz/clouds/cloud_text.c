@@ -131,11 +131,18 @@ static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span li
     if (is_mark(*line.begin))
         return cloud_fail_line(file, number, "has nothing in column %d", axis + 1);
     next_column(&line, &column);
-    if (number_parse_nonfinite(column.begin, column.limit, &end) && end == column.limit)
-        return cloud_fail_word(file, number, column, "is not a finite number");
     if (!number_parse(column.begin, column.limit, &end, &ignored) && end == column.limit)
         return cloud_fail_word(file, number, column, "is beyond the largest double");
     return cloud_fail_word(file, number, column, "is not a number");
+}
+
+/* Read the number at the front of a line, NaN for one that is not finite. *end is what follows it. */
+static bool parse_coordinate(cloud_span line, const char **end, double *coordinate)
+{
+    if (number_parse(line.begin, line.limit, end, coordinate))
+        return true;
+    *coordinate = NAN;
+    return *end == line.begin && number_parse_nonfinite(line.begin, line.limit, end);
 }
 
 /* Read the coordinates of a point and cut them off the line. The separator after each must be like the first: decimal
@@ -147,7 +154,7 @@ static bool parse_position(const cloud_file *file, size_t number, cloud_span *re
     for (int axis = 0; axis < 3; axis++) {
         cloud_span column = line;
         const char *end;
-        if (!number_parse(line.begin, line.limit, &end, &position[axis]))
+        if (!parse_coordinate(line, &end, &position[axis]))
             return fail_coordinate(file, number, line, axis);
         line.begin = end;
         line.begin = skip_blanks(line);
@@ -321,11 +328,16 @@ bool cloud_text_begins(const cloud_file *file)
     return false;
 }
 
-static bool parse_point(cloud_file *file, size_t number, cloud_span line, bool first, text_columns *columns)
+/* Of a point that is skipped the other columns say nothing. */
+static bool parse_point(cloud_file *file, size_t number, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
     char mark = ' ';
-    if (!parse_position(file, number, &line, &mark, numbers) || (first && !guess_columns(file, line, mark, columns)))
+    if (!parse_position(file, number, &line, &mark, numbers))
+        return false;
+    if (cloud_skips(file, numbers))
+        return true;
+    if (file->out->count == 0 && !named && !guess_columns(file, line, mark, columns))
         return false;
     if (columns->count > 0) {
         const size_t count = parse_values(line, mark, columns, numbers);
@@ -368,7 +380,7 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
             if (!read_header(file, lines.number, line, columns))
                 return false;
         } else {
-            if (!parse_point(file, lines.number, line, first && !named, columns))
+            if (!parse_point(file, lines.number, line, named, columns))
                 return false;
             first = false;
         }

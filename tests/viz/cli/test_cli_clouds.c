@@ -27,7 +27,7 @@ static void bad_clouds_are_refused_with_file_and_reason(void **state)
         {"1 2 3\n4 5\n", "cloud:2: "},
         {"1 2 3\n4 five 6\n", "cloud:2: "},
         {"1 2 3\n4 1e999 6\n", "cloud:2: "},
-        {"1 2 3\nnan 5 6\n", "cloud:2: "},
+        {"nan 5 6\n", "cloud: "},
         {"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
          "1 2 3\n",
          "cloud"},

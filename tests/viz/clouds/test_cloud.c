@@ -41,6 +41,19 @@ static void text_keeps_doubles(void **state)
     assert_reads("utm.txt", text, strlen(text), expected, 1, 0);
 }
 
+/* They have a row, as in the formats of scanners. */
+static void text_skips_points_without_finite_coordinates(void **state)
+{
+    static const char *const texts[] = {
+        "1 2 3\nnan nan nan\n-4.5 5e10 0.1\n",
+        "1,2,3\n1,-inf,2\n-4.5,5e10,0.1\n",
+        "x;y;z\n1;2;3\n NaN ; Infinity;-nan(ind)\n-4.5;5e10;0.1\n",
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        assert_reads("a.xyz", texts[i], strlen(texts[i]), two_points, 2, 1);
+}
+
 static void text_that_is_no_cloud_is_refused_with_its_line(void **state)
 {
     static const refusal rows[] = {
@@ -54,8 +67,11 @@ static void text_that_is_no_cloud_is_refused_with_its_line(void **state)
         {"1 2 3\nx y z\n", "a.xyz:2: 'x' is not a number"},
         {"1 2 3x\n", "a.xyz:1: '3x' is not a number"},
         {"1 0x10 3\n", "a.xyz:1: '0x10' is not a number"},
-        {"1 nan 3\n", "a.xyz:1: 'nan' is not a finite number"},
-        {"inf inf inf\n", "a.xyz:1: 'inf' is not a finite number"},
+        {"1 nan 3\n", "a.xyz: holds no points: all 1 are without finite coordinates"},
+        {"inf inf inf\n-nan nan(ind) 2\n", "a.xyz: holds no points: all 2 are without finite coordinates"},
+        {"1 nano 3\n", "a.xyz:1: 'nano' is not a number"},
+        {"nan 2\n", "a.xyz:1: has 2 of the three coordinates x y z"},
+        {"1 2 3\nnan,5;2\n", "a.xyz:2: mixes blanks, commas and semicolons between its columns"},
         {"1 2 -1e309\n", "a.xyz:1: '-1e309' is beyond the largest double"},
         {"1,,3\n", "a.xyz:1: has nothing in column 2"},
         {",1,2,3\n", "a.xyz:1: has nothing in column 1"},
@@ -175,6 +191,7 @@ int main(void)
         cmocka_unit_test(formats_are_listed_for_people),
         cmocka_unit_test(text_is_read_with_any_separator_and_line_end),
         cmocka_unit_test(text_keeps_doubles),
+        cmocka_unit_test(text_skips_points_without_finite_coordinates),
         cmocka_unit_test(text_that_is_no_cloud_is_refused_with_its_line),
         cmocka_unit_test(text_with_decimal_commas_is_refused),
         cmocka_unit_test(text_whose_header_names_other_columns_is_refused),

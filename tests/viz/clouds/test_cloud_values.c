@@ -117,6 +117,8 @@ static void columns_without_names_are_colours_where_every_line_says_so(void **st
         {"1 2 3 0 0.5 1\n4 5 6 0 0.5 1.5\n", "- - -, - - -", 0, UNREAD},
         {"1 2 3 0 0.25 0.3\n", "- - -", 0, UNREAD},
         {"1 2 3 255 0 name\n", "- - -", 0, UNREAD},
+        {"nan nan nan\n1 2 3 255 0 16\nnan nan nan 0.5 nan nan\n4 5 6 0 0 0\n", "#ff0010 - -, #000000 - -", 255,
+         THREE_READ},
     };
     (void)state;
     ASSERT_READS_EACH("a.xyz", rows);
