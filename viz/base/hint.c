@@ -101,7 +101,7 @@ const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT])
 
 enum { LONGEST_CALL = 200 }; /* one that is longer is not typed again */
 
-static char program[4 * LONGEST_CALL + 8] = PROGRAM;
+static char program[9 * LONGEST_CALL + 8] = PROGRAM;
 
 void hint_set_program(const char *called)
 {
@@ -151,6 +151,9 @@ void hint_write_word(FILE *out, const char *text)
     }
     fputs(*text == '-' ? "'./" : "'", out);
     for (; *text; text++)
-        fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
+        if ((unsigned char)*text < ' ' || *text == 127)
+            fprintf(out, "'$'\\%03o''", (unsigned)*text);
+        else
+            fputs(*text == '\'' ? "'\\''" : (char[]){*text, 0}, out);
     putc('\'', out);
 }

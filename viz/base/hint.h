@@ -39,7 +39,7 @@ const char *hint_program(void);
 /* Write a text in which "octreel COMMAND", except within a sentence, becomes that of the program as it was called. */
 void hint_write_commands(FILE *out, const char *text);
 
-/* Write a word as a shell reads it; one that looks like an option becomes a path. */
+/* Write a word as a shell reads it, without control characters; one that looks like an option becomes a path. */
 void hint_write_word(FILE *out, const char *text);
 
 #endif

@@ -159,6 +159,15 @@ static void list_outputs(const arguments *a, output_file outputs[OUTPUTS])
     outputs[1] = (output_file){"--nodes", a->nodes};
 }
 
+/* "wrote tree.png: "; returns `out`. */
+static FILE *print_wrote(const char *path, FILE *out)
+{
+    fputs("wrote ", out);
+    write_escaped(out, file_output_title(path), escape_nothing);
+    fputs(": ", out);
+    return out;
+}
+
 /* A node or answers are printed without the statistics. JSON says nothing of files: it stays one object. */
 static void print(const report *r)
 {
@@ -173,10 +182,10 @@ static void print(const report *r)
     if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, out);
     if (a->picture && !a->json && !is_quiet())
-        fprintf(out, "wrote %s: %d x %d pixels%s%s\n", file_output_title(a->picture), a->view.width, a->view.height,
+        fprintf(print_wrote(a->picture, out), "%d x %d pixels%s%s\n", a->view.width, a->view.height,
                 *r->chosen ? "; " : "", r->chosen);
     if (a->nodes && !a->json && !is_quiet())
-        fprintf(out, "wrote %s: all nodes\n", file_output_title(a->nodes));
+        fputs("all nodes\n", print_wrote(a->nodes, out));
 }
 
 /* Everything that can be refused comes before the first file is written. */

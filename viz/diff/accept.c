@@ -249,8 +249,8 @@ static void tell(const accepting *a)
 {
     size_t said = 0;
     if (a->result.by_ticks) {
-        fprintf(a->out, "%s: the ticks are %s\n", a->reference.path,
-                a->result.verdict == DIFF_SAME ? "those of before" : "new");
+        write_escaped(a->out, a->reference.path, escape_nothing);
+        fprintf(a->out, ": the ticks are %s\n", a->result.verdict == DIFF_SAME ? "those of before" : "new");
         return;
     }
     for (size_t i = 0; i < a->result.count; i++)
@@ -258,8 +258,9 @@ static void tell(const accepting *a)
             say(a, &a->result.pairs[i], a->actions[i]);
     print_more(a->out, said, LIST_LINES, "");
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
-    fprintf(a->out, "%s: %zu before, %zu after: %zu changed, %zu new, %zu removed\n", a->reference.path, before, after,
-            a->counts[CHANGED], a->counts[ADDED], a->counts[REMOVED]);
+    write_escaped(a->out, a->reference.path, escape_nothing);
+    fprintf(a->out, ": %zu before, %zu after: %zu changed, %zu new, %zu removed\n", before, after, a->counts[CHANGED],
+            a->counts[ADDED], a->counts[REMOVED]);
     if (a->reference.kind == DIFF_RECORDING && a->options->names->count > 0 && said > 0)
         fprintf(a->out, "Its ticks are still those of before; to take them over too, accept all frames.\n");
 }

@@ -67,7 +67,8 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
 
 static void report_counts(FILE *out, const film_summary *summary, const char *folder)
 {
-    fprintf(out, "%s: %" PRIu64 " tick%s, ", folder, summary->ticks, plural(summary->ticks));
+    write_escaped(out, folder, escape_nothing);
+    fprintf(out, ": %" PRIu64 " tick%s, ", summary->ticks, plural(summary->ticks));
     if (summary->frames == 0)
         fputs("no frames", out);
     else

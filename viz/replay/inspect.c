@@ -69,6 +69,12 @@ static void print_histograms(FILE *out, const octree *tree, const octree_stats *
     print_histogram(out, "leaves by points", occupancy, count_occupancy(tree, occupancy));
 }
 
+void inspect_print_name(const char *name, FILE *out)
+{
+    write_escaped(out, name, escape_nothing);
+    fputc('\n', out);
+}
+
 void inspect_print_numbers(const double *values, size_t count, FILE *out)
 {
     char text[NUMBER_TEXT];
@@ -112,9 +118,9 @@ static void print_box(FILE *out, const char *name, const octree_box *box)
 static void print_statistics(const inspection *i, const octree_stats *stats, const char *name, FILE *out)
 {
     const octree_def def = octree_definition(i->tree);
-    fprintf(out, "%s\n", name);
-    fprintf(out, "  points    %zu in the file, %zu in the tree, %zu refused, %zu outside the world\n", i->points,
-            stats->points, i->refused, i->outside);
+    inspect_print_name(name, out);
+    fprintf(out, "  points    %zu in the file, %zu in the tree, %zu refused, %zu outside the world\n",
+            i->points + i->skipped, stats->points, i->refused, i->outside);
     if (i->skipped)
         fprintf(out, "  skipped   %zu %s\n", i->skipped, i->why_skipped);
     inspect_print_values(i, out);
@@ -189,7 +195,7 @@ void inspect_print(const inspection *i, const char *name, bool json, FILE *out)
 static void print_node(const octree_node *node, const char *name, FILE *out)
 {
     char address[OCTREE_ADDRESS_TEXT];
-    fprintf(out, "%s\n", name);
+    inspect_print_name(name, out);
     fprintf(out, "%s: %s of %zu point%s at depth %u\n", octree_address_format(node->address, address),
             node->leaf ? "leaf" : "inner node", node->count, plural(node->count), node->depth);
     print_box(out, "  box", &node->box);

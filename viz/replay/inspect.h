@@ -11,7 +11,7 @@
 
 typedef struct inspection {
     octree *tree;            /* a point's id is its row of the cloud */
-    size_t points;           /* of the cloud */
+    size_t points;           /* of the cloud: of the file but those skipped */
     size_t skipped;          /* points of the file that are left out */
     const char *why_skipped; /* what they are, as in cloud.h */
     size_t refused;          /* points refused by a full leaf, under OCTREE_REFUSE */
@@ -40,7 +40,9 @@ bool inspect_find_node(const inspection *i, const char *address, octree_node *no
 /* Print one node: its box and, of a leaf, its points, for people the first LIST_LINES. */
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out);
 
-/* Print numbers, each after a space; a point on a line; and a point as an object. The distance may be null. */
+/* Print the cloud's name on a line; numbers, each after a space; a point on a line; and a point as an object. The
+ * distance may be null. */
+void inspect_print_name(const char *name, FILE *out);
 void inspect_print_numbers(const double *values, size_t count, FILE *out);
 void inspect_print_point(const octree_point *point, const double *distance, FILE *out);
 void inspect_write_point(json_writer *w, const octree_point *point, const double *distance);

@@ -4,7 +4,6 @@
 #include "inspect.h"
 #include "json_write.h"
 #include "text.h"
-#include "text.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -220,7 +219,7 @@ void inspect_print_answers(const inspect_answers *answers, const char *name, boo
         json_member_text(w, "cloud", name);
         json_member_begin_array(w, "answers");
     } else {
-        fprintf(out, "%s\n", name);
+        inspect_print_name(name, out);
     }
     for (size_t i = 0; i < answers->count; i++) {
         const shown_answer shown = show_answer(answers, i);

@@ -211,7 +211,8 @@ static bool is_gap(const pick_element *e)
 static void print_heading(FILE *out, const pick *p)
 {
     char color[COLOR_TEXT];
-    fprintf(out, "%s: tick %" PRIu64 ", pixel (%d, %d)", p->path, p->tick, p->asked[0], p->asked[1]);
+    write_escaped(out, p->path, escape_nothing);
+    fprintf(out, ": tick %" PRIu64 ", pixel (%d, %d)", p->tick, p->asked[0], p->asked[1]);
     if (p->count == 0)
         fprintf(out, ": nothing is drawn there, nor within %d pixel%s\n", p->radius, plural((uint64_t)p->radius));
     else if (distance(p) > 0)

@@ -324,7 +324,8 @@ static const struct {
 
 static void print_identical(FILE *out, const char *folder, const verify_report *report)
 {
-    fprintf(out, "%s: identical: %" PRIu64 " tick%s, ", folder, report->ticks, plural(report->ticks));
+    write_escaped(out, folder, escape_nothing);
+    fprintf(out, ": identical: %" PRIu64 " tick%s, ", report->ticks, plural(report->ticks));
     if (report->has_frames)
         fprintf(out, "%" PRIu64 " frame%s\n", report->frames, plural(report->frames));
     else
@@ -336,10 +337,14 @@ static void print_people(FILE *out, const char *folder, const verify_report *rep
     const octree_gap *gap = &report->first_gap;
     if (report->count == 0)
         print_identical(out, folder, report);
-    if (report->gaps > 0)
-        fprintf(out, "%s: %" PRIu64 " of these ticks %s: nothing is known of %s; the first is tick %" PRIu64 ": %s\n",
-                folder, report->gaps, report->gaps == 1 ? "is a gap" : "are gaps", report->gaps == 1 ? "it" : "them",
-                gap->tick, gap->why);
+    if (report->gaps > 0) {
+        write_escaped(out, folder, escape_nothing);
+        fprintf(out, ": %" PRIu64 " of these ticks %s: nothing is known of %s; the first is tick %" PRIu64 ": ",
+                report->gaps, report->gaps == 1 ? "is a gap" : "are gaps", report->gaps == 1 ? "it" : "them",
+                gap->tick);
+        write_escaped(out, gap->why, escape_nothing);
+        fputc('\n', out);
+    }
     for (size_t i = 0; i < report->count; i++) {
         const verify_finding *finding = &report->findings[i];
         write_escaped(out, folder, escape_nothing);

@@ -86,7 +86,8 @@ static void commands_name_the_program_as_it_was_called(void **state)
 static void a_word_is_one_word_for_a_shell(void **state)
 {
     static const char *const rows[][2] = {
-        {"", "''"}, {"a-b/c.png", "a-b/c.png"}, {"-x", "'./-x'"}, {"a b", "'a b'"}, {"it's $HOME", "'it'\\''s $HOME'"}};
+        {"", "''"},       {"a-b/c.png", "a-b/c.png"},         {"-x", "'./-x'"},
+        {"a b", "'a b'"}, {"it's $HOME", "'it'\\''s $HOME'"}, {"a\x1b[1m\n", "'a'$'\\033''[1m'$'\\012'''"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         assert_written(hint_write_word, rows[i][0], rows[i][1]);

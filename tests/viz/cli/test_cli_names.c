@@ -63,6 +63,26 @@ static void control_characters_do_not_reach_the_terminal(void **state)
     assert_trouble(&result, "the name \"x?[31m?y.png\" has a character that a line cannot hold");
 }
 
+/* What is read and what is made have such a name. */
+static void commands_that_succeed_do_not_print_them_either(void **state)
+{
+    static const char *const lines[] = {
+        "inspect %s --nodes %s.csv",  "inspect %s --node root", "inspect %s --nearest 1,2,3",
+        "record -o %s.film --keys w", "verify %s.film",         "pick %s.film/frame_000000.png 1 1",
+        "accept %s.film %s.film",
+    };
+    const place points = place_in(*state, HOSTILE);
+    file_write_text(points.path, "1 2 3\n");
+    const shell_word name = shell_quote(points.path);
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        char line[512];
+        snprintf(line, sizeof line, lines[i], name.text, name.text);
+        command_result result = run_script("%s %s", octreel_program(), line);
+        assert_plain(&result, 0);
+        command_release(&result);
+    }
+}
+
 /* What is no UTF-8, a mark that turns the direction, and what some terminals take for an escape. */
 static void what_is_no_text_is_not_printed(void **state)
 {
@@ -89,6 +109,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(an_empty_name_is_refused_in_one_sentence),
         IN_FOLDER(control_characters_do_not_reach_the_terminal),
+        IN_FOLDER(commands_that_succeed_do_not_print_them_either),
         IN_FOLDER(what_is_no_text_is_not_printed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

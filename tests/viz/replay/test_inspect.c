@@ -267,7 +267,8 @@ static void points_that_were_skipped_are_told_with_the_reason(void **state)
     assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
     inspect_print(&made, "cloud", false, out);
     assert_int_equal(fclose(out), 0);
-    assert_non_null(strstr(text, "\n  skipped   3 marked as withheld\n"));
+    assert_non_null(strstr(text, "\n  points    4 in the file, 1 in the tree, 0 refused, 0 outside the world\n"
+                                 "  skipped   3 marked as withheld\n"));
     inspect_release(&made);
 }
 
