@@ -7,7 +7,7 @@
 #include <math.h>
 
 /* A tree takes more than files do: boxes that are infinite, which JSON is not, and ids of any size. */
-static const char *fault_of(const octree_query *query)
+static const char *fault_of(const octree_query *query, octree_player_kind player)
 {
     const octree_input one = {.queries = query, .query_count = 1};
     octree_status status = octree_input_check(&one);
@@ -19,20 +19,22 @@ static const char *fault_of(const octree_query *query)
     for (size_t i = 0; status == OCTREE_OK && query->answered && i < query->answer_count; i++)
         if (query->answer[i] >= SESSION_ID_LIMIT)
             return octreel_status_text(OCTREEL_BAD_ID);
+    if (status == OCTREE_OK && query->at_player && player == OCTREE_PLAYER_NONE)
+        return "there is no player";
     if (status == OCTREE_BAD_OPTION)
         return "there is no such kind or no such skip; COINCIDENT needs a target, which a box has not";
     return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 
 /* One by one, so that the sentence can say which. */
-octreel_status about_check(const octreel_tick_info *about, octreel_error *error)
+octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
 {
     if (!about)
         return OCTREEL_OK;
     if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
         return status_fail(error, OCTREEL_NULL_ARGUMENT);
     for (size_t i = 0; i < about->query_count; i++) {
-        const char *fault = fault_of(&about->queries[i]);
+        const char *fault = fault_of(&about->queries[i], player);
         if (fault)
             return status_refuse(error, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
     }

@@ -5,8 +5,8 @@
 
 #include "octreel/recorder.h"
 
-/* Its queries and shapes. Errors: NULL_ARGUMENT, BAD_QUERY, BAD_SHAPE. */
-octreel_status about_check(const octreel_tick_info *about, octreel_error *error);
+/* Its queries, with such a player, and shapes. Errors: NULL_ARGUMENT, BAD_QUERY, BAD_SHAPE. */
+octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error);
 
 /* Its nodes. Errors: BAD_NODE, NO_MEMORY. */
 octreel_status about_check_nodes(const octreel_tick_info *about, octreel_error *error);

@@ -281,7 +281,7 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
 {
     octreel_error why;
     const octreel_status read = contents_read(&r->contents, &r->settings.tree, tree, about, &why);
-    const octreel_status status = about_check(about, &r->error);
+    const octreel_status status = about_check(about, r->settings.player.kind, &r->error);
     if (status != OCTREEL_OK)
         return status;
     if (read != OCTREEL_OK)

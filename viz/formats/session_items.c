@@ -49,12 +49,20 @@ static bool is_player(const json_t *value)
     return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
 }
 
+/* The player, who must be somebody. */
+static bool read_player(json_reader *r, const json_place *at, octree_query *query)
+{
+    const session_loader *s = r->context;
+    query->at_player = true;
+    return s->header.session.player.kind != OCTREE_PLAYER_NONE ||
+           json_fail(r, at, "there is no player: the session's \"player\" is null");
+}
+
 static bool read_target(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    query->at_player = is_player(value);
-    if (query->at_player)
-        return true;
+    if (is_player(value))
+        return read_player(r, at, query);
     if (!json_is_array(value))
         return json_expected(r, value, at, "\"player\" or three numbers [x, y, z]");
     return json_read_vector(r, value, at, query->target);
@@ -71,9 +79,7 @@ static void write_target(json_writer *w, const void *from)
 
 static bool read_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    octree_query *query = into;
-    query->at_player = is_player(value);
-    return query->at_player || json_expected(r, value, at, "\"player\"");
+    return is_player(value) ? read_player(r, at, into) : json_expected(r, value, at, "\"player\"");
 }
 
 static bool is_at_player(const void *from)

@@ -163,12 +163,15 @@ static bool load_file(json_reader *r, const json_t *value, const json_place *at)
     char *path = path_in_folder(s->folder, json_string_value(value));
     if (!path)
         return json_fail(r, at, "out of memory");
-    const bool done = cloud_read(path, NULL, &s->points, r->error);
+    octreel_error why;
+    const bool done = cloud_read(path, NULL, &s->points, &why);
     free(path);
+    if (!done)
+        return error_set(r->error, "%s:%zu: points.file: %s", json_name_end(r->name), json_line(r, at), why.text);
     memcpy(s->note, s->points.note, sizeof s->note);
-    if (done && !*s->note)
+    if (!*s->note)
         note_values(s, json_string_value(value));
-    return done;
+    return true;
 }
 
 static bool is_file_name(const json_t *value)

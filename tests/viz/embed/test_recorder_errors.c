@@ -170,6 +170,7 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
         {.kind = OCTREE_QUERY_RANGE, .skip = OCTREE_SKIP_COINCIDENT},
         {.kind = OCTREE_QUERY_RADIUS, .epsilon = -1},
         {.kind = OCTREE_QUERY_NEAREST, .skip = OCTREE_SKIP_ID, .skip_id = UINT64_C(1) << 53},
+        {.kind = OCTREE_QUERY_NEAREST, .at_player = true}, /* there is none */
         {.kind = OCTREE_QUERY_KINDS},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -233,7 +234,7 @@ static void refuse_modes(octreel_recorder *recorder, const octree *tree)
 static void what_is_refused_is_a_gap_and_nothing_else_is_lost(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    enum { TICKS = 6, REFUSED = 25, ALL = TICKS * (REFUSED + 1) };
+    enum { TICKS = 6, REFUSED = 26, ALL = TICKS * (REFUSED + 1) };
     uint64_t expected[ALL] = {0}, told[ALL];
     moving_tree m;
     moving_tree_make(&m, OCTREE_GROW, 4);

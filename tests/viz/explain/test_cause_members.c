@@ -34,7 +34,6 @@ static const struct {
     {"\"capacity\": 2", "\"capacity\": 1"},
     {"\"depth\": 4", "\"depth\": 1"},
     {"\"refuse\"", "\"grow\""},
-    {"{\"id\": 1, \"position\": [2, 2, 2], \"step\": 5, \"box_size\": 3, \"sweep\": false}", "null"},
     {"{\"id\": 1, \"position\": [2, 2, 2], \"step\": 5,", "{\"id\": 7, \"body\": true,"},
     {"\"id\": 1,", "\"id\": 2,"},
     {"[2, 2, 2]", "[3, 2, 2]"},

@@ -339,6 +339,11 @@ static void bad_ticks_are_refused(void **state)
          "2: queries[0].at: expected \"player\" or three numbers [x, y, z], found \"home\""},
         {HEADER "\"queries\":[{\"radius\":-1,\"at\":\"player\"}]}",
          "2: queries[0].radius: expected a number that is not negative, found -1"},
+        {HEADER "\"queries\":[{\"knearest\":8,\n\"at\":\"player\"}],\"player\":null}",
+         "3: queries[0].at: there is no player: the session's \"player\" is null"},
+        {HEADER "\"player\":null}\n{\"tick\":1,\"queries\":[{\"range\":{\"min\":[0,0,0],\"max\":[1,1,1]},"
+                "\"at\":\"player\"}]}",
+         "3: queries[0].at: there is no player"},
         {HEADER "\"queries\":[{\"radius\":5}]}", "2: queries[0]: the member \"at\" is missing"},
         {HEADER "\"queries\":[{\"radius\":5,\"at\":[1,2]}]}",
          "2: queries[0].at: expected three numbers [x, y, z], found a list of 2"},
@@ -349,14 +354,15 @@ static void bad_ticks_are_refused(void **state)
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
 }
 
-static void missing_cloud_is_told_as_it_is_by_its_reader(void **state)
+static void missing_cloud_is_told_with_what_names_it(void **state)
 {
     static const char text[] = HEADER "\"points\":{\"file\":\"missing.pcd\"}}";
     session_file file;
     octreel_error error;
     (void)state;
     assert_false(session_parse("s.json", "no/such/folder", text, strlen(text), &file, &error));
-    assert_string_equal(error.text, "no/such/folder/missing.pcd: cannot be opened: No such file or directory");
+    assert_string_equal(error.text, "s.json:2: points.file: no/such/folder/missing.pcd: cannot be opened: No such "
+                                    "file or directory");
 }
 
 static void long_name_keeps_its_end_and_the_reason(void **state)
@@ -386,7 +392,7 @@ int main(void)
         cmocka_unit_test(header_with_bad_members_is_refused),
         cmocka_unit_test(bad_points_are_refused),
         cmocka_unit_test(bad_ticks_are_refused),
-        cmocka_unit_test(missing_cloud_is_told_as_it_is_by_its_reader),
+        cmocka_unit_test(missing_cloud_is_told_with_what_names_it),
         cmocka_unit_test(long_name_keeps_its_end_and_the_reason),
     };
     return cmocka_run_group_tests_name("session_errors", tests, NULL, NULL);

@@ -143,7 +143,7 @@ octreel_recorder_def octreel_recorder_def_default(void);
  *
  * A point in a frame is one of these; a shape is what else there is, such as walls and goals. */
 typedef struct octreel_tick_info {
-    const octree_query *queries; /* in any order; all numbers finite */
+    const octree_query *queries; /* in any order; all numbers finite; at_player where the recorder has a player */
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
