@@ -4,11 +4,13 @@
 #include "command.h"
 #include "file.h"
 #include "file_kind.h"
+#include "folder.h"
 #include "progress.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 typedef struct arguments {
     audit_limits limits;
@@ -22,6 +24,28 @@ static bool read_limits(const command_option *option, const char *text, void *in
     return audit_limits_parse(text, into, &error) || refuse("--%s: %s", option->name, error.text);
 }
 
+static bool is_folder(const char *path)
+{
+    const file_kind kind = file_kind_of(path);
+    return !file_is_standard(path) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
+}
+
+/* Whether the name is that of the page itself, and not of the folder that holds it. */
+static bool is_page(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return file_is_standard(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
+}
+
+/* A name that ends like no file is that of a folder, as elsewhere. */
+static bool read_page(const command_option *option, const char *text, void *into)
+{
+    if (is_page(text) || is_folder(text) || name_kind_of(text) == NAME_OPEN)
+        return read_name(option, text, into);
+    return refuse("--%s takes the name of a page, as in report.html, or of a folder, and \"%s\" is neither",
+                  option->name, text);
+}
+
 static const command_option options[] = {
     {"allow", "LIMITS",
      "what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, answers that miss points, as "
@@ -29,10 +53,11 @@ static const command_option options[] = {
      "named twice, left out or outside, nor what is wrong with nodes; and a neighbour query that names none has an "
      "infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
-    {"html", "FILE|DIR",
-     "write a page, DIR/audit.html: recall and ratio over the ticks, where each point leads to its frame, and the "
+    {"html", "FILE.html|DIR",
+     "write a page, FILE.html or DIR/audit.html: recall and ratio over the ticks, where each point leads to its frame, "
+     "and the "
      "worst cases",
-     .read = read_name, OPTION_VALUE(arguments, html)},
+     .read = read_page, OPTION_VALUE(arguments, html)},
     {"junit", "FILE", "write JUnit's XML, a test case for each kind of query", .read = read_file,
      OPTION_VALUE(arguments, junit)},
     JSON_OPTION(arguments, json,
@@ -50,9 +75,13 @@ static void on_progress(uint64_t done, uint64_t total, void *context)
 /* The page's file; a folder holds it under its own name. Null where there is no memory. */
 static char *page_file(const char *html)
 {
-    const file_kind kind = file_kind_of(html);
-    const bool folder = !file_is_standard(html) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
-    return folder ? path_join(html, AUDIT_PAGE) : strdup(html);
+    return is_page(html) ? strdup(html) : path_join(html, AUDIT_PAGE);
+}
+
+/* The folder that is to hold the page, where there is none yet. */
+static bool make_folder(const char *html, octreel_error *error)
+{
+    return !html || is_page(html) || folder_make(html, error);
 }
 
 /* The folder that a file lies in; for standard output the current one. Null where there is no memory. */
@@ -118,7 +147,7 @@ static bool audit_to(const arguments *a, const char *path, const char *page, aud
         check_files(path, page, a->junit, error) && audit_read(path, &a->limits, on_progress, &p, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report};
-    if (!done || !write_file(page, audit_print_page, &verdict, error) ||
+    if (!done || !make_folder(a->html, error) || !write_file(page, audit_print_page, &verdict, error) ||
         !write_file(a->junit, print_junit, &verdict, error))
         return false;
     print_verdict(a, &verdict);

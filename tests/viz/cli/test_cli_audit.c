@@ -194,8 +194,8 @@ static void reports_take_no_place_but_their_own(void **state)
 {
     const place session = write_session_text(state, right), file = place_in(*state, "a");
     command_result result = run_octreel(NULL, "audit %s --html %s", session.path, session.path);
-    assert_trouble(&result, "--html");
-    result = run_octreel(NULL, "audit %s --html %s --junit %s", session.path, file.path, file.path);
+    assert_trouble(&result, "--html takes the name of a page, as in report.html, or of a folder, and \"");
+    result = run_octreel(NULL, "audit %s --html %s.html --junit %s.html", session.path, file.path, file.path);
     assert_trouble(&result, "--junit");
     result = run_octreel(NULL, "audit %s --html - --json", session.path);
     assert_trouble(&result, "standard output has room for one report");
@@ -204,6 +204,26 @@ static void reports_take_no_place_but_their_own(void **state)
     char *text = file_read(session.path, NULL);
     assert_string_equal(text, right);
     free(text);
+}
+
+/* A name without the ending of a file is that of a folder, as for octreel diff -o: no browser shows a page without it.
+ */
+static void the_folder_of_a_page_is_made(void **state)
+{
+    static const char *const names[] = {"report", "new/deep/"};
+    const place session = write_session_text(state, right), none = place_in(*state, "none");
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const place folder = place_in(*state, names[i]);
+        command_result result = run_octreel(NULL, "audit %s --html %s", session.path, folder.path);
+        assert_done(&result);
+        command_release(&result);
+        assert_true(file_exists(place_below(folder.path, "audit.html").path));
+    }
+    command_result result = run_octreel(NULL, "audit %s --html %s/report", none.path, none.path);
+    assert_trouble(&result, "there is no such file");
+    assert_false(file_exists(none.path));
+    result = run_octreel(NULL, "audit %s --html report.txt", session.path);
+    assert_trouble(&result, "\"report.txt\" is neither");
 }
 
 /* Each point leads to its frame, from wherever the page lies; a tick without a frame to the recording's page. */
@@ -494,6 +514,7 @@ int main(void)
         IN_FOLDER(limits_that_make_no_sense_are_trouble),
         IN_FOLDER(junit_has_a_case_for_each_kind),
         IN_FOLDER(reports_take_no_place_but_their_own),
+        IN_FOLDER(the_folder_of_a_page_is_made),
         IN_FOLDER(points_of_the_page_lead_to_their_frames),
         IN_FOLDER(a_page_elsewhere_leads_up_and_down_to_the_recording),
         IN_FOLDER(a_tick_without_frame_and_viewer_leads_nowhere),
