@@ -77,7 +77,7 @@ static int accept_them(const arguments *a, char **paths, int count)
     return ok ? EXIT_DONE : trouble("%s", error.text);
 }
 
-#define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING)
+#define SIDE (FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING))
 
 static int run(int argc, char **argv)
 {
@@ -116,6 +116,6 @@ const command command_accept = {
     .environment = "  CI  when it is set, nothing is accepted\n",
     .least = 2,
     .most = INT_MAX,
-    .takes = "a reference and what is new, each a PNG, a folder of PNGs or a recording",
+    .takes = "a reference and what is new",
     .inputs = {FILE_KIND(MISSING) | FILE_KIND(DIGESTS) | SIDE, FILE_KIND(DIGESTS) | SIDE},
 };

@@ -6,6 +6,7 @@
 
 #include <inttypes.h>
 #include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define MOST_OPTIONS 64
@@ -57,15 +58,17 @@ static bool find_lettered(const command *c, char letter, command_option *option)
     return false;
 }
 
-/* As getopt_long wants them. */
+/* As getopt_long wants them. A row without room is a mistake of this program's, which the first run must show. */
 static void list_options(const command *c, struct option all[MOST_OPTIONS], char letters[MOST_OPTIONS])
 {
     size_t count = 0, used = 1;
     command_option o;
     letters[0] = ':';
-    for (size_t n = 0; command_option_at(c, n, &o) && count + 1 < MOST_OPTIONS; n++) {
+    for (size_t n = 0; command_option_at(c, n, &o); n++) {
         if (!o.name)
             continue;
+        if (count + 1 == MOST_OPTIONS)
+            abort();
         all[count++] = (struct option){o.name, o.value ? required_argument : no_argument, NULL, OPTION + (int)n};
         if (option_letter(o.name)) {
             letters[used++] = option_letter(o.name);
