@@ -18,7 +18,7 @@ static const struct {
 } rows[] = {
     {OCTREE_QUERY_NEAREST, OCTREE_QUERY_KNEAREST, "X,Y,Z[,K]",
      "print and draw the point nearest to a place, or the K nearest",
-     "a place, and a number of neighbours where it is not one, as in 1,2,3 or 1,2,3,8"},
+     "a place, and how many neighbours, where that is not 1, as in 1,2,3 or 1,2,3,8"},
     {OCTREE_QUERY_RADIUS, OCTREE_QUERY_RADIUS, "X,Y,Z,R", "print and draw the points within R of a place",
      "a centre and a radius as in 1,2,3,10"},
     {OCTREE_QUERY_RANGE, OCTREE_QUERY_RANGE, "X0,Y0,Z0,X1,Y1,Z1",

@@ -249,7 +249,7 @@ static void queries_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--nearest 1,2,3,4,5", "--nearest takes a place"},
         {"--nearest=", "--nearest takes a place"},
         {"--nearest 1,,3", "--nearest takes a place"},
-        {"--nearest 1,2,x", "--nearest takes a place, and a number of neighbours where it is not one, as in 1,2,3 or "
+        {"--nearest 1,2,x", "--nearest takes a place, and how many neighbours, where that is not 1, as in 1,2,3 or "
                             "1,2,3,8, not \"1,2,x\""},
         {"--nearest nan,2,3", "not \"nan,2,3\""},
         {"--nearest 1,inf,3", "not \"1,inf,3\""},
