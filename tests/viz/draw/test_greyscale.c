@@ -92,7 +92,7 @@ static size_t check_collisions(const octree_session *session, int width, int hei
     size_t collisions = 0;
     for (;; play_tick(game)) {
         for (int camera = 0; octree_game_tick(game)->hit_count && camera < CAMERA_COUNT; camera++, collisions++) {
-            /* without words, which tell it anyway, and without the white leaves of what was hit */
+            /* without words, which tell it anyway, and without the leaves of what was hit, in their own colour */
             const view v = view_of(width, height, (view_camera)camera,
                                    VIEW_DEFAULT_LAYERS & ~(1u << LAYER_TEXT | 1u << LAYER_HIT));
             check_collision(r, game, &v);
