@@ -126,8 +126,8 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
     inspect_print_values(i, out);
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
-    fprintf(out, "  nodes     %zu, %zu of them %s; deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,
-            stats->leaves == 1 ? "a leaf" : "leaves", stats->depth, stats->largest_leaf, plural(stats->largest_leaf));
+    fprintf(out, "  nodes     %zu (%zu %s); deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,
+            stats->leaves == 1 ? "leaf" : "leaves", stats->depth, stats->largest_leaf, plural(stats->largest_leaf));
     fprintf(out, "  memory    %zu bytes, %.1f a point\n", stats->memory,
             stats->points ? (double)stats->memory / (double)stats->points : 0.0);
     print_histograms(out, i->tree, stats);

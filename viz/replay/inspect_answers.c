@@ -158,9 +158,9 @@ static void print_answer(const shown_answer *shown, FILE *out)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
     print_more(out, shown->answer->count, LIST_LINES, "--json lists all");
     fprintf(out,
-            "  cost: %" PRIu64 " node%s visited, %" PRIu64 " of them %s; %" PRIu64 " point%s compared; %" PRIu64
+            "  cost: %" PRIu64 " node%s visited (%" PRIu64 " %s); %" PRIu64 " point%s compared; %" PRIu64
             " node%s pruned, %" PRIu64 " taken whole\n",
-            cost->nodes, plural(cost->nodes), cost->leaves, cost->leaves == 1 ? "a leaf" : "leaves", cost->points,
+            cost->nodes, plural(cost->nodes), cost->leaves, cost->leaves == 1 ? "leaf" : "leaves", cost->points,
             plural(cost->points), cost->pruned, plural(cost->pruned), cost->taken);
 }
 

@@ -131,7 +131,7 @@ static void statistics_for_people_have_the_same_numbers(void **state)
     json_t *object = inspect_json(points.path, "--capacity 4");
     command_result result = run_octreel(NULL, "inspect %s --capacity 4", points.path);
     assert_done(&result);
-    snprintf(line, sizeof line, "%zu, %zu of them leaves", whole(object, "nodes"), whole(object, "leaves"));
+    snprintf(line, sizeof line, "%zu (%zu leaves)", whole(object, "nodes"), whole(object, "leaves"));
     assert_non_null(strstr(result.out, line));
     snprintf(line, sizeof line, "%d in the file, %zu in the tree", POINTS, whole(object, "stored"));
     assert_non_null(strstr(result.out, line));
