@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/* test_cli_audit_worst.c - octreel audit: which wrong answers are told first. */
+#include <stdio.h>
+#include <string.h>
+
+#include "commands.h"
+#include "fixture.h"
+#include "recordings.h"
+
+/* Balls around point 1 with 2 beside it: four answers that a recall allows, then one of each kind that nothing does. */
+static void what_nothing_allows_is_told_before_what_is_allowed(void **state)
+{
+#define BALL(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"radius\":1,\"at\":[1,0,0],\"answer\":" answer "}]}\n"
+    static const char many[] = "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
+                               "2],[0,3,0,3]]}\n" BALL("1", "[1]") BALL("2", "[1]") BALL("3", "[1]") BALL("4", "[1]")
+                                   BALL("5", "[2,1]") BALL("6", "[1,2,4711]") BALL("7", "[2,1,2]");
+    const place session = place_in(*state, "session.json");
+    file_write_text(session.path, many);
+    command_result result = run_octreel(NULL, "audit %s --allow recall=0.5", session.path);
+    assert_int_equal(result.status, 1);
+    const char *unknown = strstr(result.out, "\n  tick 6, answers[0]: names an id that no point has (4711)"),
+               *twice = strstr(result.out, "\n  tick 7, answers[0]: names a point twice (2)"),
+               *missing = strstr(result.out, "\n  tick 1, answers[0]: points are missing");
+    assert_true(unknown && twice && missing && unknown < twice && twice < missing);
+    assert_non_null(strstr(result.out, "; first wrong at tick 1, beyond what is allowed; 1 time: names an id that no "
+                                       "point has; 1 time: names a point twice; 4 times: points are missing\n"));
+    command_release(&result);
+#undef BALL
+}
+
+/* Three times two neighbours that are twice as far, which a ratio of 2 allows; then one instead of two, which a recall
+ * alone would. */
+static void what_the_limits_do_not_allow_is_told_before_what_they_do(void **state)
+{
+#define PAIR(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]}\n"
+    static const char many[] =
+        "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
+        "2],[0,4,0,3]]}\n" PAIR("1", "[2,3]") PAIR("2", "[2,3]") PAIR("3", "[2,3]") PAIR("4", "[1]");
+    const place session = place_in(*state, "session.json");
+    file_write_text(session.path, many);
+    command_result result = run_octreel(NULL, "audit %s --allow ratio=2", session.path);
+    assert_int_equal(result.status, 1);
+    assert_non_null(strstr(result.out, "4 wrong, beyond"));
+    const char *few = strstr(result.out, "\n  tick 4, answers[0]: a wrong number"),
+               *far = strstr(result.out, "\n  tick 1, answers[0]: a neighbour too far away");
+    assert_true(few && far && few < far);
+    command_release(&result);
+#undef PAIR
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(what_nothing_allows_is_told_before_what_is_allowed),
+        IN_FOLDER(what_the_limits_do_not_allow_is_told_before_what_they_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
