@@ -4,7 +4,7 @@
 #include "column.h"
 #include "layout.h"
 #include "draw_list.h"
-#include "judgement_words.h"
+#include "judgement.h"
 #include "layer_type.h"
 #include "scenes.h"
 
