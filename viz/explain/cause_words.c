@@ -267,7 +267,8 @@ static void print_deed(FILE *out, const phrase *p, const cause_group *group)
     print_values(out, p, group, first);
 }
 
-/* Facts without an id or a word to name them by are printed one by one. */
+/* Facts without an id or a word to name them by are printed one by one; in brief the first alone, as each is a clause.
+ */
 static bool has_subject(const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -277,7 +278,7 @@ static bool has_subject(const cause_fact *fact)
 static void print_group(FILE *out, const cause_group *group, bool brief)
 {
     const phrase p = cause_phrase(group);
-    const size_t told = count_told(group, brief);
+    const size_t listed = count_told(group, brief), told = brief && listed > 2 ? 1 : listed;
     if (verb_of(&p, group->change)) {
         if (has_subject(&group->listed[0]))
             print_verb(out, &p, group, brief);

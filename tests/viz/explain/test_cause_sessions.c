@@ -392,6 +392,19 @@ static void one_more_query(variant *v)
     v->session.query_count = 3;
 }
 
+/* Each a clause of its own: the first alone is told in the line. */
+static void three_more_queries(variant *v)
+{
+    for (uint64_t i = 0; i < 3; i++)
+        v->queries[i] = (octree_query){.tick = 4 + i, .kind = OCTREE_QUERY_NEAREST, .target = {1, 1, 1}};
+    v->session.query_count = 3;
+}
+
+static void no_query(variant *v)
+{
+    v->session.query_count = 0;
+}
+
 static void one_query_fewer(variant *v)
 {
     v->session.query_count = 1;
@@ -416,6 +429,9 @@ static void queries_are_named_by_kind_and_tick(void **state)
     (void)state;
     assert_says(one_more_query,
                 "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked besides");
+    assert_says_of(no_query, three_more_queries,
+                   "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of that kind; tick 4: the nearest query "
+                   "asked besides");
     assert_says(one_query_fewer,
                 "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range query not asked");
     assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was (-5, -5, -5) to "
