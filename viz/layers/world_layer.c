@@ -9,20 +9,34 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TICK_SPACE 44     /* units of the picture that a number takes at least */
+#define TICK_SPACE 40     /* units of the picture that a number takes at least */
+#define UPRIGHT_SPACE 2   /* lines that it takes of an upright axis */
 #define MOST_TICKS 10     /* of one axis, about */
 #define TICK_LENGTH 0.012 /* of the box's longest side */
 #define END_ON 0.1        /* of its length seen from the side */
 #define DIGITS 9          /* of a number */
 #define FIRST_ID 1000     /* of the first axis's ticks */
+#define OUTLINE 1e-3      /* pixels by which the outline of a box is not exact */
+#define LOWEST 16         /* of a level axis a low edge before a left one, unless it is this much steeper */
+#define ROOM 40           /* before both: room at an end */
 
-/* The axes of one scene: the box that they run along, and the room that labels use. */
+/* The axes of one scene: the box that they run along, and the room that labels use. Bit i of a corner's number is set
+ * at the upper end of axis i. */
 typedef struct axes {
     scene *scene;
     const octree_box *box;
-    double middle[2]; /* the pixel of the box's middle: numbers stand on the other side of their ticks */
+    double corners[8][2]; /* their pixels */
+    bool whole;           /* all of them are before the camera */
     text_space words;
 } axes;
+
+/* The edge of the box that an axis runs along. */
+typedef struct axis_edge {
+    int axis;
+    unsigned corner; /* at its lower end */
+    double
+        out[2]; /* on the picture: a unit at right angles to it, away from the box; 0 where no edge is on its outline */
+} axis_edge;
 
 static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
 
@@ -40,7 +54,8 @@ static double step_of(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
     const double length = side_length(&a->scene->camera, axis);
-    const double count = fmin(floor(length / (TICK_SPACE * a->scene->unit)), MOST_TICKS);
+    const double space = axis == 2 ? UPRIGHT_SPACE * a->scene->text.line : TICK_SPACE * a->scene->unit;
+    const double count = fmin(floor(length / space), MOST_TICKS);
     if (!(extent > 0) || !isfinite(extent) || count < 1)
         return 0;
     const double step = number_round_up(extent / count);
@@ -48,121 +63,170 @@ static double step_of(const axes *a, int axis)
     return step > 0 && largest / step < 1e8 ? step : 0; /* numbers must be told apart by their digits */
 }
 
-/* Beyond the end of a tick, as seen from the middle of the box. */
-static bool place_number(axes *a, const double end[3], scene_label *number)
+static void corner_of(const axes *a, unsigned corner, double at[3])
 {
-    double pixel[2], away[2];
-    const int unit = a->scene->unit;
-    if (!camera_pixel(&a->scene->camera, end, pixel))
+    for (int i = 0; i < 3; i++)
+        at[i] = corner >> i & 1 ? a->box->max[i] : a->box->min[i];
+}
+
+/* ---- Which edges -------------------------------------------------------------------------------------------- */
+
+/* Whether all of the box lies behind a line through a pixel, as seen from outside. */
+static bool is_outline(const axes *a, const double at[2], const double out[2])
+{
+    for (int i = 0; i < 8; i++)
+        if ((a->corners[i][0] - at[0]) * out[0] + (a->corners[i][1] - at[1]) * out[1] > OUTLINE)
+            return false;
+    return true;
+}
+
+/* Whether a number beside an end of an edge is within the space view. */
+static bool has_room(const axes *a, const double at[2], const double out[2])
+{
+    const camera_window w = layout_space(a->scene);
+    const double x = at[0] + out[0] * NUMBER_LETTERS * a->scene->text.width - w.x;
+    const double y = at[1] + out[1] * 2 * a->scene->text.height - w.y;
+    return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
+}
+
+/* On the outline of the box, so that numbers stand beside what is in it: of a level axis the lowest, or else the
+ * leftmost edge that has room for them. That of the lowest corner where the camera is in the box. */
+static axis_edge edge_of(const axes *a, int axis)
+{
+    axis_edge edge = {.axis = axis};
+    double most = -INFINITY;
+    for (unsigned i = 0; a->whole && i < 16; i++) {
+        const unsigned corner = i / 2;
+        const double *from = a->corners[corner], *to = a->corners[corner | 1u << axis];
+        const double x = to[0] - from[0], y = to[1] - from[1], length = (i % 2 ? -1 : 1) * sqrt(x * x + y * y);
+        const double out[2] = {y / length, -x / length};
+        const double worth =
+            (axis == 2 ? 0 : LOWEST) * out[1] - out[0] + ROOM * (has_room(a, from, out) + has_room(a, to, out));
+        if (corner >> axis & 1 || !(worth > most) || !is_outline(a, from, out))
+            continue;
+        most = worth;
+        edge.corner = corner;
+        memcpy(edge.out, out, sizeof out);
+    }
+    return edge;
+}
+
+/* An axis seen end on would have all its numbers at one place, or on what is in the box. */
+static bool is_end_on(const axes *a, const axis_edge *e)
+{
+    const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
+    const double x = to[0] - from[0], y = to[1] - from[1];
+    const bool inside = e->out[0] == 0 && e->out[1] == 0;
+    return a->whole && (inside || sqrt(x * x + y * y) < side_length(&a->scene->camera, e->axis) * END_ON);
+}
+
+/* ---- Ticks and letters -------------------------------------------------------------------------------------- */
+
+/* Beyond the end of a tick, away from the edge; where the camera is in the box, in the direction of the tick. */
+static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_label *number)
+{
+    double from[2], pixel[2], out[2];
+    const scene *s = a->scene;
+    if (!camera_pixel(&s->camera, tick[0], from) || !camera_pixel(&s->camera, tick[1], pixel))
         return false;
+    const double x = pixel[0] - from[0], y = pixel[1] - from[1], length = sqrt(x * x + y * y);
+    out[0] = a->whole ? e->out[0] : x / length;
+    out[1] = a->whole ? e->out[1] : y / length;
+    const double reach =
+        (fabs(out[0]) * (double)strlen(number->text) * s->text.width + fabs(out[1]) * s->text.height) / 2 + s->unit;
     for (int i = 0; i < 2; i++)
-        away[i] = pixel[i] - a->middle[i];
-    const double length = sqrt(away[0] * away[0] + away[1] * away[1]);
-    const double reach[2] = {(double)strlen(number->text) * a->scene->text.width / 2 + unit,
-                             a->scene->text.height / 2.0 + unit};
-    for (int i = 0; i < 2; i++)
-        pixel[i] += length > 0 ? away[i] / length * reach[i] : 0;
-    return text_space_take(&a->words, a->scene, number->text, pixel, number->at);
+        pixel[i] += out[i] * reach;
+    return text_space_take(&a->words, s, number->text, pixel, number->at);
+}
+
+static double longest_side(const scene *s)
+{
+    return s->camera.size / s->camera.scale;
 }
 
 /* A short line away from the box, and the number at its end where there is room. */
-static void add_tick(axes *a, int axis, double at, uint64_t id)
+static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 {
     scene *s = a->scene;
-    double from[3], to[3];
-    const double length = TICK_LENGTH * (s->camera.size / s->camera.scale);
-    for (int i = 0; i < 3; i++) {
-        from[i] = i == axis ? at : a->box->min[i];
-        to[i] = i == axis ? at : a->box->min[i] - length;
-    }
+    double ends[2][3];
+    const double length = TICK_LENGTH * longest_side(s);
+    corner_of(a, e->corner, ends[0]);
+    for (int i = 0; i < 3; i++)
+        ends[1][i] = ends[0][i] + (e->corner >> i & 1 ? length : -length);
+    ends[0][e->axis] = ends[1][e->axis] = at;
     scene_label number = {.id = id, .style = axis_style};
     char text[NUMBER_TEXT];
     snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
-    scene_add_line(s, id, from, to, axis_style);
+    scene_add_line(s, id, ends[0], ends[1], axis_style);
     number.style.stroke = STROKE_CUT;
-    if (place_number(a, to, &number))
+    if (place_number(a, e, ends, &number))
         scene_add_label(s, number);
 }
 
-/* An axis seen end on would have all its numbers at one place. */
-static bool is_end_on(const axes *a, int axis)
+static void add_ticks(axes *a, const axis_edge *e)
 {
-    double end[3], pixels[2][2];
-    memcpy(end, a->box->min, sizeof end);
-    end[axis] = a->box->max[axis];
-    if (!camera_pixel(&a->scene->camera, a->box->min, pixels[0]) || !camera_pixel(&a->scene->camera, end, pixels[1]))
-        return false; /* the camera is beside it */
-    const double x = pixels[1][0] - pixels[0][0], y = pixels[1][1] - pixels[0][1];
-    return sqrt(x * x + y * y) < side_length(&a->scene->camera, axis) * END_ON;
-}
-
-static void add_ticks(axes *a, int axis)
-{
+    const int axis = e->axis;
     const double step = step_of(a, axis);
-    if (step == 0 || is_end_on(a, axis))
+    if (step == 0 || is_end_on(a, e) || !isfinite(longest_side(a->scene)))
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
     for (double i = first; i <= last; i++) /* + 0.0: no minus zero */
-        add_tick(a, axis, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
+        add_tick(a, e, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
 /* Beyond the end of an axis, on the way from its start. False when there is no room. */
-static bool place_letter(axes *a, const double end[3], scene_label *letter)
+static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
 {
     const scene *s = a->scene;
     double from[2], pixel[2], way[2];
-    if (!camera_pixel(&s->camera, a->box->min, from) || !camera_pixel(&s->camera, end, pixel))
+    if (!camera_pixel(&s->camera, ends[0], from) || !camera_pixel(&s->camera, ends[1], pixel))
         return false;
     for (int i = 0; i < 2; i++)
         way[i] = pixel[i] - from[i];
     const double length = sqrt(way[0] * way[0] + way[1] * way[1]);
     for (int i = 0; i < 2; i++)
-        pixel[i] += length > 0 ? way[i] / length * s->text.height * 1.5 : 0;
+        pixel[i] += length > 0 ? way[i] / length * s->text.height * 1.25 : 0;
     return text_space_take(&a->words, s, letter->text, pixel, letter->at);
 }
 
 /* The letter at the end of an axis that is not seen end on. Numbers do not cover it. Where there is no room beyond the
- * end, it stands beside it. */
-static void add_letter(axes *a, int axis)
+ * end, it stands beside it. If the box is not the world's, nothing else draws its edges. */
+static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
-    if (is_end_on(a, axis))
+    scene_label letter = {.id = (uint64_t)e->axis, .style = axis_style, .text = {(char)('x' + e->axis), 0}};
+    double ends[2][3];
+    corner_of(a, e->corner, ends[0]);
+    corner_of(a, e->corner | 1u << e->axis, ends[1]);
+    if (drawn)
+        scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
+    if (is_end_on(a, e))
         return;
-    scene_label letter = {.id = (uint64_t)axis, .style = axis_style, .text = {(char)('x' + axis), 0}};
-    double end[3];
     letter.style.stroke = STROKE_CUT;
-    memcpy(end, a->box->min, sizeof end);
-    end[axis] = a->box->max[axis];
-    letter.in_world = !place_letter(a, end, &letter);
+    letter.in_world = !place_letter(a, ends, &letter);
     if (letter.in_world)
-        memcpy(letter.at, end, sizeof letter.at);
+        memcpy(letter.at, ends[1], sizeof letter.at);
     scene_add_label(a->scene, letter);
 }
 
-/* If the box is not the world's, nothing else draws its edges. */
-static void add_edge(axes *a, int axis)
-{
-    double end[3];
-    memcpy(end, a->box->min, sizeof end);
-    end[axis] = a->box->max[axis];
-    scene_add_line(a->scene, (uint64_t)axis, a->box->min, end, axis_style);
-}
-
-/* Three axes from the lowest corner of the box that the camera frames, each with its letter, and ticks with round
- * numbers where text is shown. The numbers depend on the camera's kind and on the box, not on where an orbit has come
+/* Three axes along edges of the box that the camera frames, each with its letter, and ticks with round numbers where
+ * text is shown. The distance of numbers depends on the camera's kind and on the box, not on where an orbit has come
  * to. */
 static void add_axes(scene *s, const octree_box *world)
 {
     const bool fitted = s->view.fit == FIT_BOX;
-    axes a = {.scene = s, .box = fitted ? &s->view.focus : world};
-    double center[3];
-    scene_box_middle(a.box, center);
-    for (int axis = 0; axis < 3; axis++)
-        add_letter(&a, axis);
-    for (int axis = 0; fitted && axis < 3; axis++)
-        add_edge(&a, axis);
-    if (view_shows(&s->view, LAYER_TEXT) && camera_pixel(&s->camera, center, a.middle))
-        for (int axis = 0; axis < 3; axis++)
-            add_ticks(&a, axis);
+    axes a = {.scene = s, .box = fitted ? &s->view.focus : world, .whole = true};
+    axis_edge edges[3];
+    for (unsigned i = 0; i < 8; i++) {
+        double at[3];
+        corner_of(&a, i, at);
+        a.whole &= camera_pixel(&s->camera, at, a.corners[i]);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        edges[axis] = edge_of(&a, axis);
+        add_axis(&a, &edges[axis], fitted);
+    }
+    for (int axis = 0; view_shows(&s->view, LAYER_TEXT) && axis < 3; axis++)
+        add_ticks(&a, &edges[axis]);
 }
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */

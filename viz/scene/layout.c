@@ -8,8 +8,9 @@
 #define CLOSEUP_PART 0.32    /* of the space, along its longer side */
 #define CLOSEUP_RATIO 1.3333 /* of its sides, the longer one along the strip */
 #define CLOSEUP_MARGIN 8     /* units around it */
-#define CLOSEUP_NUMBERS 20   /* units at the left of the world */
 #define CLOSEUP_LEAST 90     /* units of a side, for letters in it */
+#define CAMERA_MARGIN 0.045  /* of a width, that the camera leaves at both sides of the world */
+#define MOST_NUMBERS 0.1     /* of a width, for numbers at a side */
 
 int panel_width(const view *v)
 {
@@ -55,11 +56,12 @@ camera_window layout_space(const scene *s)
 
 camera_window layout_camera(const scene *s)
 {
-    const camera_window space = whole_space(&s->view);
-    const int numbers = s->has_closeup && space.width >= space.height ? CLOSEUP_NUMBERS * s->unit : 0;
     camera_window w = layout_space(s);
-    w.x += numbers;
-    w.width -= numbers;
+    const bool numbers = view_shows(&s->view, LAYER_WORLD) && view_shows(&s->view, LAYER_TEXT);
+    const double room = numbers ? NUMBER_LETTERS * s->text.width - CAMERA_MARGIN * w.width : 0;
+    const double beside = fmax(fmin(room, w.width * MOST_NUMBERS), 0);
+    w.x += beside;
+    w.width -= 2 * beside;
     return w;
 }
 

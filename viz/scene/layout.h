@@ -16,7 +16,10 @@ int panel_width(const view *v);
 /* Where the world is drawn. */
 camera_window layout_space(const scene *s);
 
-/* The part of it that the camera frames the world in: beside a close-up it leaves room for numbers at the left. */
+/* Letters of a number of an axis beside the world. */
+#define NUMBER_LETTERS 6
+
+/* The part of it that the camera frames the world in: with room for numbers at both sides. */
 camera_window layout_camera(const scene *s);
 
 /* The area of a close-up, in whole pixels, beside the world or, where that is higher than wide, below it; empty in a

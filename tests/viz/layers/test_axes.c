@@ -74,7 +74,9 @@ static void check_numbers(const scene *s, const octree_box *box)
         assert_true(is_round(value, extent) && strcmp(label->text, "-0") != 0);
         for (int other = 0; other < 3; other++)
             if (other != axis)
-                assert_true(tick->ends[0][other] == box->min[other] && tick->ends[1][other] < box->min[other]);
+                assert_true(tick->ends[0][other] == box->min[other]
+                                ? tick->ends[1][other] < box->min[other]
+                                : tick->ends[0][other] == box->max[other] && tick->ends[1][other] > box->max[other]);
     }
 }
 
@@ -106,6 +108,93 @@ static void check_apart(const scene *s)
             assert_false(is_number(&s->labels.items[j]) && overlap(s, a, &s->labels.items[j]));
         if (is_number(a))
             assert_true(a->at[0] >= 0 && a->at[1] >= 0 && a->at[0] < s->view.width && a->at[1] < s->view.height);
+    }
+}
+
+/* The pixels of the corners of a box. */
+static void project(const scene *s, const octree_box *box, double corners[8][2])
+{
+    for (unsigned corner = 0; corner < 8; corner++) {
+        double at[3];
+        for (int i = 0; i < 3; i++)
+            at[i] = corner >> i & 1 ? box->max[i] : box->min[i];
+        assert_true(camera_pixel(&s->camera, at, corners[corner]));
+    }
+}
+
+/* How far a pixel is on the left of the way from another to a third. */
+static double left_of(const double from[2], const double to[2], const double at[2])
+{
+    return ((to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])) /
+           hypot(to[0] - from[0], to[1] - from[1]);
+}
+
+/* Whether a line through two corners has all of them at its left, and the letters of a number at its right. */
+static bool is_apart(const scene *s, const scene_label *number, double corners[8][2])
+{
+    const double width = (double)strlen(number->text) * s->text.width, height = s->text.height;
+    for (int i = 0; i < 64; i++) {
+        const double *from = corners[i / 8], *to = corners[i % 8];
+        bool apart = hypot(to[0] - from[0], to[1] - from[1]) > 1;
+        for (int j = 0; apart && j < 8; j++)
+            apart = left_of(from, to, corners[j]) > -1e-3;
+        for (int j = 0; apart && j < 4; j++)
+            apart = left_of(from, to, (double[]){number->at[0] + j % 2 * width, number->at[1] + j / 2 * height}) < 1e-3;
+        if (apart)
+            return true;
+    }
+    return false;
+}
+
+static void numbers_stand_beside_the_box_and_never_on_what_is_in_it(void **state)
+{
+    (void)state;
+    const octree_box worlds[] = {cube(-1000, 1000), {{512049, 5403029, 290}, {513149, 5404129, 420}}};
+    for (int i = 0; i < 2 * 36; i++) {
+        view v = view_of(1280, 720, i % 2 ? CAMERA_ORBIT : CAMERA_ISO, VIEW_ALL_LAYERS);
+        v.look.given = true;
+        v.look.azimuth = i * 10;
+        v.look.elevation = i % 7 * 9 - 18;
+        double corners[8][2];
+        scene s = scene_of_world(&worlds[i % 3 > 0], &v);
+        project(&s, &worlds[i % 3 > 0], corners);
+        assert_true(count_numbers(&s) >= 4);
+        for (size_t j = 0; j < s.labels.count; j++)
+            assert_true(!is_number(&s.labels.items[j]) || is_apart(&s, &s.labels.items[j], corners));
+        scene_release(&s);
+    }
+}
+
+/* Along a level axis numbers are in the middle of their ticks and on one line; along an upright one they end at one
+ * pixel. They are as far from the ends of their ticks in any camera. */
+static void numbers_of_level_and_upright_axes_stand_in_line(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{640, 360}, {1280, 720}, {720, 1280}};
+    const octree_box world = cube(-200, 200);
+    for (int i = 0; i < 9; i++) {
+        const int *size = sizes[i / 3];
+        const view v =
+            view_of(size[0], size[1], (view_camera[]){CAMERA_FRONT, CAMERA_TOP, CAMERA_SIDE}[i % 3], VIEW_ALL_LAYERS);
+        scene s = scene_of_world(&world, &v);
+        size_t ticks = 0;
+        for (size_t j = 0; j < s.segments.count; j++)
+            ticks += s.segments.items[j].style.layer == LAYER_WORLD;
+        assert_true(count_numbers(&s) + 1 >= ticks); /* two meet in a corner */
+        for (size_t j = 0; j < s.labels.count; j++) {
+            const scene_label *label = &s.labels.items[j];
+            double end[2];
+            if (!is_number(label))
+                continue;
+            const double width = (double)strlen(label->text) * s.text.width, height = s.text.height;
+            assert_true(camera_pixel(&s.camera, tick_of(&s, label->id)->ends[1], end));
+            const bool level = label->at[1] >= end[1];
+            const double aside = level ? label->at[0] + width / 2 - end[0] : label->at[1] + height / 2 - end[1];
+            const double away = level ? label->at[1] - end[1] : end[0] - (label->at[0] + width);
+            assert_true(fabs(aside) <= 1);
+            assert_true(fabs(away - s.unit) <= 1);
+        }
+        scene_release(&s);
     }
 }
 
@@ -150,7 +239,11 @@ static void a_fitted_box_has_the_axes_and_not_the_world(void **state)
     check_apart(&s);
     for (uint64_t axis = 0; axis < 3; axis++) {
         const scene_segment *line = tick_of(&s, axis);
-        assert_true(same_position(line->ends[0], v.focus.min) && line->ends[1][axis] == v.focus.max[axis]);
+        for (uint64_t i = 0; i < 3; i++) {
+            const double from = line->ends[0][i], to = line->ends[1][i];
+            assert_true(from == v.focus.min[i] || (i != axis && from == v.focus.max[i]));
+            assert_true(to == (i == axis ? v.focus.max[i] : from));
+        }
     }
     scene_release(&s);
     octree_destroy(tree);
@@ -196,7 +289,8 @@ static void an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter(void **
     }
 }
 
-/* As far from there as a line and a half is high, on the way from the axis's start. */
+/* As far from there as a line and a quarter is high, on the way from the axis's start; of x and z that is the lowest
+ * corner, of y one on the outline of the box. */
 static void a_letter_stands_beyond_the_end_of_its_axis(void **state)
 {
     (void)state;
@@ -208,11 +302,11 @@ static void a_letter_stands_beyond_the_end_of_its_axis(void **state)
         const scene_label *label = &s.labels.items[i];
         if (label->style.layer != LAYER_WORLD || label->id >= 3)
             continue;
-        double start[2], end[2], corner[3] = {-1000, -1000, -1000};
+        double start[2], end[2], corner[3] = {label->id == 1 ? 1000 : -1000, -1000, -1000};
         assert_true(camera_pixel(&s.camera, corner, start));
         corner[label->id] = 1000;
         assert_true(camera_pixel(&s.camera, corner, end));
-        const double length = hypot(end[0] - start[0], end[1] - start[1]), beyond = 1.5 * s.text.height / length;
+        const double length = hypot(end[0] - start[0], end[1] - start[1]), beyond = 1.25 * s.text.height / length;
         assert_true(fabs(label->at[0] + s.text.width / 2.0 - end[0] - beyond * (end[0] - start[0])) <= 1);
         assert_true(fabs(label->at[1] + s.text.height / 2.0 - end[1] - beyond * (end[1] - start[1])) <= 1);
         letters++;
@@ -271,6 +365,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_are_round_and_stand_at_their_ticks_and_apart),
+        cmocka_unit_test(numbers_stand_beside_the_box_and_never_on_what_is_in_it),
+        cmocka_unit_test(numbers_of_level_and_upright_axes_stand_in_line),
         cmocka_unit_test(a_fitted_box_has_the_axes_and_not_the_world),
         cmocka_unit_test(without_text_or_world_there_are_none),
         cmocka_unit_test(an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter),
