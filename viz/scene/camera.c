@@ -9,7 +9,6 @@
 
 /* The window divided by the world's picture: room for labels. */
 #define MARGIN 1.1
-#define MARGIN_OF_TURN 1.01
 #define THINNEST 1e-3   /* a world that looks thinner, seen end on, is not enlarged to fill the window */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the following camera: focal length in half windows */
@@ -95,30 +94,34 @@ static const struct {
 
 /* Fit a box that turns round its upright axis, in perspective, into the window: at any tick of an orbit it is within
  * the upright cylinder around it. Of each rim that is widest where the line of sight touches it, and reaches farthest
- * up and down where it is nearest and farthest. */
-static double fit_turning(const camera *c, camera_window window, double distance)
+ * up and down where it is nearest and farthest. It reaches farther down than up: *lift is the way that brings it into
+ * the middle, in pixels. */
+static double fit_turning(const camera *c, camera_window window, double *lift)
 {
     const double radius = sqrt(c->half[0] * c->half[0] + c->half[1] * c->half[1]), rise = c->up[2];
     const double fall = -c->forward[2];
-    double across = THINNEST, along = THINNEST; /* half of what is seen, at distance 1 */
+    double across = THINNEST, up = THINNEST, down = THINNEST; /* what is seen, from the middle on, at distance 1 */
     for (int top = -1; top <= 1; top += 2) {
-        const double height = top * c->half[2], depth = distance - height * fall;
+        const double height = top * c->half[2], depth = c->distance - height * fall;
         across = fmax(across, radius / sqrt(depth * depth - radius * radius * rise * rise));
-        for (int near = -1; near <= 1; near += 2)
-            along = fmax(along, fabs(height * rise - near * radius * fall) / (depth - near * radius * rise));
+        for (int near = -1; near <= 1; near += 2) {
+            const double y = (height * rise - near * radius * fall) / (depth - near * radius * rise);
+            up = fmax(up, y);
+            down = fmax(down, -y);
+        }
     }
-    const double x = window.width / across, y = window.height / along;
-    return (x < y ? x : y) / (2 * MARGIN_OF_TURN);
+    const double x = window.width / (2 * MARGIN * across), y = window.height / (MARGIN * (up + down));
+    const double zoom = x < y ? x : y;
+    *lift = (down - up) / 2 * zoom;
+    return zoom;
 }
 
-/* Fit the world into the window: by its outline if orthographic, by all that it turns through under perspective. */
-static double fit(const camera *c, camera_window window, double distance)
+/* Fit the world into the window by its outline, under orthographic projection. */
+static double fit(const camera *c, camera_window window)
 {
     const double across = fmax(half_span(c->right, c->half), THINNEST),
                  along = fmax(half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
-    if (c->perspective)
-        return fit_turning(c, window, distance);
     return x < y ? x : y;
 }
 
@@ -142,24 +145,26 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
     measure(&c, v->fit == FIT_BOX ? &v->focus : world);
-    double target[3] = {0, 0, 0};
     const bool placed = v->center.given || v->camera == CAMERA_FOLLOW;
+    const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
+    aim(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
+        v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);
+    c.distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
+    double target[3] = {0, 0, 0}, lift = 0;
     for (int i = 0; i < 3; i++)
         c.center[i] = v->center.given ? v->center.place[i]
                       : placed        ? player[i]
                                       : (c.origin[i] + c.half[i] * c.size / 2) / c.scale;
     if (placed)
         camera_unit(&c, c.center, target);
-    const double distance = c.distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
-    const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
-    aim(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
-        v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);
     const double smaller = window.width < window.height ? window.width : window.height;
-    c.zoom = v->camera == CAMERA_FOLLOW ? FOCAL * smaller / 2 : fit(&c, window, distance);
+    c.zoom = v->camera == CAMERA_FOLLOW  ? FOCAL * smaller / 2
+             : v->camera == CAMERA_ORBIT ? fit_turning(&c, window, &lift)
+                                         : fit(&c, window);
     c.zoom *= v->zoom.given ? v->zoom.times : 1;
-    stand(&c, target, distance);
+    stand(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
-    c.middle[1] = window.y + window.height / 2;
+    c.middle[1] = window.y + window.height / 2 - lift;
     const double middle = -camera_dot(c.eye, c.forward), span = half_span(c.forward, c.half);
     c.near_depth = middle - span > c.near ? middle - span : c.near;
     c.far_depth = middle + span;
