@@ -6,7 +6,7 @@ sets='whole shared portable'
 sources='lib/src/*/*.[ch]'
 prefix=lib/src
 
-rules="-std=c17 -O1 -w -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/exact -Ilib/src/tree
+rules="-std=c17 -O1 $types -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/exact -Ilib/src/tree
        -Ilib/src/query -Ilib/src/game -I$root/tests/support -I$root/tests/support/oracle"
 
 flags_of()

@@ -69,7 +69,7 @@ is_newer()
 # The objects of everything, by cmake: those of tests are linked here, those of viz made once more for each set.
 build_all()
 {
-    cmake -S . -B build -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS='-O1 -w' \
+    cmake -S . -B build -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="-O1 $types" \
         -DOCTREEL_HARDENING=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DBUILD_TESTING=ON >log || stop 'cmake fails'
     ninja -C build -t targets all | sed -n 's|^\(tests/CMakeFiles/\(test_[a-z_]*\)\.dir/viz/\([a-z]*\)/test_[a-z_]*\.c\.o\): .*|\2 \3 \1|p' |
         grep -v test_recorder_memory | sort -k2,2 -s >test_objects
