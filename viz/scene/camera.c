@@ -164,7 +164,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     c.zoom *= v->zoom.given ? v->zoom.times : 1;
     stand(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
-    c.middle[1] = window.y + window.height / 2 - lift;
+    c.middle[1] = window.y + window.height / 2 - (placed ? 0 : lift);
     const double middle = -camera_dot(c.eye, c.forward), span = half_span(c.forward, c.half);
     c.near_depth = middle - span > c.near ? middle - span : c.near;
     c.far_depth = middle + span;

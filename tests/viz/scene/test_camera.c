@@ -243,6 +243,9 @@ static void a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own(void **
         assert_true(camera_pixel(&closer, other, far));
         for (int i = 0; i < 2; i++)
             assert_true(fabs((far[i] - c.middle[i]) - 3 * (near[i] - c.middle[i])) < 1e-9);
+        v.look.given = false;
+        const camera own = camera_make(&v, window, &world, player, 77);
+        assert_in_the_middle(&own, v.center.place);
     }
 }
 
