@@ -48,7 +48,7 @@ static void add_changes(scene *s, const layer_source *in, view_layer own)
         add_planes(s, in, nodes[i], style);
 }
 
-/* "2 nodes split .. 7/7/0", with the address of the last where there is room for all of it. */
+/* "2 nodes split, last 7/7/0", with the address of the last where there is room for all of it. */
 static void add_change_legend(legend *l, const layer_source *in)
 {
     char last[OCTREE_ADDRESS_TEXT];
@@ -60,7 +60,7 @@ static void add_change_legend(legend *l, const layer_source *in)
     if (count == 0)
         return;
     octree_address_format(nodes[count - 1], last);
-    const char *between = count > 1 ? " .. " : " ";
+    const char *between = count > 1 ? ", last " : " ";
     if (strlen(line->text) + strlen(between) + strlen(last) <= LEGEND_LETTERS)
         strcat(strcat(line->text, between), last);
 }

@@ -34,7 +34,7 @@ const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WO
 {
     switch (made->fault) {
     case OCTREE_FAULT_UNKNOWN:
-        snprintf(text, JUDGEMENT_WORDS, "no point is %" PRIu64, made->fault_id);
+        snprintf(text, JUDGEMENT_WORDS, "no point has id %" PRIu64, made->fault_id);
         break;
     case OCTREE_FAULT_DUPLICATE:
         snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is named twice", made->fault_id);

@@ -9,7 +9,7 @@
 
 #define JUDGEMENT_WORDS 64
 
-/* "2.26 times as far", "1 missed, 2 extra", "no point is 17": what is wrong first. */
+/* "2.26 times as far", "1 missed, 2 extra", "no point has id 17": what is wrong first. */
 const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WORDS]);
 
 /* The first point that the program missed, or else the first that it named wrongly; null where there is none. */

@@ -72,7 +72,7 @@ static void add_visited_legend(legend *l, const layer_source *in)
     const size_t visited = count_met(in, in->tick->touched[OCTREE_TOUCH_VISITED], OCTREE_MET_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
-    const int length = snprintf(rest, sizeof rest, "%zu taken", taken);
+    const int length = snprintf(rest, sizeof rest, "%zu taken whole", taken);
     if (taken && strlen(line->text) + strlen(", ") + (size_t)length > LEGEND_LETTERS)
         legend_add(l, SIGN_NONE, "%s", rest);
     else if (taken)

@@ -52,7 +52,7 @@ static void check_legend(const scene *s, const recount *met)
     const size_t visited = met->touched[OCTREE_TOUCH_VISITED], pruned = met->touched[OCTREE_TOUCH_PRUNED];
     snprintf(text, sizeof text, "%zu node%s visited", visited, visited == 1 ? "" : "s");
     assert_true(!s->tally.marked_visited || panel_says(s, text));
-    snprintf(text, sizeof text, "%zu taken", taken);
+    snprintf(text, sizeof text, "%zu taken whole", taken);
     assert_true(!s->tally.marked_visited || taken == 0 || panel_says(s, text));
     snprintf(text, sizeof text, "%zu node%s pruned", pruned, pruned == 1 ? "" : "s");
     assert_int_equal(panel_says(s, text), s->tally.marked_pruned > 0);

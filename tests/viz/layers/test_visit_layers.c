@@ -104,7 +104,7 @@ static void check_words(const scene *s, const recount *met)
     const size_t visited = met->touched[OCTREE_TOUCH_VISITED], pruned = met->touched[OCTREE_TOUCH_PRUNED];
     snprintf(text, sizeof text, "%zu node%s visited", visited, visited == 1 ? "" : "s");
     assert_true(says(s, text));
-    snprintf(text, sizeof text, "%zu taken", taken);
+    snprintf(text, sizeof text, "%zu taken whole", taken);
     assert_true(taken == 0 || says(s, text));
     snprintf(text, sizeof text, "%zu node%s pruned", pruned, pruned == 1 ? "" : "s");
     assert_true(says(s, text));

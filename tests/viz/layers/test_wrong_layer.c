@@ -146,7 +146,7 @@ static void an_answer_without_a_point_is_ringed_at_its_target(void **state)
     scene s = scene_of(queries, 2, CAMERA_TOP);
     assert_int_equal(markers_at(&s, LAYER_WRONG, UINT64_MAX, queries[0].target), 1);
     assert_int_equal(markers_at(&s, LAYER_WRONG, UINT64_MAX - 1, (double[]){-8.5, -8.5, -8.5}), 1);
-    assert_true(has_words(&s, LAYER_WRONG, "1 is named twice") && has_words(&s, LAYER_WRONG, "no point is 9"));
+    assert_true(has_words(&s, LAYER_WRONG, "1 is named twice") && has_words(&s, LAYER_WRONG, "no point has id 9"));
     scene_release(&s);
 }
 
