@@ -36,28 +36,47 @@ static inline __m128d square_pair(const double a[3], const double b[3], const __
     const __m128d up = _mm_sub_pd(_mm_mul_pd(z, scale), target[2]);
     return _mm_add_pd(_mm_add_pd(_mm_mul_pd(x, x), _mm_mul_pd(y, y)), _mm_mul_pd(up, up));
 }
+
+typedef struct pair_scan {
+    __m128d target[3], scale, reach, least;
+    uint64_t within;
+} pair_scan;
+
+static inline void scan_pair(pair_scan *s, const octree_point *points, unsigned i, double squares[])
+{
+    const __m128d pair = square_pair(points[i].position, points[i + 1].position, s->target, s->scale);
+    s->within |= (uint64_t)_mm_movemask_pd(_mm_cmpngt_pd(pair, s->reach)) << i;
+    s->least = _mm_min_pd(pair, s->least);
+    _mm_storeu_pd(&squares[i], pair);
+}
+
+/* The last pair of an odd number of points has one in common with that before: no branch depends on the number. */
+static metric_scan scan_pairs(const metric *m, const octree_point *points, unsigned count, double reach,
+                              double squares[])
+{
+    pair_scan s = {.scale = _mm_set1_pd(m->scale), .reach = _mm_set1_pd(reach), .least = _mm_set1_pd(INFINITY)};
+    for (int i = 0; i < 3; i++)
+        s.target[i] = _mm_set1_pd(m->scaled[i]);
+    for (unsigned i = 0; i < count - 2; i += 2)
+        scan_pair(&s, points, i, squares);
+    scan_pair(&s, points, count - 2, squares);
+    return (metric_scan){s.within, _mm_cvtsd_f64(_mm_min_sd(_mm_unpackhi_pd(s.least, s.least), s.least))};
+}
 #endif
 
-double metric_points(const metric *m, const octree_point *points, unsigned count, double squares[])
+metric_scan metric_points(const metric *m, const octree_point *points, unsigned count, double reach, double squares[])
 {
-    double least = INFINITY;
-    unsigned i = 0;
 #ifdef OCTREE_SSE2
-    const __m128d target[3] = {_mm_set1_pd(m->scaled[0]), _mm_set1_pd(m->scaled[1]), _mm_set1_pd(m->scaled[2])};
-    const __m128d scale = _mm_set1_pd(m->scale);
-    __m128d least_two = _mm_set1_pd(INFINITY);
-    for (const unsigned paired = m->grain > 0 ? 0 : count & ~1u; i < paired; i += 2) {
-        const __m128d pair = square_pair(points[i].position, points[i + 1].position, target, scale);
-        least_two = _mm_min_pd(pair, least_two);
-        _mm_storeu_pd(&squares[i], pair);
-    }
-    least = _mm_cvtsd_f64(_mm_min_sd(_mm_unpackhi_pd(least_two, least_two), least_two));
+    if (count > 1 && !(m->grain > 0))
+        return scan_pairs(m, points, count, reach, squares);
 #endif
-    for (; i < count; i++) {
+    metric_scan scan = {0, INFINITY};
+    for (unsigned i = 0; i < count; i++) {
         squares[i] = metric_point(m, points[i].position);
-        least = squares[i] < least ? squares[i] : least;
+        scan.within |= (uint64_t) !(squares[i] > reach) << i;
+        scan.least = squares[i] < scan.least ? squares[i] : scan.least;
     }
-    return least;
+    return scan;
 }
 
 int metric_compare(const double target[3], const double a[3], const double b[3])

@@ -39,10 +39,15 @@ static inline double metric_point(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The same for many points, bit for bit; returns the smallest. */
-double metric_points(const metric *m, const octree_point *points, unsigned count, double squares[]);
+/* The same for up to 64 points, bit for bit: the least, and which are not above a reach, a bit each. */
+typedef struct metric_scan {
+    uint64_t within;
+    double least;
+} metric_scan;
 
-/* Which of up to 64 squares are not above a reach: a bit each. Without branches, which would be unpredictable. */
+metric_scan metric_points(const metric *m, const octree_point *points, unsigned count, double reach, double squares[]);
+
+/* Which of them are not above another reach. Without branches, which would be unpredictable. */
 static inline uint64_t metric_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;

@@ -22,6 +22,7 @@ typedef struct frame {
     uint8_t near;         /* the octant that is nearest */
     uint8_t flips[8];     /* octant ^ near of the children, nearest first */
     uint8_t next;         /* of flips */
+    uint8_t left;         /* octants of the children that come next */
 } frame;
 
 typedef struct search {
@@ -87,23 +88,24 @@ static void open_child(search *s, unsigned flip, const node *child)
     f->node = child;
     f->address = parent->address << 3 | octant;
     f->next = 0;
+    f->left = child->octants;
     measure(s, f);
     sort_flips(f);
 }
 
 static void scan_points(search *s, const octree_point *points, unsigned count)
 {
+    neighbor_heap *found = &s->found;
     double squares[SCAN_POINTS];
-    const double least = metric_points(&s->found.metric, points, count, squares);
-    if (least > s->found.point_reach)
-        return;
-    double reach = neighbor_heap_reach(&s->found, least);
-    for (uint64_t left = metric_within(squares, count, reach); left; left &= left - 1) {
+    const metric_scan scan = metric_points(&found->metric, points, count, found->point_reach, squares);
+    const double reach = neighbor_heap_reach(found, scan.least);
+    uint64_t left = scan.within;
+    if (reach < found->point_reach && (left & (left - 1)))
+        left = metric_within(squares, count, reach);
+    for (; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        if (squares[i] > reach)
-            continue;
-        neighbor_heap_add(&s->found, &points[i], squares[i]);
-        reach = s->found.point_reach < reach ? s->found.point_reach : reach;
+        if (!(squares[i] > found->point_reach))
+            neighbor_heap_add(found, &points[i], squares[i]);
     }
 }
 
@@ -115,15 +117,6 @@ static void scan_leaf(search *s, const node *leaf)
         scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
 }
 
-/* The octants of the children that a frame has not visited yet. */
-static unsigned octants_left(const frame *f)
-{
-    unsigned octants = 0;
-    for (unsigned i = f->next; i < 8; i++)
-        octants |= 1u << (f->near ^ f->flips[i]);
-    return octants & f->node->octants;
-}
-
 static double square_of(const frame *f, unsigned flip)
 {
     return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
@@ -133,23 +126,25 @@ static double square_of(const frame *f, unsigned flip)
 static void step(search *s)
 {
     frame *f = &s->frames[s->open - 1];
-    while (f->next < 8) {
+    while (f->left) {
         const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
-        const node *child = child_at(f->node, octant);
-        if (child && square_of(f, flip) > s->found.node_reach) {
-            meter_prune(&s->meter, f->address, octants_left(f));
-            break;
+        if (f->left >> octant & 1) {
+            if (square_of(f, flip) > s->found.node_reach)
+                break;
+            const node *child = &children_of(f->node)[child_index(f->node, octant)];
+            f->left &= ~(1u << octant);
+            f->next++;
+            meter_visit(&s->meter, f->address << 3 | octant);
+            if (child->octants) {
+                open_child(s, flip, child);
+                return;
+            }
+            scan_leaf(s, child);
+        } else {
+            f->next++;
         }
-        f->next++;
-        if (!child)
-            continue;
-        meter_visit(&s->meter, f->address << 3 | octant);
-        if (child->octants) {
-            open_child(s, flip, child);
-            return;
-        }
-        scan_leaf(s, child);
     }
+    meter_prune(&s->meter, f->address, f->left);
     s->open--;
 }
 
@@ -167,6 +162,7 @@ static frame *path_frame(search *s, const node *n, uint64_t code, const uint32_t
     measure(s, f);
     f->near = (uint8_t)morton_octant(code, depth);
     f->next = 1;
+    f->left = n->octants & ~(1u << f->near);
     return f;
 }
 
@@ -174,8 +170,8 @@ static frame *path_frame(search *s, const node *n, uint64_t code, const uint32_t
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
-    if (square_of(f, 1) > reach && square_of(f, 2) > reach && square_of(f, 4) > reach) {
-        meter_prune(&s->meter, f->address, f->node->octants & ~(1u << f->near));
+    if ((square_of(f, 1) > reach) & (square_of(f, 2) > reach) & (square_of(f, 4) > reach)) {
+        meter_prune(&s->meter, f->address, f->left);
         return;
     }
     sort_flips(f);
@@ -292,10 +288,10 @@ static void run_search(search *s)
 static size_t run_query(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
                         octree_neighbor *neighbors)
 {
-    const metric m = metric_make(tree->scale, is_subnormal_world(tree), target);
     search s;
     s.tree = tree;
-    s.found = neighbor_heap_make(&m, how, radius, neighbors, k);
+    s.found.metric = metric_make(tree->scale, is_subnormal_world(tree), target);
+    neighbor_heap_begin(&s.found, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
     s.open = 0;
     run_search(&s);

@@ -2,35 +2,23 @@
 #include "neighbor_heap.h"
 #include "search.h"
 
-#define FEW 32 /* neighbours */
+#if defined(__GNUC__)
+#define SELDOM __attribute__((noinline)) /* so that what is done often saves fewer registers */
+#else
+#define SELDOM
+#endif
 
-/* The reach goes with the worst of k; until there are k, with the radius. Nodes have the slack of exact mode in fast
- * mode too: the bound of epsilon rests on it, and the order in which siblings are taken. */
-static void set_reach(neighbor_heap *h)
+/* Once there are k, the reach goes with the worst. Nodes have the slack of exact mode in fast mode too: the bound of
+ * epsilon rests on it, and the order in which siblings are taken. */
+static void set_reach(neighbor_heap *h, double worst)
 {
-    if (h->count == h->k) {
-        const double worst = h->items[0].distance;
-        h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);
-        h->node_reach = metric_above(worst * h->shrink);
-    } else {
-        h->point_reach = h->node_reach = h->radius >= 0 ? metric_above(h->radius_square) : INFINITY;
-    }
+    h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);
+    h->node_reach = metric_above(worst * h->shrink);
 }
 
-neighbor_heap neighbor_heap_make(const metric *m, const octree_search *how, double radius, octree_neighbor *room,
-                                 size_t k)
+static bool are_few(const neighbor_heap *h)
 {
-    neighbor_heap h = {
-        .metric = *m,
-        .how = *how,
-        .radius = radius,
-        .radius_square = radius * m->scale * (radius * m->scale),
-        .shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1,
-        .items = room,
-        .k = k,
-    };
-    set_reach(&h);
-    return h;
+    return h->k <= FEW_NEIGHBORS;
 }
 
 static bool is_skipped(const neighbor_heap *h, const octree_point *point)
@@ -50,41 +38,154 @@ static bool is_within_radius(const neighbor_heap *h, const octree_point *point, 
     return h->radius < 0 || is_within(&h->metric, h->how.mode, point, square, h->radius, h->radius_square);
 }
 
-static int compare_close(const neighbor_heap *h, const octree_neighbor *p, const octree_neighbor *q)
+static int compare_close(const neighbor_heap *h, const octree_point *p, const octree_point *q, double square)
 {
-    const int order = is_trusted(h->how.mode, p->distance)
-                          ? 0
-                          : metric_compare(h->metric.target, p->point.position, q->point.position);
-    return order ? order : octree_compare_points(&p->point, &q->point);
+    const int order = is_trusted(h->how.mode, square) ? 0 : metric_compare(h->metric.target, p->position, q->position);
+    return order ? order : octree_compare_points(p, q);
 }
 
 /* The order of results: by distance, then by id, then by position. */
-static inline int compare(const neighbor_heap *h, const octree_neighbor *p, const octree_neighbor *q)
+static inline int compare(const neighbor_heap *h, const octree_point *p, double p_square, const octree_point *q,
+                          double q_square)
 {
-    const bool ascend = p->distance < q->distance;
-    const double less = ascend ? p->distance : q->distance, more = ascend ? q->distance : p->distance;
+    const bool ascend = p_square < q_square;
+    const double less = ascend ? p_square : q_square, more = ascend ? q_square : p_square;
     if (h->how.mode == OCTREE_FAST ? less < more : metric_above(less) < more)
         return ascend ? -1 : 1;
-    return compare_close(h, p, q);
+    return compare_close(h, p, q, p_square);
 }
 
-/* Item i of the heap is not nearer than its children: 2i + 1 and 2i + 2 or, of few neighbours, i + 1 alone. Few are
- * thus in descending order: moving some along takes less time than mispredicted branches of a heap, and nothing is left
- * to sort. `two` is a constant at each call, so that the compiler makes both. */
-static bool are_few(const neighbor_heap *h)
+/* ---- Few ---------------------------------------------------------------------------------------------------- */
+
+static unsigned place_of(double key)
 {
-    return h->k <= FEW;
+    uint64_t bits;
+    memcpy(&bits, &key, sizeof bits);
+    return bits & (FEW_NEIGHBORS - 1);
+}
+
+static double key_of(double square, unsigned place)
+{
+    uint64_t bits;
+    memcpy(&bits, &square, sizeof bits);
+    bits = (bits & ~(uint64_t)(FEW_NEIGHBORS - 1)) | place;
+    memcpy(&square, &bits, sizeof square);
+    return square;
+}
+
+/* What has a square or key below this is surely nearer than what has this key: either key is off by 2^-47 of itself at
+ * most, and metric_below() has the rest. */
+static double surely_below(double key)
+{
+    return key * (1 - 0x1p-45) - 0x1p-998;
+}
+
+static SELDOM bool is_nearer(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
+{
+    return compare(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
+}
+
+/* The order of the neighbours with two keys. */
+static int compare_keys(const neighbor_heap *h, double a, double b)
+{
+    const unsigned place = place_of(a);
+    if (a < surely_below(b))
+        return -1;
+    return is_nearer(h, h->few.points[place], h->few.squares[place], place_of(b)) ? -1 : 1;
+}
+
+static void begin_few(neighbor_heap *h)
+{
+    for (int i = 0; i < FEW_FIRST; i++)
+        h->few.keys[i] = -1;
+    for (unsigned i = 0; i < h->k; i++)
+        h->few.keys[FEW_FIRST + i] = key_of(2 * METRIC_FINITE, i); /* beyond those of points */
+}
+
+/* Put a key where it belongs among those before `last`, which goes. Without branches, which would be unpredictable:
+ * each becomes the middle one of itself, the one before and the new one. */
+static inline void insert_key(double *keys, size_t last, double key)
+{
+#ifdef OCTREE_SSE2
+    const __m128d both = _mm_set1_pd(key);
+    __m128d own = _mm_loadl_pd(both, &keys[last - 1]);
+    for (size_t at = last - 1; at >= FEW_FIRST - 1; at -= 2) {
+        const __m128d below = _mm_loadu_pd(&keys[at - 2]), before = _mm_shuffle_pd(below, own, 1);
+        _mm_storeu_pd(&keys[at], _mm_max_pd(before, _mm_min_pd(own, both)));
+        own = below;
+    }
+#else
+    double own = key;
+    for (size_t at = last; at >= FEW_FIRST; at--) {
+        const double before = keys[at - 1], less = own < key ? own : key;
+        keys[at] = before > less ? before : less;
+        own = before;
+    }
+#endif
+}
+
+/* Of neighbours that are too close for doubles, let the last be the farthest. */
+static SELDOM void settle_last(const neighbor_heap *h, double *keys, size_t last)
+{
+    size_t farthest = last;
+    const double close = surely_below(keys[last]);
+    for (size_t i = last - 1; keys[i] >= close; i--)
+        farthest = compare_keys(h, keys[farthest], keys[i]) < 0 ? i : farthest;
+    const double key = keys[farthest];
+    for (; farthest < last; farthest++)
+        keys[farthest] = keys[farthest + 1];
+    keys[last] = key;
+}
+
+static void add_to_few(neighbor_heap *h, const octree_point *point, double square)
+{
+    few_neighbors *f = &h->few;
+    const size_t last = FEW_FIRST - 1 + h->k;
+    const unsigned place = place_of(f->keys[last]);
+    if (h->count < h->k)
+        h->count++;
+    else if (!(square < surely_below(f->keys[last])) && !is_nearer(h, point, square, place))
+        return;
+    f->points[place] = point;
+    f->squares[place] = square;
+    insert_key(f->keys, last, key_of(square < METRIC_FINITE ? square : METRIC_FINITE, place)); /* it may be NaN */
+    if (h->count < h->k)
+        return;
+    if (f->keys[last - 1] >= surely_below(f->keys[last]))
+        settle_last(h, f->keys, last);
+    set_reach(h, f->squares[place_of(f->keys[last])]);
+}
+
+/* Sorted into the caller's array. */
+static void finish_few(const neighbor_heap *h, double *keys)
+{
+    for (size_t i = 0; i < h->count; i++) {
+        const double key = keys[i];
+        size_t at = i;
+        for (; at > 0 && compare_keys(h, keys[at - 1], key) > 0; at--)
+            keys[at] = keys[at - 1];
+        keys[at] = key;
+    }
+    for (size_t i = 0; i < h->count; i++)
+        h->items[i].point = *h->few.points[place_of(keys[i])];
+}
+
+/* ---- Many --------------------------------------------------------------------------------------------------- */
+
+static inline int compare_items(const neighbor_heap *h, const octree_neighbor *p, const octree_neighbor *q)
+{
+    return compare(h, &p->point, p->distance, &q->point, q->distance);
 }
 
 /* Replace the top of the first `count`: what is farther than the new item rises. */
-static inline void sink(const neighbor_heap *h, const octree_neighbor *item, size_t count, bool two)
+static void sink(const neighbor_heap *h, const octree_neighbor *item, size_t count)
 {
     octree_neighbor *items = h->items;
     size_t at = 0;
-    for (size_t child; (child = (at << two) + 1) < count; at = child) {
-        if (two && child + 1 < count && compare(h, &items[child], &items[child + 1]) < 0)
+    for (size_t child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && compare_items(h, &items[child], &items[child + 1]) < 0)
             child++;
-        if (compare(h, item, &items[child]) >= 0)
+        if (compare_items(h, item, &items[child]) >= 0)
             break;
         items[at] = items[child];
     }
@@ -92,51 +193,23 @@ static inline void sink(const neighbor_heap *h, const octree_neighbor *item, siz
 }
 
 /* Put an item after the others: what is nearer sinks below it. */
-static inline void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at, bool two)
+static void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at)
 {
     octree_neighbor *items = h->items;
-    for (size_t parent; at > 0 && compare(h, &items[parent = (at - 1) >> two], item) < 0; at = parent)
+    for (size_t parent; at > 0 && compare_items(h, &items[parent = (at - 1) / 2], item) < 0; at = parent)
         items[at] = items[parent];
     items[at] = *item;
 }
 
-static void append(neighbor_heap *h, const octree_neighbor *item)
+static SELDOM void add_to_many(neighbor_heap *h, const octree_point *point, double square)
 {
-    if (are_few(h))
-        rise(h, item, h->count++, false);
-    else
-        rise(h, item, h->count++, true);
-}
-
-static void replace_farthest(const neighbor_heap *h, const octree_neighbor *item)
-{
-    if (are_few(h))
-        sink(h, item, h->count, false);
-    else
-        sink(h, item, h->count, true);
-}
-
-void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square)
-{
-    if (is_skipped(h, point) || !is_within_radius(h, point, square))
-        return;
     const octree_neighbor found = {*point, square};
     if (h->count < h->k)
-        append(h, &found);
-    else if (compare(h, &found, &h->items[0]) < 0)
-        replace_farthest(h, &found);
-    else
-        return;
-    set_reach(h);
-}
-
-static void reverse(const neighbor_heap *h)
-{
-    for (size_t i = 0; i < h->count / 2; i++) {
-        const octree_neighbor kept = h->items[i];
-        h->items[i] = h->items[h->count - 1 - i];
-        h->items[h->count - 1 - i] = kept;
-    }
+        rise(h, &found, h->count++);
+    else if (compare_items(h, &found, &h->items[0]) < 0)
+        sink(h, &found, h->count);
+    if (h->count == h->k)
+        set_reach(h, h->items[0].distance);
 }
 
 static void sort_heap(const neighbor_heap *h)
@@ -144,14 +217,41 @@ static void sort_heap(const neighbor_heap *h)
     for (size_t left = h->count; left-- > 1;) {
         const octree_neighbor last = h->items[left];
         h->items[left] = h->items[0];
-        sink(h, &last, left, true);
+        sink(h, &last, left);
     }
 }
 
-void neighbor_heap_finish(const neighbor_heap *h)
+/* ---- Both --------------------------------------------------------------------------------------------------- */
+
+void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k)
+{
+    const double scaled = radius * h->metric.scale;
+    h->how = *how;
+    h->radius = radius;
+    h->radius_square = scaled * scaled;
+    h->shrink = how->epsilon > 0 ? (1 + 0x1p-50) / ((1 + how->epsilon) * (1 + how->epsilon)) : 1;
+    h->point_reach = h->node_reach = radius >= 0 ? metric_above(h->radius_square) : INFINITY;
+    h->items = room;
+    h->count = 0;
+    h->k = k;
+    if (are_few(h))
+        begin_few(h);
+}
+
+void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square)
+{
+    if (is_skipped(h, point) || !is_within_radius(h, point, square))
+        return;
+    if (are_few(h))
+        add_to_few(h, point, square);
+    else
+        add_to_many(h, point, square);
+}
+
+void neighbor_heap_finish(neighbor_heap *h)
 {
     if (are_few(h))
-        reverse(h);
+        finish_few(h, h->few.keys + FEW_FIRST);
     else
         sort_heap(h);
     for (size_t i = 0; i < h->count; i++) {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* neighbor_heap.h - the k nearest neighbours found so far, decided by the real numbers. Private.
  *
- * A heap in the caller's array, the farthest on top. Squared distances in doubles decide whenever their proven error
- * allows (metric.h), exact arithmetic decides the rest: so rounding never picks a neighbour.
+ * Few are kept in order; more in a heap in the caller's array, the farthest on top. Squared distances in doubles decide
+ * whenever their proven error allows (metric.h), exact arithmetic decides the rest: so rounding never picks a
+ * neighbour.
  */
 #ifndef OCTREE_NEIGHBOR_HEAP_H
 #define OCTREE_NEIGHBOR_HEAP_H
@@ -10,6 +11,18 @@
 #include "metric.h"
 
 #include <stddef.h>
+
+/* Up to 32 neighbours have places; a key is a neighbour's square but for the lowest bits, which are its place. Keys
+ * ascend, but that the last of k is the farthest's by the real numbers. Unlike those of a heap of items, moves of keys
+ * need no branches, and compare two at once. */
+#define FEW_BITS 5
+#define FEW_NEIGHBORS (1 << FEW_BITS)
+#define FEW_FIRST 3 /* before the first key there are less ones, for pairs to end in */
+typedef struct few_neighbors {
+    double keys[FEW_FIRST + FEW_NEIGHBORS];
+    double squares[FEW_NEIGHBORS]; /* by place */
+    const octree_point *points[FEW_NEIGHBORS];
+} few_neighbors;
 
 typedef struct neighbor_heap {
     metric metric;
@@ -21,10 +34,11 @@ typedef struct neighbor_heap {
     double node_reach;      /* and so is no point of a node whose square is beyond this */
     octree_neighbor *items; /* `distance` holds scaled squares until the end */
     size_t count, k;
+    few_neighbors few; /* in place of items until the end */
 } neighbor_heap;
 
-neighbor_heap neighbor_heap_make(const metric *m, const octree_search *how, double radius, octree_neighbor *room,
-                                 size_t k);
+/* `h` has its metric. */
+void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
 /* Points beyond this square are not among the k nearest, given that some point of the tree has the square `square`. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
@@ -37,6 +51,6 @@ static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
 void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square);
 
 /* Sort by distance, then by id, then by position; squares become distances. */
-void neighbor_heap_finish(const neighbor_heap *h);
+void neighbor_heap_finish(neighbor_heap *h);
 
 #endif

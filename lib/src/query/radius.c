@@ -82,21 +82,14 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
 static unsigned scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
 {
     const ball *b = shape;
-    const double reach = b->reach;
     double squares[SCAN_POINTS];
-    unsigned found = 0, left = 0;
-    if (metric_points(&b->metric, points, count, squares) > reach)
-        return 0;
-    for (unsigned i = 0; i < count; i++) {
+    unsigned found = 0;
+    for (uint64_t left = metric_points(&b->metric, points, count, b->reach, squares).within; left; left &= left - 1) {
+        const unsigned i = bits_lowest(left);
         hits[found] = (uint8_t)i;
-        found += !(squares[i] > reach);
+        found += is_within(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square);
     }
-    for (unsigned i = 0; i < found; i++) {
-        const unsigned hit = hits[i];
-        hits[left] = (uint8_t)hit;
-        left += is_within(&b->metric, b->mode, &points[hit], squares[hit], b->radius, b->square);
-    }
-    return left;
+    return found;
 }
 
 /* The world's own cell, which nothing has cut yet. */
