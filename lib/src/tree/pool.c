@@ -176,34 +176,45 @@ static struct slab *slab_of(const pool *p, struct slab **sorted, const void *blo
     return sorted[low];
 }
 
+/* Mark at most POOL_MAX_UNITS. */
+static void mark_units(uint64_t *bits, size_t first, unsigned units)
+{
+    const uint64_t mask = UINT64_MAX >> (POOL_MAX_UNITS - units);
+    const unsigned shift = first % 64;
+    bits[first / 64] |= mask << shift;
+    if (shift + units > 64)
+        bits[first / 64 + 1] |= mask >> (64 - shift);
+}
+
 static void mark_free(pool *p, struct slab **sorted)
 {
     struct slab *slab = p->slabs;
-    for (unsigned units = 1; units <= POOL_MAX_UNITS; units++) {
+    for (unsigned units = 1; units <= POOL_MAX_UNITS; units++)
         while (p->free_blocks[units - 1]) {
             const unsigned char *block = pop(p, units);
             slab = slab_of(p, sorted, block, slab);
-            const size_t start = (size_t)(block - slab->first) / p->unit;
-            for (size_t unit = start; unit < start + units; unit++)
-                bits_of(slab)[unit / 64] |= UINT64_C(1) << unit % 64;
+            mark_units(bits_of(slab), (size_t)(block - slab->first) / p->unit, units);
         }
-    }
 }
 
-static bool is_free(struct slab *slab, size_t unit)
+/* The marks of the 64 units from one on; beyond the last there are none. */
+static uint64_t marks_from(struct slab *slab, size_t unit)
 {
-    return unit < slab->units && bits_of(slab)[unit / 64] >> unit % 64 & 1;
+    const uint64_t *bits = bits_of(slab) + unit / 64;
+    const unsigned shift = unit % 64;
+    const bool more = shift > 0 && unit / 64 + 1 < words_for(slab->units);
+    return bits[0] >> shift | (more ? bits[1] << (64 - shift) : 0);
 }
 
 /* Put the free runs of a slab into the free lists, in blocks of at most POOL_MAX_UNITS. */
 static void push_runs(pool *p, struct slab *slab)
 {
-    for (size_t unit = 0; unit < slab->units; unit++) {
-        unsigned run = 0;
-        while (run < POOL_MAX_UNITS && is_free(slab, unit + run))
-            run++;
+    for (size_t unit = 0; unit < slab->units;) {
+        const uint64_t marks = marks_from(slab, unit);
+        const unsigned used = marks ? bits_lowest(marks) : 64;
+        const unsigned run = used ? 0 : ~marks ? bits_lowest(~marks) : POOL_MAX_UNITS;
         push(p, slab->first + unit * p->unit, run);
-        unit += run ? run - 1 : 0;
+        unit += used + run;
     }
 }
 
