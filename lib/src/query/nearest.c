@@ -170,7 +170,8 @@ static frame *path_frame(search *s, const node *n, uint64_t code, const uint32_t
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
-    if ((square_of(f, 1) > reach) & (square_of(f, 2) > reach) & (square_of(f, 4) > reach)) {
+    const double x = square_of(f, 4), y = square_of(f, 2), z = square_of(f, 1);
+    if ((x > reach) & (y > reach) & (z > reach)) { /* without branches, which would be unpredictable */
         meter_prune(&s->meter, f->address, f->left);
         return;
     }
