@@ -178,6 +178,7 @@ typedef struct point_run {
     double from_eye[3][RUN];
     double across[RUN], along[RUN], depth[RUN]; /* as of camera_transform() */
     double x[RUN], y[RUN], band[RUN];           /* pixels; and band_position() */
+    double seen[RUN];                           /* not 0: it is in the picture */
 } point_run;
 
 static void turn_run(const point_run *run, const double axis[3], double seen[RUN])
@@ -188,9 +189,32 @@ static void turn_run(const point_run *run, const double axis[3], double seen[RUN
     memcpy(seen, turned, sizeof turned);
 }
 
-static void project_run(const camera *of, point_run *run)
+/* As is_near() and is_at_depth() have it, and within the picture. */
+static void see_run(const scene *s, point_run *run)
 {
-    const camera c = *of; /* a copy, of which nothing that is written is a part */
+    const camera *c = &s->camera;
+    const double width = s->view.width, height = s->view.height;
+    double first = c->perspective ? c->near : -FARTHEST, last = FARTHEST;
+    if (c->clips_depth) {
+        first = c->near_depth > first ? c->near_depth : first;
+        last = c->far_depth;
+    }
+    for (int i = 0; i < RUN; i++) {
+        double seen = run->x[i] >= 0 ? 1 : 0;
+        seen = run->x[i] < width ? seen : 0;
+        seen = run->y[i] >= 0 ? seen : 0;
+        seen = run->y[i] < height ? seen : 0;
+        seen = fabs(run->across[i]) < FARTHEST ? seen : 0;
+        seen = fabs(run->along[i]) < FARTHEST ? seen : 0;
+        seen = fabs(run->depth[i]) < FARTHEST ? seen : 0;
+        seen = run->depth[i] >= first ? seen : 0;
+        run->seen[i] = run->depth[i] <= last ? seen : 0;
+    }
+}
+
+static void project_run(const scene *s, point_run *run)
+{
+    const camera c = s->camera; /* a copy, of which nothing that is written is a part */
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
             run->from_eye[axis][i] = camera_unit_on(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
@@ -204,23 +228,25 @@ static void project_run(const camera *of, point_run *run)
     }
     for (int i = 0; i < RUN; i++)
         run->band[i] = band_position(&c, run->depth[i]);
+    see_run(s, run);
 }
 
 /* Where there are fewer, the first again. */
 static void gather_run(const scene_marker *markers, size_t count, point_run *run)
 {
-    for (size_t i = 0; i < RUN; i++)
-        for (int axis = 0; axis < 3; axis++)
-            run->from_eye[axis][i] = markers[i < count ? i : 0].at[axis];
+    for (size_t i = 0; i < RUN; i++) {
+        const double *at = markers[i < count ? i : 0].at;
+        run->from_eye[0][i] = at[0];
+        run->from_eye[1][i] = at[1];
+        run->from_eye[2][i] = at[2];
+    }
 }
 
 static point_place place_of(const scene *s, const point_run *run, size_t i)
 {
-    const double x = run->x[i], y = run->y[i];
-    if (!(x >= 0 && x < s->view.width && y >= 0 && y < s->view.height) ||
-        !is_near(run->across[i], run->along[i], run->depth[i]) || !is_at_depth(&s->camera, run->depth[i]))
+    if (run->seen[i] == 0)
         return (point_place){.seen = false};
-    return (point_place){.pixel = (uint32_t)y * (uint32_t)s->view.width + (uint32_t)x,
+    return (point_place){.pixel = (uint32_t)run->y[i] * (uint32_t)s->view.width + (uint32_t)run->x[i],
                          .band = (uint8_t)band_of(run->band[i]),
                          .seen = true};
 }
@@ -231,7 +257,7 @@ void project_points(const scene *s, const scene_marker *markers, size_t count, p
         point_run run;
         const size_t size = count - first < RUN ? count - first : RUN;
         gather_run(markers + first, size, &run);
-        project_run(&s->camera, &run);
+        project_run(s, &run);
         for (size_t i = 0; i < size; i++)
             places[first + i] = place_of(s, &run, i);
     }

@@ -166,19 +166,29 @@ static inline void set_group(row_groups *g, size_t group, uint64_t sum)
     g->of_group[group] = digest;
 }
 
-/* Which groups differ from those above cannot be foreseen, so they are listed without a branch; their number. */
+enum { BLOCK = 8 }; /* groups that are looked at together */
+
+static inline bool block_differs(const uint8_t *row, const uint8_t *above)
+{
+    uint64_t differ = 0;
+    for (int i = 0; i < BLOCK; i++)
+        differ |= bytes_load(row + GROUP * i) ^ bytes_load(above + GROUP * i);
+    return differ != 0;
+}
+
+/* Most blocks are equal to those above. Which groups of others differ cannot be foreseen, so they are listed without a
+ * branch; their number. */
 static size_t list_changes(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
 {
     size_t count = 0;
-    size_t i = 0;
-    for (; i + 4 <= groups; i += 4)
-        for (size_t k = i; k < i + 4; k++) {
+    for (size_t i = 0; i < groups; i += BLOCK) {
+        const size_t end = i + BLOCK < groups ? i + BLOCK : groups;
+        if (end == i + BLOCK && !block_differs(row + GROUP * i, above + GROUP * i))
+            continue;
+        for (size_t k = i; k < end; k++) {
             changed[count] = (uint16_t)k;
             count += bytes_load(row + GROUP * k) != bytes_load(above + GROUP * k);
         }
-    for (; i < groups; i++) {
-        changed[count] = (uint16_t)i;
-        count += bytes_load(row + GROUP * i) != bytes_load(above + GROUP * i);
     }
     return count;
 }

@@ -75,17 +75,6 @@ int exact_sign(exact_sum *sum)
     return carry < 0 ? -1 : any; /* no carry is above 0: the last digit that a product uses has 23 bits to spare */
 }
 
-double exact_step_down(double value)
-{
-    uint64_t bits;
-    if (value == 0)
-        return -0x1p-1074;
-    memcpy(&bits, &value, sizeof bits);
-    bits += value > 0 ? UINT64_MAX : 1;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* The rounding error of sum = fl(a + b), exactly (Dekker's FastTwoSum; Knuth's TwoSum can overflow in between). */
 static double sum_error(double a, double b, double sum)
 {

@@ -9,6 +9,8 @@
 
 #include "float_rules.h"
 
+#include <string.h>
+
 #define EXACT_DIGITS 140
 
 /* Digits of 32 bits in 64-bit signed cells, so that carries can wait until the sign is asked for. Only [first, end) is
@@ -32,6 +34,15 @@ double exact_add_down(double a, double b);
 double exact_add_up(double a, double b);
 
 /* The neighbouring double towards minus infinity, of a finite one. */
-double exact_step_down(double value);
+static inline double exact_step_down(double value)
+{
+    uint64_t bits;
+    if (value == 0)
+        return -0x1p-1074;
+    memcpy(&bits, &value, sizeof bits);
+    bits += value > 0 ? UINT64_MAX : 1;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
 
 #endif

@@ -22,8 +22,6 @@ typedef struct walk {
     const octree *tree;
     octree_node_visitor visit;
     void *context;
-    const node *node; /* being visited, and its cell: for the validator */
-    cell cell;
 } walk;
 
 /* A large tree does not fit the caches: what is below each child is loaded before it is visited. */
@@ -39,26 +37,36 @@ static void prefetch_children(const node *n)
     }
 }
 
+/* Where the planes of a cell are. */
+static inline void find_middle(const octree *tree, cell c, double middle[3])
+{
+    for (int i = 0; i < 3; i++)
+        middle[i] = plane_at(&tree->axes[i], c.low[i] + cell_size(c.depth + 1));
+}
+
+static inline octree_box octant_box(const octree_box *box, const double middle[3], unsigned octant)
+{
+    octree_box below = *box;
+    for (int i = 0; i < 3; i++)
+        *(octant & (4u >> i) ? &below.min[i] : &below.max[i]) = middle[i];
+    return below;
+}
+
 /* Visit a node and what is below it. False when the visitor has stopped the walk. */
 static bool walk_below(walk *w, const node *n, octree_address address, cell c, const octree_box *box)
 {
     const octree_node seen = describe(n, address, c.depth, box);
-    w->node = n;
-    w->cell = c;
     const octree_walk_order order = w->visit(&seen, w->context);
     if (order != OCTREE_WALK_ON || !n->octants)
         return order != OCTREE_WALK_STOP;
     prefetch_children(n);
     double middle[3];
-    for (int i = 0; i < 3; i++)
-        middle[i] = plane_at(&w->tree->axes[i], c.low[i] + cell_size(c.depth + 1));
+    find_middle(w->tree, c, middle);
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8; octant++) {
         if (!(n->octants >> octant & 1))
             continue;
-        octree_box below = *box;
-        for (int i = 0; i < 3; i++)
-            *(octant & (4u >> i) ? &below.min[i] : &below.max[i]) = middle[i];
+        const octree_box below = octant_box(box, middle, octant);
         if (!walk_below(w, child++, address << 3 | octant, cell_child(c, octant), &below))
             return false;
     }
@@ -172,27 +180,28 @@ static const char *check_leaf(const octree *tree, const node *n, cell c, const o
 }
 
 typedef struct validation {
-    walk walk;
+    const octree *tree;
     const char *broken; /* the first invariant that does not hold */
     octree_address where;
 } validation;
 
-static octree_walk_order check_node(const octree_node *seen, void *context)
+/* In the order of a walk, but without a visitor: telling it of a node would take as long as checking the node. */
+static void check_below(validation *v, const node *n, octree_address address, cell c, const octree_box *box)
 {
-    validation *v = context;
-    const walk *w = &v->walk;
-    v->broken = seen->leaf ? check_leaf(w->tree, w->node, w->cell, &seen->box) : check_inner(w->tree, w->node, w->cell);
-    v->where = seen->address;
-    return v->broken ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
-}
-
-static validation check_below(const octree *tree, const node *n, octree_address address, cell c)
-{
-    validation v = {.walk = {.tree = tree, .visit = check_node, .context = &v}};
-    const octree_box bounds = cell_bounds(tree->axes, c);
-    walk_below(&v.walk, n, address, c, &bounds);
-    v.walk = (walk){.tree = tree};
-    return v;
+    v->broken = n->octants ? check_inner(v->tree, n, c) : check_leaf(v->tree, n, c, box);
+    v->where = address;
+    if (v->broken || !n->octants)
+        return;
+    prefetch_children(n);
+    double middle[3];
+    find_middle(v->tree, c, middle);
+    const node *child = children_of(n);
+    for (unsigned octant = 0; octant < 8 && !v->broken; octant++) {
+        if (!(n->octants >> octant & 1))
+            continue;
+        const octree_box below = octant_box(box, middle, octant);
+        check_below(v, child++, address << 3 | octant, cell_child(c, octant), &below);
+    }
 }
 
 /* Keep what is first in the order of the walk. */
@@ -239,7 +248,9 @@ static void check_share(size_t number, void *context)
     const size_t end = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number + 1);
     for (size_t i = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number); i < end; i++) {
         const subtree *s = &d->subtrees[i];
-        const validation v = check_below(d->tree, s->node, s->address, s->cell);
+        const octree_box box = cell_bounds(d->tree->axes, s->cell);
+        validation v = {.tree = d->tree};
+        check_below(&v, s->node, s->address, s->cell, &box);
         keep_first(&d->first[number], v.broken, v.where);
     }
 }
