@@ -119,7 +119,8 @@ static bool learn_changes(kept_tree *k, const octree *tree)
     const bool anew = k->mark.log == 0, known = ask(k, tree);
     if (known) {
         k->patience = 0;
-        qsort(k->touched, k->touched_count, sizeof *k->touched, compare_places);
+        if (k->touched_count > 0)
+            qsort(k->touched, k->touched_count, sizeof *k->touched, compare_places);
         return true;
     }
     if (anew)

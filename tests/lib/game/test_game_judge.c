@@ -169,7 +169,8 @@ static void answers_that_cannot_be_judged_are_refused(void **state)
     assert_int_equal(octree_query_check(&q), OCTREE_OK);
 }
 
-/* Ids of the bodies of a game with this query, judged in floats. */
+/* Ids of the bodies of a game with this query, judged in floats. Its lists go with the game, but for the first that was
+ * missed. */
 static octree_judgement judge_floats(const octree_body *bodies, size_t count, octree_query q, const uint64_t *ids,
                                      size_t id_count)
 {
@@ -185,7 +186,11 @@ static octree_judgement judge_floats(const octree_body *bodies, size_t count, oc
                                     .query_count = 1};
     octree_game *game;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
-    const octree_judgement made = octree_game_tick(game)->answers[0].judgement;
+    static octree_point missed;
+    octree_judgement made = octree_game_tick(game)->answers[0].judgement;
+    if (made.missed_count > 0)
+        missed = made.missed[0];
+    made.missed = &missed;
     octree_game_destroy(game);
     return made;
 }
