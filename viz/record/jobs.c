@@ -264,10 +264,17 @@ static bool begin(job_pool *pool, playback *p, octreel_error *error)
     p->game = NULL;
     const bool begun = recording_film(pool->recording, p, error) && recording_begin(pool->recording, p, error);
     picture_close(&p->picture);
-    for (unsigned i = 0; begun && i < pool->count; i++)
-        pipe_write(pool->jobs[i].pipe, &p->session_digest,
-                   sizeof p->session_digest); /* a job that has died is noticed when it is read */
     return begun;
+}
+
+/* A job that has died is noticed when it is read; one that lives would wait for ever. */
+static bool tell_jobs(const job_pool *pool, uint64_t session, octreel_error *error)
+{
+    for (unsigned i = 0; i < pool->count; i++)
+        if (!pipe_write(pool->jobs[i].pipe, &session, sizeof session) && errno != EPIPE && errno != ECONNRESET)
+            return error_set(error, "job %u of %u cannot be told what to film: %s", i + 1, pool->count,
+                             strerror(errno));
+    return true;
 }
 
 bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error)
@@ -276,7 +283,7 @@ bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error
     if (!pool.jobs)
         return error_no_memory(error);
     const bool begun = begin(&pool, p, error);
-    const bool ok = begun && collect(&pool, error);
+    const bool ok = begun && tell_jobs(&pool, p->session_digest, error) && collect(&pool, error);
     end_jobs(&pool);
     return begun ? recording_end(r, ok, error) : false;
 }

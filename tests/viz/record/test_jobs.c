@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* test_jobs.c - a recording by several processes: the bytes of one, whatever becomes of the processes. */
 #define _GNU_SOURCE /* leases of files, where there are any */
+#include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -272,6 +274,37 @@ static void ignored_signals_stay_ignored(void **state)
     assert_int_equal(for_each_line(folder.path, NULL, NULL), 253);
 }
 
+/* What this process sends to its jobs does not go out; see tests/CMakeLists.txt. */
+static pid_t fails_in;
+
+ssize_t __real_send(int socket, const void *bytes, size_t size, int how);
+ssize_t __wrap_send(int socket, const void *bytes, size_t size, int how);
+
+ssize_t __wrap_send(int socket, const void *bytes, size_t size, int how)
+{
+    if (getpid() != fails_in)
+        return __real_send(socket, bytes, size, how);
+    errno = ENOBUFS;
+    return -1;
+}
+
+/* They would wait for it, and this process for them. */
+static void jobs_that_cannot_be_told_what_to_film_are_not_waited_for(void **state)
+{
+    const place folder = place_in(*state, "film");
+    const octree_session session = short_session("wdn");
+    film_options options = small_film(folder.path);
+    film_summary summary;
+    octreel_error error = {""};
+    options.jobs = 2;
+    fails_in = getpid();
+    alarm(20);
+    assert_false(film_session(&session, &options, &summary, &error));
+    alarm(0);
+    fails_in = 0;
+    assert_string_equal(error.text, "job 1 of 2 cannot be told what to film: No buffer space available");
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -283,6 +316,7 @@ int main(void)
         cmocka_unit_test(default_is_a_job_a_core_and_enough_frames_for_each),
         IN_FOLDER(what_every_job_refuses_is_said_once_and_makes_nothing),
         IN_FOLDER(job_that_is_killed_is_named),
+        IN_FOLDER(jobs_that_cannot_be_told_what_to_film_are_not_waited_for),
         IN_FOLDER(film_of_several_jobs_that_is_stopped_says_how_to_go_on),
         IN_FOLDER(stopped_film_of_several_jobs_is_resumed),
         IN_FOLDER(kill_of_the_whole_ends_a_job_within_its_frame),
