@@ -192,6 +192,8 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
             continue;
         if (has_seen(reader, (pcd_key)i))
             return fail_header(reader, "is there twice", word);
+        if (keywords[i].set && !has_seen(reader, KEY_FIELDS))
+            return fail_header(reader, "stands before FIELDS, of which it tells", word);
         reader->seen |= 1U << i;
         if (keywords[i].read)
             return keywords[i].read(reader, rest);
