@@ -105,25 +105,69 @@ typedef struct fill_axis {
     ptrdiff_t step;
 } fill_axis;
 
-/* For each step along one axis, fill `width` pixels across. The lower edge includes centres that lie on it if it is a
- * left or top edge; of a flat strip that falls to the right it is not one. */
+/* A strip step by step along one axis, from the step `begin` before `end`: `width` pixels of a colour across. */
+typedef struct strip_walk {
+    uint8_t *step; /* where the current step has its pixel 0 across */
+    ptrdiff_t next;
+    fill_axis across;
+    int steps, width;
+    bool lower_is_out; /* centres on the lower edge do not belong to the strip */
+    edge_walk lower;
+    uint8_t color;
+} strip_walk;
+
+static int64_t first_across(const strip_walk *w)
+{
+    return w->lower.at + (w->lower_is_out && w->lower.beyond == 0);
+}
+
+static void fill_clipped(strip_walk w)
+{
+    for (; w.steps > 0; w.steps--, w.step += w.next, step_on(&w.lower)) {
+        const int64_t first = first_across(&w);
+        for (int64_t j = first < 0 ? 0 : first; j < first + w.width && j < w.across.size; j++)
+            w.step[j * w.across.step] = w.color;
+    }
+}
+
+static void fill_inside(strip_walk w)
+{
+    for (; w.steps > 0; w.steps--, w.step += w.next, step_on(&w.lower)) {
+        uint8_t *pixel = w.step + (ptrdiff_t)first_across(&w) * w.across.step;
+        for (int j = 0; j < w.width; j++, pixel += w.across.step)
+            *pixel = w.color;
+    }
+}
+
+/* Whether a strip lies between the picture's edges across. */
+static bool is_inside(const int32_t across[4], int size)
+{
+    const int64_t end = (int64_t)size * QUAD_SUBPIXELS;
+    return across[0] >= 0 && across[1] >= 0 && across[2] <= end && across[3] <= end;
+}
+
+/* The lower edge includes centres that lie on it if it is a left or top edge; of a flat strip that falls to the right
+ * it is not one. */
 static void fill_strip(const target *t, const quad *q, bool flat)
 {
     const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
     const int from = along[0] > along[1], to = 1 - from;
     const fill_axis x = {t->width, 1}, y = {t->height, t->width}, long_axis = flat ? x : y, other = flat ? y : x;
     const int begin = first_pixel(along[from], long_axis.size), end = first_pixel(along[to], long_axis.size);
-    const int width = (across[3] - across[0]) / QUAD_SUBPIXELS;
-    const bool lower_is_out = flat && across[to] > across[from];
     if (begin >= end)
         return;
-    edge_walk w = walk_edge(along[from], across[from], along[to], across[to], begin);
-    uint8_t *step = t->bytes + begin * long_axis.step;
-    for (int i = begin; i < end; i++, step += long_axis.step, step_on(&w)) {
-        const int64_t first = w.at + (lower_is_out && w.beyond == 0);
-        for (int64_t j = first < 0 ? 0 : first; j < first + width && j < other.size; j++)
-            step[j * other.step] = q->color;
-    }
+    const strip_walk w = {.step = t->bytes + begin * long_axis.step,
+                          .next = long_axis.step,
+                          .across = other,
+                          .steps = end - begin,
+                          .width = (across[3] - across[0]) / QUAD_SUBPIXELS,
+                          .lower_is_out = flat && across[to] > across[from],
+                          .lower = walk_edge(along[from], across[from], along[to], across[to], begin),
+                          .color = q->color};
+    if (is_inside(across, other.size))
+        fill_inside(w);
+    else
+        fill_clipped(w);
 }
 
 /* ---- Convex quads ------------------------------------------------------------------------------------------- */

@@ -172,11 +172,34 @@ static void strokes(void **state)
     check_quads(4, 5, 500);
 }
 
+/* What leaves a part of a picture is cut off exactly at its edges. (GL cuts before it rounds.) */
+static void a_part_has_the_pixels_of_the_whole(void **state)
+{
+    (void)state;
+    static uint8_t whole[SIDE * SIDE], bytes[SIDE * SIDE];
+    uint64_t random = 1;
+    for (int round = 0; round < 2000; round++) {
+        quad q = makers[random_below(&random, MAKERS)](&random);
+        const int x = (int)random_below(&random, SIDE - 1), y = (int)random_below(&random, SIDE - 1);
+        const renderer_part all = {0, 0, SIDE, SIDE},
+                            part = {x, y, 1 + (int)random_below(&random, (uint64_t)(SIDE - x)),
+                                    1 + (int)random_below(&random, (uint64_t)(SIDE - y))};
+        q.color = 1;
+        memset(whole, 0, sizeof whole);
+        memset(bytes, 0, sizeof bytes);
+        fill_quads(&q, 1, all, whole);
+        fill_quads(&q, 1, part, bytes);
+        for (int row = 0; row < part.height; row++)
+            assert_memory_equal(bytes + row * part.width, whole + (y + row) * SIDE + x, (size_t)part.width);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_four_corners), cmocka_unit_test(small_quads), cmocka_unit_test(slivers),
-        cmocka_unit_test(degenerate_quads), cmocka_unit_test(strokes),
+        cmocka_unit_test(any_four_corners), cmocka_unit_test(small_quads),
+        cmocka_unit_test(slivers),          cmocka_unit_test(degenerate_quads),
+        cmocka_unit_test(strokes),          cmocka_unit_test(a_part_has_the_pixels_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
