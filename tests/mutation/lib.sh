@@ -48,7 +48,8 @@ prepare()
             run_test "$set_" "$name" 300 || stop "$name fails without any mutant, with the library $(flags_of "$set_")"
             echo "$(spent_seconds) $set_ $name"
         done
-    done | sort -s -n >order
+    done >timed
+    sort -s -n timed >order
 }
 
 compile_tests()
@@ -89,7 +90,7 @@ tests_for()
 
 start_test()
 {
-    executor=
-    [ "$1" != shared ] || executor=shuffled
-    LD_LIBRARY_PATH=$PWD/$1 OCTREE_TEST_EXECUTOR=$executor timeout 1000 "programs/$2"
+    unset OCTREE_TEST_EXECUTOR # one that is empty is one
+    [ "$1" != shared ] || export OCTREE_TEST_EXECUTOR=shuffled
+    LD_LIBRARY_PATH=$PWD/$1 timeout 1000 "programs/$2"
 }
