@@ -358,7 +358,7 @@ bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at,
 
 bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    if (!json_is_array(value) || json_array_size(value) != 3)
+    if (json_array_size(value) != 3)
         return json_expected(r, value, at, "three numbers [x, y, z]");
     return json_read_numbers(r, value, at, 0, 3, into);
 }

@@ -307,7 +307,7 @@ static void write_shape_box(json_writer *w, const void *from)
 static bool read_segment(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_shape *shape = into;
-    if (!json_is_array(value) || json_array_size(value) != 2)
+    if (json_array_size(value) != 2)
         return json_expected(r, value, at, "two places [[x, y, z], [x, y, z]]");
     return json_read_vector(r, json_array_get(value, 0), &(json_place){at, NULL, 0}, shape->at) &&
            json_read_vector(r, json_array_get(value, 1), &(json_place){at, NULL, 1}, shape->to);

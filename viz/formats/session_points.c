@@ -328,7 +328,7 @@ static bool read_velocity(json_reader *r, json_t *row, const json_place *at, voi
     const session_loader *s = r->context;
     const receivers *points = into;
     uint64_t id;
-    if (!json_is_array(row) || json_array_size(row) != 4)
+    if (json_array_size(row) != 4)
         return json_expected(r, row, at, "[id, vx, vy, vz]");
     if (!json_read_whole(r, json_array_get(row, 0), &(json_place){at, NULL, 0}, 0, JSON_LARGEST_WHOLE, &id))
         return false;

@@ -197,7 +197,7 @@ static bool parse_point_color(const view_option *option, const char *text, view 
 static bool read_scale(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     double n[SCALE_NUMBERS];
-    if (!json_is_array(value) || json_array_size(value) != SCALE_NUMBERS)
+    if (json_array_size(value) != SCALE_NUMBERS)
         return json_expected(
             r, value, at,
             "eleven numbers: the lowest and the highest place, the ends of ids and of intensities, and a spacing");
@@ -266,7 +266,7 @@ static bool parse_look(const view_option *option, const char *text, view *v, oct
 static bool read_look(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     double look[2];
-    if (!json_is_array(value) || json_array_size(value) != 2)
+    if (json_array_size(value) != 2)
         return json_expected(r, value, at, "an azimuth and an elevation in degrees as in [30, 22]");
     if (!json_read_numbers(r, value, at, 0, 2, look))
         return false;
@@ -341,7 +341,7 @@ static bool read_depths(json_reader *r, json_t *value, const json_place *at, voi
 {
     view_filter *f = into;
     uint64_t depths[2];
-    if (!json_is_array(value) || json_array_size(value) != 2)
+    if (json_array_size(value) != 2)
         return json_expected(r, value, at, "two depths as in [2, 5]");
     for (size_t i = 0; i < 2; i++)
         if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, i ? (double)depths[0] : 0,

@@ -139,6 +139,13 @@ static void shapes_that_are_none_are_refused(void **state)
         {HEADER "\"shapes\":[{\"label\":5,\"at\":[0,0,0]}]}", "2: shapes[0].label: expected a text, found 5"},
         {HEADER "\"shapes\":[{\"label\":\"\\u00e9\",\"at\":[0,0,0]}]}",
          "2: shapes[0].label: a label is of printable ASCII characters, and byte 1 is none"},
+        {HEADER "\"shapes\":[{\"label\":\"a\\tb\",\"at\":[0,0,0]}]}",
+         "2: shapes[0].label: a label is of printable ASCII characters, and byte 2 is none"},
+        {HEADER "\"shapes\":[{\"segment\":[[0,0,0],[1,2]]}]}",
+         "2: shapes[0].segment[1]: expected three numbers [x, y, z], found a list of 2"},
+        {HEADER "\"shapes\":[{\"segment\":[[0,\"0\",0],[1,2,3]]}]}",
+         "2: shapes[0].segment[0][1]: expected a number, found \"0\""},
+        {HEADER "\"shapes\":[{\"segment\":5}]}", "2: shapes[0].segment: expected two places"},
         {HEADER "\"shapes\":[{\"label\":\"12345678901234567890123456789012345678901234567\",\"at\":[0,0,0]}]}",
          "2: shapes[0].label: a label has at most 46 characters, not 47"},
     };
@@ -212,6 +219,8 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"player\":{\"sweep\":1}}", "2: player.sweep: expected true or false, found 1"},
         {HEADER "\"player\":{\"box_size\":\"big\"}}", "2: player.box_size: expected a number that is not negative, "
                                                       "found \"big\""},
+        {HEADER "\"player\":{\"position\":[0,0]}}", "2: player.position: expected three numbers [x, y, z]"},
+        {HEADER "\"player\":{\"body\":3}}", "2: player.body: expected true or false, found 3"},
         {HEADER "\"player\":{\"position\":[0,0,-1001]}}", "2: player.position: the player is outside the world on z"},
         {HEADER "\"player\":{\"id\":9007199254740992}}", "2: player.id: expected a whole number from 0 to "
                                                          "9007199254740991, found 9007199254740992"},
@@ -219,6 +228,7 @@ static void header_with_bad_members_is_refused(void **state)
          "2: player.id: expected a whole number from 0 to 9007199254740991, found -1"},
         {HEADER "\"keys\":7}", "2: keys: expected a string of keys, found 7"},
         {HEADER "\"keys\":\"wasdx\"}", "2: keys: key 5, 'x', is not one of w a s d e f n q ."},
+        {HEADER "\"keys\":\"w\\u0007\"}", "2: keys: key 2, byte 0x07, is not one of w a s d e f n q ."},
         {HEADER "\"ticks\":1000000001}", "2: ticks: expected a whole number from 0 to 1000000000, found 1000000001"},
     };
     (void)state;
@@ -263,6 +273,13 @@ static void bad_points_are_refused(void **state)
         {HEADER "\"points\":{\"file\":7}}", "2: points.file: expected the name of a file, found 7"},
         {HEADER "\"velocities\":3}", "2: velocities: expected a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": "
                                      "...}, found 3"},
+        {HEADER "\"velocities\":[[1,0,0,0],7]}", "2: velocities[0]: no point has the id 1"},
+        {HEADER "\"points\":[[1,2,3]],\"velocities\":[7]}", "2: velocities[0]: expected [id, vx, vy, vz], found 7"},
+        {HEADER "\"points\":[[1,2,3]],\"velocities\":[[-1,0,0,0]]}",
+         "2: velocities[0][0]: expected a whole number from 0 to 9007199254740991, found -1"},
+        {HEADER "\"points\":[[1,2,3]],\"velocities\":[[1,0,0,[]]]}",
+         "2: velocities[0][3]: expected a number, found a list of 0"},
+        {HEADER "\"columns\":[\"class\"],\"points\":[[1,2,3,4,-1]]}", "2: points[0][4]: "},
         {HEADER "\"velocities\":[[1,0,0,0]]}", "2: velocities[0]: no point has the id 1"},
         {HEADER "\"points\":[[1,2,3]],\"velocities\":[[1,0,0,0],\n[1,0,0,0]]}",
          "3: velocities[1]: the point with the id "
