@@ -181,6 +181,53 @@ static void a_depth_that_a_program_tells_is_taken(void **state)
     assert_true(f->digest != digest);
 }
 
+/* One thing that is otherwise of the right nodes. */
+static void change_member(octree_foreign_node nodes[NODES], int member)
+{
+    octree_foreign_node *node = &nodes[FAR_LEFT];
+    switch (member) {
+    case 0:
+        node->id++;
+        break;
+    case 1:
+        node->parent = 60;
+        break;
+    case 2:
+        node->has_parent = false;
+        break;
+    case 3:
+        node->box.min[1]--;
+        break;
+    case 4:
+        node->box.max[2]--;
+        break;
+    case 5:
+        node->kind[1] = 'x';
+        break;
+    case 6:
+        node->has_points = false;
+        break;
+    case 7:
+        node->points = (octree_ids)IDS(2);
+        break;
+    default:
+        node->precision = OCTREE_FLOATS;
+    }
+}
+
+static void whatever_a_program_tells_of_a_node_changes_the_digest(void **state)
+{
+    (void)state;
+    const uint64_t digest = tick_with(right_nodes, NODES, NULL)->foreign.digest;
+    for (int member = 0; member <= 8; member++) {
+        octree_foreign_node nodes[NODES];
+        memcpy(nodes, right_nodes, sizeof nodes);
+        change_member(nodes, member);
+        assert_true(tick_with(nodes, NODES, NULL)->foreign.digest != digest);
+    }
+    assert_true(tick_with(right_nodes, NODES, NULL)->foreign.digest == digest);
+}
+
 static void more_kinds_than_there_is_room_for_are_the_last(void **state)
 {
     (void)state;
@@ -481,6 +528,7 @@ int main(void)
         cmocka_unit_test(nodes_hold_until_others_replace_them),
         cmocka_unit_test(nodes_that_are_no_tree_are_refused),
         cmocka_unit_test(a_depth_that_a_program_tells_is_taken),
+        cmocka_unit_test(whatever_a_program_tells_of_a_node_changes_the_digest),
         cmocka_unit_test(more_kinds_than_there_is_room_for_are_the_last),
         cmocka_unit_test(a_long_chain_of_nodes_is_a_tree),
         cmocka_unit_test(each_fault_of_a_node_is_found),
