@@ -204,7 +204,7 @@ static bool may_be_anything(const char *name)
 {
     return *name == '.' || strcmp(name, "times") == 0 || strcmp(name, "octreel-replaced") == 0 ||
            ends_with(name, ".part") || ends_with(name, ".live") || strstr(name, ".part.") ||
-           strcmp(name, "renderer.json") == 0;
+           strstr(name, ".json.ticks_") || strcmp(name, "renderer.json") == 0;
 }
 
 /* `whole` is null where there is none without trouble. Lines are added to a log, and pages and reports tell what there

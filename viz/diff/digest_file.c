@@ -72,7 +72,7 @@ static bool parse_frame(const char *line, frame_digest *digest, const char **nam
 /* What is between "<<<<<<< ours" and ">>>>>>> theirs" is of two files. */
 static bool is_conflict(const char *line)
 {
-    return strlen(line) >= 7 && line[0] && strchr("<=>|", line[0]) && strspn(line, (char[]){line[0], 0}) == 7 &&
+    return strlen(line) >= 7 && strchr("<=>|", line[0]) && strspn(line, (char[]){line[0], 0}) == 7 &&
            (line[7] == 0 || line[7] == ' ');
 }
 

@@ -17,6 +17,9 @@ static void each_fact_that_was_changed_is_named(void **state)
         {2, "\"key\": \"d\"", "\"key\": \"a\"", "key", "\"a\" in ticks.jsonl, and \"d\" when"},
         {2, "\"player\": [50", "\"player\": [51", "player", "player[0] is 51 in ticks.jsonl, and 50"},
         {2, "[\"moved\"", "[\"moved\", \"full\"", "events", "events[1] is \"full\" in ticks.jsonl"},
+        {2, "[\"moved\"]", "[]", "events", "events[0] is missing in ticks.jsonl, and \"moved\""},
+        {2, "[\"moved\"]", "{\"a\": 1}", "events", "events is {\"a\":1} in ticks.jsonl, and [\"moved\"]"},
+        {2, "\"visits\": {", "\"visits\": [], \"v\": {", "visits", "visits is [] in ticks.jsonl, and {"},
         {1, "\"distance\": ", "\"distance\": 1", "answers", ".distance is 1"},
         {0, "\"nodes\": ", "\"nodes\": 9", "hit_cost", "hit_cost.nodes is 9"},
         {2, "\"visited\": ", "\"visited\": 9", "visits", "visits.visited is 9"},
@@ -66,6 +69,7 @@ static void lines_that_are_no_lines_are_found(void **state)
         {"{\"tick\": 1e400}\n", "no JSON"},
         {"{\"tick\": \"\\u001b[2J\"}\n", "tick is \"\\u001B[2J\" in"},
         {"", "has the line of tick 6 where that of tick 5 belongs"},
+        {"{\"tick\": -7}\n", "tick is -7 in ticks.jsonl, and 5"},
         {"{\"tick\": 7}\n", "has the line of tick 7 where that of tick 5 belongs"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
