@@ -48,6 +48,35 @@ static void what_the_limits_do_not_allow_is_told_before_what_they_do(void **stat
 #undef PAIR
 }
 
+/* Every report says what was allowed, if anything was: of answers and of nodes that are wrong, and of right ones. */
+static void every_report_says_what_is_allowed(void **state)
+{
+#define WRONG "\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"points\":[1,9]}]"
+#define ASKED(answer) "\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]"
+    static const char *const sessions[] = {ASKED("[1,2]"), ASKED("[1]"), ASKED("[2,1,1]"), ASKED("[1,2]") "," WRONG};
+    static const char *const limits[] = {"", "--allow ratio=4", "--allow recall=0.5", "--allow ratio=4,recall=0.5"};
+    static const char *const reports[][2] = {
+        {"", "allowed: "}, {"--json", "\"allowed\": {\"r"}, {"--html -", "Allowed: "}, {"--junit -", "; allowed: "}};
+    const place session = place_in(*state, "session.json");
+    for (int i = 0; i < 4 * 4 * 4; i++) {
+        const char *limit = limits[i / 4 % 4], *const *report = reports[i % 4];
+        const bool right = i / 16 == 0 || (i / 16 == 1 && strstr(limit, "recall"));
+        char text[512];
+        snprintf(text, sizeof text,
+                 "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2]]}\n"
+                 "{\"tick\":1,%s}\n",
+                 sessions[i / 16]);
+        file_write_text(session.path, text);
+        command_result result = run_octreel(NULL, "audit %s %s %s", session.path, limit, report[0]);
+        assert_int_equal(result.status, !right);
+        if ((strstr(result.out, report[1]) != NULL) != (*limit != 0))
+            fail_msg("%s %s %s: %s", text, limit, report[0], result.out);
+        command_release(&result);
+    }
+#undef ASKED
+#undef WRONG
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -55,6 +84,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(what_nothing_allows_is_told_before_what_is_allowed),
         IN_FOLDER(what_the_limits_do_not_allow_is_told_before_what_they_do),
+        IN_FOLDER(every_report_says_what_is_allowed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,6 +63,8 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: there is no \"glx\"");
     REFUSE(any_renderer, true, OCTREEL_BAD_OPTION, "any_renderer");
     REFUSE(width, 0, OCTREEL_BAD_OPTION, "0 x 90");
+    REFUSE(width, 16385, OCTREEL_BAD_OPTION, "16385 x 90");
+    REFUSE(height, -1, OCTREEL_BAD_OPTION, "160 x -1");
     REFUSE(height, 16385, OCTREEL_BAD_OPTION, "160 x 16385");
     REFUSE(aa, 3, OCTREEL_BAD_OPTION, "aa takes 1, 2 or 4");
     REFUSE(lod, NAN, OCTREEL_BAD_OPTION, "lod takes pixels from 0");
@@ -75,6 +77,8 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(player.kind, OCTREE_PLAYER_KEYS, OCTREEL_BAD_OPTION, "player");
     bad = good;
     bad.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .box_size = NAN};
+    assert_not_opened(&bad, OCTREEL_BAD_OPTION, "box_size");
+    bad.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .box_size = INFINITY};
     assert_not_opened(&bad, OCTREEL_BAD_OPTION, "box_size");
     bad.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .id = SESSION_ID_LIMIT};
     assert_not_opened(&bad, OCTREEL_BAD_ID, "9007199254740992");
@@ -167,6 +171,7 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
         {.kind = OCTREE_QUERY_RADIUS, .radius = -1},
         {.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 0}, {0, 0, -1}}},
         {.kind = OCTREE_QUERY_RANGE, .box = {{0, 0, 0}, {0, 0, INFINITY}}},
+        {.kind = OCTREE_QUERY_RANGE, .box = {{0, -INFINITY, 0}, {0, 0, 0}}},
         {.kind = OCTREE_QUERY_RANGE, .skip = OCTREE_SKIP_COINCIDENT},
         {.kind = OCTREE_QUERY_RADIUS, .epsilon = -1},
         {.kind = OCTREE_QUERY_NEAREST, .skip = OCTREE_SKIP_ID, .skip_id = UINT64_C(1) << 53},
@@ -202,10 +207,11 @@ static void refuse_shapes(octreel_recorder *recorder, const octree *tree)
 static void refuse_trees(octreel_recorder *recorder, const octree *tree)
 {
     const octree_def def = octree_definition(tree);
-    octree *others[] = {make_tree(cube(-8, 9), 1, 2, OCTREE_GROW), make_tree(def.world, 2, 2, OCTREE_GROW),
-                        make_tree(def.world, 1, 3, OCTREE_GROW), make_tree(def.world, 1, 2, OCTREE_REFUSE)};
-    static const char *const differences[] = {"world on x is [-8, 9]", "leaf_capacity is 2", "max_depth is 3",
-                                              "full_leaf"};
+    octree *others[] = {make_tree(cube(-8, 9), 1, 2, OCTREE_GROW), make_tree(cube(-9, 8), 1, 2, OCTREE_GROW),
+                        make_tree(def.world, 2, 2, OCTREE_GROW), make_tree(def.world, 1, 3, OCTREE_GROW),
+                        make_tree(def.world, 1, 2, OCTREE_REFUSE)};
+    static const char *const differences[] = {"world on x is [-8, 9]", "world on x is [-9, 8]", "leaf_capacity is 2",
+                                              "max_depth is 3", "full_leaf"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         assert_refused(recorder, others[i], NULL, OCTREEL_OTHER_TREE, differences[i]);
         octree_destroy(others[i]);
@@ -234,7 +240,7 @@ static void refuse_modes(octreel_recorder *recorder, const octree *tree)
 static void what_is_refused_is_a_gap_and_nothing_else_is_lost(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
-    enum { TICKS = 6, REFUSED = 26, ALL = TICKS * (REFUSED + 1) };
+    enum { TICKS = 6, REFUSED = 28, ALL = TICKS * (REFUSED + 1) };
     uint64_t expected[ALL] = {0}, told[ALL];
     moving_tree m;
     moving_tree_make(&m, OCTREE_GROW, 4);
