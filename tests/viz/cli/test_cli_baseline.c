@@ -113,8 +113,15 @@ static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
     assert_trouble(&result, "with --reason TEXT their digests become one in a file");
     result = run_octreel(NULL, "accept %s %s --store %s", s.file.path, s.before.path, s.store.path);
     assert_trouble(&result, "a baseline says why: give --reason TEXT");
-    result = run_octreel(NULL, "accept %s %s --reason x", s.before.path, s.after.path);
-    assert_trouble(&result, "are for a file of digests, and this is none");
+    result = run_octreel(NULL, "accept %s %s --variant", s.file.path, s.before.path);
+    assert_trouble(&result, "a baseline says why: give --reason TEXT");
+    static const char *const words[] = {"--reason x", "--variant", "--store pictures"};
+    for (size_t i = 0; i < 3; i++) {
+        result = run_octreel(NULL, "accept %s %s %s", s.before.path, s.after.path, words[i]);
+        assert_trouble(&result, "are for a file of digests, and this is none");
+    }
+    result = run_octreel(NULL, "accept %s - --from -", s.file.path);
+    assert_trouble(&result, "standard input can be read once, and \"-\" names it twice");
     result = run_octreel(NULL, "accept x.png %s --reason x", s.after.path);
     assert_trouble(&result, "a file of digests has no name of a picture");
     accept_into(&s, &s.before, "--reason x");
@@ -139,6 +146,11 @@ static void a_file_of_version_1_becomes_a_baseline_by_its_first_reason(void **st
     command_result result = run_octreel(NULL, "digest %s -o %s", s.before.path, s.file.path);
     assert_done(&result);
     command_release(&result);
+    static const char *const without_reason[] = {"--store pictures", "--variant"};
+    for (size_t i = 0; i < 2; i++) {
+        result = run_octreel(NULL, "accept %s %s %s", s.file.path, s.after.path, without_reason[i]);
+        assert_trouble(&result, "a baseline says why: give --reason TEXT");
+    }
     accept_into(&s, &s.after, "2.png" BY("larger letters", "2026-11-23"));
     assert_diff(&s, &s.after, "", 0, "same: 3 frames");
     assert_int_equal(count_lines(s.file.path, " 2026-11-23 24x16 runs taken over from version 1 of this file\n"), 1);

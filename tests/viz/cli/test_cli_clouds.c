@@ -64,6 +64,32 @@ static void clouds_and_places_that_are_none_are_refused_in_one_sentence(void **s
     assert_int_equal(temp_folder_count(own), 1);
 }
 
+/* Of many classes the lowest are named, and the others counted. */
+static void classes_are_named_as_long_as_they_are_few(void **state)
+{
+    static const struct {
+        int classes;
+        const char *words;
+    } rows[] = {{1, "  values    class 0\n"},
+                {2, "  values    classes 0, 1\n"},
+                {16, "classes 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15\n"},
+                {19, ", 13, 14, 15 and 3 more\n"}};
+    const place points = place_in(*state, "points.xyz");
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        FILE *out = fopen(points.path, "wb");
+        assert_non_null(out);
+        fputs("x y z class\n", out);
+        for (int n = 0; n < 20; n++)
+            fprintf(out, "%d 1 2 %d\n", n, n % rows[i].classes);
+        assert_int_equal(fclose(out), 0);
+        command_result result = run_octreel(NULL, "inspect %s", points.path);
+        assert_done(&result);
+        if (!strstr(result.out, rows[i].words))
+            fail_msg("%s", result.out);
+        command_release(&result);
+    }
+}
+
 static void progress_is_shown_on_a_terminal_alone(void **state)
 {
     static const command_setting terminal = {.terminal = true};
@@ -94,6 +120,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(bad_clouds_are_refused_with_file_and_reason),
         IN_FOLDER(clouds_and_places_that_are_none_are_refused_in_one_sentence),
+        IN_FOLDER(classes_are_named_as_long_as_they_are_few),
         IN_FOLDER(progress_is_shown_on_a_terminal_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
