@@ -260,9 +260,9 @@ static size_t take_points(removals *r)
     size_t emptied = 0;
     for (size_t i = 0; i < r->count; i++) {
         removal *it = &r->found[i];
-        const octree_point *point = &r->points[it->place], *at = &leaf_points(it->leaf)[it->index];
-        if (it->index >= it->leaf->count || at->id != point->id || !same_position(at->position, point->position))
-            it->index = leaf_find(it->leaf, point->position, point->id); /* another one's removal moved it */
+        const octree_point *point = &r->points[it->place];
+        if (it->index >= it->leaf->count) /* it was the last, and took the place of another that was removed */
+            it->index = leaf_find(it->leaf, point->position, point->id);
         leaf_remove(&r->tree->store, it->leaf, it->index);
         if (it->leaf->count == 0)
             r->found[emptied++] = *it;

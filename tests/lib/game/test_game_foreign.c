@@ -260,6 +260,22 @@ static void a_long_chain_of_nodes_is_a_tree(void **state)
     free(nodes);
 }
 
+/* In whatever order they come. */
+static void two_points_are_found_in_the_nodes_that_list_them(void **state)
+{
+    (void)state;
+    static octree_session session;
+    const octree_foreign_node nodes[] = {{.id = 1, X_BOX(-10, 10)},
+                                         {.id = 2, UNDER(1), X_BOX(-5, 10), POINTS(2)},
+                                         {.id = 3, UNDER(1), X_BOX(-10, -5), POINTS(1)}};
+    const octree_foreign_tree tree = {.nodes = nodes, .node_count = 3};
+    session = session_of(&tree, 1);
+    session.body_count = 2;
+    octree_game_destroy(last_game);
+    last_game = start_game(&session);
+    assert_faultless(octree_game_tick(last_game));
+}
+
 static void each_fault_of_a_node_is_found(void **state)
 {
     (void)state;
@@ -531,6 +547,7 @@ int main(void)
         cmocka_unit_test(whatever_a_program_tells_of_a_node_changes_the_digest),
         cmocka_unit_test(more_kinds_than_there_is_room_for_are_the_last),
         cmocka_unit_test(a_long_chain_of_nodes_is_a_tree),
+        cmocka_unit_test(two_points_are_found_in_the_nodes_that_list_them),
         cmocka_unit_test(each_fault_of_a_node_is_found),
         cmocka_unit_test(repeated_points_are_told_by_node_and_then_by_point),
         cmocka_unit_test(what_moves_out_of_its_leaf_is_found_when_it_does),

@@ -167,6 +167,8 @@ static void answers_that_cannot_be_judged_are_refused(void **state)
     assert_int_equal(octree_query_check(&q), OCTREE_BAD_OPTION);
     q.precision = OCTREE_FLOATS;
     assert_int_equal(octree_query_check(&q), OCTREE_OK);
+    q.box.min[0] = NAN; /* which it has not */
+    assert_int_equal(octree_query_check(&q), OCTREE_OK);
 }
 
 /* Ids of the bodies of a game with this query, judged in floats. Its lists go with the game, but for the first that was

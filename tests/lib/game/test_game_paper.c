@@ -83,6 +83,16 @@ static void the_default_session_plays_as_in_the_paper(void **state)
     assert_int_equal(play_both(&session), OCTREE_EVENT_WRONG - 1);
 }
 
+/* The crowded corner, while the player is there. */
+static void the_default_session_asks_once_a_tick(void **state)
+{
+    (void)state;
+    const octree_session session = octree_session_default();
+    assert_int_equal(session.query_count, 12);
+    for (uint64_t i = 0; i < 12; i++)
+        assert_true(session.queries[i].tick == 212 + i && session.queries[i].kind == OCTREE_QUERY_RANGE);
+}
+
 static void a_hundred_random_sessions_play_as_in_the_paper(void **state)
 {
     (void)state;
@@ -171,6 +181,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_default_session_plays_as_in_the_paper),
+        cmocka_unit_test(the_default_session_asks_once_a_tick),
         cmocka_unit_test(a_hundred_random_sessions_play_as_in_the_paper),
         cmocka_unit_test(at_fault_the_paper_steps_onto_a_point_in_a_full_leaf_and_deletes_it),
         cmocka_unit_test(at_fault_the_paper_does_not_name_a_neighbour_at_the_player),

@@ -410,6 +410,29 @@ static void removing_everything_leaves_the_empty_tree(void **state)
     octree_destroy(empty);
 }
 
+/* What a batch leaves free is taken by the next. */
+static void batches_one_after_the_other_take_no_more_memory(void **state)
+{
+    (void)state;
+    uint64_t random = 1;
+    brute all = {0};
+    brute_scatter(&all, &random, 5000, 16, 5000);
+    octree *tree = make_tree(cube(-16, 16), 4, 21, OCTREE_GROW);
+    size_t most[2] = {0};
+    for (int round = 0; round < 40; round++) {
+        octree_stats stats;
+        assert_int_equal(octree_insert_many(tree, all.points, all.count, NULL, NULL), OCTREE_OK);
+        shuffle(&random, &all);
+        assert_int_equal(octree_remove_many(tree, all.points, all.count - 500, NULL, NULL), OCTREE_OK);
+        assert_int_equal(octree_statistics(tree, &stats), OCTREE_OK);
+        size_t *so_far = &most[round / 20];
+        *so_far = stats.memory > *so_far ? stats.memory : *so_far;
+    }
+    assert_true(most[1] <= most[0] + most[0] / 4);
+    octree_destroy(tree);
+    brute_free(&all);
+}
+
 /* Points that are stored, and as many that are not, removed at once. */
 static void remove_half(octree *tree, uint64_t *random, brute *all)
 {
@@ -489,6 +512,7 @@ int main(void)
         cmocka_unit_test(null_and_endless_arrays_are_refused),
         cmocka_unit_test(the_order_and_the_sizes_of_batches_do_not_show_under_grow),
         cmocka_unit_test(removing_everything_leaves_the_empty_tree),
+        cmocka_unit_test(batches_one_after_the_other_take_no_more_memory),
         cmocka_unit_test(queries_are_right_after_batches),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
