@@ -50,13 +50,13 @@ typedef struct gl {
 #undef GL_MEMBER
 } gl;
 
-/* False, with an error that names the first missing function, when the context lacks one. */
+/* False, with an error that names a missing function, when the context lacks one. */
 static bool gl_load(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
 #define GL_LOOK_UP(result, name, parameters)                                                                           \
     functions->name = (result(GLAPIENTRY *) parameters)c->find(c, "gl" #name);                                         \
-    if (!functions->name && !missing)                                                                                  \
+    if (!functions->name)                                                                                              \
         missing = "gl" #name;
     GL_FUNCTIONS(GL_LOOK_UP)
 #undef GL_LOOK_UP

@@ -12,17 +12,24 @@ static void write_value(json_writer *w, const json_t *value)
     const char *key;
     json_t *member;
     size_t i;
-    if (json_is_number(value)) {
+    switch (json_typeof(value)) {
+    case JSON_INTEGER:
+    case JSON_REAL:
         json_write_number(w, json_number_value(value));
-    } else if (json_is_string(value)) {
+        break;
+    case JSON_STRING:
         json_write_string(w, json_string_value(value));
-    } else if (json_is_boolean(value)) {
-        json_write_bool(w, json_is_true(value));
-    } else if (json_is_array(value)) {
+        break;
+    case JSON_TRUE:
+    case JSON_FALSE:
+        json_write_bool(w, json_typeof(value) == JSON_TRUE);
+        break;
+    case JSON_ARRAY:
         json_write_begin_array(w);
         json_array_foreach(value, i, member) write_value(w, member);
         json_write_end_array(w);
-    } else if (json_is_object(value)) {
+        break;
+    case JSON_OBJECT:
         json_write_begin_object(w);
         json_object_foreach((json_t *)(uintptr_t)value, key, member)
         {
@@ -30,7 +37,8 @@ static void write_value(json_writer *w, const json_t *value)
             write_value(w, member);
         }
         json_write_end_object(w);
-    } else {
+        break;
+    case JSON_NULL:
         json_write_null(w);
     }
 }

@@ -23,7 +23,7 @@ typedef struct entries {
 
 const char *cause_kind_of(json_t *element)
 {
-    const char *key = json_is_object(element) ? json_object_iter_key(json_object_iter(element)) : NULL;
+    const char *key = json_object_iter_key(json_object_iter(element));
     return key ? key : "";
 }
 
