@@ -78,6 +78,10 @@ static void text_that_is_no_cloud_is_refused_with_its_line(void **state)
         {"1,2,\n", "a.xyz:1: has 2 of the three coordinates x y z"},
         {"1 2 3\n4 5 6\r7 8 9\n", "a.xyz:2: '6\\x0d7' is not a number"},
         {"1 2 \xff\n", "a.xyz:1: '\\xff' is not a number"},
+        {"/\n", "a.xyz:1: '/' is not a number"},
+        {"/ 1 2 3\n", "a.xyz:1: '/' is not a number"},
+        {"\"\" y z\n1 2 3\n", "a.xyz:1: '\"\"' is not a number"},
+        {"nan inf x\n1 2 3\n", "a.xyz:1: 'x' is not a number"},
         {"12345678901234567890123456789012345678901234567890a 2 3\n",
          "a.xyz:1: '123456789012345678901234567890123456789...' is not a number"},
     };

@@ -128,6 +128,8 @@ static void ply_headers_that_cannot_be_followed_are_refused(void **state)
 {
     static const refusal rows[] = {
         {"plyx\n", "a.ply:1: is not a PLY file: its first line is not \"ply\""},
+        {"ply 1\n", "a.ply:1: is not a PLY file: its first line is not \"ply\""},
+        {"ply\n\n \n", "a.ply:3: the file ends in its header"},
         {"ply\n", "a.ply:1: the file ends in its header"},
         {"ply\nformat ascii 1.1\n", "a.ply:2: '1.1' is not the PLY version 1.0"},
         {"ply\nformat text 1.0\n",

@@ -74,6 +74,8 @@ static void text_has_the_values_that_its_first_line_names(void **state)
          0, NULL},
         {"# x y z r g b\nx;y;z;class\n1;2;3;4\n", "- - 4", 0, NULL},
         {"x y z red\n1 2 3 255\n", "- - -", 0, NULL},
+        {"x,y,z,r,g,b\n1,2,3, 4 ,5\t, 6\n", "#040506 - -", 255, NULL},
+        {"x y z r g b r\n1 2 3 4 5 6 7\n", "#040506 - -", 255, NULL},
         {"x y z intensity\n1 2 3 1e39\n4 5 6 nan\n7 8 9 1\n", "- - -, - - -, - 1 -", 0, NULL},
         {"x y z r g b\n1 2 3 -1 0 0\n4 5 6 0 0 65536\n7 8 9 1 2 3 # here\n", "- - -, - - -, #010203 - -", 255, NULL},
     };
@@ -170,6 +172,9 @@ static void ply_has_colours_of_every_type(void **state)
              "scalar_Intensity\nproperty int label\n",
              "1 2 3 1 2 3 0.5 -1\n4 5 6 4 5 6 1e300 65535\n"),
          "#010203 0.5 -, #040506 - 65535", 255, NULL},
+        {PLY("property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar red\n",
+             "1 2 3 1 2 3 4\n4 5 6 4 5 6 7\n"),
+         "#010203 - -, #040506 - -", 255, NULL},
         {PLY("property uchar red\nproperty list uchar uchar green\nproperty uchar blue\n",
              "1 2 3 1 1 2 3\n4 5 6 4 0 6\n"),
          "- - -, - - -", 0, NULL},
@@ -213,6 +218,9 @@ static void pcd_has_packed_colours_as_integers_and_floats(void **state)
         {PCD("r g b intensity label", "1 1 1 4 4", "U U U F U", "1 2 3 255 0 1 0.5 2\n4 5 6 9 8 7 -1 70000\n"),
          "#ff0001 0.5 2, #090807 -1 -", 255, NULL},
         {PCD("rgb", "8", "F", "1 2 3 1\n4 5 6 2\n"), "- - -, - - -", 0, NULL},
+        {PCD("rgb rgb", "4 4", "U U", "1 2 3 255 7\n4 5 6 256 7\n"), "#0000ff - -, #000100 - -", 255, NULL},
+        {PCD("r g b", "4 4 4", "F F F", "1 2 3 0 0.2 1\n4 5 6 1 1 1\n"), "#0033ff - -, #ffffff - -", 1, NULL},
+        {PCD("label", "4", "U\nCOUNT 1 1 1 2", "1 2 3 7 8\n4 5 6 7 8\n"), "- - -, - - -", 0, NULL},
     };
     (void)state;
     ASSERT_READS_EACH("a.pcd", rows);
