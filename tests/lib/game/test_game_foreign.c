@@ -184,6 +184,7 @@ static void a_depth_that_a_program_tells_is_taken(void **state)
 /* One thing that is otherwise of the right nodes. */
 static void change_member(octree_foreign_node nodes[NODES], int member)
 {
+    static const uint64_t other_point = 2;
     octree_foreign_node *node = &nodes[FAR_LEFT];
     switch (member) {
     case 0:
@@ -208,7 +209,7 @@ static void change_member(octree_foreign_node nodes[NODES], int member)
         node->has_points = false;
         break;
     case 7:
-        node->points = (octree_ids)IDS(2);
+        node->points = (octree_ids){&other_point, 1};
         break;
     default:
         node->precision = OCTREE_FLOATS;
