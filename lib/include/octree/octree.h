@@ -108,7 +108,8 @@ typedef void octree_task(size_t number, void *context);
 /* Threads of the caller's: `run` calls the task once with each number below `count`, at most 64, on any threads and in
  * any order, and returns when all have returned. Bulk changes, octree_nearest_batch, octree_digest and octree_check of
  * some thousand points and more are divided into tasks; nodes, statuses, answers and digests are the same for any
- * number of threads. Tasks call the allocator, one at a time. Null: the calling thread. The context outlives the tree.
+ * number of threads, and how much memory is taken nearly so: which task takes free blocks first is chance. Tasks call
+ * the allocator, one at a time. Null: the calling thread. The context outlives the tree.
  */
 typedef struct octree_executor {
     void (*run)(octree_task *task, size_t count, void *task_context, void *context);

@@ -90,6 +90,16 @@ static void classes_are_named_as_long_as_they_are_few(void **state)
     }
 }
 
+/* Which task of a build takes free memory first is chance, and with it some of the bytes in all. */
+static void mask_memory(char *report)
+{
+    char *line = strstr(report, "\n  memory ");
+    assert_non_null(line);
+    for (char *c = line + 1; *c != '\n'; c++)
+        if (*c >= '0' && *c <= '9')
+            *c = '0';
+}
+
 static void progress_is_shown_on_a_terminal_alone(void **state)
 {
     static const command_setting terminal = {.terminal = true};
@@ -108,6 +118,8 @@ static void progress_is_shown_on_a_terminal_alone(void **state)
     assert_null(strchr(shown.err, '\n'));
     assert_string_equal(shown.err + strlen(shown.err) - 2, " \r");
     assert_null(strchr(shown.err, '\033'));
+    mask_memory(shown.out);
+    mask_memory(quiet.out);
     assert_string_equal(shown.out, quiet.out);
     command_release(&quiet);
     command_release(&shown);
