@@ -75,7 +75,8 @@ build_all()
         grep -v test_recorder_memory | sort -k2,2 -s >test_objects
     cut -d' ' -f1,2 test_objects >tests_of
     # shellcheck disable=SC2046
-    ninja -C build octreel octreel_embed octreel_viz_support octreel_heap_peak $(cut -d' ' -f3 test_objects) >log ||
+    ninja -C build octreel octreel_embed octreel_heap_peak $(cut -d' ' -f3 test_objects) \
+        $(ninja -C build -t targets all | sed -n 's|^\(tests/lib[a-z_]*\.a\): .*|\1|p') >log ||
         stop 'viz does not compile'
     mkdir -p flags generated
     : >made
