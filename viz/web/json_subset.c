@@ -6,6 +6,7 @@
  * Other than with jansson, integers are always read as real numbers (JSON_DECODE_INT_AS_REAL), lists and objects nest
  * 200 deep at most, and UTF-8 is taken as it is: the page has none that is not valid. */
 #include "json_values.h"
+#include "number.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -236,19 +237,13 @@ static const char *number_end(const parser *p)
 
 static json_t *read_number(parser *p)
 {
-    char copy[64], *longer = NULL;
-    const char *end = number_end(p);
-    const size_t size = (size_t)(end - p->at);
-    if (size == 0)
+    const char *end = number_end(p), *stop;
+    if (end == p->at)
         return unexpected(p, "invalid token"), NULL;
     real *r = (real *)make(p, sizeof *r, JSON_REAL);
-    if (!r || (size >= sizeof copy && !(longer = take(p, size + 1))))
+    if (!r)
         return NULL;
-    char *text = longer ? longer : copy;
-    memcpy(text, p->at, size);
-    text[size] = 0;
-    r->value = strtod(text, NULL);
-    if (isinf(r->value))
+    if (!number_parse(p->at, end, &stop, &r->value))
         return fail(p, p->at, "%.*sreal number overflow", "", 0), NULL;
     p->at = end;
     return &r->json;

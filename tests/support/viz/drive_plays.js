@@ -118,7 +118,7 @@ async function driveAlone()
     const isShown = () => byId("stage").querySelector("canvas.live")?.dataset.tick === String(octreel.tick);
     await until(isShown, "a picture");
     say("begins", `${octreel.tick} ${byId("caption").hidden} ${byId("hint").hidden} ${byId("about").textContent}`);
-    await until(() => player().scout.tick === player().length - 1, "the end of the session");
+    await until(() => player().scout?.tick === player().length - 1, "the end of the session");
     await sayTicks();
     await interaction.press("w");
     interaction.goBack();
@@ -131,7 +131,7 @@ async function drive()
     if (!octreel.recording.hasFrames)
         return driveAlone();
     say("plays by itself", await interaction.start());
-    await until(() => player().scout.tick === player().length - 1, "the end of the session");
+    await until(() => player().scout?.tick === player().length - 1, "the end of the session");
     await sayTicks();
     await player().goTo(219);
     player().engine.draw();

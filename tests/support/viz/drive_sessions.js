@@ -11,7 +11,7 @@ async function sayPlayed({name, session, view, ticks, clicks})
 {
     await play({session, view});
     if (!ticks.length)
-        await until(() => player().scout.tick === player().length - 1, `the end of ${name}`);
+        await until(() => player().scout?.tick === player().length - 1, `the end of ${name}`);
     const wanted = ticks.length ? ticks : [...Array(player().length).keys()];
     for (let i = 0; i < wanted.length; i++) {
         const tick = wanted[i * 101 % wanted.length];

@@ -243,9 +243,10 @@ class States {
     /* `isTaken`: keys have changed the session. */
     keep(engine, isTaken)
     {
-        const bytes = engine.used(), last = this.list.at(-1), blocks = [];
+        const last = this.list.at(-1), bytes = last ? engine.used() : engine.used().slice(), blocks = [];
         for (let at = 0; at < bytes.length; at += BLOCK)
-            blocks.push(this.block(bytes, at, last?.blocks[at / BLOCK]));
+            blocks.push(last ? this.block(bytes, at, last.blocks[at / BLOCK]) : bytes.subarray(at, at + BLOCK));
+        this.bytes += last ? 0 : bytes.length;
         this.list.push({tick: engine.tick, isTaken, size: bytes.length, blocks});
         if (this.bytes <= MOST_STATE_BYTES || this.list.length < 3)
             return;
@@ -258,7 +259,7 @@ class States {
     {
         const size = Math.min(BLOCK, bytes.length - at);
         if (last?.length === size && size === BLOCK) {
-            const now = new BigUint64Array(bytes.buffer, at, BLOCK / 8), then = new BigUint64Array(last.buffer);
+            const now = new BigUint64Array(bytes.buffer, at, BLOCK / 8), then = new BigUint64Array(last.buffer, last.byteOffset, BLOCK / 8);
             let i = 0;
             while (i < now.length && now[i] === then[i])
                 i++;

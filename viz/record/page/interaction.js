@@ -82,7 +82,7 @@ class Interaction {
         if (session.length > LARGE) {
             bar.removeAttribute("value");
             bar.hidden = false;
-            await new Promise(done => setTimeout(done, 50));
+            await new Promise(done => setTimeout(done, 20));
         }
         const player = this.makePlayer(session, view, recording.length);
         if (recording.length === 0)
@@ -109,8 +109,12 @@ class Interaction {
         this.stage.classList.remove("stale");
         this.tell(player.isCut ? `The session has ${grouped(player.engine.length)} ticks, of which this page plays the ` +
                                  `first ${grouped(player.length)}.` : "");
-        this.playAhead();
-        await this.show(this.viewer.tick);
+        const {tick} = this.viewer;
+        if (tick > 0)
+            this.playAhead();
+        await this.show(tick);
+        if (tick === 0)
+            this.playAhead();
     }
 
     makePlayer(session, view, known)

@@ -49,7 +49,7 @@ class Viewer {
         byId("slider").max = byId("tick").max = byId("last").textContent = this.last;
         if (other)
             this.timeline.show(recording);
-        else
+        else if (this.timeline.scale.last !== this.last)
             this.growing ??= setTimeout(() => {
                 this.growing = undefined;
                 this.timeline.show(this.recording);

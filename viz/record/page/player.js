@@ -24,11 +24,8 @@ class Player {
         this.engine.open(session, view);
         this.taken = this.length - 1;
         this.states.keep(this.engine, false);
-        this.scout = null; /* who plays ahead */
-        if (this.engine.used().length <= MOST_AHEAD) {
-            this.scout = new Engine(module);
-            this.scout.restore(this.states.before(0));
-        }
+        this.playsAhead = this.engine.used().length <= MOST_AHEAD;
+        this.scout = null; /* who plays ahead, once the first picture is drawn */
     }
 
     /* The ticks that are played. */
@@ -56,8 +53,10 @@ class Player {
     /* Play ahead in the background, to the end of what is known, and keep states on the way. */
     async playAhead(progress)
     {
-        const run = ++this.run, scout = this.scout;
+        const run = ++this.run;
         let since = 0;
+        await rest();
+        const scout = run === this.run ? this.scout ?? this.sendScout() : null;
         while (scout && run === this.run && scout.tick + 1 < this.length) {
             const start = performance.now();
             let now = start;
@@ -76,6 +75,15 @@ class Player {
         }
         if (run === this.run)
             progress(this.length - 1, this.length - 1);
+    }
+
+    sendScout()
+    {
+        if (this.playsAhead) {
+            this.scout = new Engine(this.module);
+            this.restore(this.scout, this.states.before(0));
+        }
+        return this.scout;
     }
 
     /* Play no further ahead. */

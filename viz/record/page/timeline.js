@@ -53,23 +53,6 @@ function drawEvents(context, scale, height, events, bit)
     }
 }
 
-/* Steps, not slopes: between two ticks there is nothing. A tick without the fact is a gap. */
-function traceCurve(context, scale, y, values)
-{
-    let gap = true;
-    values.forEach((value, i) => {
-        const x = scale.x(i);
-        if (!isNaN(value)) {
-            if (gap)
-                context.moveTo(x, y(value));
-            else
-                context.lineTo(x, y(values[i - 1]));
-            context.lineTo(x, y(value));
-        }
-        gap = isNaN(value);
-    });
-}
-
 function rangeOf(values)
 {
     let low = Infinity, high = -Infinity;
@@ -78,6 +61,28 @@ function rangeOf(values)
         high = value > high ? value : high;
     }
     return [low, high];
+}
+
+/* Steps, not slopes: between two ticks there is nothing. A tick without the fact is a gap. Where many ticks are a pixel
+ * wide, of each pixel's there are the first value, the lowest, the highest and the last. */
+function traceCurve(context, scale, y, values)
+{
+    const room = 1 / (scale.x(1) - scale.x(0)); /* ticks a pixel */
+    let gap = true;
+    for (let i = 0; i < values.length;) {
+        const from = i, x = scale.x(i);
+        do
+            i++;
+        while (i + 1 < from + room && i < values.length && !isNaN(values[from]) && !isNaN(values[i]));
+        const part = values.slice(from, i);
+        if (!gap && !isNaN(part[0]))
+            context.lineTo(x, y(values[from - 1]));
+        else
+            context.moveTo(x, y(part[0]));
+        gap = isNaN(part[0]);
+        for (const value of gap ? [] : [part[0], ...rangeOf(part), part.at(-1)])
+            context.lineTo(x, y(value));
+    }
 }
 
 function drawCurve(context, scale, height, values, [low, high])
@@ -104,7 +109,7 @@ class Timeline {
         this.show(recording);
         this.followPointer(goTo);
         this.measure(); /* once and at each change of size: asking at each tick costs a layout */
-        new ResizeObserver(() => this.draw()).observe(this.root);
+        new ResizeObserver(() => this.scrub.clientWidth !== this.width && this.draw()).observe(this.root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     }
 
@@ -172,7 +177,8 @@ class Timeline {
 
     measure()
     {
-        this.scale = new Scale(this.recording.length, this.scrub.clientWidth);
+        this.width = this.scrub.clientWidth;
+        this.scale = new Scale(this.recording.length, this.width);
     }
 
     draw()
