@@ -16,16 +16,14 @@ static double box_size_of(double step)
     return 0.6 * step;
 }
 
-/* Halves first: no world overflows. Rounding must not take the centre out of a world of a few ulps. */
+/* Halves first: no world overflows. The sum of the halves, rounded as they may be, lies within any world. */
 static void place_player(octree_player *player, const octree_box *world)
 {
     double longest = 0;
     for (int i = 0; i < 3; i++) {
         const double half = world->max[i] / 2 - world->min[i] / 2;
-        double centre = world->min[i] / 2 + world->max[i] / 2;
         longest = half > longest ? half : longest;
-        centre = centre < world->min[i] ? world->min[i] : centre;
-        player->position[i] = centre > world->max[i] ? world->max[i] : centre;
+        player->position[i] = world->min[i] / 2 + world->max[i] / 2;
     }
     player->step = longest / 20;
     player->box_size = box_size_of(player->step);

@@ -33,11 +33,11 @@ static void mark_points(scene *s, const octree_answer *answer, view_layer own, s
         scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
 
-/* Describe the answer that an element belongs to, such as "query (answer 2 of 3)". Null when there is none. */
+/* Describe the answer that an element belongs to, such as "query (answer 2 of 3)". */
 static const octree_answer *say_query(description *d, const char *what, uint64_t place)
 {
-    const octree_answer *answer = place < d->tick->answer_count ? &d->tick->answers[place] : NULL;
-    say(d, "the %s of the %s query", what, answer ? octree_query_name(answer->kind) : "a");
+    const octree_answer *answer = &d->tick->answers[place];
+    say(d, "the %s of the %s query", what, octree_query_name(answer->kind));
     if (d->tick->answer_count > 1)
         say(d, " (answer %" PRIu64 " of %zu)", place + 1, d->tick->answer_count);
     return answer;
@@ -51,8 +51,6 @@ static void say_found(description *d, const octree_answer *answer)
 static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
 {
     const octree_answer *answer = say_query(d, "line", place);
-    if (!answer || rank >= answer->count)
-        return;
     const octree_neighbor *neighbor = &answer->neighbors[rank];
     say(d, " to neighbour %" PRIu64 ": ", rank + 1);
     say_point(d, neighbor->point.id, neighbor->point.position);
@@ -79,8 +77,7 @@ static void describe_range(description *d, const described *element)
     const octree_answer *answer = say_query(d, "box", element->id);
     say(d, ": ");
     say_box(d, &element->box);
-    if (answer)
-        say_found(d, answer);
+    say_found(d, answer);
 }
 
 const layer_type layer_RANGE = {.add_answer = add_range,
@@ -133,8 +130,6 @@ static void write_radius(pen *p, const octree_answer *answer)
 static void describe_radius(description *d, const described *element)
 {
     const octree_answer *answer = say_query(d, "ball", element->id >> 32);
-    if (!answer)
-        return;
     say(d, ": radius ");
     say_number(d, answer->radius);
     say(d, " about ");

@@ -79,15 +79,21 @@ static void commands_name_the_program_as_it_was_called(void **state)
     assert_written(
         hint_write_commands, text,
         "build/bin/octreel record, \"octreel-digests 1\", octreel - a tree; build/bin/octreel diff as octreel join");
+    assert_written(hint_write_commands, " octreel verify\noctreel diff;octreel join (octreel pick",
+                   " build/bin/octreel verify\nbuild/bin/octreel diff;octreel join (octreel pick");
     hint_set_program("./my tree's/octreel");
     assert_written(hint_write_commands, "octreel record", "'./my tree'\\''s/octreel' record");
 }
 
 static void a_word_is_one_word_for_a_shell(void **state)
 {
-    static const char *const rows[][2] = {
-        {"", "''"},       {"a-b/c.png", "a-b/c.png"},         {"-x", "'./-x'"},
-        {"a b", "'a b'"}, {"it's $HOME", "'it'\\''s $HOME'"}, {"a\x1b[1m\n", "'a'$'\\033''[1m'$'\\012'''"}};
+    static const char *const rows[][2] = {{"", "''"},
+                                          {"a-b/c.png", "a-b/c.png"},
+                                          {"-x", "'./-x'"},
+                                          {"a b", "'a b'"},
+                                          {"it's $HOME", "'it'\\''s $HOME'"},
+                                          {"a\x1b[1m\n", "'a'$'\\033''[1m'$'\\012'''"},
+                                          {"a\x7f", "'a'$'\\177'''"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         assert_written(hint_write_word, rows[i][0], rows[i][1]);

@@ -216,16 +216,16 @@ static void points_of_the_page_lead_to_their_frames(void **state)
 static void a_page_elsewhere_leads_up_and_down_to_the_recording(void **state)
 {
     static const char *const pages[][2] = {
-        {"pages/deep/a.html", "./../../x/film/"},
-        {"pages/../pages/.//deep/b.html", "./../../x/film/"},
-        {"x/fil/c.html", "./../film/"},
-        {"d.html", "./x/film/"},
+        {"pages/deep/a.html", "./../../x/film/"}, {"pages/../pages/.//deep/b.html", "./../../x/film/"},
+        {"x/fil/c.html", "./../film/"},           {"d.html", "./x/film/"},
+        {"ab/.c/e.html", "./../../x/film/"},
     };
     const temp_folder *own = *state;
     write_session_text(state, wrong);
-    command_result result = run_script("cd %s && mkdir -p pages/deep x/fil && %s record session.json --size 64x48 -o "
-                                       "x/film",
-                                       own->name, octreel_program());
+    command_result result =
+        run_script("cd %s && mkdir -p pages/deep x/fil ab/.c && %s record session.json --size 64x48 -o "
+                   "x/film",
+                   own->name, octreel_program());
     assert_done(&result);
     command_release(&result);
     for (size_t i = 0; i < sizeof pages / sizeof pages[0]; i++) {
@@ -239,6 +239,12 @@ static void a_page_elsewhere_leads_up_and_down_to_the_recording(void **state)
             fail_msg("%s has no %s", pages[i][0], link);
         free(page);
     }
+    result = run_script("cd %s && %s audit x/film --html \"/..$PWD/f.html\"", own->name, octreel_program());
+    assert_int_equal(result.status, 1);
+    command_release(&result);
+    char *page = file_read(place_in(own, "f.html").path, NULL);
+    assert_non_null(strstr(page, "<a href=\"./x/film/frame_000002.png\">"));
+    free(page);
 }
 
 static void a_tick_without_frame_and_viewer_leads_nowhere(void **state)

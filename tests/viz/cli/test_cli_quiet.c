@@ -64,6 +64,7 @@ static void what_is_asked_for_is_said(void **state)
         {"digest -q %s/film", "octreel-digests"},
         {"inspect -q %s/cloud.txt", "points"},
         {"inspect -q %s/cloud.txt --nearest 1,2,3", "found"},
+        {"inspect -q %s/cloud.txt --size 32x32 -o tree.png --nodes nodes.csv", "points"},
     };
     file_write_text(place_in(*state, "cloud.txt").path, "1 2 3\n4 5 6\n");
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {

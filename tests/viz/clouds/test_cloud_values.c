@@ -73,6 +73,8 @@ static void text_has_the_values_that_its_first_line_names(void **state)
         {"x [m], y [m], z [m], id, \"intensity\" [dB]\n1,2,3,17,-4\n4,5,6,,\n7,8,9,18,\"5\"\n", "- -4 -, - - -, - 5 -",
          0, NULL},
         {"# x y z r g b\nx;y;z;class\n1;2;3;4\n", "- - 4", 0, NULL},
+        {"# x y z class\n# x y z intensity\n1 2 3 4\n", "- - 4", 0, NULL},
+        {"x (m), y (m), z (m), {, intensity (dB)\n1,2,3,4,5\n", "- 5 -", 0, NULL},
         {"x y z red\n1 2 3 255\n", "- - -", 0, NULL},
         {"x,y,z,r,g,b\n1,2,3, 4 ,5\t, 6\n", "#040506 - -", 255, NULL},
         {"x y z r g b r\n1 2 3 4 5 6 7\n", "#040506 - -", 255, NULL},

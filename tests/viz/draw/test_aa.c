@@ -74,6 +74,9 @@ static void images_that_do_not_fit_together_are_left_alone(void **state)
             assert_int_equal(small.pixels[j], 0);
         image_release(&small);
     }
+    assert_true(image_create(&small, 6, 5, 3));
+    assert_false(image_shrink(&small, NULL, 1, &small)); /* no samples by their index */
+    image_release(&small);
     image_release(&from);
 }
 

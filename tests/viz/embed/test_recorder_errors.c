@@ -58,6 +58,12 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(color_points, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
     REFUSE(shade, "mood", OCTREEL_BAD_OPTION, "\"mood\"");
     REFUSE(shade, NULL, OCTREEL_NULL_ARGUMENT, "octreel_recorder_def_default()");
+    REFUSE(layers, NULL, OCTREEL_NULL_ARGUMENT, "a name in the definition is null");
+    REFUSE(color_by, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(color_points, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(show_tree, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(diagram, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(context, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "no tree \"mine\"");
     REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "no diagram \"above\"");
     REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: there is no \"glx\"");

@@ -105,6 +105,12 @@ static void values_that_are_none_are_refused(void **state)
     } rows[] = {
         {"\"points\": [{\"position\": [1,2,3], \"color\": \"red\"}]}",
          "points[0].color: expected a colour \"#rrggbb\", found \"red\""},
+        {"\"points\": [{\"position\": [1,2,3], \"color\": \"#1234567\"}]}",
+         "points[0].color: expected a colour \"#rrggbb\", found \"#1234567\""},
+        {"\"points\": [{\"position\": [1,2,3], \"color\": \"1#23456\"}]}",
+         "points[0].color: expected a colour \"#rrggbb\", found \"1#23456\""},
+        {"\"points\": [{\"position\": [1,2,3], \"color\": \"#12g456\"}]}",
+         "points[0].color: expected a colour \"#rrggbb\", found \"#12g456\""},
         {"\"points\": [{\"position\": [1,2,3], \"color\": \"#12345g\"}]}",
          "points[0].color: expected a colour \"#rrggbb\", found \"#12345g\""},
         {"\"points\": [{\"position\": [1,2,3], \"intensity\": 1e39}]}",

@@ -73,6 +73,77 @@ static void an_edit_of_what_is_not_there_is_told_as_refused(void **state)
     free(text);
 }
 
+static char *written(void (*report)(FILE *out, const film_summary *summary, const film_options *options),
+                     const film_summary *summary, const film_options *options)
+{
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    report(out, summary, options);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+static void what_was_stopped_is_told_with_how_to_go_on(void **state)
+{
+    static const struct {
+        film_summary summary;
+        uint64_t first, last;
+        const char *text;
+    } rows[] = {{{.ticks = 0, .total = 9}, 0, 0, "octreel: stopped before a tick was filmed\n"},
+                {{.ticks = 4, .total = 9},
+                 0,
+                 0,
+                 "octreel: stopped after 4 of 9 ticks; to go on: octreel record --resume -o film\n"},
+                {{.ticks = 4, .total = 9},
+                 10,
+                 19,
+                 "octreel: stopped after 4 of 9 ticks; to go on: octreel record --resume --ticks 10:19 -o film\n"}};
+    film_options options = small_film("film");
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        options.first = rows[i].first;
+        options.last = rows[i].last;
+        char *text = written(film_report_stopped, &rows[i].summary, &options);
+        assert_string_equal(text, rows[i].text);
+        free(text);
+    }
+}
+
+static void what_was_left_out_is_one_list(void **state)
+{
+    static const char *const texts[] = {"",
+                                        "nodes",
+                                        "points",
+                                        "nodes and points",
+                                        "velocity arrows",
+                                        "nodes and velocity arrows",
+                                        "points and velocity arrows",
+                                        "nodes, points and velocity arrows"};
+    (void)state;
+    for (unsigned i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        char text[FILM_LEFT_OUT];
+        assert_string_equal(film_left_out_text(i, text), texts[i]);
+    }
+}
+
+static void a_tree_that_no_tick_has_is_told(void **state)
+{
+    static const struct {
+        view_tree tree;
+        const char *text;
+    } rows[] = {{TREE_FOREIGN, "--tree foreign shows no nodes\n"}, {TREE_BOTH, "--tree both shows Octreel's alone\n"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        film_options options = small_film("film");
+        options.view.tree = rows[i].tree;
+        char *text = written(film_report_empty, &(film_summary){0}, &options);
+        assert_non_null(strstr(text, rows[i].text));
+        free(text);
+    }
+}
+
 static void assert_shell_done(const char *format, ...)
 {
     char line[4096];
@@ -345,6 +416,9 @@ int main(void)
         IN_FOLDER(program_prints_the_lines),
         IN_FOLDER(help_has_lines_for_an_animation_and_a_sheet),
         cmocka_unit_test(folders_are_named_so_that_a_shell_finds_them),
+        cmocka_unit_test(what_was_stopped_is_told_with_how_to_go_on),
+        cmocka_unit_test(what_was_left_out_is_one_list),
+        cmocka_unit_test(a_tree_that_no_tick_has_is_told),
         cmocka_unit_test(one_of_anything_is_told_in_the_singular),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
