@@ -262,6 +262,48 @@ static void a_recording_is_taken_over_with_its_ticks(void **state)
     assert_same_folders(made.path, after.path, NULL);
 }
 
+/* Where nothing has changed nothing is said of ticks; and other files may lie there. */
+static void an_empty_folder_becomes_a_recording(void **state)
+{
+    const place empty = place_in(*state, "golden"), after = place_in(*state, "new");
+    film(&after, "ds");
+    file_write_text(place_below(after.path, "ticks").path, "mine");
+    file_write_text(place_below(after.path, "ticks.txt").path, "mine");
+    assert_int_equal(mkdir(empty.path, 0777), 0);
+    command_result result = accept_all(&empty, &after);
+    assert_says(&result, "0 before, 3 after: 0 changed, 3 new, 0 removed");
+    command_release(&result);
+    assert_true(file_exists(place_below(empty.path, "ticks.jsonl").path));
+    result = run_octreel(NULL, "accept %s %s frame_000001.png", empty.path, after.path);
+    assert_done(&result);
+    assert_says(&result, "0 changed");
+    assert_null(strstr(result.out, "Its ticks"));
+    command_release(&result);
+}
+
+static void many_frames_are_listed_in_part(void **state)
+{
+    const place golden = place_in(*state, "golden"),
+                after = gallery_make(*state, "new",
+                                     "1.png 2.png 3.png 4.png 5.png 6.png 7.png 8.png 9.png A.png B.png C.png");
+    command_result result = accept_all(&golden, &after);
+    assert_says(&result, "new      A.png");
+    assert_null(strstr(result.out, "B.png"));
+    assert_says(&result, "2 more");
+    command_release(&result);
+    assert_same_folders(golden.path, after.path, NULL);
+}
+
+static void digests_are_no_pictures_to_accept(void **state)
+{
+    const place golden = gallery_make(*state, "golden", "1.png"), digests = place_in(*state, "new.digests");
+    command_result result = run_octreel(NULL, "digest %s -o %s", golden.path, digests.path);
+    assert_done(&result);
+    command_release(&result);
+    result = run_octreel(NULL, "accept %s %s", golden.path, digests.path);
+    assert_trouble(&result, "pictures are accepted, not digests of them");
+}
+
 static void a_recording_is_no_reference_for_plain_pictures(void **state)
 {
     const place before = place_in(*state, "golden"), after = gallery_make(*state, "new", "frame_000000.png");
@@ -316,6 +358,9 @@ int main(void)
         WITH_FOLDER(a_reference_that_cannot_be_looked_up_is_trouble),
         WITH_FOLDER(digests_are_accepted_line_by_line),
         WITH_FOLDER(a_recording_is_taken_over_with_its_ticks),
+        WITH_FOLDER(an_empty_folder_becomes_a_recording),
+        WITH_FOLDER(many_frames_are_listed_in_part),
+        WITH_FOLDER(digests_are_no_pictures_to_accept),
         WITH_FOLDER(a_recording_is_no_reference_for_plain_pictures),
         WITH_FOLDER(an_unwritable_reference_is_trouble),
     };

@@ -115,7 +115,8 @@ static void frames_without_a_recording_are_left_alone(void **state)
 
 static void what_only_looks_like_a_file_of_a_recording_is_left_alone(void **state)
 {
-    static const char *const names[] = {"frame_notes.txt", "frame_3.png", "frame_notes.part"};
+    static const char *const names[] = {"frame_notes.txt", "frame_3.png", "frame_notes.part",
+                                        "frame_of_a_name_that_no_tick_has_however_late_it_is.png"};
     const films f = film_all(state);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         put(&f, names[i], "mine");

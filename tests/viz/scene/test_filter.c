@@ -260,6 +260,22 @@ static void the_slice_and_the_region_are_outlined(void **state)
     forget(&t);
 }
 
+/* Of a program's tree, whose nodes may lie deeper than any of Octreel's. */
+static void depths_of_a_box_are_those_of_its_rule(void **state)
+{
+    (void)state;
+    const octree_box box = cube(-1, 1);
+    const struct {
+        unsigned from, to, depth;
+        bool shown;
+    } rows[] = {{2, 4, 1, false}, {2, 4, 2, true},   {2, 4, 4, true},
+                {2, 4, 5, false}, {2, 21, 40, true}, {2, 21, 1, false}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const view_filter f = {.by_depth = true, .min_depth = rows[i].from, .max_depth = rows[i].to};
+        assert_int_equal(filter_shows_box(&f, &box, rows[i].depth, true), rows[i].shown);
+    }
+}
+
 static void what_can_show_nothing_is_refused_with_the_reason(void **state)
 {
     (void)state;
@@ -278,6 +294,7 @@ static void what_can_show_nothing_is_refused_with_the_reason(void **state)
         {{.by_region = true, .region = {{-99, -99, -99}, {99, 99, 99}}}, NULL},
         {{.by_region = true, .region = {{0, 9876.5432151, 0}, {1, 12345.678951, 1}}},
          "on y it reaches from 9876.54322 to 12345.679, and the world from -10 to 10"},
+        {{.by_region = true, .region = {{0, 0, -30}, {1, 1, -20}}}, "on z it reaches from -30 to -20"},
         {{.by_depth = true, .min_depth = 6, .max_depth = 21}, NULL},
         {{.by_depth = true, .min_depth = 7, .max_depth = 8}, "begins at 7, and the tree ends at depth 6"},
     };
@@ -298,6 +315,7 @@ int main(void)
         cmocka_unit_test(a_slice_on_a_plane_of_the_tree_has_one_side_of_it),
         cmocka_unit_test(depths_leaves_and_regions_show_what_their_rules_say),
         cmocka_unit_test(a_region_is_closed),
+        cmocka_unit_test(depths_of_a_box_are_those_of_its_rule),
         cmocka_unit_test(an_empty_tree_has_its_root_under_any_filter_that_meets_it),
         cmocka_unit_test(the_slice_and_the_region_are_outlined),
         cmocka_unit_test(what_can_show_nothing_is_refused_with_the_reason),
