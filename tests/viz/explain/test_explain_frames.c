@@ -122,6 +122,25 @@ static void lose_texts(const place *folder, uint64_t tick, bool spoilt)
     image_release(&frame);
 }
 
+static void both_frames_may_be_none_of_octreels(void **state)
+{
+    place b;
+    const place a = film_twins(*state, KEYS, &b);
+    spoil_frame(&a, 1, false);
+    assert_int_equal(remove(frame_place(b.path, 1).path), 0);
+    file_copy(b.path, "frame_000003.png", "frame_000001.png");
+    lose_texts(&a, 2, false);
+    lose_texts(&b, 2, true);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_holds(cause_of(&made, "frame_000001.png"), "a/frame_000001.png was changed after it was drawn");
+    assert_holds(cause_of(&made, "frame_000001.png"), "; ");
+    assert_holds(cause_of(&made, "frame_000001.png"), "b/frame_000001.png is the frame of tick 3");
+    assert_holds(cause_of(&made, "frame_000002.png"), "a/frame_000002.png has none of octreel's texts");
+    assert_holds(cause_of(&made, "frame_000002.png"), "; ");
+    assert_holds(cause_of(&made, "frame_000002.png"), "b/frame_000002.png has none of octreel's texts");
+    comparison_release(&made);
+}
+
 static void a_frame_without_its_texts_is_told(void **state)
 {
     octree_session session = short_session(KEYS);
@@ -229,6 +248,7 @@ int main(void)
         TEST(a_frame_changed_after_it_was_drawn_is_told),
         TEST(a_frame_in_the_place_of_another_is_told_by_its_own_tick),
         TEST(a_frame_of_another_session_is_told),
+        TEST(both_frames_may_be_none_of_octreels),
         TEST(a_frame_without_its_texts_is_told),
         TEST(another_anti_aliasing_is_no_other_renderer),
         TEST(frames_in_a_folder_tell_rendering_by_their_scenes),
