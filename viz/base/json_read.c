@@ -36,12 +36,40 @@ static void skip_blanks(const char **at, const char *limit)
         ++*at;
 }
 
+static json_malloc_t allocate_unwatched;
+static _Thread_local bool lacked_memory;
+
+static void *allocate_watched(size_t size)
+{
+    void *memory = allocate_unwatched(size);
+    lacked_memory |= !memory;
+    return memory;
+}
+
+void json_watch_memory(void)
+{
+    json_free_t release;
+    json_get_alloc_funcs(&allocate_unwatched, &release);
+    json_set_alloc_funcs(allocate_watched, release);
+}
+
+json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error)
+{
+    lacked_memory = false;
+    json_t *value = json_loadb(text, size, flags, error);
+    if (!lacked_memory)
+        return value;
+    json_decref(value);
+    *error = (json_error_t){.line = -1};
+    return NULL;
+}
+
 /* Read the value at *at, which is moved past it; null at the end of the text. jansson gives values without their
  * places, but it tells where one ends. */
 static json_t *take_value(const char **at, const char *limit)
 {
     json_error_t end;
-    json_t *value = json_loadb(*at, (size_t)(limit - *at),
+    json_t *value = json_parse(*at, (size_t)(limit - *at),
                                JSON_DECODE_ANY | JSON_DISABLE_EOF_CHECK | JSON_DECODE_INT_AS_REAL, &end);
     *at = value ? *at + end.position : limit;
     skip_blanks(at, limit);
@@ -198,7 +226,7 @@ bool json_read_object(json_reader *r, bool alone, json_object_reader *read)
 {
     const size_t flags = JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL | (alone ? 0 : JSON_DISABLE_EOF_CHECK);
     json_error_t parsed;
-    json_t *object = json_loadb(r->at, (size_t)(r->limit - r->at), flags, &parsed);
+    json_t *object = json_parse(r->at, (size_t)(r->limit - r->at), flags, &parsed);
     if (!object && parsed.line < 1)
         return json_fail_line(r, r->line, NULL, "out of memory");
     if (!object)

@@ -21,6 +21,13 @@ typedef struct json_place {
 /* Write "points[3].velocity", cut where it does not fit; "" for the null place. Returns `text`. */
 const char *json_place_format(const json_place *place, char *text, size_t size);
 
+/* jansson's json_loadb(), but null, and error->line -1, wherever there was no memory. */
+json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error);
+
+/* Let json_parse() see all of jansson's allocations, once and before there are threads: where one fails and the next do
+ * not, jansson (2.14) leaves a letter out of a long string and says nothing. */
+void json_watch_memory(void);
+
 /* A text that is read object by object. */
 typedef struct json_reader {
     const char *name;              /* of the file, for errors */

@@ -86,13 +86,15 @@ static bool convert_exactly(const decimal *d, double *value)
 }
 
 /* By strtod, which needs a final zero, and reads the locale's decimal point, of several bytes perhaps. False when it is
- * beyond the largest double. */
+ * beyond the largest double, or there is no memory. */
 static bool convert_by_library(const char *begin, const char *end, double *value)
 {
+    char few[128];
     const char *point = localeconv()->decimal_point;
-    char *copy = malloc((size_t)(end - begin) + strlen(point) + 1), *to = copy;
+    const size_t room = (size_t)(end - begin) + strlen(point) + 1;
+    char *copy = room <= sizeof few ? few : malloc(room), *to = copy;
     if (!copy)
-        return false;
+        return errno = ENOMEM, false;
     for (const char *at = begin; at < end; at++)
         if (*at == '.')
             to = stpcpy(to, point);
@@ -100,10 +102,12 @@ static bool convert_by_library(const char *begin, const char *end, double *value
             *to++ = *at;
     *to = 0;
     const double number = strtod(copy, NULL);
-    free(copy);
-    if (isfinite(number))
-        *value = number;
-    return isfinite(number);
+    if (copy != few)
+        free(copy);
+    if (!isfinite(number))
+        return errno = ERANGE, false;
+    *value = number;
+    return true;
 }
 
 bool number_parse(const char *begin, const char *limit, const char **end, double *value)

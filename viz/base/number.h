@@ -13,7 +13,8 @@
 /* Read the decimal number that starts at begin, no blanks before it, and never look at limit or beyond: a sign or
  * none, digits with a point or none, an exponent or none ("1", "-.5", "+2.", "1e-3"). *end is the first character
  * that is not part of it. False when there is none (*end is then begin: so for "nan", "inf" and the like; of "0x10"
- * it reads the 0) or when it is beyond the largest double (*end is then after it); *value is then untouched. */
+ * it reads the 0), when it is beyond the largest double (*end is then after it, and errno is ERANGE), or when there is
+ * no memory (the same with ENOMEM), which numbers of up to a hundred letters do not take; *value is then untouched. */
 bool number_parse(const char *begin, const char *limit, const char **end, double *value);
 
 /* True when begin starts with what C prints for a NaN or an infinity, in any case: "nan", "-nan(ind)", "inf",

@@ -6,6 +6,7 @@
 #include "file_kind.h"
 #include "help.h"
 #include "hint.h"
+#include "json_read.h"
 #include "manual.h"
 #include "prose.h"
 #include "texts.h"
@@ -157,6 +158,7 @@ int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);
     draw_context_tell(say_context);
+    json_watch_memory();
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return status;

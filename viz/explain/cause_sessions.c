@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_sessions.c - sessions and views, compared as the files that are written of them. See cause_compare.h. */
 #include "cause_compare.h"
+#include "json_read.h"
 #include "text.h"
 #include "recording_file.h"
 #include "view_options.h"
@@ -166,7 +167,7 @@ static char *write_session(const octree_session *session, bool sampled)
 static json_t *next_object(const char **at)
 {
     json_error_t error;
-    json_t *object = **at ? json_loads(*at, PARSE_FLAGS, &error) : NULL;
+    json_t *object = **at ? json_parse(*at, strlen(*at), PARSE_FLAGS, &error) : NULL;
     if (object)
         *at += error.position;
     *at += strspn(*at, "\n");
@@ -298,7 +299,7 @@ static json_t *view_object(const cause_view *v)
     char *text;
     if (text_stream_begin(&s))
         recording_write(s.stream, &v->view, v->every);
-    json_t *object = text_stream_end(&s, &text) && text ? json_loads(text, PARSE_FLAGS, &error) : NULL;
+    json_t *object = text_stream_end(&s, &text) && text ? json_parse(text, strlen(text), PARSE_FLAGS, &error) : NULL;
     free(text);
     add_switches(object);
     return object;

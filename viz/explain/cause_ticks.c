@@ -2,6 +2,7 @@
 /* cause_ticks.c - two ticks of the same number, compared as their lines in ticks.jsonl, and their trees. See
  * cause_compare.h. */
 #include "cause_compare.h"
+#include "json_read.h"
 #include "text.h"
 #include "ticks_write.h"
 
@@ -138,7 +139,7 @@ static void drop_told(const octree_game *a, const octree_game *b, json_t *nodes)
 static json_t *read_line(const octree_game *a, const octree_game *b, const char *text)
 {
     json_error_t error;
-    json_t *line = json_loads(text, JSON_DECODE_INT_AS_REAL, &error);
+    json_t *line = json_parse(text, strlen(text), JSON_DECODE_INT_AS_REAL, &error);
     json_object_del(line, "tree"); /* counts of what the trees report one by one */
     drop_told(a, b, json_object_get(line, "splits"));
     drop_told(a, b, json_object_get(line, "merges"));

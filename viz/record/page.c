@@ -2,6 +2,7 @@
 /* page.c - index.html: a recording as a page to scrub through. */
 #include "page.h"
 #include "file.h"
+#include "json_read.h"
 #include "page_html.h"
 #include "text.h"
 
@@ -113,7 +114,8 @@ static bool write_facts(const char *text, size_t size, FILE *page, const char *p
 {
     size_t left;
     char *cut = cut_lists(text, size, &left);
-    json_t *object = cut ? json_loadb(cut, left, 0, NULL) : NULL;
+    json_error_t why;
+    json_t *object = cut ? json_parse(cut, left, 0, &why) : NULL;
     const bool ok = json_is_object(object) && write_object(object, page);
     json_decref(object);
     free(cut);

@@ -8,7 +8,7 @@
 #include "json_values.h"
 #include "number.h"
 
-#include <math.h>
+#include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -244,7 +244,7 @@ static json_t *read_number(parser *p)
     if (!r)
         return NULL;
     if (!number_parse(p->at, end, &stop, &r->value))
-        return fail(p, p->at, "%.*sreal number overflow", "", 0), NULL;
+        return (void)(errno == ENOMEM || fail(p, p->at, "%.*sreal number overflow", "", 0)), NULL;
     p->at = end;
     return &r->json;
 }

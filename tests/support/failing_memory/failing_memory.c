@@ -9,6 +9,7 @@
 
 static _Thread_local long left = -1;
 static _Thread_local bool failed, is_here;
+static bool alone;
 static atomic_long left_elsewhere = NEVER; /* below 0 it has failed */
 
 void *__real_malloc(size_t size);
@@ -22,6 +23,11 @@ void memory_fails_after(long count)
 {
     left = count;
     failed = false;
+}
+
+void memory_fails_alone(void)
+{
+    alone = true;
 }
 
 bool memory_has_failed(void)
@@ -47,7 +53,7 @@ static bool is_refused(void)
         return atomic_fetch_sub(&left_elsewhere, 1) == 0;
     if (left > 0)
         left--;
-    else if (left == 0)
+    else if (left == 0 && !(alone && failed))
         return failed = true;
     return false;
 }

@@ -11,6 +11,9 @@
 /* Let so many of this thread succeed, and none that follows; below 0: all. */
 void memory_fails_after(long count);
 
+/* From now on one fails, and those that follow succeed: what is not noticed at once is not noticed at all. */
+void memory_fails_alone(void);
+
 /* End that. Returns whether one has failed. */
 bool memory_has_failed(void);
 

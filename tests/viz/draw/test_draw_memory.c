@@ -120,5 +120,7 @@ int main(void)
         cmocka_unit_test(a_picture_is_whole_or_there_is_none),
         cmocka_unit_test(a_renderer_is_opened_or_the_reason_is_told),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    memory_fails_alone();
+    return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@
 #include "failing_memory.h"
 #include "files.h"
 #include "foreign_session.h"
+#include "json_read.h"
 #include "scenes.h"
 #include "session_stream.h"
 #include "session_texts.h"
@@ -115,9 +116,14 @@ static void a_session_is_read_whole_or_not_at_all(void **state)
 
 static void a_session_is_read_whole_or_not_at_all_where_jansson_fails_too(void **state)
 {
+    json_malloc_t allocate;
+    json_free_t release;
+    json_get_alloc_funcs(&allocate, &release);
     jansson_fails = true;
     json_set_alloc_funcs(malloc, free);
+    json_watch_memory();
     a_session_is_read_whole_or_not_at_all(state);
+    json_set_alloc_funcs(allocate, release);
     jansson_fails = false;
 }
 
@@ -186,5 +192,7 @@ int main(void)
         TEST(a_stream_is_read_to_its_end_or_breaks_with_the_reason),
         TEST(a_session_is_read_whole_or_not_at_all_where_jansson_fails_too),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    memory_fails_alone();
+    return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -186,5 +186,7 @@ int main(void)
         cmocka_unit_test(what_points_are_like_is_measured_or_memory_is_missed),
         cmocka_unit_test(a_scene_without_memory_spoils_none_that_are_made_in_its_place),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    memory_fails_alone();
+    return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -291,5 +291,7 @@ int main(void)
         cmocka_unit_test(a_text_without_memory_is_no_value),
         cmocka_unit_test(lists_within_each_other_are_refused_beyond_a_depth),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    memory_fails_alone();
+    return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }
