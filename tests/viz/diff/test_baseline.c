@@ -292,6 +292,35 @@ static void each_digest_is_judged_by_its_own_kind(void **state)
     comparison_release(&made);
 }
 
+/* The same picture is among the variants of both sides, wherever it stands there. */
+static void two_files_agree_in_any_of_their_variants(void **state)
+{
+    static const char *const variants[] = {"k3 0000000000000001 a\n", "k3 0000000000000002 a\n",
+                                           "k3 0000000000000003 a\n"};
+    const place one = place_in(*state, "a.txt"), other = place_in(*state, "b.txt");
+    for (int same = 0; same < 3; same++)
+        for (int pair = 0; pair < 9; pair++) {
+            char texts[2][400];
+            for (int side = 0; side < 2; side++) {
+                const int place = side ? pair % 3 : pair / 3;
+                char lines[3][32];
+                for (int i = 0; i < 3; i++)
+                    snprintf(lines[i], sizeof lines[i], "k3 00000000000%02d%d%d%d a\n", 10 * side + i, side, i, i);
+                strcpy(lines[place], variants[same]);
+                snprintf(texts[side], sizeof texts[side], HEAD SECOND "%s%s%s", lines[0], lines[1], lines[2]);
+            }
+            file_write_text(one.path, texts[0]);
+            file_write_text(other.path, texts[1]);
+            comparison_of made = assert_compared(one.path, other.path, NULL);
+            assert_int_equal(made.result.found[FOUND_SAME_PIXELS], 1);
+            comparison_release(&made);
+        }
+    file_write_text(other.path, HEAD SECOND "k3 1111111111111111 a\nk3 2222222222222222 a\n");
+    comparison_of made = assert_compared(one.path, other.path, NULL);
+    assert_int_equal(made.result.found[FOUND_DIGEST], 1);
+    comparison_release(&made);
+}
+
 static void a_name_that_no_line_holds_is_refused(void **state)
 {
     (void)state;

@@ -91,12 +91,26 @@ static void values_that_do_not_fit_are_refused(void **state)
     }
 }
 
+static void the_ends_of_what_fits_are_taken(void **state)
+{
+    static const char *const rows[][2] = {{"look", "360,90"},  {"look", "-360,-90"}, {"zoom", "0.001"},
+                                          {"zoom", "1000000"}, {"depths", "0:21"},   {"depths", ":0"},
+                                          {"depths", "21"},    {"depths", "4:4"},    {"size", "1x16384"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        view v = view_default();
+        if (!parses(view_option_named(rows[i][0]), rows[i][1], &v, ""))
+            fail_msg("--%s %s is refused", rows[i][0], rows[i][1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_row_is_whole_and_found_by_its_name),
         cmocka_unit_test(every_choice_is_made_by_its_name),
         cmocka_unit_test(values_that_do_not_fit_are_refused),
+        cmocka_unit_test(the_ends_of_what_fits_are_taken),
     };
     return cmocka_run_group_tests_name("view_options", tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "point_colors.h"
 #include "point_scale.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,6 +80,25 @@ static void higher_points_are_lighter(void **state)
         assert_true(has_text(&p.scene, "-500") && has_text(&p.scene, "0") && has_text(&p.scene, "500"));
         release(&p);
     }
+}
+
+/* Where a number's middle is. */
+static double middle_of(const scene *s, const char *text)
+{
+    for (size_t i = 0; i < s->labels.count; i++)
+        if (strcmp(s->labels.items[i].text, text) == 0)
+            return s->labels.items[i].at[0] + (double)strlen(text) * s->text.width / 2;
+    fail_msg("there is no \"%s\"", text);
+    return 0;
+}
+
+static void numbers_stand_under_the_middle_of_their_marks(void **state)
+{
+    (void)state;
+    painted p = paint_points(POINTS_BY_HEIGHT, NULL);
+    const double low = middle_of(&p.scene, "-500"), zero = middle_of(&p.scene, "0"), high = middle_of(&p.scene, "500");
+    assert_true(low < zero && fabs((zero - low) - (high - zero)) <= 2); /* each is a whole pixel */
+    release(&p);
 }
 
 /* Of the same height, so that nothing but the leaves tells them apart. */
@@ -214,6 +234,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(higher_points_are_lighter),
+        cmocka_unit_test(numbers_stand_under_the_middle_of_their_marks),
         cmocka_unit_test(leaves_beside_each_other_are_dark_and_light),
         cmocka_unit_test(values_are_those_of_the_points_id_and_points_without_are_plain),
         cmocka_unit_test(every_colouring_builds_without_values_and_says_what_it_lacks),

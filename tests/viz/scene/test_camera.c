@@ -235,6 +235,9 @@ static void a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own(void **
         const camera c = camera_make(&v, window, &world, player, 77);
         assert_true(same_position(c.forward, (double[3]){-1, 0, 0})); /* the eye is on the side of +x */
         assert_in_the_middle(&c, v.center.place);
+        v.look.elevation = 90;
+        assert_true(same_position(camera_make(&v, window, &world, player, 77).forward, (double[3]){0, 0, -1}));
+        v.look.elevation = 0;
         assert_true(camera_pixel(&c, other, near));
         v.zoom.given = true;
         v.zoom.times = 3;
