@@ -347,6 +347,7 @@ int main(void)
         cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
         cmocka_unit_test(a_large_baseline_is_small),
         cmocka_unit_test_setup_teardown(each_digest_is_judged_by_its_own_kind, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(two_files_agree_in_any_of_their_variants, temp_folder_make, nested_folder_remove),
         cmocka_unit_test(a_name_that_no_line_holds_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
