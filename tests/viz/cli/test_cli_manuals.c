@@ -85,6 +85,27 @@ static void every_manual_has_its_sections(void **state)
     assert_trouble(&none, "did you mean record?");
 }
 
+/* What it names, besides kinds of files: all commands in that of octreel. */
+static void a_manual_refers_to_the_commands_that_it_names(void **state)
+{
+    static const struct {
+        const char *page, *commands;
+    } rows[] = {
+        {"record", ".BR octreel (1),\n.BR octreel\\-join (1),\n.BR octreel\\-verify (1),\n.BR octreel\\-session (5)"},
+        {"digest", ".BR octreel (1),\n.BR octreel\\-diff (1),\n.BR octreel\\-session (5)"},
+        {"octreel", ".BR octreel\\-record (1),\n.BR octreel\\-play (1),\n.BR octreel\\-join (1)"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        command_result manual = run_octreel(NULL, "help --man %s", rows[i].page);
+        const char *references = strstr(manual.out, "\n.SH SEE ALSO\n");
+        assert_non_null(references);
+        if (!strstr(references, rows[i].commands))
+            fail_msg("%s: %s", rows[i].page, references);
+        assert_int_equal(strstr(manual.out, "\n.SH COMMANDS\n") != NULL, strcmp(rows[i].page, "octreel") == 0);
+        command_release(&manual);
+    }
+}
+
 /* A program that judges manuals says nothing. */
 static void assert_content(void **state, const char *program, const char *command)
 {
@@ -188,6 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_option_is_in_the_manual),
         cmocka_unit_test(every_manual_has_its_sections),
+        cmocka_unit_test(a_manual_refers_to_the_commands_that_it_names),
         IN_FOLDER(man_has_no_warning),
         IN_FOLDER(mandoc_has_no_warning),
         cmocka_unit_test(manual_of_the_library_has_every_function),

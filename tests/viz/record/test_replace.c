@@ -169,6 +169,22 @@ static void a_recording_that_is_being_filmed_is_left_alone(void **state)
     }
 }
 
+static void a_recording_that_another_process_replaces_is_left_alone(void **state)
+{
+    const films f = film_all(state);
+    const place aside = place_below(f.old.path, ASIDE);
+    assert_int_equal(mkdir(aside.path, 0777), 0);
+    const int folder = open(aside.path, O_RDONLY | O_DIRECTORY);
+    assert_true(folder >= 0);
+    if (flock(folder, LOCK_EX | LOCK_NB) != 0)
+        skip(); /* a file system without locks */
+    command_result result = run_octreel(NULL, "record " SMALL " --keys en --replace -o %s", f.old.path);
+    assert_trouble(&result, "another process is replacing the recording");
+    close(folder);
+    assert_int_equal(rmdir(aside.path), 0);
+    assert_same_folders(f.old.path, f.copy.path, NULL);
+}
+
 static void what_cannot_begin_leaves_the_recording(void **state)
 {
     const films f = film_all(state);
@@ -270,6 +286,7 @@ int main(void)
         TEST(links_and_folders_among_its_files_are_left_alone),
         TEST(a_link_to_a_recording_stays_a_link),
         TEST(a_recording_that_is_being_filmed_is_left_alone),
+        TEST(a_recording_that_another_process_replaces_is_left_alone),
         TEST(what_cannot_begin_leaves_the_recording),
         TEST(where_the_first_tick_cannot_be_filmed_the_recording_is_put_back),
         TEST(a_replacement_that_was_killed_is_made_good),
