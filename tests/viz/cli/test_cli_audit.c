@@ -144,6 +144,7 @@ static void junit_has_a_case_for_each_kind(void **state)
     char *text = file_read(xml.path, NULL), *name = xml_attribute(text, "testcase", 1, "name");
     assert_int_equal(xml_count(text, "testcase"), 2);
     assert_int_equal(xml_count(text, "failure"), 1);
+    assert_non_null(strstr(text, "<testsuites name=\"octreel audit\" tests=\"2\" failures=\"1\" errors=\"0\""));
     assert_string_equal(name, "radius");
     assert_non_null(strstr(text, "tick 2, answers[1]: names an id that no point has (2)"));
     free(name);

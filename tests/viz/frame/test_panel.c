@@ -248,6 +248,16 @@ static void numbers_of_any_length_stay_texts(void **state)
     title[sizeof title - 1] = 0;
     build_tree(&s, &v, octree_game_tree(game), title);
     check_place(&s);
+    size_t cut = 0;
+    for (size_t i = 0; i < s.labels.count; i++) {
+        const char *text = s.labels.items[i].text;
+        const size_t length = strspn(text, "W");
+        if (length > 3) {
+            assert_string_equal(text + length, "..");
+            cut++;
+        }
+    }
+    assert_true(cut > 0);
     octree_game_destroy(game);
     scene_release(&s);
 }
