@@ -80,12 +80,30 @@ typedef struct arrows {
     double ticks;
 } arrows;
 
-/* Whether a body has an arrow, to this end: it has none where it does not get on, or the view does not show it. */
 static bool find_end(const arrows *a, const octree_body *body, double end[3])
 {
     go_on(body, a->world, a->ticks, end);
-    return memcmp(body->position, end, sizeof body->position) != 0 &&
-           is_shown(a->scene, a->tree, a->world, body->position);
+    return memcmp(body->position, end, sizeof body->position) != 0;
+}
+
+/* The same without the end, which most need not look for: they meet no bound, and go far enough for a double to tell,
+ * however the bounds are rounded. */
+static bool gets_on(const arrows *a, const octree_body *body)
+{
+    bool within = true, far = false;
+    double end[3];
+    for (int i = 0; i < 3; i++) {
+        const double at = body->position[i], way = body->velocity[i] * a->ticks;
+        within &= (at + way > a->world->min[i]) & (at + way < a->world->max[i]);
+        far |= fabs(way) > fabs(at) * 1e-9;
+    }
+    return (within && far) || find_end(a, body, end);
+}
+
+/* Whether a body has an arrow: it has none where it does not get on, or the view does not show it. */
+static bool has_arrow(const arrows *a, const octree_body *body)
+{
+    return gets_on(a, body) && is_shown(a->scene, a->tree, a->world, body->position);
 }
 
 /* Sieves are all ones: an id passes those of no more bits than its digest ends with zeros. */
@@ -93,12 +111,9 @@ enum { SIEVES = 65 };
 
 static unsigned sieves_passed(uint64_t id)
 {
-    uint64_t sieve = 0;
     unsigned passed = 0;
-    while (passed < SIEVES - 1 && !sieve_drops(sieve_finer(sieve), id)) {
-        sieve = sieve_finer(sieve);
+    for (uint64_t sieve = 1; passed < SIEVES - 1 && !sieve_drops(sieve, id); sieve <<= 1)
         passed++;
-    }
     return passed;
 }
 
@@ -113,11 +128,9 @@ static size_t most_arrows(const view *v)
 static uint64_t choose_sieve(scene *s, const arrows *a, const octree_tick *tick, uint64_t sieve)
 {
     size_t passing[SIEVES] = {0}, all = 0; /* at first: those that are dropped by the next finer one */
-    for (size_t i = 0; i < tick->mover_count; i++) {
-        double end[3];
-        if (find_end(a, &tick->movers[i], end))
+    for (size_t i = 0; i < tick->mover_count; i++)
+        if (has_arrow(a, &tick->movers[i]))
             passing[sieves_passed(tick->movers[i].id)]++;
-    }
     for (unsigned bits = SIEVES; bits-- > 0;)
         passing[bits] = all += passing[bits];
     unsigned bits = 0;
@@ -142,7 +155,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
-        if (sieve_drops(sieve, body->id) || !find_end(&a, body, arrow.ends[1]))
+        if (sieve_drops(sieve, body->id) || !has_arrow(&a, body) || !find_end(&a, body, arrow.ends[1]))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
         if (is_small(s, arrow.ends))

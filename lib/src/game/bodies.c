@@ -134,20 +134,32 @@ static double reflect(double origin, double velocity, double ticks, double min, 
     return position < min ? min : position > max ? max : position;
 }
 
-/* Where a body is at a tick and how it goes on: reflected at the world's faces as often as it must be, and turned on an
- * axis where it bounced and where it is about to. */
+/* On one axis: reflected at the world's faces as often as it must be, and turned where it bounced and where it is about
+ * to. */
+static void bounce(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
+{
+    const double min = world->min[axis], max = world->max[axis];
+    int direction;
+    const double at = reflect(body->origin[axis], body->velocity[axis], ticks, min, max, &direction);
+    const double velocity = body->velocity[axis] * direction;
+    const bool leaves = (at == max && velocity > 0) || (at == min && velocity < 0);
+    now->position[axis] = at;
+    now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* no minus zero */
+}
+
+/* Where a body is at a tick and how it goes on. Most have met no face so far, which takes no branch to see. */
 static octree_body body_at(const moving_body *body, const octree_box *world, uint64_t tick)
 {
     octree_body now = {.id = body->id};
+    const double ticks = (double)(tick - body->since);
+    bool within = true;
     for (int i = 0; i < 3; i++) {
-        int direction;
-        const double at = reflect(body->origin[i], body->velocity[i], (double)(tick - body->since), world->min[i],
-                                  world->max[i], &direction);
-        const double velocity = body->velocity[i] * direction;
-        const bool leaves = (at == world->max[i] && velocity > 0) || (at == world->min[i] && velocity < 0);
-        now.position[i] = at;
-        now.velocity[i] = (leaves ? -velocity : velocity) + 0.0; /* no minus zero */
+        now.position[i] = body->origin[i] + body->velocity[i] * ticks;
+        now.velocity[i] = body->velocity[i] + 0.0;
+        within &= (now.position[i] > world->min[i]) & (now.position[i] < world->max[i]);
     }
+    for (int i = 0; !within && i < 3; i++)
+        bounce(body, world, ticks, i, &now);
     return now;
 }
 
