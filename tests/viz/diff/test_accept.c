@@ -55,7 +55,7 @@ static void all_new_frames_become_the_reference(void **state)
     assert_says(&result, "changed  2.png: 5 of 384 pixels differ");
     assert_says(&result, "removed  3.png");
     assert_says(&result, "new      4.png: 24x16");
-    assert_says(&result, "3 before, 3 after: 1 changed, 1 new, 1 removed");
+    assert_says(&result, "golden: 3 before, 3 after: 1 changed, 1 new, 1 removed");
     command_release(&result);
     assert_same_folders(c.before.path, c.after.path, NULL);
     result = accept_all(&c.before, &c.after);

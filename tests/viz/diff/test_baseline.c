@@ -174,6 +174,14 @@ static void dates_are_those_of_the_calendar(void **state)
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         if (baseline_is_date(wrong[i]))
             fail_msg("%s is no date", wrong[i]);
+    for (int month = 1; month <= 12; month++) {
+        const bool is_short = month == 4 || month == 6 || month == 9 || month == 11;
+        for (int day = 1; day < 40; day++) {
+            char text[24];
+            snprintf(text, sizeof text, "2025-%02d-%02d", month, day);
+            assert_int_equal(baseline_is_date(text), day <= (month == 2 ? 28 : is_short ? 30 : 31));
+        }
+    }
 }
 
 /* As two branches leave them that were merged; the smaller first. */
@@ -347,7 +355,8 @@ int main(void)
         cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
         cmocka_unit_test(a_large_baseline_is_small),
         cmocka_unit_test_setup_teardown(each_digest_is_judged_by_its_own_kind, temp_folder_make, nested_folder_remove),
-        cmocka_unit_test_setup_teardown(two_files_agree_in_any_of_their_variants, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(two_files_agree_in_any_of_their_variants, temp_folder_make,
+                                        nested_folder_remove),
         cmocka_unit_test(a_name_that_no_line_holds_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

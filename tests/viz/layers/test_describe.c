@@ -168,7 +168,7 @@ static void assert_is_a_phrase(const char *text)
 /* Also of frames with a close-up, bars, points painted, and another program's nodes. */
 static void every_element_of_the_reference_frames_is_told_in_a_phrase(void **state)
 {
-    bool told_scale = false, told_frame = false, told_bar = false;
+    bool told_scale = false, told_frame = false, told_bar = false, told_way = false;
     (void)state;
     for (size_t i = 0; i < golden_frame_count; i++) {
         golden_play play;
@@ -190,13 +190,14 @@ static void every_element_of_the_reference_frames_is_told_in_a_phrase(void **sta
             assert_is_a_phrase(told.text);
             told_scale |= strstr(told.text, "the close-up's scale") != NULL;
             told_frame |= strcmp(told.text, "the frame of what the close-up shows") == 0;
+            told_way |= strcmp(told.text, "in the diagram, the way to the player") == 0;
             told_bar |= strstr(told.text, "in the diagram, a bar: nodes of depth ") == told.text;
         }
         scene_release(&s);
         tick_history_release(&h);
         octree_game_destroy(play.game);
     }
-    assert_true(told_scale && told_frame && told_bar);
+    assert_true(told_scale && told_frame && told_bar && told_way);
 }
 
 static void words_of_a_node_and_of_a_point_are_these(void **state)
