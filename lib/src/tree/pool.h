@@ -72,7 +72,8 @@ void pool_give(pool *p, void *block, unsigned units);
 
 /* A pool for a task of the tree's. Where much of the tree's is free it takes that before it grows; how many bytes are
  * taken then depends on which task comes first. (Shares that are dealt beforehand do not: but where points arrive in
- * one place each time, the pool of that place grows with each batch, while the others' shares lie idle.) Until all are joined, the tree's pool is used by them alone. */
+ * one place each time, the pool of that place grows with each batch, while the others' shares lie idle.) Until all are
+ * joined, the tree's pool is used by them alone. */
 void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units);
 void pool_join(pool *lender, pool *p);
 
