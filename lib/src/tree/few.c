@@ -80,12 +80,11 @@ typedef struct insertions {
     size_t full_count, inserted;
 } insertions;
 
-/* Into the leaf that a way ends at. No node moves, so that other ways stay as they are. */
+/* Into the leaf that a way ends at. No node moves, so that other ways stay as they are. There is room for all points
+ * of a batch: are_few() has counted them. */
 static octree_status insert_on_way(octree *tree, const octree_point *point, const ways *w, size_t i)
 {
     node *leaf = w->nodes[w->depths[i]][i];
-    if (tree->root.count == UINT32_MAX)
-        return OCTREE_TOO_MANY;
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
         return OCTREE_DUPLICATE;
     if (!fits_leaf(tree, (size_t)leaf->count + 1))
@@ -283,7 +282,7 @@ static void carry_out_removals(removals *r)
     }
     for (size_t i = 0; i < emptied; i++) {
         const path p = path_of(r, &r->found[i]);
-        if (p.depth > 0 && path_end(&p)->count == 0)
+        if (path_end(&p)->count == 0) /* and not the root: most points stay */
             drop_child(tree, p.nodes[p.depth - 1], path_end(&p));
     }
     if (r->count > 0)

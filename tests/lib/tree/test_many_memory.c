@@ -166,15 +166,15 @@ static void changes_of_many_survive_the_failure_of_each_allocation(void **state)
 }
 
 /* So many move that the tree is built anew; two points have one id, and one of them moves to where the other is. */
-static void a_move_that_builds_anew_leaves_no_trace_of_its_failure(void **state)
+/* Ids that lie close together have a bit each in a table, and others a place. */
+static void build_anew_with_failures(uint64_t between_ids)
 {
-    (void)state;
     enum { MOVED = 60 };
     octree_point points[100], from[MOVED];
     double to[MOVED][3];
     for (size_t i = 0; i < 100; i++)
-        points[i] = (octree_point){{(double)i / 100, 0.5, -0.5}, i};
-    points[99].id = 7;
+        points[i] = (octree_point){{(double)i / 100, 0.5, -0.5}, i * between_ids};
+    points[99].id = points[7].id;
     for (size_t i = 0; i < MOVED; i++) {
         from[i] = points[i];
         for (int axis = 0; axis < 3; axis++)
@@ -201,6 +201,13 @@ static void a_move_that_builds_anew_leaves_no_trace_of_its_failure(void **state)
         assert_all_returned(&counts);
     }
     assert_true(failed > 5);
+}
+
+static void a_move_that_builds_anew_leaves_no_trace_of_its_failure(void **state)
+{
+    (void)state;
+    build_anew_with_failures(1);
+    build_anew_with_failures(UINT64_C(1) << 40);
 }
 
 static void many_failures_on_one_tree_do_not_add_up(void **state)

@@ -11,7 +11,8 @@
 
 enum { COUNT = 6000 };
 
-static const octree_mix finds = {.changes = 1}, large_ranges = {.ranges = 1, .hits = 1000};
+static const octree_mix finds = {.changes = 1}, large_ranges = {.ranges = 1, .hits = 1000},
+                        many_neighbors = {.nearest = 1, .k = 500};
 
 static size_t capacity_of(const octree *tree)
 {
@@ -53,7 +54,7 @@ static void a_tuned_tree_is_one_built_with_the_capacity_it_reports(void **state)
     }
 }
 
-static void large_ranges_want_larger_leaves_than_finds(void **state)
+static void large_ranges_and_many_neighbors_want_larger_leaves_than_finds(void **state)
 {
     (void)state;
     for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++) {
@@ -64,6 +65,8 @@ static void large_ranges_want_larger_leaves_than_finds(void **state)
         tune(tree, &finds);
         const size_t small = capacity_of(tree);
         tune(tree, &large_ranges);
+        assert_true(capacity_of(tree) > small);
+        tune(tree, &many_neighbors);
         assert_true(capacity_of(tree) > small);
         octree_destroy(tree);
         brute_free(&all);
@@ -297,7 +300,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tuned_tree_is_one_built_with_the_capacity_it_reports),
-        cmocka_unit_test(large_ranges_want_larger_leaves_than_finds),
+        cmocka_unit_test(large_ranges_and_many_neighbors_want_larger_leaves_than_finds),
         cmocka_unit_test(the_choice_depends_on_neither_order_nor_the_capacity_before),
         cmocka_unit_test(the_scale_of_a_mix_does_not_count),
         cmocka_unit_test(what_a_mix_cannot_say_is_refused_and_changes_nothing),
