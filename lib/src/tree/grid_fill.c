@@ -146,7 +146,7 @@ static void aim(filling *f, cell c, size_t index, octree_point *to)
 {
     const size_t cells = cells_at(f->depth), width = cells_at(f->depth - c.depth);
     for (size_t i = index * width; i < (index + 1) * width; i++)
-        for (unsigned task = 0; to && task < f->tasks; task++) {
+        for (unsigned task = 0; task < f->tasks; task++) {
             f->next[task * cells + i] = to;
             to += f->shares[task * cells + i];
         }

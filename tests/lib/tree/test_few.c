@@ -166,9 +166,42 @@ static void few_removals_survive_the_failure_of_each_allocation(void **state)
     assert_true(failures > 2); /* one while leaves to merge into were planned */
 }
 
+/* Also of the leaves that nodes become. */
+static void each_allocation_of_many_removals_may_fail(void **state)
+{
+    (void)state;
+    enum { ALL = 6000, FEW = 40 };
+    for (size_t capacity = 4; capacity <= 64; capacity *= 2) {
+        counting_allocator counts = {0};
+        const octree_box world = cube(-1, 1);
+        brute all = {0};
+        octree *tree = make_counted_tree(&counts, world, capacity, 21, OCTREE_GROW);
+        brute_sample(&all, OCTREE_SAMPLE_UNIFORM, capacity, &world, ALL);
+        assert_int_equal(octree_insert_many(tree, all.points, ALL, NULL, NULL), OCTREE_OK);
+        for (size_t from = 0; from + 20 * FEW < ALL; from += FEW) {
+            octree_status status = OCTREE_NO_MEMORY;
+            for (size_t failing = 0; status == OCTREE_NO_MEMORY; failing++) {
+                size_t removed = 0;
+                counting_allocator_fail_at(&counts, failing);
+                status = octree_remove_many(tree, all.points + from, FEW, NULL, &removed);
+                counting_allocator_heal(&counts);
+                assert_int_equal(removed, status == OCTREE_OK ? FEW : 0);
+                assert_int_equal(octree_count(tree), ALL - from - removed);
+            }
+            if (from % (8 * FEW) == 0)
+                assert_valid(tree);
+        }
+        assert_valid(tree);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+        brute_free(&all);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_allocation_of_many_removals_may_fail),
         cmocka_unit_test(few_points_change_as_one_by_one),
         cmocka_unit_test(a_leaf_that_is_added_moves_its_siblings),
         cmocka_unit_test(a_pair_that_comes_twice_is_removed_once),

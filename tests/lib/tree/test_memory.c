@@ -171,6 +171,39 @@ static void changes_are_whole_when_memory_ends(void **state)
     assert_true(failed[CHANGE_INSERT] > 9 && failed[CHANGE_REMOVE] > 0 && failed[CHANGE_MOVE] > 9);
 }
 
+/* Whatever an insertion needs memory for: a leaf more, a larger leaf, a split. */
+static void each_allocation_of_many_insertions_may_fail(void **state)
+{
+    (void)state;
+    static const size_t capacities[] = {1, 2, 3, 7, 20};
+    for (size_t row = 0; row < sizeof capacities / sizeof *capacities; row++) {
+        uint64_t random = row;
+        counting_allocator counts = {0};
+        octree *tree = make_counted_tree(&counts, cube(-1, 1), capacities[row], 21, OCTREE_GROW);
+        size_t refused = 0;
+        for (uint64_t id = 0; id < 20000; id++) {
+            const double at[3] = {random_between(&random, -1, 1), random_between(&random, -1, 1),
+                                  random_between(&random, -1, 1)};
+            const uint64_t version = octree_version(tree);
+            counting_allocator_fail_at(&counts, 0);
+            octree_status status = octree_insert(tree, at, id);
+            counting_allocator_heal(&counts);
+            if (status == OCTREE_NO_MEMORY) {
+                assert_int_equal(octree_count(tree), id);
+                assert_true(octree_version(tree) == version);
+                if (refused++ % 8 == 0)
+                    assert_valid(tree);
+                status = octree_insert(tree, at, id);
+            }
+            assert_int_equal(status, OCTREE_OK);
+        }
+        assert_true(refused > 30);
+        assert_valid(tree);
+        octree_destroy(tree);
+        assert_all_returned(&counts);
+    }
+}
+
 static void equal_points_that_fill_a_leaf_stay_without_memory(void **state)
 {
     (void)state;
@@ -352,6 +385,7 @@ int main(void)
         cmocka_unit_test(create_survives_the_failure_of_each_allocation),
         cmocka_unit_test(changes_survive_the_failure_of_each_allocation),
         cmocka_unit_test(changes_are_whole_when_memory_ends),
+        cmocka_unit_test(each_allocation_of_many_insertions_may_fail),
         cmocka_unit_test(equal_points_that_fill_a_leaf_stay_without_memory),
         cmocka_unit_test(a_large_leaf_is_emptied_without_memory),
         cmocka_unit_test(a_hashed_leaf_of_equal_points_survives_failures_as_well),

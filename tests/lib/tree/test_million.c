@@ -28,6 +28,24 @@ static void a_million_equal_points_are_refused_without_taking_memory(void **stat
     assert_all_returned(&counts);
 }
 
+/* Of leaves with one point each no grid is fine enough. */
+static void more_points_than_the_finest_grid_has_cells_for_are_sorted(void **state)
+{
+    (void)state;
+    enum { SIDE = 114, COUNT = SIDE * SIDE * SIDE }; /* over 2/3 of 8^7 */
+    octree_point *points = malloc(COUNT * sizeof *points);
+    assert_non_null(points);
+    for (size_t i = 0; i < COUNT; i++)
+        points[i] = (octree_point){{(double)(i % SIDE), (double)(i / SIDE % SIDE), (double)(i / SIDE / SIDE)}, i};
+    octree *tree = make_tree(cube(0, SIDE), 1, 21, OCTREE_GROW);
+    size_t inserted = 0;
+    assert_int_equal(octree_insert_many(tree, points, COUNT, NULL, &inserted), OCTREE_OK);
+    assert_int_equal(inserted, COUNT);
+    assert_valid(tree);
+    octree_destroy(tree);
+    free(points);
+}
+
 /* Insert and remove equal points. The i-th id is i * factor mod count, a shuffle when the factor is large. */
 static void grow_and_shrink(uint64_t count, uint64_t insert_factor, uint64_t remove_factor)
 {
@@ -180,6 +198,7 @@ static void *run_all(void *failed)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_million_equal_points_are_refused_without_taking_memory),
+        cmocka_unit_test(more_points_than_the_finest_grid_has_cells_for_are_sorted),
         cmocka_unit_test(a_million_equal_points_grow_one_leaf_in_linear_memory),
         cmocka_unit_test(a_batch_of_a_million_equal_points_is_refused_but_for_a_leaf_of_them),
         cmocka_unit_test(a_batch_of_a_million_equal_points_grows_one_leaf_that_answers),
