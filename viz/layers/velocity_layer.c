@@ -80,6 +80,7 @@ typedef struct arrows {
     double ticks;
 } arrows;
 
+/* Whether a body gets on, to this end. */
 static bool find_end(const arrows *a, const octree_body *body, double end[3])
 {
     go_on(body, a->world, a->ticks, end);
@@ -155,7 +156,8 @@ static void add(scene *s, const layer_source *in, view_layer own)
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
-        if (sieve_drops(sieve, body->id) || !has_arrow(&a, body) || !find_end(&a, body, arrow.ends[1]))
+        if (sieve_drops(sieve, body->id) || !find_end(&a, body, arrow.ends[1]) ||
+            !is_shown(s, a.tree, a.world, body->position))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
         if (is_small(s, arrow.ends))

@@ -165,8 +165,8 @@ static void changes_of_many_survive_the_failure_of_each_allocation(void **state)
         }
 }
 
-/* So many move that the tree is built anew; two points have one id, and one of them moves to where the other is. */
-/* Ids that lie close together have a bit each in a table, and others a place. */
+/* So many move that the tree is built anew; two points have one id, and one of them moves to where the other is. Ids
+ * that lie close together have a bit each in a table, and others a place. */
 static void build_anew_with_failures(uint64_t between_ids)
 {
     enum { MOVED = 60 };

@@ -113,7 +113,7 @@ class Interaction {
         if (tick > 0)
             this.playAhead();
         await this.show(tick);
-        if (tick === 0)
+        if (tick === 0) /* whose picture needs no other tick, and does not wait for them */
             this.playAhead();
     }
 

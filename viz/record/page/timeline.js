@@ -67,13 +67,13 @@ function rangeOf(values)
  * wide, of each pixel's there are the first value, the lowest, the highest and the last. */
 function traceCurve(context, scale, y, values)
 {
-    const room = 1 / (scale.x(1) - scale.x(0)); /* ticks a pixel */
+    const ticksAPixel = 1 / (scale.x(1) - scale.x(0));
     let gap = true;
     for (let i = 0; i < values.length;) {
         const from = i, x = scale.x(i);
         do
             i++;
-        while (i + 1 < from + room && i < values.length && !isNaN(values[from]) && !isNaN(values[i]));
+        while (i + 1 < from + ticksAPixel && i < values.length && !isNaN(values[from]) && !isNaN(values[i]));
         const part = values.slice(from, i);
         if (!gap && !isNaN(part[0]))
             context.lineTo(x, y(values[from - 1]));
