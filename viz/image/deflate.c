@@ -7,16 +7,16 @@
 #include <string.h>
 
 enum {
-    CHUNK = 96 << 10, /* so many bytes are collected before they are looked at */
+    CHUNK = 32 << 10, /* so many bytes are collected before they are looked at: they stay in the nearest cache */
     WORD = 8,         /* so many bytes after the last are read, and do not matter */
 
     /* Rough sizes in bits, by which repeats are chosen: of a byte that has no repeat, and of a repeat of the pixel
      * before, of the row above, and of anything else. */
     BYTE_BITS = 3,
     RUN_BITS = 6,
-    ABOVE_BITS = 12,
+    ABOVE_BITS = 14,
     FAR_BITS = 16,
-    LONG_REPEAT = 32, /* is taken without looking for a better one */
+    LONG_REPEAT = 64, /* is taken without looking for a better one */
 
     HASH_BITS = 12,
     HASHED = 6, /* bytes: two pixels of a picture without palette */
@@ -64,9 +64,9 @@ static void add_change(deflater *d, size_t from, size_t end)
     const uint8_t *bytes = d->window + from, *above = bytes - d->stride;
     int32_t plain = 0, by_place = 0;
     for (int32_t i = 0; i < (int32_t)(end - from); i++) {
-        const int32_t change = bytes[i] - above[i];
+        const int16_t change = (int16_t)(bytes[i] - above[i]), place = (int16_t)i;
         plain += change;
-        by_place += change * i;
+        by_place += change * place;
     }
     d->row_change += plain;
     d->row_by_column += by_place + (int64_t)(from - d->row) * plain;
@@ -110,6 +110,13 @@ static void put_bytes(deflater *d, size_t count)
     d->at += count;
 }
 
+/* Whether so many bytes repeat the pixel before them, which takes the fewest bits. */
+static inline bool is_run(const deflater *d, size_t size)
+{
+    const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;
+    return bytes[0] == before[0] && bytes[size - 1] == before[size - 1] && memcmp(bytes, before, size) == 0;
+}
+
 static void put_repeat(deflater *d, size_t length, size_t distance)
 {
     if (distance == d->stride) {
@@ -120,7 +127,7 @@ static void put_repeat(deflater *d, size_t length, size_t distance)
         size_t part = length < DEFLATE_LONGEST ? length : DEFLATE_LONGEST;
         if (length > part && length - part < DEFLATE_SHORTEST)
             part -= DEFLATE_SHORTEST;
-        deflate_add_repeat(&d->blocks, part, distance);
+        deflate_add_repeat(&d->blocks, part, is_run(d, part) ? d->pixel : distance);
         d->at += part;
         length -= part;
         if (deflate_is_full(&d->blocks))

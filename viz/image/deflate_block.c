@@ -28,7 +28,7 @@ void deflate_blocks_begin(deflate_blocks *b, deflate_sink *sink, void *context)
     b->context = context;
     for (uint8_t symbol = 0; symbol < sizeof length_extra; symbol++)
         for (int i = 0; i < 1 << length_extra[symbol] && length_bases[symbol] + i <= DEFLATE_LONGEST; i++)
-            b->length_symbols[length_bases[symbol] + i] = symbol;
+            b->length_symbols[length_bases[symbol] + i - DEFLATE_SHORTEST] = symbol;
     for (uint8_t symbol = 0; symbol < DEFLATE_DISTANCES; symbol++)
         for (int at = distance_bases[symbol] - 1, end = at + (1 << distance_extra[symbol]); at < end;
              at += at < 256 ? 1 : 128)
@@ -37,13 +37,10 @@ void deflate_blocks_begin(deflate_blocks *b, deflate_sink *sink, void *context)
 
 void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance)
 {
-    const unsigned of_length = b->length_symbols[length];
-    const unsigned of_distance = b->distance_symbols[distance <= 256 ? distance - 1 : 256 + ((distance - 1) >> 7)];
-    b->tokens[b->count++] = (deflate_token){.symbol = (uint16_t)(DEFLATE_END + 1 + of_length),
-                                            .distance_extra = (uint16_t)(distance - distance_bases[of_distance]),
-                                            .length_extra = (uint8_t)(length - length_bases[of_length]),
-                                            .length_bits = length_extra[of_length],
-                                            .distance_symbol = (uint8_t)of_distance};
+    const unsigned symbol = b->distance_symbols[distance <= 256 ? distance - 1 : 256 + ((distance - 1) >> 7)];
+    const size_t extra = distance - distance_bases[symbol];
+    b->tokens[b->count++] = (deflate_token)(DEFLATE_REPEAT + length - DEFLATE_SHORTEST) | symbol << DISTANCE_AT |
+                            (deflate_token)extra << DISTANCE_EXTRA_AT;
 }
 
 /* ---- Bits ---------------------------------------------------------------------------------------------------- */
@@ -231,29 +228,65 @@ static void set_fixed(huffman_code *literals, huffman_code *distances)
     memset(distances->lengths, 5, DEFLATE_DISTANCES);
 }
 
+static inline unsigned kind_of(deflate_token token)
+{
+    return token % TOKEN_KINDS;
+}
+
+static inline unsigned distance_of(deflate_token token)
+{
+    return (token >> DISTANCE_AT) % (1 << (DISTANCE_EXTRA_AT - DISTANCE_AT));
+}
+
 static void count_tokens(deflate_blocks *b)
 {
+    uint32_t kinds[TOKEN_KINDS] = {0};
     memset(b->literal_counts, 0, sizeof b->literal_counts);
     memset(b->distance_counts, 0, sizeof b->distance_counts);
     for (size_t i = 0; i < b->count; i++) {
-        b->literal_counts[b->tokens[i].symbol]++;
-        b->distance_counts[b->tokens[i].distance_symbol]++;
+        kinds[kind_of(b->tokens[i])]++;
+        b->distance_counts[distance_of(b->tokens[i])]++;
     }
+    memcpy(b->literal_counts, kinds, DEFLATE_REPEAT * sizeof *kinds);
     b->literal_counts[DEFLATE_END] = 1;
+    for (int more = 0; more < TOKEN_KINDS - DEFLATE_REPEAT; more++)
+        b->literal_counts[DEFLATE_END + 1 + b->length_symbols[more]] += kinds[DEFLATE_REPEAT + more];
+}
+
+/* Bits that are written together. */
+typedef struct bit_string {
+    uint32_t bits;
+    int32_t count;
+} bit_string;
+
+/* What each kind of token begins with: its symbol, and what is added to a length's least. */
+static void list_beginnings(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
+{
+    const huffman_code *code = &b->literals;
+    for (int byte = 0; byte < DEFLATE_REPEAT; byte++)
+        of[byte] = (bit_string){code->bits[byte], code->lengths[byte]};
+    for (int more = 0; more < TOKEN_KINDS - DEFLATE_REPEAT; more++) {
+        const unsigned of_length = b->length_symbols[more], symbol = DEFLATE_END + 1 + of_length;
+        const uint32_t extra = (uint32_t)(more + DEFLATE_SHORTEST - length_bases[of_length]);
+        of[DEFLATE_REPEAT + more] = (bit_string){code->bits[symbol] | extra << code->lengths[symbol],
+                                                 code->lengths[symbol] + length_extra[of_length]};
+    }
 }
 
 /* The same for bytes and repeats, since which of them comes next cannot be foreseen. */
 static void put_tokens(bit_writer *to, deflate_blocks *b)
 {
+    bit_string beginnings[TOKEN_KINDS];
     bit_writer w = *to;
+    list_beginnings(beginnings, b);
     b->distances.lengths[DEFLATE_DISTANCES] = 0;
     b->distances.bits[DEFLATE_DISTANCES] = 0;
     for (size_t i = 0; i < b->count; i++) {
         const deflate_token t = b->tokens[i];
-        put_symbol(&w, &b->literals, t.symbol);
-        put(&w, t.length_extra, t.length_bits);
-        put_symbol(&w, &b->distances, t.distance_symbol);
-        put(&w, t.distance_extra, distance_extra[t.distance_symbol]);
+        const bit_string beginning = beginnings[kind_of(t)];
+        put(&w, beginning.bits, beginning.count);
+        put_symbol(&w, &b->distances, distance_of(t));
+        put(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_of(t)]);
         settle(&w);
     }
     put_symbol(&w, &b->literals, DEFLATE_END);

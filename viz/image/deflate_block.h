@@ -18,14 +18,10 @@ enum {
     DEFLATE_GROUP = 6,
 };
 
-/* A byte, or a repeat of bytes that stand a distance before, as it is sent; of a byte all but the first is as if for a
- * repeat that takes no bits. */
-typedef struct deflate_token {
-    uint16_t symbol; /* the byte, or DEFLATE_END + 1 and a length's symbol */
-    uint16_t distance_extra;
-    uint8_t length_extra, length_bits;
-    uint8_t distance_symbol;
-} deflate_token;
+/* What is sent: a byte, or DEFLATE_REPEAT and how much longer a repeat is than the shortest; then, from these bits on,
+ * the symbol of the distance and what is added to its least. A byte's is a symbol that takes no bits. */
+typedef uint32_t deflate_token;
+enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
 
 typedef struct deflate_blocks {
     deflate_sink *sink;
@@ -36,8 +32,8 @@ typedef struct deflate_blocks {
     size_t count;  /* of the tokens */
     uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1]; /* of its tokens */
     huffman_code literals, distances;
-    uint8_t length_symbols[DEFLATE_LONGEST + 1]; /* less 257 */
-    uint8_t distance_symbols[512];               /* of distances up to 256, and then of each 128 more */
+    uint8_t length_symbols[TOKEN_KINDS - DEFLATE_REPEAT]; /* less 257, of a repeat's length from the shortest on */
+    uint8_t distance_symbols[512];                        /* of distances up to 256, and then of each 128 more */
     deflate_token tokens[BLOCK_TOKENS + BLOCK_SPARE];
     uint8_t output[1 << 16];
 } deflate_blocks;
@@ -54,7 +50,7 @@ static inline bool deflate_is_full(const deflate_blocks *b)
 static inline void deflate_add_bytes(deflate_blocks *b, const uint8_t *bytes, size_t count)
 {
     for (size_t i = 0; i < DEFLATE_GROUP; i++)
-        b->tokens[b->count + i] = (deflate_token){.symbol = bytes[i], .distance_symbol = DEFLATE_DISTANCES};
+        b->tokens[b->count + i] = bytes[i] | (deflate_token)DEFLATE_DISTANCES << DISTANCE_AT;
     b->count += count;
 }
 
