@@ -54,7 +54,7 @@ static inline uint64_t bits_spread(uint64_t x)
 /* The mask, or none of it; without a branch. */
 static inline unsigned bits_if(bool condition, unsigned mask)
 {
-    return condition ? mask : 0;
+    return (0u - condition) & mask;
 }
 
 #endif

@@ -34,14 +34,15 @@ typedef struct search {
     frame frames[OCTREE_MAX_DEPTH]; /* by depth */
 } search;
 
-static void swap_if(bool condition, double *a, double *b, uint8_t *p, uint8_t *q)
+/* Put two in order, without branches, which would be unpredictable. */
+static inline void order(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 {
-    const double more = condition ? *a : *b;
-    const uint8_t bit = condition ? *p : *q;
-    *a = condition ? *b : *a;
-    *p = condition ? *q : *p;
-    *b = more;
-    *q = bit;
+    const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
+    const uint8_t change = (uint8_t)bits_if(*b < *a, *of_a ^ *of_b);
+    *a = lesser;
+    *b = greater;
+    *of_a ^= change;
+    *of_b ^= change;
 }
 
 /* The sums of subsets of three increments ascend like this, a being the least: 0, a, b, the lesser of c and a + b, ...
@@ -52,9 +53,9 @@ static void sort_flips(frame *f)
     double b = f->squares[1][1] - f->squares[1][0];
     double c = f->squares[2][1] - f->squares[2][0];
     uint8_t bit_a = 4, bit_b = 2, bit_c = 1;
-    swap_if(b < a, &a, &b, &bit_a, &bit_b);
-    swap_if(c < b, &b, &c, &bit_b, &bit_c);
-    swap_if(b < a, &a, &b, &bit_a, &bit_b);
+    order(&a, &b, &bit_a, &bit_b);
+    order(&b, &c, &bit_b, &bit_c);
+    order(&a, &b, &bit_a, &bit_b);
     f->flips[0] = 0;
     f->flips[1] = bit_a;
     f->flips[2] = bit_b;
@@ -80,9 +81,9 @@ static void open_child(search *s, unsigned flip, const node *child)
     const frame *parent = &s->frames[s->open - 1];
     frame *f = &s->frames[s->open];
     const unsigned octant = parent->near ^ flip;
-    const double half = 1.0 / (double)(1u << s->open++);
+    const double half = 1.0 / (double)(1u << s->open++), sides[2] = {-half, half};
     for (int i = 0; i < 3; i++) {
-        f->center[i] = parent->center[i] + (octant & (4u >> i) ? half : -half);
+        f->center[i] = parent->center[i] + sides[octant >> (2 - i) & 1];
         f->squares[i][0] = parent->squares[i][flip >> (2 - i) & 1];
     }
     f->node = child;

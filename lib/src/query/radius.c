@@ -2,14 +2,14 @@
 /* radius.c - the points in a closed ball. */
 #include "region.h"
 
-/* The squares of the distances from the centre to a cell, axis by axis. */
+/* The squares of the distances from the centre to a cell, axis by axis. What depends on the half that something lies in
+ * is found by an index: branches would be unpredictable. */
 typedef struct ball_cell {
-    double center[3]; /* of the cell, from -1 to 1 in the world */
-    double near[3];   /* to its nearest place */
-    double low[3];    /* to its lower plane */
-    double middle[3]; /* to the plane that cuts it */
-    double high[3];   /* to its upper plane */
-    bool above[3];    /* the ball's centre is above the plane that cuts it, or on it */
+    double center[3];  /* of the cell, from -1 to 1 in the world */
+    double near[3];    /* to its nearest place */
+    double ends[3][2]; /* to its lower plane and to its upper one */
+    double middle[3];  /* to the plane that cuts it */
+    double half[3][2]; /* to the nearest place of its lower half and of its upper one */
 } ball_cell;
 
 typedef struct ball {
@@ -22,30 +22,17 @@ typedef struct ball {
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
 
-/* Of the two halves of a cell on an axis, the squares to the nearest place and to the farthest. */
-static double near_square(const ball_cell *c, int axis, bool upper)
-{
-    return c->above[axis] == upper ? c->near[axis] : c->middle[axis];
-}
-
-static double far_square(const ball_cell *c, int axis, bool upper)
-{
-    return larger(c->middle[axis], upper ? c->high[axis] : c->low[axis]);
-}
-
 static octant_masks masks_of(const ball *b, const ball_cell *c)
 {
-    double near[3][2], far[3][2];
+    double far[3][2];
     for (int i = 0; i < 3; i++)
-        for (int upper = 0; upper < 2; upper++) {
-            near[i][upper] = near_square(c, i, upper);
-            far[i][upper] = far_square(c, i, upper);
-        }
+        for (int upper = 0; upper < 2; upper++)
+            far[i][upper] = larger(c->middle[i], c->ends[i][upper]);
     unsigned meets = 0, inside = 0;
     for (unsigned octant = 0; octant < 8; octant++) {
         const unsigned x = octant >> 2, y = octant >> 1 & 1, z = octant & 1;
-        meets |= !((near[0][x] + near[1][y]) + near[2][z] > b->reach) ? 1u << octant : 0;
-        inside |= (far[0][x] + far[1][y]) + far[2][z] < b->whole ? 1u << octant : 0;
+        meets |= bits_if(!((c->half[0][x] + c->half[1][y]) + c->half[2][z] > b->reach), 1u << octant);
+        inside |= bits_if((far[0][x] + far[1][y]) + far[2][z] < b->whole, 1u << octant);
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
@@ -55,8 +42,10 @@ static void cut(const ball *b, const octree *tree, ball_cell *c)
     for (int i = 0; i < 3; i++) {
         const double plane = metric_scaled(&b->metric, plane_inside(&tree->axes[i], c->center[i]));
         const double beyond = b->metric.scaled[i] - plane;
+        const bool above = beyond >= 0; /* the centre is */
         c->middle[i] = beyond * beyond;
-        c->above[i] = beyond >= 0;
+        c->half[i][above] = c->near[i];
+        c->half[i][!above] = c->middle[i];
     }
 }
 
@@ -66,13 +55,13 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
     ball_cell *c = &b->cells[depth];
     if (depth > 0) {
         const ball_cell *parent = c - 1;
-        const double half = 1.0 / (double)(1u << depth);
+        const double half = 1.0 / (double)(1u << depth), sides[2] = {-half, half};
         for (int i = 0; i < 3; i++) {
             const bool upper = octant >> (2 - i) & 1;
-            c->center[i] = parent->center[i] + (upper ? half : -half);
-            c->near[i] = near_square(parent, i, upper);
-            c->low[i] = upper ? parent->middle[i] : parent->low[i];
-            c->high[i] = upper ? parent->high[i] : parent->middle[i];
+            c->center[i] = parent->center[i] + sides[upper];
+            c->near[i] = parent->half[i][upper];
+            c->ends[i][upper] = parent->ends[i][upper];
+            c->ends[i][!upper] = parent->middle[i];
         }
     }
     cut(b, tree, c);
@@ -104,10 +93,10 @@ static octant_masks measure_root(ball *b, const octree *tree)
         const double gap = metric_gap(&b->metric, i, a->min, a->max);
         c->center[i] = 0;
         c->near[i] = gap * gap;
-        c->low[i] = low * low;
-        c->high[i] = high * high;
+        c->ends[i][0] = low * low;
+        c->ends[i][1] = high * high;
         near += c->near[i];
-        far += larger(c->low[i], c->high[i]);
+        far += larger(c->ends[i][0], c->ends[i][1]);
     }
     return (octant_masks){!(near > b->reach), far < b->whole};
 }

@@ -198,8 +198,8 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
         meets &= bits_if(s->near.min[i] < middle, below) | bits_if(middle <= s->near.max[i], above); /* the node does */
-        inside &= bits_if(s->whole.min[i] < low && middle <= s->whole.max[i], below) |
-                  bits_if(s->whole.min[i] < middle && high <= s->whole.max[i], above);
+        inside &= (bits_if(s->whole.min[i] < low, below) & bits_if(middle <= s->whole.max[i], below)) |
+                  (bits_if(s->whole.min[i] < middle, above) & bits_if(high <= s->whole.max[i], above));
     }
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }

@@ -63,11 +63,15 @@ static inline void prefetch(const void *memory)
 }
 
 /* All points of a leaf; of a hashed one the first. The processor's own prefetching comes some cache lines late, a
- * quarter of the time of a query whose leaves are not in the cache. */
+ * quarter of the time of a query whose leaves are not in the cache. Eight points at a time, for where they end cannot
+ * be foreseen; what lies behind them does no harm. */
 static inline void leaf_prefetch(const node *leaf)
 {
-    for (uint32_t i = 0; i < leaf->count && i < POOL_MAX_UNITS; i += 2)
-        prefetch(&leaf_points(leaf)[i]);
+    enum { TOGETHER = 8, A_LINE = 2 };
+    const uintptr_t points = (uintptr_t)leaf->below;
+    for (uint32_t i = 0; i < leaf->count && i < POOL_MAX_UNITS; i += TOGETHER)
+        for (uint32_t k = i; k < i + TOGETHER; k += A_LINE)
+            prefetch((const void *)(points + k * sizeof(octree_point)));
 }
 
 /* The index of the pair (position, id), or LEAF_NONE. */
