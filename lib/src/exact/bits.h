@@ -14,6 +14,15 @@ static inline unsigned bits_count8(unsigned mask)
     return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
 }
 
+/* The number of bits set: of pairs, of fours, of bytes, and their sum in the highest byte. */
+static inline unsigned bits_count(uint64_t mask)
+{
+    mask -= mask >> 1 & UINT64_C(0x5555555555555555);
+    mask = (mask & UINT64_C(0x3333333333333333)) + (mask >> 2 & UINT64_C(0x3333333333333333));
+    mask = (mask + (mask >> 4)) & UINT64_C(0x0f0f0f0f0f0f0f0f);
+    return (unsigned)(mask * UINT64_C(0x0101010101010101) >> 56);
+}
+
 /* Index of the lowest set bit; mask must not be 0. */
 static inline unsigned bits_lowest(uint64_t mask)
 {

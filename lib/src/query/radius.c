@@ -68,15 +68,14 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
     return masks_of(b, c);
 }
 
-static unsigned scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
+static uint64_t scan(const void *shape, const octree_point *points, unsigned count)
 {
     const ball *b = shape;
     double squares[SCAN_POINTS];
-    unsigned found = 0;
+    uint64_t found = 0;
     for (uint64_t left = metric_points(&b->metric, points, count, b->reach, squares).within; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        hits[found] = (uint8_t)i;
-        found += is_within(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square);
+        found |= (uint64_t)is_within(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square) << i;
     }
     return found;
 }

@@ -52,16 +52,16 @@ static bool take_whole(region *r, const node *n, octree_address address)
 
 static bool scan_leaf(region *r, const node *leaf)
 {
-    uint8_t hits[SCAN_POINTS];
     r->meter.count.leaves++;
     r->meter.count.points += leaf->count;
     for (uint32_t start = 0; start < leaf->count; start += SCAN_POINTS) {
         const octree_point *points = leaf_points(leaf) + start;
         const uint32_t left = leaf->count - start;
-        const unsigned found = r->scan(r->shape, points, left < SCAN_POINTS ? left : SCAN_POINTS, hits);
-        r->count += found;
-        for (unsigned i = 0; r->visit && i < found; i++)
-            if (!r->visit(&points[hits[i]], r->context))
+        uint64_t found = r->scan(r->shape, points, left < SCAN_POINTS ? left : SCAN_POINTS);
+        if (!r->visit)
+            r->count += bits_count(found);
+        for (; r->visit && found; found &= found - 1)
+            if (!r->visit(&points[bits_lowest(found)], r->context))
                 return false;
     }
     return true;
@@ -204,13 +204,50 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
-unsigned box_shape_scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
+#ifdef OCTREE_SSE2
+/* A box, with each bound twice: for two points at once. */
+typedef struct twin_box {
+    __m128d min[3], max[3];
+} twin_box;
+
+/* Which of two points are in the box, a bit each. */
+static inline uint64_t scan_pair(const twin_box *box, const double a[3], const double b[3])
 {
-    const octree_box box = *((const box_shape *)shape)->box;
-    unsigned found = 0;
-    for (unsigned i = 0; i < count; i++) {
-        hits[found] = (uint8_t)i;
-        found += box_contains(&box, points[i].position);
+    const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
+    const __m128d at[3] = {_mm_unpacklo_pd(xy_a, xy_b), _mm_unpackhi_pd(xy_a, xy_b),
+                           _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2])};
+    __m128d inside = _mm_cmple_pd(box->min[0], at[0]);
+    for (int i = 0; i < 3; i++) {
+        inside = _mm_and_pd(inside, _mm_cmple_pd(box->min[i], at[i]));
+        inside = _mm_and_pd(inside, _mm_cmple_pd(at[i], box->max[i]));
     }
+    return (uint64_t)_mm_movemask_pd(inside);
+}
+
+/* The last pair of an odd number of points has one in common with that before: no branch depends on the number. */
+static uint64_t scan_pairs(const octree_box *box, const octree_point *points, unsigned count)
+{
+    twin_box twin;
+    uint64_t found = 0;
+    for (int i = 0; i < 3; i++) {
+        twin.min[i] = _mm_set1_pd(box->min[i]);
+        twin.max[i] = _mm_set1_pd(box->max[i]);
+    }
+    for (unsigned i = 0; i < count - 2; i += 2)
+        found |= scan_pair(&twin, points[i].position, points[i + 1].position) << i;
+    return found | scan_pair(&twin, points[count - 2].position, points[count - 1].position) << (count - 2);
+}
+#endif
+
+uint64_t box_shape_scan(const void *shape, const octree_point *points, unsigned count)
+{
+    const octree_box *box = ((const box_shape *)shape)->box;
+    uint64_t found = 0;
+#ifdef OCTREE_SSE2
+    if (count > 1)
+        return scan_pairs(box, points, count);
+#endif
+    for (unsigned i = 0; i < count; i++)
+        found |= (uint64_t)box_contains(box, points[i].position) << i;
     return found;
 }

@@ -23,8 +23,8 @@ typedef struct region {
     void *shape;
     /* The masks of a cell at a depth; it is the octant of the cell that was entered last at the depth above. */
     octant_masks (*enter)(void *shape, const octree *tree, unsigned depth, unsigned octant);
-    /* Fill `hits` with the indices of the points that are in the region; 1 <= count <= SCAN_POINTS. */
-    unsigned (*scan)(const void *shape, const octree_point *points, unsigned count, uint8_t hits[]);
+    /* Which of some points are in the region, a bit each; 1 <= count <= SCAN_POINTS. */
+    uint64_t (*scan)(const void *shape, const octree_point *points, unsigned count);
     octree_point_visitor visit; /* null: points are counted */
     void *context;
     size_t count;
@@ -56,6 +56,6 @@ box_shape box_shape_make(const octree *tree, const octree_box *box, const octree
 /* For region_search. */
 octant_masks box_shape_root(const box_shape *s, const octree *tree);
 octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, unsigned octant);
-unsigned box_shape_scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[]);
+uint64_t box_shape_scan(const void *shape, const octree_point *points, unsigned count);
 
 #endif

@@ -170,14 +170,13 @@ static bool is_touched(const swept_shape *s, const double p[3])
     return sure || sweep_touches(&s->box, p, p);
 }
 
-static unsigned scan(const void *shape, const octree_point *points, unsigned count, uint8_t hits[])
+static uint64_t scan(const void *shape, const octree_point *points, unsigned count)
 {
     const swept_shape *s = shape;
-    const unsigned around = box_shape_scan(&s->around, points, count, hits);
-    unsigned found = 0;
-    for (unsigned i = 0; i < around; i++) {
-        hits[found] = hits[i];
-        found += is_touched(s, points[hits[i]].position);
+    uint64_t found = 0;
+    for (uint64_t left = box_shape_scan(&s->around, points, count); left; left &= left - 1) {
+        const unsigned i = bits_lowest(left);
+        found |= (uint64_t)is_touched(s, points[i].position) << i;
     }
     return found;
 }
