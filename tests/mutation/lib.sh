@@ -3,6 +3,8 @@
 # shellcheck shell=sh disable=SC2034,SC2154 # variables of run
 
 sets='whole shared portable'
+sanitizer=$("$cc" -print-file-name=libasan.so)
+[ ! -f "$sanitizer" ] || sets="$sets sanitized" # who has clang's has no such file
 sources='lib/src/*/*.[ch]'
 prefix=lib/src
 
@@ -14,6 +16,7 @@ flags_of()
     case $1 in
         shared) echo -DOCTREE_LEAST_SHARE=4 ;;
         portable) echo -DOCTREE_PORTABLE ;;
+        sanitized) echo -fsanitize=address,undefined -fno-sanitize-recover=all ;;
     esac
 }
 
@@ -25,7 +28,8 @@ compile_one()
 
 link_library()
 {
-    "$cc" -shared -o "$1/liboctree.so" "$1"/*.o -lm
+    # shellcheck disable=SC2046 # a list of flags
+    "$cc" $(flags_of "$1") -shared -o "$1/liboctree.so" "$1"/*.o -lm
 }
 
 dependents_of()
@@ -92,5 +96,6 @@ start_test()
 {
     unset OCTREE_TEST_EXECUTOR # one that is empty is one
     [ "$1" != shared ] || export OCTREE_TEST_EXECUTOR=shuffled
+    [ "$1" != sanitized ] || export LD_PRELOAD="$sanitizer"
     LD_LIBRARY_PATH=$PWD/$1 timeout 1000 "programs/$2"
 }
