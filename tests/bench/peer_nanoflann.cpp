@@ -54,7 +54,7 @@ void destroy(void *self)
 size_t memory(const void *self)
 {
     auto &tree = const_cast<kd_tree &>(tree_of(self));
-    return tree.usedMemory(tree) + tree.dataset.count * sizeof(double[3]);
+    return tree.usedMemory(tree) + static_cast<const subject *>(self)->all.count * sizeof(double[3]);
 }
 
 size_t build(void *self, const octree_point *points, const octree_point *, size_t count) noexcept
@@ -67,6 +67,7 @@ size_t build(void *self, const octree_point *points, const octree_point *, size_
 
 // Adds up what lies within a squared radius.
 struct hits {
+    using DistanceType = double; // this and sort() are asked for by nanoflann 1.5 and later
     double square;
     peer_answer &answer;
 
@@ -86,6 +87,9 @@ struct hits {
         }
         return true;
     }
+    void sort() const
+    {
+    }
 };
 
 void radius(const void *self, const peer_query *queries, size_t count, peer_answer *answers)
@@ -93,7 +97,7 @@ void radius(const void *self, const peer_query *queries, size_t count, peer_answ
     for (size_t i = 0; i < count; i++) {
         answers[i] = {};
         hits found{queries[i].size * queries[i].size, answers[i]};
-        tree_of(self).findNeighbors(found, queries[i].at, nanoflann::SearchParams());
+        tree_of(self).findNeighbors(found, queries[i].at, {}); // whose parameters have another name since 1.5
     }
 }
 
