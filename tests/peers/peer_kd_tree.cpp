@@ -75,6 +75,9 @@ template <class S> struct near_set {
         best.add(square_of<S>(best.asked.target, points.all[i].at), points.all[i].id);
         return true;
     }
+    void sort() const // nanoflann 1.5 and later ask for it
+    {
+    }
 };
 
 template <class S> struct ball_set {
@@ -97,6 +100,9 @@ template <class S> struct ball_set {
         if (asked.in_ball(square_of<S>(asked.target, points.all[i].at)))
             ids[count++] = points.all[i].id;
         return true;
+    }
+    void sort() const
+    {
     }
 };
 
@@ -155,11 +161,10 @@ template <class S> struct kd_index {
         nearest_so_far<S> best(q);
         near_set<S> nearest{best, points};
         ball_set<S> ball{q, points, ids, 0};
-        const nanoflann::SearchParams exact;
         if (query.kind == OCTREE_QUERY_RADIUS)
-            tree->findNeighbors(ball, q.target, exact);
+            tree->findNeighbors(ball, q.target, {});
         else
-            tree->findNeighbors(nearest, q.target, exact);
+            tree->findNeighbors(nearest, q.target, {});
         return query.kind == OCTREE_QUERY_RADIUS ? ball.count : best.name(ids);
     }
 };
