@@ -213,6 +213,23 @@ static void noise_is_hardly_longer_than_itself_and_comes_in_parts(void **state)
     free(r.bytes);
 }
 
+/* A row that repeats the one above it is cheaper where it is one colour: a distance of one pixel takes no more bits. */
+static void what_repeats_and_is_flat_is_a_run(void **state)
+{
+    (void)state;
+    enum { WIDTH = 1280, HEIGHT = 720 };
+    for (size_t pixel = 1; pixel <= 3; pixel += 2) {
+        const rows r = make_rows(WIDTH, HEIGHT, pixel);
+        for (size_t y = 0; y < r.count; y++)
+            set_pixel(&r, WIDTH / 2, y, 1);
+        stream s = encode(&r);
+        assert_inflates(&r, &s);
+        assert_true(s.size < r.size * r.count / 450);
+        free(s.bytes);
+        free(r.bytes);
+    }
+}
+
 /* As RFC 1951 counts them: as they are, in the fixed code, in one of their own. */
 static void each_block_has_the_code_that_is_shortest(void **state)
 {
@@ -285,6 +302,7 @@ int main(void)
         cmocka_unit_test(rows_of_all_kinds_come_back),
         cmocka_unit_test(what_is_drawn_is_shorter_than_zlibs),
         cmocka_unit_test(noise_is_hardly_longer_than_itself_and_comes_in_parts),
+        cmocka_unit_test(what_repeats_and_is_flat_is_a_run),
         cmocka_unit_test(each_block_has_the_code_that_is_shortest),
         cmocka_unit_test(streams_are_pinned),
         cmocka_unit_test(codes_are_complete_and_within_the_limit),
