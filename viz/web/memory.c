@@ -8,20 +8,24 @@
 
 #define BROWSER_PAGE ((size_t)65536)
 
-extern unsigned char __heap_base; /* the linker's: where nothing else lies */
-
 static size_t end;
 
-/* The bytes from 0 on that hold the module's state. */
+static size_t bytes_there(void)
+{
+    return (size_t)__builtin_wasm_memory_size(0) * BROWSER_PAGE;
+}
+
+/* The bytes from 0 on that hold the module's state: at first all that it began with, since newer versions of
+ * wasi-libc take what lies behind the data there without asking. */
 size_t web_used(void)
 {
-    return end ? end : (size_t)&__heap_base;
+    return end ? end : bytes_there();
 }
 
 void *sbrk(intptr_t more)
 {
     const size_t before = web_used(), wanted = before + (size_t)more;
-    const size_t there = (size_t)__builtin_wasm_memory_size(0) * BROWSER_PAGE;
+    const size_t there = bytes_there();
     if (more < 0 || wanted < before ||
         (wanted > there &&
          __builtin_wasm_memory_grow(0, (wanted - there + BROWSER_PAGE - 1) / BROWSER_PAGE) == (size_t)-1))

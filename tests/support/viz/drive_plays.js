@@ -131,6 +131,8 @@ async function drive()
     if (!octreel.recording.hasFrames)
         return driveAlone();
     say("plays by itself", await interaction.start());
+    const {wasm} = new Engine(interaction.module);
+    say("begins with its memory in use", wasm.web_used() === wasm.memory.buffer.byteLength);
     await until(() => player().scout?.tick === player().length - 1, "the end of the session");
     await sayTicks();
     await player().goTo(219);
