@@ -52,11 +52,13 @@ static inline node *child_at(const node *n, unsigned octant)
     return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
 }
 
-/* Start loading memory that will be read soon. Only speed depends on it. */
+/* Start loading memory that will be read soon. Only speed depends on it. (GCC takes a function that does nothing else
+ * for one without effect and leaves calls of it out: an empty statement of assembly is an effect.) */
 static inline void prefetch(const void *memory)
 {
 #if defined(__GNUC__)
     __builtin_prefetch(memory);
+    __asm__ volatile("");
 #else
     (void)memory;
 #endif
