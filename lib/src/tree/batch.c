@@ -6,18 +6,38 @@
 
 #include <string.h>
 
-/* Arrays with an item for each point. */
-static morton_item *take_items(const batch *b, size_t arrays)
+/* So many items for each point. */
+static morton_item *take_items(const batch *b, size_t each)
 {
     /* unreachable: where size_t has 64 bits, for a batch has at most UINT32_MAX points */
-    if (b->count >= SIZE_MAX / arrays / sizeof(morton_item) - 1)
+    if (b->count >= SIZE_MAX / sizeof(morton_item) / each - 1)
         return NULL;
-    return arena_take(&b->tree->store.memory, arrays * (b->count + 1) * sizeof(morton_item));
+    return arena_take(&b->tree->store.memory, each * (b->count + 1) * sizeof(morton_item));
 }
 
-static void give_items(const batch *b, morton_item *items, size_t arrays)
+static void give_items(const batch *b, morton_item *items, size_t each)
 {
-    arena_give(&b->tree->store.memory, items, arrays * (b->count + 1) * sizeof *items);
+    arena_give(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
+}
+
+/* The lists of a move are one block, taken once: malloc would give the pages of several back, and fault them in again,
+ * tick after tick. */
+static size_t list_count(const batch *b)
+{
+    return b->to ? 4 : 1;
+}
+
+static bool take_lists(batch *b)
+{
+    const size_t room = b->count + 1;
+    b->lists = take_items(b, list_count(b));
+    b->valid.items = b->lists;
+    if (b->to && b->lists) {
+        b->spare = b->lists + room;
+        b->leaving.items = b->lists + 2 * room;
+        b->arriving.items = b->lists + 3 * room;
+    }
+    return b->lists != NULL;
 }
 
 enum { TOGETHER = 64 }; /* codes are computed of so many positions at a time */
@@ -90,19 +110,6 @@ static void collect_items(batch *b)
 }
 
 enum { LEAST_REMADE = 64 };
-enum { LISTS = 3 }; /* what leaves, what arrives, and one to sort with */
-
-/* Lists for what leaves and arrives, with room for all points. */
-bool take_lists(batch *b)
-{
-    b->lists = take_items(b, LISTS);
-    if (!b->lists)
-        return false;
-    b->leaving.items = b->lists;
-    b->arriving.items = b->lists + b->count + 1;
-    b->spare = b->lists + 2 * (b->count + 1);
-    return true;
-}
 
 /* Whether no two points can be the same, as where ids are counted. */
 static bool ids_ascend(const batch *b)
@@ -115,14 +122,15 @@ static bool ids_ascend(const batch *b)
 
 static bool sort_items(batch *b)
 {
-    morton_item *spare = take_items(b, 1);
+    morton_item *spare = b->spare ? b->spare : take_items(b, 1);
     if (!spare)
         return false;
     const size_t unsorted = b->tree->root.count == 0 ? unsorted_count(b->tree) : 0;
     const bool differ = unsorted > 0 && ids_ascend(b);
     b->repeated =
         morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
-    give_items(b, spare, 1);
+    if (!b->spare)
+        give_items(b, spare, 1);
     return true;
 }
 
@@ -191,8 +199,7 @@ octree_status batch_collect(batch *b)
         tasks_run(b->tree, find_share, tasks_for(b->tree, b->count), b);
         return OCTREE_OK;
     }
-    b->valid.items = take_items(b, 1);
-    if (!b->valid.items)
+    if (!take_lists(b))
         return OCTREE_NO_MEMORY;
     collect_items(b);
     return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
@@ -215,8 +222,7 @@ void batch_end(batch *b)
     release_repetitions(b);
     if (b->store)
         division_end(b);
-    give_items(b, b->valid.items, 1);
-    give_items(b, b->lists, LISTS);
+    give_items(b, b->lists, list_count(b));
     arena_give(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
 
@@ -295,42 +301,62 @@ void set_repeated_statuses(const batch *b, octree_status status)
 
 /* ---- The leaves that items lie in --------------------------------------------------------------------------- */
 
-static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visit)
-{
-    while (n && n->octants &&
-           (items.count == 1 || morton_octant(items.items[0].code ^ items.items[items.count - 1].code, depth) == 0))
-        n = child_at(n, morton_octant(items.items[0].code, depth++));
-    if (!n || !n->octants) {
-        visit(b, n, depth, items);
-        return;
-    }
-    for (size_t i = 0, last = 8; items.count <= 64 && i < items.count; i++) {
-        const unsigned octant = morton_octant(items.items[i].code, depth);
-        const node *child = octant == last ? NULL : child_at(n, octant);
-        last = octant;
-        prefetch(&b->points[items.items[i].place]);
-        if (child && child->octants == 0)
-            leaf_prefetch(child);
-        else if (child)
-            prefetch(child->below);
-    }
-    while (items.count > 0) {
-        const size_t share = octant_share(items.items, items.count, depth);
-        visit_below(b, child_at(n, morton_octant(items.items[0].code, depth)), depth + 1, (span){items.items, share},
-                    visit);
-        items.items += share;
-        items.count -= share;
-    }
-}
-
-/* ---- The same by tasks -------------------------------------------------------------------------------------- */
-
-/* Items whose leaves one task visits. */
+/* The items of one leaf, or of an octant where there is none. */
 typedef struct visit {
     node *node;
     unsigned depth;
     span items;
 } visit;
+
+/* How many of the sorted items lie in one cell of this depth with the first of them. Most often they are few. */
+static size_t cell_share(const batch *b, span items, unsigned depth)
+{
+    const unsigned below = 3 * (OCTREE_MAX_DEPTH - depth);
+    size_t share = 0;
+    for (; share < items.count && (items.items[share].code ^ items.items[0].code) >> below == 0; share++)
+        prefetch_item(b, &items.items[share]);
+    return share;
+}
+
+/* Go down a path to the leaf of the first items, which *next becomes, and up again to the last node that it shares with
+ * that of the items after them. */
+static void find_next(const batch *b, path *p, unsigned top, span *items, visit *next)
+{
+    const uint64_t code = items->items[0].code;
+    node *n = path_end(p);
+    while (n && n->octants) {
+        n = child_at(n, morton_octant(code, p->depth));
+        p->nodes[++p->depth] = n;
+    }
+    if (n)
+        leaf_prefetch(n);
+    const size_t share = cell_share(b, *items, p->depth);
+    *next = (visit){n, p->depth, {items->items, share}};
+    items->items += share;
+    items->count -= share;
+    while (items->count > 0 && p->depth > top &&
+           (items->items[0].code ^ code) >> 3 * (OCTREE_MAX_DEPTH - p->depth) != 0)
+        p->depth--;
+}
+
+enum { LEAVES_TOGETHER = 6 }; /* are loaded at once */
+
+/* The items of a node of this depth, leaf by leaf. */
+static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
+{
+    path p = {.depth = depth};
+    p.nodes[depth] = n;
+    while (items.count > 0) {
+        visit next[LEAVES_TOGETHER];
+        size_t count = 0;
+        while (items.count > 0 && count < LEAVES_TOGETHER)
+            find_next(b, &p, depth, &items, &next[count++]);
+        for (size_t i = 0; i < count; i++)
+            visitor(b, next[i].node, next[i].depth, next[i].items);
+    }
+}
+
+/* ---- The same by tasks -------------------------------------------------------------------------------------- */
 
 typedef struct visits {
     division *division;

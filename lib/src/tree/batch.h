@@ -32,7 +32,7 @@ typedef struct batch {
     bool repeated;      /* some of them may have the same code */
     span leaving;       /* stored points that leave, with their index */
     span arriving;      /* points of the caller's that arrive */
-    morton_item *lists; /* of a move: the memory of both and of a spare list, for sorting */
+    morton_item *lists; /* the memory of `valid`, and of a move of all three and of a spare list, for sorting */
     morton_item *spare;
     list repetitions;
 
@@ -64,6 +64,14 @@ static inline octree_point arriving_point(const batch *b, const morton_item *ite
     return point;
 }
 
+/* Start loading what an item of the caller's reads: those are scattered, in the caller's order. */
+static inline void prefetch_item(const batch *b, const morton_item *item)
+{
+    prefetch(&b->points[item->place]);
+    if (b->to)
+        prefetch(&b->to[item->place]);
+}
+
 /* A point of the caller's that arrives, or one that is stored. */
 static inline octree_point batch_point(const batch *b, const morton_item *item)
 {
@@ -90,8 +98,6 @@ static inline octree_status check_inside(const octree *tree, const double positi
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
 }
 
-/* Of moves: lists for what leaves and arrives, with room for all points. */
-bool take_lists(batch *b);
 void batch_end(batch *b);
 
 /* Whether no two points of the batch have one id: then no change depends on another, but where a leaf is full. False

@@ -190,16 +190,6 @@ static void move_found(batch *b, node *leaf, unsigned depth, morton_item *item, 
     b->done++;
 }
 
-enum { AHEAD = 12 };
-
-static void prefetch_points(const batch *b, const morton_item *items, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        prefetch(&b->points[items[i].place]);
-        prefetch(&b->to[items[i].place]);
-    }
-}
-
 /* A leaf that was built holds its points in the order of the batch: so the one after the last is tried first. */
 static uint32_t find_after(const node *leaf, uint32_t last, const octree_point *point)
 {
@@ -214,9 +204,6 @@ static uint32_t find_after(const node *leaf, uint32_t last, const octree_point *
 
 static void find_moved(batch *b, node *leaf, unsigned depth, span items)
 {
-    const morton_item *end = b->valid.items + b->valid.count, *next = items.items + AHEAD;
-    if (next < end)
-        prefetch_points(b, next, (size_t)(end - next) < items.count ? (size_t)(end - next) : items.count);
     uint32_t index = LEAF_NONE;
     for (size_t i = 0; i < items.count; i++) {
         morton_item *item = &items.items[i];
@@ -245,8 +232,6 @@ static void undo_moves(batch *b)
 /* Moves that do not depend on one another. *settled is false when they do after all; the tree is then unchanged. */
 static octree_status move_apart(batch *b, bool *settled)
 {
-    if (!take_lists(b))
-        return OCTREE_NO_MEMORY;
     b->may_be_stored = true;
     batch_visit_leaves(b, find_moved);
     morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0, true);
@@ -259,10 +244,7 @@ static octree_status move_apart(batch *b, bool *settled)
 
 static octree_status move_in_order(batch *b)
 {
-    if (!b->lists && !take_lists(b))
-        return OCTREE_NO_MEMORY;
-    b->leaving = (span){b->lists, 0};
-    b->arriving.count = b->done = 0;
+    b->leaving.count = b->arriving.count = b->done = 0;
     b->may_be_stored = false;
     b->settled = true;
     return resolve_moves_in_order(b) ? restructure(b) : OCTREE_NO_MEMORY;

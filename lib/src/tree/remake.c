@@ -269,17 +269,12 @@ static void keep_stored(remake *r)
     }
 }
 
-/* Let all points arrive, sorted. False when there is no memory. */
-static bool sort_all(batch *b, size_t total)
+/* Let all points arrive, sorted. */
+static void sort_all(batch *b, morton_item *lists, size_t total)
 {
-    arena *memory = &b->store->memory;
-    b->lists = arena_take(memory, 2 * total * sizeof *b->lists);
-    if (!b->lists)
-        return false;
     const size_t unsorted = b->tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_count(b->tree);
-    b->arriving = (span){b->lists, grid_items(b, NULL, b->lists)};
-    morton_sort_tasks(b->tree, memory, b->lists, b->lists + total, total, unsorted, true);
-    return true;
+    b->arriving = (span){lists, grid_items(b, NULL, lists)};
+    morton_sort_tasks(b->tree, &b->store->memory, lists, lists + total, total, unsorted, true);
 }
 
 static octree_status build_moved(remake *r, bool *settled)
@@ -298,10 +293,14 @@ static octree_status build_moved(remake *r, bool *settled)
                .grid = r->whole->grid};
     if (whole->done < r->count)
         keep_stored(r);
-    octree_status status = OCTREE_NO_MEMORY;
-    if (b.grid || sort_all(&b, total))
-        status = build_anew(&b);
-    arena_give(&b.store->memory, b.lists, 2 * total * sizeof *b.lists);
+    const size_t size = 2 * total * sizeof(morton_item);
+    morton_item *lists = b.grid ? NULL : arena_take(&b.store->memory, size);
+    if (!b.grid && !lists)
+        return OCTREE_NO_MEMORY;
+    if (lists)
+        sort_all(&b, lists, total);
+    const octree_status status = build_anew(&b);
+    arena_give(&b.store->memory, lists, size);
     *settled = !b.overflow;
     return status;
 }

@@ -66,11 +66,12 @@ static bool make_leaf(batch *b, span items, node *made)
     }
     if (!leaf_create(b->store, made, (uint32_t)taken))
         return false;
-    for (size_t i = 0; i < taken; i++) { /* scattered, in the caller's order */
+    for (size_t i = 0; i < taken; i++) {
         const morton_item *item = &items.items[i];
-        prefetch(item->index == MORTON_NEW ? &b->points[item->place] : &b->stored[item->index]);
-        if (b->to && item->index == MORTON_NEW)
-            prefetch(&b->to[item->place]);
+        if (item->index == MORTON_NEW)
+            prefetch_item(b, item);
+        else
+            prefetch(&b->stored[item->index]);
     }
     for (size_t i = 0; i < taken; i++) {
         const octree_point point = batch_point(b, &items.items[i]);
@@ -324,6 +325,19 @@ static bool change_same_children(batch *b, const node *old, cell c, const span l
     return true;
 }
 
+/* Start loading the leaves in which items arrive, and the first of these. */
+static void prefetch_leaves(const batch *b, const node *parent, const span arriving[8])
+{
+    for (unsigned octant = 0; octant < 8; octant++) {
+        const node *child = arriving[octant].count > 0 ? child_at(parent, octant) : NULL;
+        if (!child || child->octants)
+            continue;
+        leaf_prefetch(child);
+        for (size_t i = 0; i < arriving[octant].count && i < POOL_MAX_UNITS; i++)
+            prefetch_item(b, &arriving[octant].items[i]);
+    }
+}
+
 static bool change_children(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     span out[8], in[8];
@@ -332,6 +346,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     for (unsigned octant = 0; octant < 8; octant++)
         if ((old->octants >> octant & 1) && child_at(old, octant)->count > out[octant].count)
             octants |= 1u << octant;
+    prefetch_leaves(b, old, in);
     if (octants == old->octants)
         return change_same_children(b, old, c, out, in, made);
     const unsigned children = bits_count8(octants);
