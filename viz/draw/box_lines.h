@@ -55,8 +55,9 @@ typedef struct line {
     line_key key;
     uint32_t users;        /* edges of boxes that lie on it */
     uint32_t first, count; /* its merged edges */
-    uint32_t stretches;    /* while it is merged: the number of its stretches */
-    uint32_t last;         /* while it is merged: the last of these, or LINE_NONE */
+    /* while it is merged: of how many boxes it has stretches, the last of these, and where their places begin among
+     * those of all lines */
+    uint32_t stretches, last, start;
 } line;
 
 #define LINE_NONE HASH_MAP_NONE

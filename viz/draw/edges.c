@@ -14,7 +14,6 @@ typedef struct stretch {
     double from, to;
     uint64_t id;
     scene_style style;
-    uint32_t previous; /* on the same line, or LINE_NONE */
     uint8_t depth;
 } stretch;
 
@@ -72,6 +71,12 @@ static bool order_lines(edge_list *list)
 
 /* ---- The stretches of lines ----------------------------------------------------------------------------------- */
 
+static stretch stretch_of(const scene_box *box, unsigned axis)
+{
+    return (stretch){
+        .from = box->box.min[axis], .to = box->box.max[axis], .id = box->id, .style = box->style, .depth = box->depth};
+}
+
 /* Whether an earlier stretch of the same line hides this one completely, as sweep_line() would find. */
 static bool is_covered(const stretch *it, const stretch *by)
 {
@@ -80,45 +85,43 @@ static bool is_covered(const stretch *it, const stretch *by)
     return it->depth > by->depth || it->from > by->from || it->id >= by->id;
 }
 
-static bool collect_edge(stretch_list *all, line *on, const scene_box *box, unsigned axis)
+static void collect_edge(uint32_t *places, line *on, const lined_box *boxes, uint32_t place, unsigned axis)
 {
-    const stretch it = {.from = box->box.min[axis],
-                        .to = box->box.max[axis],
-                        .id = box->id,
-                        .style = box->style,
-                        .previous = on->last,
-                        .depth = box->depth};
-    if (on->last != LINE_NONE && is_covered(&it, &all->items[on->last]))
-        return true;
-    stretch *items =
-        all->count < LINE_NONE ? array_reserve(all->items, all->count + 1, &all->room, sizeof *items) : NULL;
-    if (!items)
-        return false;
-    all->items = items;
-    on->stretches++;
-    on->last = (uint32_t)all->count;
-    items[all->count++] = it;
-    return true;
+    if (on->stretches > 0) {
+        const stretch it = stretch_of(&boxes[place].box, axis), last = stretch_of(&boxes[on->last].box, axis);
+        if (is_covered(&it, &last))
+            return;
+    }
+    places[on->start + on->stretches++] = on->last = place;
 }
 
-/* Collect the stretches of all changed lines. */
-static bool collect(stretch_list *all, box_lines *from)
+/* Let each changed line have room for the places of all boxes that lie on it, in the order in which lines are swept.
+ * Null when there is no memory. */
+static uint32_t *make_room(edge_list *list)
 {
-    bool ok = true;
-    for (size_t i = 0; i < from->count; i++)
-        if (from->changed[i]) {
-            from->lines[i].stretches = 0;
-            from->lines[i].last = LINE_NONE;
-        }
-    for (size_t i = 0; ok && i < from->now.count; i++) {
-        const lined_box *box = &from->now.items[i];
-        for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
-            const uint32_t place = box->lines[edge];
-            if (place != LINE_NONE && from->changed[place])
-                ok = collect_edge(all, &from->lines[place], &box->box, edge / 4);
-        }
+    box_lines *from = &list->boxes;
+    size_t total = 0;
+    for (size_t i = 0; i < list->ordered; i++) {
+        line *on = &from->lines[list->order[i]];
+        on->stretches = 0;
+        on->start = (uint32_t)total;
+        total += from->changed[list->order[i]] ? on->users : 0;
     }
-    return ok;
+    return total < UINT32_MAX ? malloc((total + 1) * sizeof(uint32_t)) : NULL;
+}
+
+/* The places of the boxes on all changed lines. */
+static uint32_t *collect(edge_list *list)
+{
+    box_lines *from = &list->boxes;
+    uint32_t *places = make_room(list);
+    for (size_t i = 0; places && i < from->now.count; i++)
+        for (unsigned edge = 0; edge < BOX_EDGES; edge++) {
+            const uint32_t on = from->now.items[i].lines[edge];
+            if (on != LINE_NONE && from->changed[on])
+                collect_edge(places, &from->lines[on], from->now.items, (uint32_t)i, edge / 4);
+        }
+    return places;
 }
 
 static int compare_stretches(const void *a, const void *b)
@@ -152,15 +155,14 @@ static void sort_stretches(stretch *line, size_t count)
     }
 }
 
-/* Copy the stretches of one line into an array, and sort them. */
-static bool gather(stretch_list *one, const stretch_list *all, const line *on)
+/* The stretches of one line, sorted. */
+static bool gather(stretch_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
 {
     stretch *items = array_reserve(one->items, on->stretches + 1, &one->room, sizeof *items);
     if (!items)
         return false;
-    uint32_t place = on->last;
-    for (size_t i = on->stretches; i-- > 0; place = items[i].previous)
-        items[i] = all->items[place];
+    for (size_t i = 0; i < on->stretches; i++)
+        items[i] = stretch_of(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
     one->items = items;
     one->count = on->stretches;
     sort_stretches(items, one->count);
@@ -285,7 +287,7 @@ static bool copy_edges(edge_list *list, const line *of)
 }
 
 /* Line by line in order: sweep the changed lines, and copy the edges of the others. */
-static bool sweep_lines(edge_list *list, const stretch_list *all)
+static bool sweep_lines(edge_list *list, const uint32_t *places)
 {
     bool ok = true;
     stretch_list one = {0};
@@ -293,7 +295,8 @@ static bool sweep_lines(edge_list *list, const stretch_list *all)
         line *on = &list->boxes.lines[list->order[i]];
         uint8_t *changed = &list->boxes.changed[list->order[i]];
         const sweep w = {&list->now, &on->key, line_key_axis(&on->key), list->now.count};
-        ok = *changed ? gather(&one, all, on) && sweep_line(&w, one.items, one.count) : copy_edges(list, on);
+        ok = *changed ? gather(&one, list->boxes.now.items, places, on) && sweep_line(&w, one.items, one.count)
+                      : copy_edges(list, on);
         on->first = (uint32_t)w.first;
         on->count = (uint32_t)(list->now.count - w.first);
         *changed = false;
@@ -304,13 +307,13 @@ static bool sweep_lines(edge_list *list, const stretch_list *all)
 
 static bool merge_lines(edge_list *list)
 {
-    stretch_list all = {0};
     const edge_array before = list->before;
     list->before = list->now;
     list->now = before;
     list->now.count = 0;
-    const bool merged = order_lines(list) && collect(&all, &list->boxes) && sweep_lines(list, &all);
-    free(all.items);
+    uint32_t *places = order_lines(list) ? collect(list) : NULL;
+    const bool merged = places && sweep_lines(list, places);
+    free(places);
     return merged;
 }
 
