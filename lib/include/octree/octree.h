@@ -203,10 +203,10 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  * the order given. statuses[i] (may be null) receives what octree_move would have returned, and *moved (may be null)
  * the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are
  * undefined. Cost: of fewer than a fifth as many moves as points are stored (three tenths where those are not spread
- * evenly, or under OCTREE_REFUSE) as octree_remove_many, and a point that stays in its leaf is written in place; of
- * more one look at all points and a bulk build, some 90 bytes a point while it runs. Where an id comes twice in a batch
- * or among the stored points, where a pair would be there twice, and where a leaf may be full under OCTREE_REFUSE, the
- * moves are first followed one by one in a hash table, with some 250 bytes a move. */
+ * evenly, or under OCTREE_REFUSE with a depth below 13) as octree_remove_many, and a point that stays in its leaf is
+ * written in place; of more one look at all points and a bulk build, some 90 bytes a point while it runs. Where an id
+ * comes twice in a batch or among the stored points, where a pair would be there twice, and where a leaf may be full
+ * under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some 250 bytes a move. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved);
 

@@ -134,15 +134,23 @@ static bool sort_items(batch *b)
     return true;
 }
 
+enum { LEVELS_BELOW = 6 };
+
+/* Whether points are so rarely together in a cell that cannot be divided that a full leaf need not be feared. */
+static bool refuses_rarely(const octree_def *def)
+{
+    return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
+}
+
 /* Of so many moves it is cheaper to build the tree anew, as counted by callgrind at 1e5 points: by a grid from a fifth
- * on, which takes 170 instructions a stored point, else from three tenths on, at 350. Under OCTREE_REFUSE there is no
- * grid: what may meet a full leaf is found by sorting. False when there is no memory. */
+ * on, which takes 170 instructions a stored point, else from three tenths on, at 350. Without the grid what may meet a
+ * full leaf is found by sorting. False when there is no memory. */
 static bool choose_remake(batch *b)
 {
     const size_t stored = b->tree->root.count;
     if (!b->to || stored < LEAST_REMADE || b->count < stored / 5)
         return true;
-    const bool ok = b->tree->def.full_leaf == OCTREE_REFUSE || grid_choose(b, stored);
+    const bool ok = !refuses_rarely(&b->tree->def) || grid_choose(b, stored);
     b->remakes = b->grid > 0 || b->count >= stored / 10 * 3;
     return ok;
 }

@@ -134,6 +134,11 @@ octree_status restructure(batch *b);
  * out. */
 bool may_overflow(const batch *b, const node *old, cell c, span arriving);
 
+/* The same where the tree is built anew, of the points where they go to, for all moves at once: quicker, and sometimes
+ * true where it need not be. Cost: O(n) for n points where leaves of both trees hold more than the capacity together.
+ */
+bool may_overflow_anew(const octree *tree, const node *made);
+
 /* Put the points that have cells, or where there is no grid all that arrives, in place of what is stored. Errors:
  * NO_MEMORY; the tree is unchanged then, and when `overflow` is set. */
 octree_status build_anew(batch *b);

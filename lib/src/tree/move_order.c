@@ -5,6 +5,7 @@
 #include "batch.h"
 #include "octree/digest.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -241,4 +242,70 @@ bool may_overflow(const batch *b, const node *old, cell c, span arriving)
             return true;
     }
     return false;
+}
+
+/* ---- Overflow of a tree built anew ---------------------------------------------------------------------------- */
+
+/* Two points that lie farther apart than this on some axis are not in one cell that cannot be divided: such a cell is
+ * of the greatest depth, or no double lies inside it. */
+static void least_distance(const octree *tree, double distance[3])
+{
+    const octree_box *world = &tree->def.world;
+    for (int i = 0; i < 3; i++) {
+        const double highest = fmax(fabs(world->min[i]), fabs(world->max[i]));
+        distance[i] =
+            ldexp(world->max[i] - world->min[i], 1 - (int)tree->def.max_depth) + ldexp(highest, -48) + 0x1p-1070;
+    }
+}
+
+static bool are_close(const octree_point *a, const octree_point *b, const double distance[3])
+{
+    return fabs(a->position[0] - b->position[0]) <= distance[0] &&
+           fabs(a->position[1] - b->position[1]) <= distance[1] && fabs(a->position[2] - b->position[2]) <= distance[2];
+}
+
+/* At most how many of twice `half` points lie in one cell that cannot be divided: one of each two that are not close.
+ */
+static size_t most_of_pairs(const octree_point *points, uint32_t half, const double distance[3])
+{
+    size_t most = half;
+    for (uint32_t i = 0; i < half; i++)
+        most += are_close(&points[i], &points[i + half], distance);
+    return most;
+}
+
+/* The same of the points of two leaves. */
+static size_t most_in_a_cell(const node *old, const node *made, const double distance[3])
+{
+    const octree_point *before = leaf_points(old), *after = leaf_points(made);
+    const uint32_t odd = old->count % 2, also_odd = made->count % 2;
+    size_t most = most_of_pairs(before + odd, old->count / 2, distance) +
+                  most_of_pairs(after, made->count / 2, distance) + (odd | also_odd);
+    if (odd && also_odd)
+        most += are_close(&before[0], &after[made->count - 1], distance);
+    return most;
+}
+
+static bool may_crowd(const octree *tree, const node *old, const node *made, const double distance[3])
+{
+    if (fits_leaf(tree, (size_t)old->count + made->count))
+        return false;
+    if (old->octants == 0 && made->octants == 0)
+        return !fits_leaf(tree, most_in_a_cell(old, made, distance));
+    for (unsigned octant = 0; octant < 8; octant++) {
+        const node *before = old->octants ? child_at(old, octant) : old;
+        const node *after = made->octants ? child_at(made, octant) : made;
+        if (before && after && may_crowd(tree, before, after, distance))
+            return true;
+    }
+    return false;
+}
+
+bool may_overflow_anew(const octree *tree, const node *made)
+{
+    double distance[3];
+    if (tree->def.full_leaf != OCTREE_REFUSE)
+        return false;
+    least_distance(tree, distance);
+    return may_crowd(tree, &tree->root, made, distance);
 }

@@ -245,15 +245,17 @@ octree_status build_anew(batch *b)
     division_open(b, b->arriving.count);
     const bool ok = b->grid ? grid_fill(b, &made) : build_divided(b, root_cell(), b->arriving, &made);
     division_close(b);
+    b->overflow = b->overflow || (ok && b->to && b->grid && may_overflow_anew(tree, &made));
+    const bool happens = ok && !b->overflow;
     const pool nodes = tree->store.nodes, points = tree->store.points;
-    if (ok) {
+    if (happens) {
         tree->store.nodes = old_nodes;
         tree->store.points = old_points;
     }
-    release_pools(&tree->store, ok ? &tree->root : &made);
-    tree->store.nodes = ok ? nodes : old_nodes;
-    tree->store.points = ok ? points : old_points;
-    tree->root = ok ? made : tree->root;
+    release_pools(&tree->store, happens ? &tree->root : &made);
+    tree->store.nodes = happens ? nodes : old_nodes;
+    tree->store.points = happens ? points : old_points;
+    tree->root = happens ? made : tree->root;
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 

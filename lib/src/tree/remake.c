@@ -269,12 +269,19 @@ static void keep_stored(remake *r)
     }
 }
 
-/* Let all points arrive, sorted. */
-static void sort_all(batch *b, morton_item *lists, size_t total)
+/* Let all points arrive, sorted: then whether a leaf may be full is found exactly. */
+static octree_status sort_and_build(batch *b, size_t total)
 {
+    arena *memory = &b->store->memory;
     const size_t unsorted = b->tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_count(b->tree);
+    morton_item *lists = arena_take(memory, 2 * total * sizeof *lists);
+    if (!lists)
+        return OCTREE_NO_MEMORY;
     b->arriving = (span){lists, grid_items(b, NULL, lists)};
-    morton_sort_tasks(b->tree, &b->store->memory, lists, lists + total, total, unsorted, true);
+    morton_sort_tasks(b->tree, memory, lists, lists + total, total, unsorted, true);
+    const octree_status status = build_anew(b);
+    arena_give(memory, lists, 2 * total * sizeof *lists);
+    return status;
 }
 
 static octree_status build_moved(remake *r, bool *settled)
@@ -293,14 +300,11 @@ static octree_status build_moved(remake *r, bool *settled)
                .grid = r->whole->grid};
     if (whole->done < r->count)
         keep_stored(r);
-    const size_t size = 2 * total * sizeof(morton_item);
-    morton_item *lists = b.grid ? NULL : arena_take(&b.store->memory, size);
-    if (!b.grid && !lists)
-        return OCTREE_NO_MEMORY;
-    if (lists)
-        sort_all(&b, lists, total);
-    const octree_status status = build_anew(&b);
-    arena_give(&b.store->memory, lists, size);
+    octree_status status = b.grid ? build_anew(&b) : OCTREE_OK;
+    if (status == OCTREE_OK && (b.grid == 0 || b.overflow)) {
+        b.grid = 0;
+        status = sort_and_build(&b, total);
+    }
     *settled = !b.overflow;
     return status;
 }

@@ -63,6 +63,7 @@ static bool make_leaf(batch *b, span items, node *made)
     if (items.count > capacity && b->tree->def.full_leaf == OCTREE_REFUSE) {
         qsort(items.items, items.count, sizeof *items.items, compare_places);
         taken = capacity;
+        b->overflow = b->to != NULL;
     }
     if (!leaf_create(b->store, made, (uint32_t)taken))
         return false;

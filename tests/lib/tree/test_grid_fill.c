@@ -10,9 +10,9 @@
 #include "brute.h"
 #include "counting_allocator.h"
 
-enum { COUNT = 1500 };
+enum { COUNT = 640 }; /* in cells of which a leaf of two points or more takes most */
 
-static const size_t capacities[] = {1, 2, 8, 64, 100};
+static const size_t capacities[] = {1, 2, 3, 8, 64, 100};
 enum { CAPACITIES = sizeof capacities / sizeof capacities[0] };
 
 /* Points of which one in `crowd` lies at one place, alone in an octant, and one in `stray` nowhere in the world. Ids
@@ -150,6 +150,68 @@ static void a_tree_that_moves_is_that_of_one_by_one(void **state)
             }
 }
 
+/* The last move first. */
+static void turn_round(moves *m)
+{
+    for (size_t i = 0, k = m->count - 1; i < k; i++, k--) {
+        const octree_point from = m->points[i];
+        double to[3];
+        memcpy(to, m->to[i], sizeof to);
+        m->points[i] = m->points[k];
+        memcpy(m->to[i], m->to[k], sizeof to);
+        m->points[k] = from;
+        memcpy(m->to[k], to, sizeof to);
+    }
+}
+
+/* Some go where others are already, who leave it at the same time: sooner or later, so that the leaf there is full or
+ * has room. Or they are the first in their octant. */
+static void a_full_leaf_is_met_in_the_order_given_where_a_tree_moves(void **state)
+{
+    (void)state;
+    static octree_point points[COUNT];
+    static moves m;
+    static const double places[2][3] = {{0.3, 0.3, 0.3}, {0.3, 0.3, 0.3 + 0x1p-22}};
+    static const size_t one_in[] = {12, 60, 150, 250, 400, 900};
+    for (int all = 0; all < 6 * 6 * CAPACITIES; all++) {
+        const size_t here = one_in[all % 6], come = one_in[all / 6 % 6];
+        const int c = all / 36;
+        draw(points, OCTREE_SAMPLE_UNIFORM, here, COUNT + 1);
+        draw_moves(&m, points, 7, false);
+        for (size_t i = 1; i < m.count; i += come)
+            memcpy(m.to[i], places[(i / come + all) % 2], sizeof m.to[i]);
+        assert_moved_alike(points, &m, capacities[c], OCTREE_REFUSE);
+        turn_round(&m);
+        assert_moved_alike(points, &m, capacities[c], OCTREE_REFUSE);
+        for (size_t i = 0; i < COUNT; i += here)
+            points[i].position[0] = -0.3;
+        assert_moved_alike(points, &m, capacities[c], OCTREE_REFUSE);
+    }
+}
+
+/* One point in each of 8^3 cells. As many as the capacity move beside the first, into the cell that cannot be divided,
+ * and then that one leaves it: too late for the last of them. */
+static void each_point_counts_where_a_leaf_may_be_full(void **state)
+{
+    (void)state;
+    static octree_point points[COUNT];
+    static moves m;
+    for (size_t capacity = 2; capacity <= 4; capacity++) {
+        m.count = 0;
+        for (size_t i = 0; i < COUNT; i++) {
+            points[i] = (octree_point){.id = i, .position = {NAN, 0, 0}};
+            for (int axis = 0; axis < 3 && i < 512; axis++)
+                points[i].position[axis] = (double)(i >> 3 * axis & 7) / 4 - 0.875;
+        }
+        for (size_t i = 512; i-- > 0; m.count++) {
+            m.points[m.count] = points[i];
+            memcpy(m.to[m.count], points[i > 0 && i <= capacity ? 0 : i].position, sizeof m.to[0]);
+            m.to[m.count][0] += i > 0 && i <= capacity ? (double)(i - 1) * 0x1p-22 : 0.01;
+        }
+        assert_moved_alike(points, &m, capacity, OCTREE_REFUSE);
+    }
+}
+
 /* Ids far apart, and two points of one id of which one moves. */
 static void ids_of_any_kind_move(void **state)
 {
@@ -232,6 +294,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_that_is_filled_is_that_of_one_by_one),
         cmocka_unit_test(a_tree_that_moves_is_that_of_one_by_one),
+        cmocka_unit_test(a_full_leaf_is_met_in_the_order_given_where_a_tree_moves),
+        cmocka_unit_test(each_point_counts_where_a_leaf_may_be_full),
         cmocka_unit_test(ids_of_any_kind_move),
         cmocka_unit_test(a_crowd_costs_the_same_in_either_corner),
         cmocka_unit_test(filling_survives_the_failure_of_each_allocation),
