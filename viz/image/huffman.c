@@ -82,20 +82,28 @@ static void limit_lengths(const uint32_t *lengths, size_t count, int longest, ui
     }
 }
 
+static uint16_t reversed(uint32_t bits, int count)
+{
+    uint32_t made = 0;
+    for (; count > 0; count--, bits >>= 1)
+        made = made << 1 | (bits & 1);
+    return (uint16_t)made;
+}
+
+/* From the last symbol to the first. (The other way round GCC 12 for 64-bit Arm takes this for a function that writes
+ * nothing, as it addresses `bits` by `lengths`, and leaves its call out.) */
 void huffman_number(huffman_code *code, size_t count)
 {
-    uint32_t of_length[HUFFMAN_LONGEST + 1] = {0}, next[HUFFMAN_LONGEST + 1] = {0}, first = 0;
+    uint32_t of_length[HUFFMAN_LONGEST + 1] = {0}, ends[HUFFMAN_LONGEST + 1] = {0}, first = 0;
     for (size_t i = 0; i < count; i++)
         of_length[code->lengths[i]]++;
     of_length[0] = 0;
-    for (int length = 1; length <= HUFFMAN_LONGEST; length++)
-        next[length] = first = (first + of_length[length - 1]) << 1;
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bits = 0, from = next[code->lengths[i]]++;
-        for (int n = code->lengths[i]; n > 0; n--, from >>= 1)
-            bits = bits << 1 | (from & 1);
-        code->bits[i] = (uint16_t)bits;
+    for (int length = 1; length <= HUFFMAN_LONGEST; length++) {
+        first = (first + of_length[length - 1]) << 1;
+        ends[length] = first + of_length[length];
     }
+    for (size_t i = count; i-- > 0;)
+        code->bits[i] = reversed(--ends[code->lengths[i]], code->lengths[i]);
 }
 
 void huffman_build(huffman_code *code, const uint32_t *counts, size_t count, int longest)
