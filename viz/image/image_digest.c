@@ -101,8 +101,6 @@ static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool 
     return octree_digest_word(digest, (uint64_t)length << 24 | color);
 }
 
-/* A digest in progress, over runs of one colour. Adjacent runs of different indices may have the same colour, and runs
- * may continue in the next rows: these are joined, so that the digest depends neither on the palette nor on bands. */
 /* Adjacent runs of different indices may have the same colour, and runs may continue in the next rows: these are
  * joined, so that the digest depends neither on the palette nor on bands. */
 static void add_runs(digesting *d, const image *rows)
