@@ -11,11 +11,11 @@
 
 #define SMALL "--keys wd --size 32x32 --jobs 1"
 
-/* A run on a terminal, where there are any, so that progress could be shown. */
+/* A run on a terminal, where there are any, so that progress could be shown. The folder is named up to three times. */
 static command_result run_quiet(const char *arguments, const char *folder)
 {
     const command_setting terminal = {.terminal = command_has_terminals(), .columns = 80};
-    return run_octreel(&terminal, arguments, folder);
+    return run_octreel(&terminal, arguments, folder, folder, folder);
 }
 
 static void assert_silent(command_result result)
@@ -66,7 +66,7 @@ static void what_is_asked_for_is_said(void **state)
         {"digest -q %s/film", "octreel-digests"},
         {"inspect -q %s/cloud.txt", "points"},
         {"inspect -q %s/cloud.txt --nearest 1,2,3", "found"},
-        {"inspect -q %s/cloud.txt --size 32x32 -o tree.png --nodes nodes.csv", "points"},
+        {"inspect -q %s/cloud.txt --size 32x32 -o %s/tree.png --nodes %s/nodes.csv", "points"},
     };
     file_write_text(place_in(*state, "cloud.txt").path, "1 2 3\n4 5 6\n");
     for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++) {
