@@ -453,6 +453,10 @@ static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
     assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(3, 8))), OCTREE_NODE_PRUNED_POINT, 3, 2);
     nodes[FAR_LEFT].box.max[0] = -1; /* both have it */
     assert_faultless(tick_with(nodes, NODES, ASK(RANGE, PRUNED(3))));
+    /* What others list says nothing of it. */
+    nodes[RIGHT].has_points = true;
+    nodes[FAR_LEFT] = right_nodes[FAR_LEFT];
+    assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(3))), OCTREE_NODE_PRUNED_POINT, 3, 2);
 }
 
 /* It is in no node of the program's. */

@@ -75,6 +75,8 @@ static void a_tree_that_is_filled_is_that_of_one_by_one(void **state)
                     assert_inserted_alike(points, capacities[c], 3, (octree_full_leaf)full_leaf);
                 }
         }
+    draw(points, OCTREE_SAMPLE_UNIFORM, COUNT, 1); /* none in the world */
+    assert_inserted_alike(points, 8, 21, OCTREE_GROW);
 }
 
 /* ---- Moves -------------------------------------------------------------------------------------------------- */
