@@ -6,9 +6,16 @@
 #include "float_rules.h"
 #include "octree/octree.h"
 
+/* Without branches for each coordinate, which would be unpredictable where points share some, as in a lattice. */
 static inline bool same_position(const double a[3], const double b[3])
 {
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+#ifdef OCTREE_SSE2
+    const __m128d xy = _mm_cmpeq_pd(_mm_loadu_pd(a), _mm_loadu_pd(b));
+    const __m128d yz = _mm_cmpeq_pd(_mm_loadu_pd(a + 1), _mm_loadu_pd(b + 1));
+    return _mm_movemask_pd(_mm_and_pd(xy, yz)) == 3;
+#else
+    return (a[0] == b[0]) & (a[1] == b[1]) & (a[2] == b[2]);
+#endif
 }
 
 static inline bool is_finite(const double p[3])
@@ -28,11 +35,11 @@ static inline bool is_world(const octree_box *box)
 static inline bool box_contains(const octree_box *box, const double p[3])
 {
 #ifdef OCTREE_SSE2
-    const __m128d xy = _mm_loadu_pd(p), z = _mm_set1_pd(p[2]);
+    const __m128d xy = _mm_loadu_pd(p), yz = _mm_loadu_pd(p + 1);
     const __m128d above_min =
-        _mm_and_pd(_mm_cmple_pd(_mm_loadu_pd(box->min), xy), _mm_cmple_pd(_mm_set1_pd(box->min[2]), z));
+        _mm_and_pd(_mm_cmple_pd(_mm_loadu_pd(box->min), xy), _mm_cmple_pd(_mm_loadu_pd(box->min + 1), yz));
     const __m128d below_max =
-        _mm_and_pd(_mm_cmple_pd(xy, _mm_loadu_pd(box->max)), _mm_cmple_pd(z, _mm_set1_pd(box->max[2])));
+        _mm_and_pd(_mm_cmple_pd(xy, _mm_loadu_pd(box->max)), _mm_cmple_pd(yz, _mm_loadu_pd(box->max + 1)));
     return _mm_movemask_pd(_mm_and_pd(above_min, below_max)) == 3;
 #else
     bool inside = true;
