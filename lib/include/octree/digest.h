@@ -24,10 +24,9 @@ static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
 /* Add a double by its value: -0.0 and +0.0 count as equal. */
 static inline uint64_t octree_digest_double(uint64_t digest, double value)
 {
-    uint64_t bits;
-    double canonical = value + 0.0;
-    memcpy(&bits, &canonical, sizeof bits);
-    return octree_digest_word(digest, bits);
+    uint64_t bits; /* alone: arithmetic would follow the rules that the including program is built by */
+    memcpy(&bits, &value, sizeof bits);
+    return octree_digest_word(digest, bits << 1 ? bits : 0);
 }
 
 /* Add bytes, eight at a time as little-endian words; the last word is padded with zeros. */

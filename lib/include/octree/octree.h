@@ -17,8 +17,9 @@
  *   - D is the depth of the tree (at most 21), M the leaf capacity, n the number of points, k the number of results.
  *   - Answers rest on the default floating-point mode. Where the calling thread has another one (directed rounding, or
  *     subnormals flushed to zero), functions that compute with positions return OCTREE_FLOAT_MODE and do nothing
- *     (octree_digest returns 0).
+ *     (octree_digest returns 0, and octree_contains false).
  *   - -0.0 equals +0.0 in every comparison; the bits that were stored are kept.
+ *   - Points that are given to a change may be the tree's own, such as those of a leaf (octree_node).
  */
 #ifndef OCTREE_OCTREE_H
 #define OCTREE_OCTREE_H
@@ -96,7 +97,8 @@ typedef enum octree_full_leaf {
 
 /* Where a tree takes its memory. `allocate` returns memory aligned as malloc's, or null. `release` is told the size
  * that was asked for, and is never given null. One without the other is BAD_OPTION. The context must outlive the tree.
- */
+ * A tree calls it from one thread at a time; but octree_nearest_batch and, of a game, octree_query_answer, which may run
+ * from many threads at once, take memory in each: where they do, it must be safe for threads, as malloc is. */
 typedef struct octree_allocator {
     void *(*allocate)(size_t size, void *context);
     void (*release)(void *memory, size_t size, void *context);
@@ -204,7 +206,7 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  * the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are
  * undefined. Cost: of fewer than a fifth as many moves as points are stored (three tenths where those are not spread
  * evenly, or under OCTREE_REFUSE with a depth below 13) as octree_remove_many, and a point that stays in its leaf is
- * written in place; of more one look at all points and a bulk build, some 90 bytes a point while it runs. Where an id
+ * written in place; of more one look at all points and a bulk build, some 90 to 140 bytes a point while it runs. Where an id
  * comes twice in a batch or among the stored points, where a pair would be there twice, and where a leaf may be full
  * under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some 250 bytes a move. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
@@ -263,7 +265,7 @@ typedef bool (*octree_point_visitor)(const octree_point *point, void *context);
  * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND. Cost: O(D + M). */
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id);
 
-/* True when the pair (position, id) is stored. Cost: O(D + M). */
+/* True when the pair (position, id) is stored; false in another floating-point mode than the default. Cost: O(D + M). */
 bool octree_contains(const octree *tree, const double position[3], uint64_t id);
 
 /* Which points do not count as neighbours of a target. */
@@ -375,7 +377,8 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
 
 typedef struct octree_neighbor {
     octree_point point;
-    double distance; /* Euclidean, correctly scaled: no overflow or underflow before the last rounding */
+    double distance; /* Euclidean, within 4 ulp, without overflow or underflow on the way. As a radius it may be short of
+                        its own point: that is decided by the real numbers */
 } octree_neighbor;
 
 /* Algorithms 6 and 7. The nearest point to any finite target, inside the world or not: the true minimum of the real
@@ -465,7 +468,8 @@ size_t octree_count(const octree *tree);
 uint64_t octree_version(const octree *tree);
 
 /* A digest of the world, the nodes and the points, the same for the same contents and options whatever the order of
- * changes, on every machine. 0 for null. Cost: O(nodes + n). */
+ * changes, on every machine; under OCTREE_AUTO also of the capacity in force, by which the nodes follow from them.
+ * 0 for null. Cost: O(nodes + n). */
 uint64_t octree_digest(const octree *tree);
 
 /* Walk every invariant: counts add up, leaves hold their points, no leaf is over its capacity that could split, no

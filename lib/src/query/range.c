@@ -157,8 +157,9 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
     if (status == OCTREE_OK)
         status = check_length(box_size);
     for (int i = 0; status == OCTREE_OK && i < 3; i++) {
-        box->min[i] = exact_add_up(center[i], -box_size);
-        box->max[i] = exact_add_down(center[i], box_size);
+        const double middle = center[i]; /* which may be an end of the box */
+        box->min[i] = exact_add_up(middle, -box_size);
+        box->max[i] = exact_add_down(middle, box_size);
     }
     return status;
 }

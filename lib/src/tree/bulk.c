@@ -17,6 +17,35 @@ static octree_status finish(batch *b, octree_status status, size_t *done)
     return status;
 }
 
+/* ---- Points of the tree itself ------------------------------------------------------------------------------- */
+
+/* Whether the points are those of a leaf. */
+static bool are_own(const octree *tree, const octree_point *points, size_t count)
+{
+    if (!points || count == 0 || check_position(tree, points->position) != OCTREE_OK)
+        return false;
+    const path p = path_to(tree, morton_code(tree->axes, points->position));
+    const node *end = path_end(&p);
+    for (uint32_t i = 0; end->octants == 0 && i + count <= end->count; i++)
+        if (points == &leaf_points(end)[i])
+            return true;
+    return false;
+}
+
+/* The same with a copy of points that change with the tree. */
+static octree_status change_own(octree *tree, octree_change_kind kind, const octree_point *points,
+                                const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
+{
+    arena *memory = &tree->store.memory;
+    octree_point *copies = arena_take(memory, count * sizeof *copies);
+    if (!copies)
+        return OCTREE_NO_MEMORY;
+    memcpy(copies, points, count * sizeof *copies);
+    const octree_status status = change_batch(tree, kind, copies, to, count, statuses, done);
+    arena_give(memory, copies, count * sizeof *copies);
+    return status;
+}
+
 /* ---- Ids ---------------------------------------------------------------------------------------------------- */
 
 /* Ids that lie so close together have a bit each. */
@@ -107,6 +136,8 @@ octree_status insert_sorted(octree *tree, const octree_point *points, size_t cou
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
+    if (are_own(tree, points, count))
+        return change_own(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     if (tree && change_log_is_on(&tree->changes))
         return change_log_batch(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     const bool few = tree && points && are_few(tree, count) && float_mode_is_default();
@@ -146,6 +177,8 @@ static octree_status remove_valid(batch *b)
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed)
 {
+    if (are_own(tree, points, count))
+        return change_own(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     if (tree && change_log_is_on(&tree->changes))
         return change_log_batch(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
@@ -270,6 +303,8 @@ static octree_status move_valid(batch *b)
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved)
 {
+    if (are_own(tree, points, count))
+        return change_own(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (tree && change_log_is_on(&tree->changes))
         return change_log_batch(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (count && !to)

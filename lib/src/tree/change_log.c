@@ -105,8 +105,8 @@ octree_status change_log_single(octree *tree, octree_change_kind kind, const dou
     return status;
 }
 
-static octree_status make_batch(octree *tree, octree_change_kind kind, const octree_point *points,
-                                const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
+octree_status change_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
+                           size_t count, octree_status *statuses, size_t *done)
 {
     switch (kind) {
     case OCTREE_INSERTED:
@@ -132,42 +132,22 @@ static void note_batch(octree *tree, octree_change_kind kind, const octree_point
     }
 }
 
-/* What a batch was: its points may be the tree's own, and the caller may want no statuses. */
-typedef struct batch_copy {
-    octree_point *points;
-    octree_status *statuses;
-    size_t count;
-} batch_copy;
-
-/* None without memory, and none of too many. */
-static batch_copy copy_batch(octree *tree, const octree_point *points, size_t count)
-{
-    arena *memory = &tree->store.memory;
-    if (!points || count == 0 || count > most_changes(tree))
-        return (batch_copy){0};
-    batch_copy made = {arena_take(memory, count * sizeof *points), arena_take(memory, count * sizeof *made.statuses),
-                       count};
-    if (made.points)
-        memcpy(made.points, points, count * sizeof *points);
-    return made;
-}
-
 octree_status change_log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
                                size_t count, octree_status *statuses, size_t *done)
 {
     arena *memory = &tree->store.memory;
     const uint64_t version = tree->version;
-    const batch_copy own = copy_batch(tree, points, count);
-    octree_status *told = statuses ? statuses : own.statuses;
+    const bool few = points && count > 0 && count <= most_changes(tree);
+    octree_status *own = few && !statuses ? arena_take(memory, count * sizeof *own) : NULL;
+    octree_status *told = statuses ? statuses : own;
     const size_t name = suspend(&tree->changes);
-    const octree_status status = make_batch(tree, kind, points, to, count, told, done);
+    const octree_status status = change_batch(tree, kind, points, to, count, told, done);
     resume(&tree->changes, name);
-    if (tree->version != version && own.points && told)
-        note_batch(tree, kind, own.points, to, count, told);
+    if (tree->version != version && few && told)
+        note_batch(tree, kind, points, to, count, told);
     else if (tree->version != version)
         change_log_stop(&tree->changes, memory);
-    arena_give(memory, own.points, own.count * sizeof *own.points);
-    arena_give(memory, own.statuses, own.count * sizeof *own.statuses);
+    arena_give(memory, own, count * sizeof *own);
     return status;
 }
 

@@ -31,7 +31,9 @@ static inline bool change_log_is_on(const change_log *log)
 octree_status change_log_single(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
                                 const double to[3]);
 
-/* The same of a batch, by octree_insert_many() and its like. */
+/* A batch by octree_insert_many() or its like; and the same with the log off meanwhile, after which it is noted. */
+octree_status change_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
+                           size_t count, octree_status *statuses, size_t *done);
 octree_status change_log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
                                size_t count, octree_status *statuses, size_t *done);
 

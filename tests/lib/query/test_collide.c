@@ -185,6 +185,9 @@ static void the_collision_box_is_the_largest_box_of_doubles_within(void **state)
             assert_int_equal(octree_collision_box(center, values[j], &box), OCTREE_OK);
             for (int axis = 0; axis < 3; axis++)
                 assert_tight(center[axis], values[j], box.min[axis], box.max[axis]);
+            octree_box own = {{center[0], center[1], center[2]}, {0}};
+            assert_int_equal(octree_collision_box(own.min, values[j], &own), OCTREE_OK);
+            assert_memory_equal(&own, &box, sizeof box);
         }
 }
 

@@ -198,6 +198,68 @@ static void each_allocation_of_many_removals_may_fail(void **state)
     }
 }
 
+typedef struct choice {
+    octree_node leaf;
+    uint64_t random;
+    unsigned met;
+} choice;
+
+/* Each leaf is as likely. */
+static octree_walk_order choose(const octree_node *node, void *context)
+{
+    choice *c = context;
+    if (node->leaf && node->count && random_below(&c->random, ++c->met) == 0)
+        c->leaf = *node;
+    return OCTREE_WALK_ON;
+}
+
+/* Let a batch of the first points of a leaf, as the tree itself has them, do what copies of them do one by one. */
+static void change_a_leaf(octree *batched, octree *stepped, uint64_t *random, int what)
+{
+    static octree_point copies[COUNT];
+    static double to[COUNT][3];
+    choice c = {.random = *random};
+    assert_int_equal(octree_walk(batched, choose, &c), OCTREE_OK);
+    *random = c.random;
+    const size_t count = 1 + random_below(random, c.leaf.count);
+    memcpy(copies, c.leaf.points, count * sizeof *copies);
+    for (size_t i = 0; i < count; i++) {
+        const octree_point *p = &copies[i];
+        memcpy(to[i], (double[3]){-p->position[0], p->position[2], p->position[1]}, sizeof to[i]);
+        if (what == OCTREE_INSERTED)
+            octree_insert(stepped, p->position, p->id);
+        else if (what == OCTREE_REMOVED)
+            octree_remove(stepped, p->position, p->id);
+        else
+            octree_move(stepped, p->position, p->id, to[i]);
+    }
+    const octree_status status =
+        what == OCTREE_INSERTED  ? octree_insert_many(batched, c.leaf.points, count, NULL, NULL)
+        : what == OCTREE_REMOVED ? octree_remove_many(batched, c.leaf.points, count, NULL, NULL)
+                                 : octree_move_many(batched, c.leaf.points, (const double(*)[3])to, count, NULL, NULL);
+    assert_int_equal(status, OCTREE_OK);
+    assert_alike(batched, stepped);
+}
+
+static void the_points_of_a_leaf_are_given_as_they_are(void **state)
+{
+    (void)state;
+    static const size_t capacities[] = {3, 20, 64, 200}, sizes[] = {60, 300, COUNT};
+    uint64_t random = 1;
+    draw(OCTREE_SAMPLE_CLUSTERED, false);
+    for (int i = 0; i < 24; i++) {
+        octree *trees[2];
+        for (int k = 0; k < 2; k++) {
+            trees[k] = make_tree(cube(-1, 1), capacities[i % 4], 21, i / 4 % 2 ? OCTREE_GROW : OCTREE_REFUSE);
+            assert_int_equal(octree_insert_many(trees[k], points, sizes[i % 3], NULL, NULL), OCTREE_OK);
+        }
+        for (int change = 0; change < 40 && octree_count(trees[0]) > 0; change++)
+            change_a_leaf(trees[0], trees[1], &random, change % 3);
+        octree_destroy(trees[0]);
+        octree_destroy(trees[1]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -207,6 +269,7 @@ int main(void)
         cmocka_unit_test(a_pair_that_comes_twice_is_removed_once),
         cmocka_unit_test(removing_what_is_not_stored_leaves_the_version),
         cmocka_unit_test(few_removals_survive_the_failure_of_each_allocation),
+        cmocka_unit_test(the_points_of_a_leaf_are_given_as_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
