@@ -55,9 +55,13 @@ size_t utf8_length(const unsigned char *at)
 
 char *make_printable(char *text)
 {
-    for (char *at = text; *at; at++)
-        if (*at < ' ' || *at > '~')
-            *at = '?';
+    char *to = text;
+    for (const char *at = text; *at;) {
+        const size_t length = utf8_length((const unsigned char *)at);
+        *to++ = (char)(*at < ' ' || *at > '~' ? '?' : *at);
+        at += length ? length : 1;
+    }
+    *to = 0;
     return text;
 }
 

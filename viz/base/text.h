@@ -32,7 +32,8 @@ size_t utf8_length(const unsigned char *at);
  * follows, ends of lines, and the two that are no characters. */
 bool utf8_is_unfit(const unsigned char *at);
 
-/* Put a question mark in the place of every byte that is not printable ASCII. Returns `text`. */
+/* Put a question mark in the place of every character of UTF-8, and of every byte that is of none, that is not
+ * printable ASCII. Returns `text`. */
 char *make_printable(char *text);
 
 /* The end of a noun behind a count, "s" or "" for 1; and of its verb, "" or "s" for 1: "1 frame differs". */

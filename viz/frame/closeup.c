@@ -158,6 +158,26 @@ static double round_length(double limit)
     return limit >= 5 * power ? 5 * power : limit >= 2 * power ? 2 * power : power;
 }
 
+/* Leave out the words, and the grounds that they are on, of which a rectangle would cover some. */
+static void drop_words(scene *s, const int corner[2], const int size[2])
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < s->labels.count; i++) {
+        const scene_label *label = &s->labels.items[i];
+        const double right = label->at[0] + (double)strlen(label->text) * s->text.width;
+        const bool apart = right < corner[0] || label->at[0] > corner[0] + size[0] ||
+                           label->at[1] + s->text.height < corner[1] || label->at[1] > corner[1] + size[1];
+        if (label->in_world || apart) {
+            s->labels.items[kept++] = *label;
+            continue;
+        }
+        for (size_t k = 0; k < s->panels.count; k++)
+            if (s->panels.items[k].id == label->id && s->panels.items[k].style.layer == label->style.layer)
+                s->panels.items[k].width = 0;
+    }
+    s->labels.count = kept;
+}
+
 /* A bar, its length in the world, and how many times as large all is. */
 static void add_scale(scene *s)
 {
@@ -173,9 +193,10 @@ static void add_scale(scene *s)
     snprintf(label.text, sizeof label.text, "%s, enlarged %sx", number_text(length, 6, number),
              number_text(s->times, 6, times));
     const int wide = (int)fmax(end - margin, (double)strlen(label.text) * s->text.width);
-    scene_add_rectangle(s, SCALE_ID, (int[]){margin - unit, (int)label.at[1] - unit},
-                        (int[]){wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit},
-                        LAYER_CLOSEUP, ROLE_BACKGROUND);
+    const int corner[2] = {margin - unit, (int)label.at[1] - unit};
+    const int size[2] = {wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit};
+    drop_words(s, corner, size);
+    scene_add_rectangle(s, SCALE_ID, corner, size, LAYER_CLOSEUP, ROLE_BACKGROUND);
     add_flat(s, SCALE_ID, x, y, end, y, ROLE_TEXT);
     add_flat(s, SCALE_ID + 1, x, y - rise, x, y + 1, ROLE_TEXT);
     add_flat(s, SCALE_ID + 2, end, y - rise, end, y + 1, ROLE_TEXT);

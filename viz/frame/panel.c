@@ -58,17 +58,18 @@ static void write_position(pen *p, const char *name, const double position[3], i
     }
 }
 
-static void write_world(pen *p, const octree_box *world)
+/* A row an axis, of the ends of a box. */
+static void write_ends(pen *p, const char *name, const octree_box *box)
 {
     char from[NUMBER_TEXT], to[NUMBER_TEXT], both[SCENE_TEXT * 2];
     snprintf(both, sizeof both, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
-    write_text(p, 0, ROLE_FAINT, "world");
+    write_text(p, 0, ROLE_FAINT, name);
     write_right(p, ROLE_FAINT, both);
     p->y += p->scene->text.line;
     for (int i = 0; i < 3; i++) {
-        const char name[2] = {(char)('x' + i), 0};
-        write_row(p, name, "%*s %*s", WORLD_NUMBER, number_fitting(world->min[i], WORLD_NUMBER, from), WORLD_NUMBER,
-                  number_fitting(world->max[i], WORLD_NUMBER, to));
+        const char axis[2] = {(char)('x' + i), 0};
+        write_row(p, axis, "%*s %*s", WORLD_NUMBER, number_fitting(box->min[i], WORLD_NUMBER, from), WORLD_NUMBER,
+                  number_fitting(box->max[i], WORLD_NUMBER, to));
     }
 }
 
@@ -259,14 +260,6 @@ static void write_tick_title(pen *p, const layer_source *in, const char *title)
 
 /* ---- What the view leaves out ------------------------------------------------------------------------------- */
 
-/* "from to to" of one axis of the region. */
-static void write_region_axis(pen *p, const char *name, const octree_box *region, int axis)
-{
-    char from[NUMBER_TEXT], to[NUMBER_TEXT];
-    write_row(p, name, "%c %s to %s", "xyz"[axis], number_text(region->min[axis], 6, from),
-              number_text(region->max[axis], 6, to));
-}
-
 static void write_filter(pen *p, const view_filter *f)
 {
     char at[NUMBER_TEXT];
@@ -278,8 +271,8 @@ static void write_filter(pen *p, const view_filter *f)
         write_row(p, "depths", "%u to %u", f->min_depth, f->max_depth);
     if (f->leaves)
         write_row(p, "only", "leaves");
-    for (int axis = 0; f->by_region && axis < 3; axis++)
-        write_region_axis(p, axis ? "" : "region", &f->region, axis);
+    if (f->by_region)
+        write_ends(p, "region", &f->region);
 }
 
 static void write_budget(pen *p, const scene_tally *tally)
@@ -437,7 +430,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
     write_statistics(p, in, &stats);
     write_left_out(p);
     write_rule(p);
-    write_world(p, &in->world);
+    write_ends(p, "world", &in->world);
     if (in->answer_count)
         write_rule(p);
     write_answers(p, in);
@@ -478,10 +471,12 @@ static void add_column(scene *s, const layer_source *in, const char *title)
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     (void)own;
-    char tick[SCENE_TEXT];
-    const char *title = in->tick ? tick : in->title;
+    char title[SCENE_TEXT];
     if (in->tick)
-        snprintf(tick, sizeof tick, "tick %" PRIu64, in->tick->number);
+        snprintf(title, sizeof title, "tick %" PRIu64, in->tick->number);
+    else
+        snprintf(title, sizeof title, "%s", in->title);
+    make_printable(title);
     if (panel_width(&s->view) == 0)
         add_lines(s, in, title);
     else

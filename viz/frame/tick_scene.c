@@ -20,8 +20,8 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
-/* With a player moved by keys the queries are known in advance: the session's, and the nearest point by a key.
- * Otherwise only those asked so far are known. */
+/* With a player moved by keys some are known in advance: those that the session asks in each tick, and the nearest
+ * point by a key. Of the others only those asked so far: a session that is filmed while it is written has no more. */
 static bool is_asked(const layer_source *in, view_layer layer)
 {
     const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -31,7 +31,8 @@ static bool is_asked(const layer_source *in, view_layer layer)
     for (int kind = 0; in->game && kind < OCTREE_QUERY_KINDS; kind++)
         asked |= (in->tick->asked >> kind & 1) && layer_of_query((octree_query_kind)kind) == layer;
     for (size_t i = 0; known && i < in->session->query_count; i++)
-        asked |= layer_of_query(in->session->queries[i].kind) == layer;
+        asked |=
+            in->session->queries[i].tick == OCTREE_EVERY_TICK && layer_of_query(in->session->queries[i].kind) == layer;
     return asked;
 }
 

@@ -34,7 +34,7 @@ typedef struct layer_source {
 /* Members that a layer does not need are null or 0. `own` is the layer itself, for files that define several. */
 typedef struct layer_type {
     /* Whether the layer can have elements in this frame or others of its recording: then the legend lists it. Null:
-     * always; for layers of answers, when such a query was or will be asked. */
+     * always; for layers of answers, when such a query was asked or is in each tick. */
     bool (*applies)(const layer_source *in);
 
     /* Whether a session can have anything for the layer. Null: each can. Two recordings are not unlike by a layer that

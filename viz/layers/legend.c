@@ -197,6 +197,15 @@ static void fill_sign(pen *p, const legend_line *line)
     }
 }
 
+void legend_add_depths(legend *l, const char *what, size_t deepest)
+{
+    const size_t last = deepest < THEME_NODE_DEPTHS ? deepest : THEME_NODE_DEPTHS - 1;
+    char range[NUMBER_TEXT] = "0";
+    if (last > 0)
+        snprintf(range, sizeof range, "0-%zu%s", last, deepest > last ? "+" : "");
+    legend_add(l, SIGN_RAMP, "%s %s", what, range)->steps = (int)last + 1;
+}
+
 void legend_add_scale(legend *l, legend_scale scale)
 {
     legend_add(l, SIGN_SCALE, "")->scale = scale;

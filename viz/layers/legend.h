@@ -38,6 +38,7 @@ typedef enum legend_sign {
 typedef struct legend_scale {
     double low, high;
     bool doubling; /* low and high are powers of two, and the colours go by the power */
+    bool pointed;  /* at both ends: what lies beyond has the colours of the ends */
 } legend_scale;
 
 /* When lines do not fit, those with the greatest value are dropped first. */
@@ -78,6 +79,9 @@ legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...);
 
 /* Add the colours of amounts: two lines, which belong to the one before. */
 void legend_add_scale(legend *l, legend_scale scale);
+
+/* Add the colours of depths, which the deepest share: "nodes, depth 0-9+". */
+void legend_add_depths(legend *l, const char *what, size_t deepest);
 
 /* Draw them. */
 void write_scale(pen *p, const legend_scale *scale);

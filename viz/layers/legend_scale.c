@@ -91,14 +91,23 @@ static marks choose_marks(const pen *p, const legend_scale *scale, int width)
     return m;
 }
 
+/* How high the bar is so far from its nearer end. */
+static int height_at(const legend_scale *scale, int from_end, int high, int dot)
+{
+    const int pointed = (2 * (from_end / dot) + 1) * dot;
+    return scale->pointed && pointed < high ? pointed : high;
+}
+
 void write_scale(pen *p, const legend_scale *scale)
 {
     const lettering *text = &p->scene->text;
     const int width = p->letters * text->width, high = text->height / 2,
               dot = text->height < 24 ? 1 : text->height / 12;
     const marks m = choose_marks(p, scale, width);
-    for (int x = 0; x < width; x += dot)
-        fill_own(p, x, text->height / 4, dot, high, theme_ramp((x + 0.5 * dot) / width));
+    for (int x = 0; x < width; x += dot) {
+        const int left = width - dot - x, tall = height_at(scale, x < left ? x : left > 0 ? left : 0, high, dot);
+        fill_own(p, x, text->height / 4 + (high - tall) / 2, dot, tall, theme_ramp((x + 0.5 * dot) / width));
+    }
     for (int i = 0; i < m.count; i++) {
         int x = (int)(m.items[i].part * width);
         x = x > width - dot ? width - dot : x;

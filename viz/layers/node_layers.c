@@ -347,7 +347,7 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
 /* Shallow nodes first, then by address. */
 static void add_labels(scene *s)
 {
-    text_space words = {.count = 0};
+    text_space words = text_space_of(s); /* the axes' numbers */
     unsigned deepest = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
         if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth > deepest)
@@ -419,12 +419,11 @@ static void add_occupancy_legend(legend *l, const layer_source *in)
 
 static void add_legend(legend *l, const layer_source *in)
 {
-    const size_t depths = shows_foreign_tree(in) ? THEME_NODE_DEPTHS : octree_definition(in->tree).max_depth + 1;
+    const size_t deepest = shows_foreign_tree(in) ? OCTREE_MAX_DEPTH : octree_definition(in->tree).max_depth;
     if (l->scene->view.coloring == COLORING_KIND)
         add_kinds_legend(l, in);
     else if (l->scene->view.coloring == COLORING_DEPTH)
-        legend_add(l, SIGN_RAMP, "nodes, shallow to deep")->steps =
-            depths < THEME_NODE_DEPTHS ? (int)depths : THEME_NODE_DEPTHS;
+        legend_add_depths(l, "nodes, depth", deepest);
     else if (l->scene->view.coloring == COLORING_OCCUPANCY)
         add_occupancy_legend(l, in);
     else

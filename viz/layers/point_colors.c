@@ -116,17 +116,17 @@ static legend_scale scale_of(const point_scale *s, view_point_color color)
 {
     switch (color) {
     case POINTS_BY_X:
-        return (legend_scale){s->low[0], s->high[0], false};
+        return (legend_scale){s->low[0], s->high[0], .pointed = true};
     case POINTS_BY_Y:
-        return (legend_scale){s->low[1], s->high[1], false};
+        return (legend_scale){s->low[1], s->high[1], .pointed = true};
     case POINTS_BY_ID:
-        return (legend_scale){s->ids[0], s->ids[1], false};
+        return (legend_scale){s->ids[0], s->ids[1], .pointed = false};
     case POINTS_BY_INTENSITY:
-        return (legend_scale){s->intensities[0], s->intensities[1], false};
+        return (legend_scale){s->intensities[0], s->intensities[1], .pointed = true};
     case POINTS_BY_DENSITY:
-        return (legend_scale){1, THEME_MOST_DENSITY, true};
+        return (legend_scale){1, THEME_MOST_DENSITY, .doubling = true};
     default:
-        return (legend_scale){s->low[2], s->high[2], false};
+        return (legend_scale){s->low[2], s->high[2], .pointed = true};
     }
 }
 
@@ -158,7 +158,7 @@ void add_point_legend(legend *l, const layer_source *in)
             legend_add(l, SIGN_DOT, "points, without classes");
         return;
     case POINTS_BY_DEPTH:
-        legend_add(l, SIGN_RAMP, "points, by leaf's depth")->steps = THEME_NODE_DEPTHS;
+        legend_add_depths(l, "points, leaf depth", octree_definition(in->tree).max_depth);
         return;
     case POINTS_BY_LEAF:
         add_leaf_legend(l, in);
@@ -175,5 +175,6 @@ void add_point_legend(legend *l, const layer_source *in)
         }
         legend_add(l, SIGN_DOT, "points, by %s", view_point_color_name(v->point_color));
     }
-    legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
+    if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY) /* else no point is shown */
+        legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
 }

@@ -48,12 +48,28 @@ static bool close_surfaces(const inspection *made, const view *v)
     return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_unit(v);
 }
 
+#define COLORS_TEXT 60
+
+/* "points by height (--color-points)". Returns `text`. */
+static const char *say_colors(const inspection *made, const view *v, char text[COLORS_TEXT])
+{
+    const char *lacks = point_scale_lacks(v, &made->values), *option = "(--color-points)";
+    if (lacks)
+        snprintf(text, COLORS_TEXT, "points alike, as none has %s %s", lacks, option);
+    else if (v->point_color == POINTS_BY_FILE)
+        snprintf(text, COLORS_TEXT, "points in their colours %s", option);
+    else
+        snprintf(text, COLORS_TEXT, "points by %s %s", view_point_color_name(v->point_color), option);
+    return text;
+}
+
 bool inspect_choose_view(const inspection *made, bool color_given, bool shade_given, view *v, char said[INSPECT_CHOICE],
                          octreel_error *error)
 {
     const char *why = "", *lit = "";
     *said = 0;
-    if (!view_shows(v, LAYER_POINTS) || (color_given && v->point_color == POINTS_BY_PLAIN))
+    if (v->diagram == DIAGRAM_ONLY || !view_shows(v, LAYER_POINTS) ||
+        (color_given && v->point_color == POINTS_BY_PLAIN))
         return true;
     if (!color_given)
         v->point_color = choose_leaves(made, v, &why) ? POINTS_BY_LEAF
@@ -68,9 +84,11 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
         v->shade = SHADE_EDL;
         lit = ", lit by eye-dome lighting (--shade)";
     }
-    const bool leaves = v->point_color == POINTS_BY_LEAF, colored = v->point_color == POINTS_BY_FILE;
-    if (!(color_given && shade_given))
-        snprintf(said, INSPECT_CHOICE, "points %s%s (--color-points)%s%s%s", colored ? "in their colours" : "by ",
-                 colored ? "" : view_point_color_name(v->point_color), leaves ? why : "", lit, leaves ? "" : why);
+    if (!(color_given && shade_given)) {
+        char colors[COLORS_TEXT];
+        const bool leaves = v->point_color == POINTS_BY_LEAF;
+        snprintf(said, INSPECT_CHOICE, "%s%s%s%s", say_colors(made, v, colors), leaves ? why : "", lit,
+                 leaves ? "" : why);
+    }
     return true;
 }

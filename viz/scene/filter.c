@@ -47,7 +47,8 @@ bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned dept
 
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf)
 {
-    return (!f->by_depth || leaf->depth >= f->min_depth) && filter_enters(f, world, leaf);
+    const bool in_depth = leaf->depth >= f->min_depth && (!f->leaves || leaf->depth <= f->max_depth);
+    return (!f->by_depth || in_depth) && filter_enters(f, world, leaf);
 }
 
 bool filter_shows_point(const view_filter *f, const double position[3])

@@ -9,7 +9,7 @@
  *   leaves   it is a leaf.
  *   region   its box meets the region; both are closed.
  * A point is shown when it lies in the region, in a leaf that the slice's plane runs through, and in some node of the
- * range of depths: that is, in a leaf at least as deep as the range begins. "Leaves" hides no point.
+ * range of depths: that is, in a leaf at least as deep as the range begins; of leaves alone, in one of the range.
  */
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H

@@ -27,9 +27,9 @@
     X(HIT, "hit", "leaves with hits", "leaves with points that the queries found", ROLE_HIT, false, true)              \
     X(MERGES, "merges", "merges", "inner nodes that became leaves in the tick", ROLE_CHANGE, false, true)              \
     X(SPLITS, "splits", "splits", "leaves that split in the tick", ROLE_CHANGE, false, true)                           \
-    X(ASKED, "asked", "the node asked for", "the node that inspect --node names", ROLE_PLAYER, false, true)            \
     X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
     X(VELOCITIES, "velocities", "velocities", "arrows to where moving points go next", ROLE_FAINT, true, true)         \
+    X(ASKED, "asked", "the node asked for", "the node that inspect --node names", ROLE_PLAYER, false, true)            \
     X(RANGE, "range", "range queries", "boxes that are asked for, and the points found", ROLE_RANGE, false, true)      \
     X(RADIUS, "radius", "radius queries", "balls that are asked for, and the points found", ROLE_RADIUS, false, true)  \
     X(KNEAREST, "knearest", "k-nearest queries", "lines to the k nearest points, with their ranks", ROLE_KNEAREST,     \

@@ -93,6 +93,16 @@ camera_window layout_diagram(const view *v)
     return w;
 }
 
+/* A text with a margin, from its top left corner. */
+static void box_of_text(const scene *s, const char *text, const double corner[2], double box[4])
+{
+    const double width = (double)strlen(text) * s->text.width;
+    memcpy(
+        box,
+        (double[]){corner[0] - s->unit, corner[1] - s->unit, corner[0] + width + s->unit, corner[1] + s->text.height},
+        4 * sizeof *box);
+}
+
 static bool is_free(const text_space *t, const double box[4])
 {
     for (size_t i = 0; i < t->count; i++) {
@@ -103,17 +113,28 @@ static bool is_free(const text_space *t, const double box[4])
     return t->count < TEXT_SPACE_MOST;
 }
 
+text_space text_space_of(const scene *s)
+{
+    text_space t = {.count = 0};
+    for (size_t i = 0; i < s->labels.count && t.count < TEXT_SPACE_MOST; i++) {
+        const scene_label *label = &s->labels.items[i];
+        if (!label->in_world)
+            box_of_text(s, label->text, label->at, t.taken[t.count++]);
+    }
+    return t;
+}
+
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2])
 {
     const double width = (double)strlen(text) * s->text.width, height = s->text.height;
-    const double left = floor(middle[0] - width / 2), top = floor(middle[1] - height / 2);
-    const double box[4] = {left - s->unit, top - s->unit, left + width + s->unit, top + height};
+    const double at[2] = {floor(middle[0] - width / 2), floor(middle[1] - height / 2)};
+    double box[4];
     const camera_window w = layout_space(s);
+    box_of_text(s, text, at, box);
     if (!(box[0] >= w.x && box[1] >= w.y && box[2] <= w.x + w.width && box[3] <= w.y + w.height) || !is_free(t, box))
         return false;
     memcpy(t->taken[t->count++], box, sizeof box);
-    corner[0] = left;
-    corner[1] = top;
+    memcpy(corner, at, sizeof at);
     return true;
 }
 

@@ -40,6 +40,9 @@ typedef struct text_space {
     size_t count;
 } text_space;
 
+/* Room beside the texts that stand at pixels already. */
+text_space text_space_of(const scene *s);
+
 /* Reserve room for a text centred on a pixel, and write its top left corner. False when it would leave the space view
  * or cover another text. */
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2]);

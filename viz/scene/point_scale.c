@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "point_scale.h"
 #include "array.h"
+#include "octree/digest.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,21 +12,35 @@
 /* The points of a leaf that tell how far they are apart. */
 #define FEWEST 4
 
-/* The points that are shown of one leaf. A sum over leaves does not depend on the order of the points in them. */
-typedef struct leaf_extent {
-    double low[3], high[3], spacing;
+/* A sample of at most so many points stands for all: a hundredth of them is known to a tenth of itself. */
+#define MOST_SAMPLES ((size_t)1 << 16)
+
+/* The points that are shown of one leaf. */
+typedef struct leaf_spacing {
+    double spacing;
     size_t count;
-} leaf_extent;
+} leaf_spacing;
+
+typedef struct sample {
+    uint64_t hash;
+    double values[4]; /* a position and the intensity; that of a point without one is NaN */
+} sample;
+
+/* The points whose hash has its lowest bits clear: neither the order of points nor the tree has a say in which. */
+typedef struct samples {
+    sample *items;
+    size_t count, room;
+    uint64_t mask; /* those bits: as few as leave room for all */
+} samples;
 
 typedef struct gathering {
     const view_filter *filter;
     octree_box world;
-    leaf_extent *leaves;
+    leaf_spacing *leaves;
     size_t count, room, points;
+    samples samples;
     double ids[2];
     const point_values *values; /* null: intensities are not asked for */
-    float *intensities;         /* of the points that have one */
-    size_t intensity_count, intensity_room;
     bool out_of_memory;
 } gathering;
 
@@ -41,29 +56,57 @@ static double most(double a, double b)
 
 /* Of k x k points on a grid k - 1 spaces lie along a side. The shortest side of the three is the way through the
  * surface that the points are on. Few points are on no surface that could be seen. */
-static double spacing_of(const leaf_extent *e)
+static double spacing_of(const double low[3], const double high[3], size_t count)
 {
-    const double a = e->high[0] - e->low[0], b = e->high[1] - e->low[1], c = e->high[2] - e->low[2];
+    const double a = high[0] - low[0], b = high[1] - low[1], c = high[2] - low[2];
     const double longest = most(a, most(b, c)), middle = most(least(a, b), least(most(a, b), c));
-    return e->count >= FEWEST ? sqrt(longest) * sqrt(middle) / (sqrt((double)e->count) - 1) : 0;
+    return count >= FEWEST ? sqrt(longest) * sqrt(middle) / (sqrt((double)count) - 1) : 0;
 }
 
-static void add_intensity(gathering *g, uint64_t id)
+static uint64_t hash_of(const octree_point *point)
 {
-    const size_t row = point_values_row(g->values, id);
-    if (!point_values_has(g->values, row, POINT_INTENSITY))
+    uint64_t hash = octree_digest_word(OCTREE_DIGEST_START, point->id);
+    for (int i = 0; i < 3; i++)
+        hash = octree_digest_double(hash, point->position[i]);
+    return hash;
+}
+
+/* Drop samples until there is room again. */
+static void thin_out(samples *s)
+{
+    while (s->count > MOST_SAMPLES) {
+        size_t kept = 0;
+        s->mask = s->mask << 1 | 1;
+        for (size_t i = 0; i < s->count; i++)
+            if (!(s->items[i].hash & s->mask))
+                s->items[kept++] = s->items[i];
+        s->count = kept;
+    }
+}
+
+static void add_sample(gathering *g, const octree_point *point)
+{
+    samples *s = &g->samples;
+    const uint64_t hash = hash_of(point);
+    const size_t row = point_values_row(g->values, point->id);
+    if (hash & s->mask)
         return;
-    float *all = array_reserve(g->intensities, g->intensity_count + 1, &g->intensity_room, sizeof *all);
-    g->out_of_memory |= !all;
-    if (!all)
+    sample *items = array_reserve(s->items, s->count + 1, &s->room, sizeof *items);
+    g->out_of_memory |= !items;
+    if (!items)
         return;
-    g->intensities = all;
-    all[g->intensity_count++] = g->values->intensities[row];
+    s->items = items;
+    const bool has = point_values_has(g->values, row, POINT_INTENSITY);
+    items[s->count++] = (sample){
+        hash,
+        {point->position[0], point->position[1], point->position[2], has ? (double)g->values->intensities[row] : NAN}};
+    thin_out(s);
 }
 
 static void add_leaf(gathering *g, const octree_node *leaf)
 {
-    leaf_extent e = {.count = 0};
+    double low[3] = {0}, high[3] = {0};
+    size_t count = 0;
     for (size_t i = 0; i < leaf->count; i++) {
         const octree_point *point = &leaf->points[i];
         const double id = (double)point->id;
@@ -71,22 +114,21 @@ static void add_leaf(gathering *g, const octree_node *leaf)
             continue;
         for (int axis = 0; axis < 3; axis++) {
             const double at = point->position[axis];
-            e.low[axis] = e.count ? least(e.low[axis], at) : at;
-            e.high[axis] = e.count ? most(e.high[axis], at) : at;
+            low[axis] = count ? least(low[axis], at) : at;
+            high[axis] = count ? most(high[axis], at) : at;
         }
         g->ids[0] = g->points ? least(g->ids[0], id) : id;
         g->ids[1] = g->points ? most(g->ids[1], id) : id;
-        add_intensity(g, point->id);
-        e.count++;
+        add_sample(g, point);
+        count++;
         g->points++;
     }
-    leaf_extent *leaves = e.count ? array_reserve(g->leaves, g->count + 1, &g->room, sizeof *leaves) : NULL;
-    g->out_of_memory |= e.count && !leaves;
+    leaf_spacing *leaves = count ? array_reserve(g->leaves, g->count + 1, &g->room, sizeof *leaves) : NULL;
+    g->out_of_memory |= count && !leaves;
     if (!leaves)
         return;
-    e.spacing = spacing_of(&e);
     g->leaves = leaves;
-    g->leaves[g->count++] = e;
+    g->leaves[g->count++] = (leaf_spacing){spacing_of(low, high, count), count};
 }
 
 static octree_walk_order gather(const octree_node *node, void *context)
@@ -156,42 +198,35 @@ static double select_value(weighted *values, size_t count, size_t rank)
     }
 }
 
-/* The value that `rank` points are not above. `offset` is that of the values in a leaf_extent. */
-static double value_at(const gathering *g, weighted *values, size_t offset, size_t rank)
+/* Where nearly all samples have one of their values. `room` is for all of them. */
+static void measure_ends(const samples *s, int which, weighted *room, double *low, double *high)
 {
-    for (size_t i = 0; i < g->count; i++)
-        values[i] = (weighted){*(const double *)((const char *)&g->leaves[i] + offset), g->leaves[i].count};
-    return select_value(values, g->count, rank);
-}
-
-static point_scale measure(const gathering *g, weighted *values)
-{
-    const size_t few = g->points / OUTLIERS;
-    point_scale s = {.ids = {g->ids[0], g->ids[1]}};
-    for (size_t i = 0; i < 3; i++) {
-        const size_t axis = i * sizeof(double);
-        s.low[i] = value_at(g, values, offsetof(leaf_extent, low) + axis, few);
-        s.high[i] = most(s.low[i], value_at(g, values, offsetof(leaf_extent, high) + axis, g->points - 1 - few));
-    }
-    s.spacing = value_at(g, values, offsetof(leaf_extent, spacing), g->points / 2);
-    s.spacing = isfinite(s.spacing) ? s.spacing : 0;
-    return s;
-}
-
-static int compare_floats(const void *a, const void *b)
-{
-    const float p = *(const float *)a, q = *(const float *)b;
-    return (p > q) - (p < q);
-}
-
-static void measure_intensities(const gathering *g, double ends[2])
-{
-    const size_t count = g->intensity_count, few = count / OUTLIERS;
+    size_t count = 0;
+    for (size_t i = 0; i < s->count; i++)
+        if (!isnan(s->items[i].values[which]))
+            room[count++] = (weighted){s->items[i].values[which], 1};
     if (count == 0)
         return;
-    qsort(g->intensities, count, sizeof *g->intensities, compare_floats);
-    ends[0] = (double)g->intensities[few];
-    ends[1] = (double)g->intensities[count - 1 - few];
+    *low = select_value(room, count, count / OUTLIERS);
+    *high = select_value(room, count, count - 1 - count / OUTLIERS);
+}
+
+static double measure_spacing(const gathering *g, weighted *room)
+{
+    for (size_t i = 0; i < g->count; i++)
+        room[i] = (weighted){g->leaves[i].spacing, g->leaves[i].count};
+    const double spacing = select_value(room, g->count, g->points / 2);
+    return isfinite(spacing) ? spacing : 0;
+}
+
+static point_scale measure(const gathering *g, weighted *room)
+{
+    point_scale s = {.ids = {g->ids[0], g->ids[1]}};
+    for (int axis = 0; axis < 3; axis++)
+        measure_ends(&g->samples, axis, room, &s.low[axis], &s.high[axis]);
+    measure_ends(&g->samples, 3, room, &s.intensities[0], &s.intensities[1]);
+    s.spacing = measure_spacing(g, room);
+    return s;
 }
 
 double point_scale_pixels(const camera *c, double length)
@@ -207,16 +242,15 @@ bool point_scale_fit(view *v, const octree *tree, const point_values *values)
                    .world = octree_definition(tree).world,
                    .values = v->point_color == POINTS_BY_INTENSITY ? values : NULL};
     octree_walk(tree, gather, &g);
-    weighted *sorted = g.count ? malloc(g.count * sizeof *sorted) : NULL;
-    const bool measured = !g.out_of_memory && (sorted || g.count == 0);
+    const size_t count = g.count > g.samples.count ? g.count : g.samples.count;
+    weighted *room = count ? malloc(count * sizeof *room) : NULL;
+    const bool measured = !g.out_of_memory && (room || count == 0);
     v->point_scale.given = measured && g.count > 0;
-    if (v->point_scale.given) {
-        v->point_scale.of = measure(&g, sorted);
-        measure_intensities(&g, v->point_scale.of.intensities);
-    }
-    free(sorted);
+    if (v->point_scale.given)
+        v->point_scale.of = measure(&g, room);
+    free(room);
     free(g.leaves);
-    free(g.intensities);
+    free(g.samples.items);
     return measured;
 }
 

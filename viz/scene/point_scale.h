@@ -10,8 +10,9 @@
 #include "view.h"
 
 /* Where the view paints points and has no scale yet, give it that of the points that it shows of the tree of tick 0. A
- * few outliers on either side are left out, so that they do not take the colours from all others. The spacing is the
- * median of the leaves', by the extent of the points in each. The values of the points may be null; of those that no
+ * few outliers on either side are left out, so that they do not take the colours from all others: what remains does not
+ * depend on the tree, so that pictures of other leaf capacities have the same colours. The spacing is the median of the
+ * leaves', by the extent of the points in each. The values of the points may be null; of those that no
  * point of the tree has none counts: a session that is filmed while it is written has them later. False when there is
  * no memory. Cost: O(n). */
 bool point_scale_fit(view *v, const octree *tree, const point_values *values);

@@ -97,8 +97,8 @@ typedef enum octree_full_leaf {
 
 /* Where a tree takes its memory. `allocate` returns memory aligned as malloc's, or null. `release` is told the size
  * that was asked for, and is never given null. One without the other is BAD_OPTION. The context must outlive the tree.
- * A tree calls it from one thread at a time; but octree_nearest_batch and, of a game, octree_query_answer, which may run
- * from many threads at once, take memory in each: where they do, it must be safe for threads, as malloc is. */
+ * A tree calls it from one thread at a time; but octree_nearest_batch and, of a game, octree_query_answer, which may
+ * run from many threads at once, take memory in each: where they do, it must be safe for threads, as malloc is. */
 typedef struct octree_allocator {
     void *(*allocate)(size_t size, void *context);
     void (*release)(void *memory, size_t size, void *context);
@@ -206,9 +206,9 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
  * the number of OKs. Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are
  * undefined. Cost: of fewer than a fifth as many moves as points are stored (three tenths where those are not spread
  * evenly, or under OCTREE_REFUSE with a depth below 13) as octree_remove_many, and a point that stays in its leaf is
- * written in place; of more one look at all points and a bulk build, some 90 to 140 bytes a point while it runs. Where an id
- * comes twice in a batch or among the stored points, where a pair would be there twice, and where a leaf may be full
- * under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some 250 bytes a move. */
+ * written in place; of more one look at all points and a bulk build, some 90 to 140 bytes a point while it runs. Where
+ * an id comes twice in a batch or among the stored points, where a pair would be there twice, and where a leaf may be
+ * full under OCTREE_REFUSE, the moves are first followed one by one in a hash table, with some 250 bytes a move. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved);
 
@@ -265,7 +265,8 @@ typedef bool (*octree_point_visitor)(const octree_point *point, void *context);
  * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND. Cost: O(D + M). */
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id);
 
-/* True when the pair (position, id) is stored; false in another floating-point mode than the default. Cost: O(D + M). */
+/* True when the pair (position, id) is stored; false in another floating-point mode than the default. Cost: O(D + M).
+ */
 bool octree_contains(const octree *tree, const double position[3], uint64_t id);
 
 /* Which points do not count as neighbours of a target. */
@@ -377,8 +378,8 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
 
 typedef struct octree_neighbor {
     octree_point point;
-    double distance; /* Euclidean, within 4 ulp, without overflow or underflow on the way. As a radius it may be short of
-                        its own point: that is decided by the real numbers */
+    double distance; /* Euclidean, within 4 ulp, without overflow or underflow on the way. As a radius it may be short
+                        of its own point: that is decided by the real numbers */
 } octree_neighbor;
 
 /* Algorithms 6 and 7. The nearest point to any finite target, inside the world or not: the true minimum of the real

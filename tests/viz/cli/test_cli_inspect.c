@@ -320,6 +320,7 @@ static void the_picture_says_what_it_chose_for_the_points(void **state)
                 {"--size 320x180 --shade none", "points by height (--color-points)\n", 2},
                 {"--size 320x180 --color-points id --shade none", "180 pixels\n", 2},
                 {"--size 320x180 --layers -points", "180 pixels\n", 3},
+                {"--size 320x180 --diagram only", "180 pixels\n", 3},
                 {"--size 320x180 --color-points plain", "180 pixels\n", 3}};
     const place points = write_points(state, "points.txt", ""), picture = place_in(*state, "tree.png");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

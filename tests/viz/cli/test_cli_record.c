@@ -298,6 +298,7 @@ static void what_the_view_asks_for_in_vain_is_told(void **state)
     command_release(&result);
     result = run_octreel(NULL, "inspect %s --color-points intensity " SMALL " -o %s", points.path, picture.path);
     assert_non_null(strstr(result.err, "no point has an intensity: --color-points intensity shows all points alike\n"));
+    assert_non_null(strstr(result.out, "points alike, as none has an intensity (--color-points)"));
     command_release(&result);
 }
 

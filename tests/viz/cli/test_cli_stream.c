@@ -38,7 +38,7 @@ static void assert_same_recording(void **state, const char *text, const char *op
     const place file = place_in(*state, names[0]), a = place_in(*state, names[1]), b = place_in(*state, names[2]);
     file_write_text(file.path, text);
     command_result result =
-        run_script("%1$s record %2$s %3$s --size 32x18 -o %4$s && cat %2$s | %1$s record - %3$s --size 32x18 -o %5$s",
+        run_script("%1$s record %2$s --size 32x18 %3$s -o %4$s && cat %2$s | %1$s record - --size 32x18 %3$s -o %5$s",
                    octreel_program(), file.path, options, a.path, b.path);
     assert_done(&result);
     command_release(&result);
@@ -73,6 +73,19 @@ static void options_are_those_of_a_file(void **state)
     assert_same_recording(state, text, "--no-frames");
     assert_same_recording(state, text, "--keys wwddwwdd --layers all --jobs 1");
     assert_same_recording(state, text, "--replace");
+}
+
+/* Neither the panel nor the legend can know what comes later. */
+static void frames_show_nothing_that_comes_later(void **state)
+{
+    static const char later[] =
+        "{\"tick\":2,\"queries\":[{\"radius\":9,\"at\":[0,0,0]}]}{\"tick\":3,\"queries\":[{\"range\":{\"min\":[0,0,0],"
+        "\"max\":[9,9,9.25]}},{\"radius\":9.125,\"at\":\"player\",\"answer\":[7]}],\"edits\":[{\"remove\":4}]}"
+        "{\"tick\":4,\"shapes\":[{\"label\":\"late\",\"at\":[1,2,3.5]}]}"
+        "{\"tick\":5,\"nodes\":[{\"id\":5,\"box\":{\"min\":[1,1,1],\"max\":[5,5,5]},\"kind\":\"leaf\"}]}";
+    char text[2048];
+    snprintf(text, sizeof text, MANY "%s", "\"keys\":\"wdwds\",", later);
+    assert_same_recording(state, text, "--size 640x720");
 }
 
 static void what_does_not_go_with_a_stream_is_refused(void **state)
@@ -261,6 +274,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(a_stream_is_filmed_as_its_file),
         IN_FOLDER(options_are_those_of_a_file),
+        IN_FOLDER(frames_show_nothing_that_comes_later),
         IN_FOLDER(what_does_not_go_with_a_stream_is_refused),
         IN_FOLDER(what_came_before_broken_text_is_whole),
         IN_FOLDER(a_session_that_breaks_off_ends_with_its_last_tick),

@@ -75,7 +75,7 @@ static void the_colour_of_each_node_is_that_of_its_depth_its_points_or_none(void
             used |= UINT32_C(1) << box->style.role;
         }
         assert_int_equal(used & ~legend_roles(&s), 0);
-        assert_int_equal(has_text(&s, "shallow to deep"), coloring == COLORING_DEPTH);
+        assert_int_equal(has_text(&s, "depth 0-9+"), coloring == COLORING_DEPTH);
         assert_int_equal(has_text(&s, "leaves, 0-7+ points"), coloring == COLORING_OCCUPANCY);
         scene_release(&s);
     }

@@ -86,7 +86,7 @@ static bool has_no_room(const scene *s, const scene_box *box, const char *path)
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         const room other = room_of(s, label->text, label->at[0], label->at[1]);
-        if (label->style.layer == LAYER_NODES && overlap(&wanted, &other, slack))
+        if (!label->in_world && overlap(&wanted, &other, slack))
             return true;
     }
     return false;
@@ -104,7 +104,7 @@ static void check_label(const scene *s, const scene_box *box, const scene_label 
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *other = &s->labels.items[i];
         const room theirs = room_of(s, other->text, other->at[0], other->at[1]);
-        assert_true(other == label || other->style.layer != LAYER_NODES || !overlap(&taken, &theirs, 0));
+        assert_true(other == label || other->in_world || !overlap(&taken, &theirs, 0));
     }
 }
 

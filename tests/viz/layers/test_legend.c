@@ -23,7 +23,7 @@ static const struct legend_row {
     {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
     {LAYER_POINTS, ROLE_POINT, true, "point"},
     {LAYER_VELOCITIES, ROLE_FAINT, true, "velocity, "},
-    {LAYER_NODES, ROLE_NODE, true, "shallow to deep"},
+    {LAYER_NODES, ROLE_NODE, true, "nodes, depth 0"},
     {LAYER_VISITED, ROLE_NODE + 2, true, " visited"},
     {LAYER_PRUNED, ROLE_NODE + 2, true, " pruned"},
     {LAYER_HIT, ROLE_HIT, true, " hit"},
@@ -54,12 +54,21 @@ static bool is_explained(const scene *s, const struct legend_row *row)
     return false;
 }
 
+/* At the first tick by which each kind of query has been asked. */
+static octree_game *start_asking(const octree_session *session)
+{
+    octree_game *game = start_game(session);
+    while (!(octree_game_tick(game)->asked >> OCTREE_QUERY_RANGE & 1))
+        play_tick(game);
+    return game;
+}
+
 /* Each layer alone has its line and no other; without it, all others have theirs. There is room for all. */
 static void the_legend_has_the_layers_that_are_shown(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
-    octree_game *game = start_game(&session);
+    octree_game *game = start_asking(&session);
     scene s = {0};
     for (size_t i = 0; i < LEGEND_ROWS; i++) {
         for (unsigned text = 0; text < 2; text++) {
@@ -98,7 +107,7 @@ static void the_legend_leaves_out_what_is_needed_least(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
-    octree_game *game = start_game(&session);
+    octree_game *game = start_asking(&session);
     scene s = {0};
     size_t whole = 0, partial = 0, cut = 0, none = 0;
     for (int height = 100; height <= 1440; height += 10) {
@@ -135,17 +144,20 @@ static void the_legend_leaves_out_what_is_needed_least(void **state)
     scene_release(&s);
 }
 
-static void the_legend_leaves_out_queries_that_the_session_never_asks(void **state)
+static void the_legend_has_the_queries_that_are_asked_in_each_tick_and_none_to_come(void **state)
 {
     (void)state;
     static const theme_role roles[OCTREE_QUERY_KINDS] = {ROLE_RANGE, ROLE_NEAREST, ROLE_KNEAREST, ROLE_RADIUS};
     const view v = view_default();
     scene s = {0};
     for (int kind = -1; kind < OCTREE_QUERY_KINDS; kind++) {
-        const octree_query late = {.tick = 99, .kind = (octree_query_kind)(kind < 0 ? 0 : kind)};
+        const octree_query asked[] = {
+            {.tick = 99, .kind = (octree_query_kind)((kind + 1) % OCTREE_QUERY_KINDS)},
+            {.tick = OCTREE_EVERY_TICK, .kind = (octree_query_kind)(kind < 0 ? 0 : kind)},
+        };
         octree_session session = small_session(NULL, 0);
-        session.queries = &late;
-        session.query_count = kind >= 0;
+        session.queries = asked;
+        session.query_count = kind < 0 ? 1 : 2;
         octree_game *game = start_game(&session);
         build_tick(&s, &v, game);
         for (int i = 0; i < OCTREE_QUERY_KINDS; i++) /* n names the nearest in every session */
@@ -201,7 +213,7 @@ static void the_legend_has_what_the_diagram_shows(void **state)
         v.filter.leaves = i & 2;
         const tree_subject about = {.title = "legend", .node = i & 8 ? OCTREE_ROOT : 0};
         assert_true(tree_scene_build(&s, &v, i & 4 ? large : small, &about));
-        assert_true(says(&s, "inner node, leaf") && says(&s, "nodes, shallow to deep"));
+        assert_true(says(&s, "inner node, leaf") && says(&s, "nodes, depth 0-9+"));
         assert_int_equal(says(&s, "node filtered out"), (i & 2) != 0);
         assert_int_equal(says(&s, "bars: many nodes, log2"), (i & 4) != 0);
         assert_int_equal(says(&s, "way from the root"), (i & 8) != 0);
@@ -239,7 +251,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_legend_has_the_layers_that_are_shown),
         cmocka_unit_test(the_legend_leaves_out_what_is_needed_least),
-        cmocka_unit_test(the_legend_leaves_out_queries_that_the_session_never_asks),
+        cmocka_unit_test(the_legend_has_the_queries_that_are_asked_in_each_tick_and_none_to_come),
         cmocka_unit_test(the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is),
         cmocka_unit_test(the_legend_has_what_the_diagram_shows),
         cmocka_unit_test(every_layer_that_is_listed_has_a_place_and_words),

@@ -188,7 +188,7 @@ static void every_colouring_builds_without_values_and_says_what_it_lacks(void **
                                                       [POINTS_BY_Z] = "points, by z",
                                                       [POINTS_BY_FILE] = "points, without colours",
                                                       [POINTS_BY_LEAF] = "points, by height",
-                                                      [POINTS_BY_DEPTH] = "points, by leaf's depth",
+                                                      [POINTS_BY_DEPTH] = "points, leaf depth 0-9+",
                                                       [POINTS_BY_DENSITY] = "64+",
                                                       [POINTS_BY_CLASS] = "points, without classes",
                                                       [POINTS_BY_INTENSITY] = "points, no intensities",

@@ -80,7 +80,8 @@ static bool node_passes(const known_tree *t, const view_filter *f, const octree_
     return branch_passes(t, f, node) && deep_enough && (!f->leaves || node->leaf);
 }
 
-/* A point lies in a leaf of the slice, in the region, and in a node of the range of depths. */
+/* A point lies in a leaf of the slice, in the region, and in a node of the range of depths: its leaf, of leaves alone.
+ */
 static bool point_passes(const known_tree *t, const view_filter *f, const octree_point *point)
 {
     octree_node leaf;
@@ -89,7 +90,7 @@ static bool point_passes(const known_tree *t, const view_filter *f, const octree
         (f->by_region && !box_holds(&f->region, point->position)))
         return false;
     bool in_range = !f->by_depth;
-    for (unsigned depth = 0; depth <= leaf.depth; depth++)
+    for (unsigned depth = f->leaves ? leaf.depth : 0; depth <= leaf.depth; depth++)
         in_range |= f->by_depth && depth >= f->min_depth && depth <= f->max_depth;
     return in_range;
 }
@@ -186,7 +187,9 @@ static void depths_leaves_and_regions_show_what_their_rules_say(void **state)
     uint64_t random = 6;
     for (unsigned from = 0; from < 9; from++)
         for (unsigned to = from; to < 9; to += 2)
-            check_filter(&t, &(view_filter){.by_depth = true, .min_depth = from, .max_depth = to});
+            for (int leaves = 0; leaves < 2; leaves++)
+                check_filter(&t,
+                             &(view_filter){.by_depth = true, .min_depth = from, .max_depth = to, .leaves = leaves});
     size_t leaves = 0;
     for (size_t i = 0; i < t.count; i++)
         leaves += t.nodes[i].leaf;

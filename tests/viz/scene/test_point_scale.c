@@ -62,58 +62,60 @@ static void the_order_of_points_does_not_matter(void **state)
     octree_destroy(other);
 }
 
-typedef struct low_end {
-    double value;
-    size_t points;
-} low_end;
-
-typedef struct low_ends {
-    low_end all[4000];
-    size_t count;
-} low_ends;
-
-static octree_walk_order add_low_end(const octree_node *node, void *context)
-{
-    low_ends *ends = context;
-    double lowest = INFINITY;
-    for (size_t i = 0; node->leaf && i < node->count; i++)
-        lowest = fmin(lowest, node->points[i].position[0]);
-    if (node->leaf)
-        ends->all[ends->count++] = (low_end){lowest, node->count};
-    return OCTREE_WALK_ON;
-}
-
-static int compare_low_ends(const void *a, const void *b)
-{
-    const double p = ((const low_end *)a)->value, q = ((const low_end *)b)->value;
-    return (p > q) - (p < q);
-}
-
-/* Leaves of one to four points, whose x begin at few or at many values: as if all were sorted. */
+/* Of few and of many values, each of many points; no tree has a say in it. */
 static void a_hundredth_of_the_points_lies_before_its_low_end(void **state)
 {
     (void)state;
-    for (uint64_t values = 1; values <= 4096; values *= 4) {
-        static low_ends ends;
+    enum { POINTS = 4000, LEFT_OUT = POINTS / 100 };
+    for (uint64_t values = 1; values <= 4096; values *= 4)
+        for (size_t capacity = 1; capacity <= POINTS; capacity *= 20) {
+            view v = painting_view();
+            octree_def def = octree_def_default();
+            octree *tree;
+            size_t before = 0, with = 0;
+            def.world = cube(-1000, 1000);
+            def.leaf_capacity = capacity;
+            assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
+            for (uint64_t i = 0; i < POINTS; i++)
+                assert_int_equal(
+                    octree_insert(
+                        tree, (double[]){(double)(i * 2654435761 % values) / 8, (double)(i % 63), (double)(i / 63)}, i),
+                    OCTREE_OK);
+            assert_true(point_scale_fit(&v, tree, NULL));
+            for (uint64_t i = 0; i < POINTS; i++) {
+                const double x = (double)(i * 2654435761 % values) / 8;
+                before += x < v.point_scale.of.low[0];
+                with += x <= v.point_scale.of.low[0];
+            }
+            assert_true(before <= LEFT_OUT && LEFT_OUT < with);
+            octree_destroy(tree);
+        }
+}
+
+/* So many that a part of them stands for all. */
+static void the_tree_has_no_say_in_the_colours_of_many_points(void **state)
+{
+    (void)state;
+    enum { SIDE = 400 };
+    static octree_point points[SIDE * SIDE];
+    point_scale first = {.spacing = 0};
+    for (size_t i = 0; i < SIDE * SIDE; i++)
+        points[i] = (octree_point){{(double)(i % SIDE), (double)i / SIDE, (double)(i * 7919 % 100003) / 100003}, i};
+    for (size_t capacity = 8; capacity <= SIDE * SIDE; capacity *= 30) {
         view v = painting_view();
         octree_def def = octree_def_default();
         octree *tree;
-        size_t at = 0, passed = 0;
         def.world = cube(-1000, 1000);
-        def.leaf_capacity = 4;
-        ends.count = 0;
+        def.leaf_capacity = capacity;
         assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
-        for (uint64_t i = 0; i < 4000; i++)
-            assert_int_equal(
-                octree_insert(tree,
-                              (double[]){(double)(i * 2654435761 % values) / 8, (double)(i % 63), (double)(i / 63)}, i),
-                OCTREE_OK);
+        assert_int_equal(octree_insert_many(tree, points, SIDE * SIDE, NULL, NULL), OCTREE_OK);
         assert_true(point_scale_fit(&v, tree, NULL));
-        octree_walk(tree, add_low_end, &ends);
-        qsort(ends.all, ends.count, sizeof *ends.all, compare_low_ends);
-        for (; passed + ends.all[at].points <= 4000 / 100; at++)
-            passed += ends.all[at].points;
-        assert_true(v.point_scale.of.low[0] == ends.all[at].value);
+        const point_scale *s = &v.point_scale.of;
+        first = capacity == 8 ? *s : first;
+        assert_memory_equal(s->low, first.low, sizeof first.low);
+        assert_memory_equal(s->high, first.high, sizeof first.high);
+        assert_true(fabs(s->low[2] - 0.01) < 0.002 && fabs(s->high[2] - 0.99) < 0.002);
+        assert_true(fabs(s->low[1] - 4) < 0.8 && fabs(s->high[1] - 396) < 0.8);
         octree_destroy(tree);
     }
 }
@@ -179,6 +181,7 @@ int main(void)
         cmocka_unit_test(a_few_outliers_do_not_take_the_colours),
         cmocka_unit_test(the_order_of_points_does_not_matter),
         cmocka_unit_test(a_hundredth_of_the_points_lies_before_its_low_end),
+        cmocka_unit_test(the_tree_has_no_say_in_the_colours_of_many_points),
         cmocka_unit_test(it_is_made_once_and_only_where_points_are_painted),
         cmocka_unit_test(values_of_points_that_are_not_in_the_tree_do_not_count),
         cmocka_unit_test(it_is_finite_in_the_largest_world),
