@@ -107,7 +107,7 @@ static measure measure_of(const layer_source *in)
     double center[3]; /* what it looks at does not matter */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
-    const camera c = camera_make(in->view, layout_camera(&with), &in->world, center, 0);
+    const camera c = camera_make(in->view, layout_camera(&with, &in->world), &in->world, center, 0);
     return (measure){view_height_in_wide(in->view), camera_pixel_length(&c)};
 }
 

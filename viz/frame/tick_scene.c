@@ -87,7 +87,7 @@ static bool build(scene *s, layer_source *in, const double player[3], closeup_co
         closeup_follow(&course, in);
     const double times = closeup_times(&course, in);
     s->has_closeup = times > 0;
-    s->camera = camera_make(v, layout_camera(s), &in->world, player, in->tick ? in->tick->number : 0);
+    s->camera = camera_make(v, layout_camera(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows(v, LAYER_BROKEN))
         in->broken = octree_check(in->tree, &in->broken_at);
     if (s->has_closeup)

@@ -84,7 +84,7 @@ static bool is_outline(const axes *a, const double at[2], const double out[2])
 static bool has_room(const axes *a, const double at[2], const double out[2])
 {
     const camera_window w = layout_space(a->scene);
-    const double x = at[0] + out[0] * NUMBER_LETTERS * a->scene->text.width - w.x;
+    const double x = at[0] + out[0] * layout_number_letters(a->box) * a->scene->text.width - w.x;
     const double y = at[1] + out[1] * 2 * a->scene->text.height - w.y;
     return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
 }

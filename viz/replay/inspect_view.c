@@ -13,11 +13,12 @@ static bool has_colors(const inspection *made)
 }
 
 /* Where the tree is drawn. */
-static camera_window space_of(const view *v)
+static camera_window space_of(const inspection *made, const view *v)
 {
+    const octree_box world = octree_definition(made->tree).world;
     scene empty = {0};
     scene_set_view(&empty, v);
-    return layout_camera(&empty);
+    return layout_camera(&empty, &world);
 }
 
 #define LEAF_PIXELS 32 /* of the space view for each leaf: with fewer, dark and light leaves are noise */
@@ -25,7 +26,7 @@ static camera_window space_of(const view *v)
 /* Whether the points hide the boxes of nodes and their leaves are to be shown instead; *said is why, or why not. */
 static bool choose_leaves(const inspection *made, const view *v, const char **said)
 {
-    const camera_window w = space_of(v);
+    const camera_window w = space_of(made, v);
     const double pixels = w.width * w.height;
     octree_stats stats;
     *said = "";
@@ -43,7 +44,7 @@ static bool close_surfaces(const inspection *made, const view *v)
     const octree_box world = octree_definition(made->tree).world;
     double center[3];
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &world, center);
-    const camera c = camera_make(v, space_of(v), &world, center, 0);
+    const camera c = camera_make(v, space_of(made, v), &world, center, 0);
     const double apart = point_scale_pixels(&c, v->point_scale.of.spacing) / (c.perspective ? c.distance : 1);
     return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_unit(v);
 }

@@ -54,11 +54,22 @@ camera_window layout_space(const scene *s)
     return w;
 }
 
-camera_window layout_camera(const scene *s)
+int layout_number_letters(const octree_box *box)
+{
+    enum { LEAST = 6, MOST = 10 };
+    double most = 1;
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, fmax(box->max[i], -box->min[i]));
+    const double letters = floor(log10(most)) + 3; /* its digits, a sign or a margin, and the tick */
+    return letters < LEAST ? LEAST : letters > MOST ? MOST : (int)letters;
+}
+
+camera_window layout_camera(const scene *s, const octree_box *world)
 {
     camera_window w = layout_space(s);
+    const int letters = layout_number_letters(s->view.fit == FIT_BOX ? &s->view.focus : world);
     const bool numbers = view_shows(&s->view, LAYER_WORLD) && view_shows(&s->view, LAYER_TEXT);
-    const double room = numbers ? NUMBER_LETTERS * s->text.width - CAMERA_MARGIN * w.width : 0;
+    const double room = numbers ? letters * s->text.width - CAMERA_MARGIN * w.width : 0;
     const double beside = fmax(fmin(room, w.width * MOST_NUMBERS), 0);
     w.x += beside;
     w.width -= 2 * beside;

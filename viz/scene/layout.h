@@ -16,11 +16,11 @@ int panel_width(const view *v);
 /* Where the world is drawn. */
 camera_window layout_space(const scene *s);
 
-/* Letters of a number of an axis beside the world. */
-#define NUMBER_LETTERS 6
+/* Letters of a number of an axis along a box, and of its tick: 6, or what the digits of large coordinates need. */
+int layout_number_letters(const octree_box *box);
 
 /* The part of it that the camera frames the world in: with room for numbers at both sides. */
-camera_window layout_camera(const scene *s);
+camera_window layout_camera(const scene *s, const octree_box *world);
 
 /* The area of a close-up, in whole pixels, beside the world or, where that is higher than wide, below it; empty in a
  * picture that is too small for one. */
