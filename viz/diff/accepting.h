@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accepting.h - what accept.c and accept_digests.c share: both sides while the new one is taken over. */
+/* accepting.h - what the files of accept.c share: both sides while the new one is taken over. */
 #ifndef DIFF_ACCEPTING_H
 #define DIFF_ACCEPTING_H
 
@@ -25,5 +25,8 @@ bool accept_check_words(accepting *a, octreel_error *error);
 
 /* Put the pictures into the store, where there is one, and write the file of digests. */
 bool accept_digests(accepting *a, octreel_error *error);
+
+/* Put the pictures, and of a recording that is accepted whole its other files, in place of those of the reference. */
+bool accept_pictures(accepting *a, octreel_error *error);
 
 #endif
