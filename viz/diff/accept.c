@@ -9,7 +9,6 @@
 #include "diff_words.h"
 #include "file.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,26 +33,6 @@ static bool check_new(const accept_options *o, diff_kind kind, octreel_error *er
                      "%s: there is no such reference, and frames become one in a folder; with --reason TEXT their "
                      "digests become one in a file",
                      o->reference);
-}
-
-/* Frames that come while others are taken over would be missing. A chunk has a log of its own. */
-static bool check_ended(const diff_side *side, octreel_error *error)
-{
-    DIR *entries = side->kind == DIFF_RECORDING ? opendir(side->path) : NULL;
-    bool ok = true;
-    for (struct dirent *entry; entries && ok && (entry = readdir(entries));) {
-        const char *name = entry->d_name, *end = strrchr(name, '.');
-        if (strncmp(name, "ticks", 5) != 0 || !end || strcmp(end, ".jsonl") != 0)
-            continue;
-        char *path = path_join(side->path, name);
-        ok = path ? !file_is_locked(path) ||
-                        error_set(error, "%s: is still being filmed: accept it when it is whole", side->path)
-                  : error_no_memory(error);
-        free(path);
-    }
-    if (entries)
-        closedir(entries);
-    return ok;
 }
 
 /* A reference that does not exist yet starts as an empty side of the same kind. */
@@ -242,8 +221,8 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
 {
     accepting a = {.options = options, .out = out};
     const int lock = file_lock_folder_of(options->reference);
-    const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && check_ended(&a.frames, error) &&
-                    (a.is_new || check_ended(&a.reference, error)) && compare(&a, error) &&
+    const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && accept_check_whole(&a.frames, error) &&
+                    (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
                     (a.reference.kind == DIFF_DIGESTS ? accept_digests : accept_pictures)(&a, error);
     if (ok && out)
         (options->json ? tell_as_json : tell)(&a);

@@ -19,6 +19,11 @@ typedef struct accepting {
     FILE *out;
 } accepting;
 
+/* Whether nobody is filming a recording; and whether it has all that its session makes: the frames that it lacks would
+ * be taken for frames that are gone. What is no recording is fine. */
+bool accept_check_ended(const diff_side *side, octreel_error *error);
+bool accept_check_whole(const diff_side *side, octreel_error *error);
+
 /* Whether what is asked for fits the reference: a baseline wants a reason, and nothing else takes one. One of version 1
  * becomes a baseline where there is a reason. */
 bool accept_check_words(accepting *a, octreel_error *error);

@@ -153,35 +153,6 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
 
-/* `live`: a last line that is torn is left out. */
-static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
-                         octreel_error *error)
-{
-    char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
-    size_t size;
-    bool ok = path || error_no_memory(error);
-    ok = ok && (file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason));
-    while (ok && live && size > 0 && bytes[size - 1] != '\n')
-        size--;
-    if (ok)
-        *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
-    ok = ok && session_parse(path, NULL, bytes, size, file, error);
-    free(bytes);
-    free(path);
-    return ok;
-}
-
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error)
-{
-    return read_session(folder, "session.json", false, file, digest, error);
-}
-
-bool read_live_session(const char *folder, session_file *file, octreel_error *error)
-{
-    uint64_t ignored;
-    return read_session(folder, "session.json.live", true, file, &ignored, error);
-}
-
 char *who_draws(const renderer_info *info, char *text, size_t size)
 {
     enum { LONGEST = 100 }; /* of each of the strings */

@@ -41,12 +41,6 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
 
-/* session.json and the digest of its bytes; the caller releases *file. */
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error);
-
-/* The session that a program was making when it died: session.json.live, without a last line that is torn. */
-bool read_live_session(const char *folder, session_file *file, octreel_error *error);
-
 /* A renderer in one phrase: context, renderer and version. Returns `text`. */
 char *who_draws(const renderer_info *info, char *text, size_t size);
 
