@@ -107,9 +107,9 @@ const command command_accept = {
              "tells it. Look at the pictures first.\n",
     .more =
         "Of several who accept into one reference at once each sees what the others did, and where a disk is full "
-        "nothing is accepted. Nor is a recording that is still being filmed, is damaged or was not done: the frames "
-        "that it lacks would go. Where the environment has CI set, nothing is either: a test that accepts what it "
-        "should test proves nothing.\n",
+        "nothing is accepted. Nor is a recording that is still being filmed, is damaged or was not done: references "
+        "of the frames that it lacks would go. Where the environment has CI set, nothing is either: a test that "
+        "accepts what it should test proves nothing.\n",
     .examples =
         "octreel accept golden frames\n"
         "octreel accept golden frames frame_000041.png frame_000042.png\n"
