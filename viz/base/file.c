@@ -23,14 +23,15 @@ char *path_join(const char *folder, const char *name)
     return path;
 }
 
-/* The folder in which a path lies; the caller frees it. */
+/* The folder in which a path lies, which may end in slashes; the caller frees it. */
 static char *parent_of(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    char *parent = strdup(slash ? path : ".");
-    if (parent && slash)
-        parent[slash == path ? 1 : slash - path] = 0;
-    return parent;
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    return length == 0 ? strdup(".") : strndup(path, length > 1 ? length - 1 : 1);
 }
 
 /* It needs no memory, without which it would find nothing. A longer path names nothing either. */
@@ -166,35 +167,55 @@ static bool is_synced(FILE *stream)
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
-bool file_writer_close(file_writer *file, octreel_error *error)
+static bool is_direct(const file_writer *file)
+{
+    return strcmp(file->temp, file->path) == 0;
+}
+
+static bool fail_to_write(file_writer *file, int reason, octreel_error *error)
+{
+    error_set(error, "%s: cannot be written: %s", file->path, strerror(reason));
+    return file_writer_abandon(file);
+}
+
+bool file_writer_finish(file_writer *file, octreel_error *error)
 {
     if (!file->temp)
         return true;
-    const bool direct = strcmp(file->temp, file->path) == 0;
     bool ok = fflush(file->stream) == 0 && !ferror(file->stream) && (!file->lasting || is_synced(file->stream));
     int reason = errno;
     if (fclose(file->stream) != 0 && ok) {
         ok = false;
         reason = errno;
     }
-    if (ok && !direct && rename(file->temp, file->path) != 0) {
-        ok = false;
-        reason = errno;
-    }
-    if (!ok && !direct)
-        remove(file->temp);
+    file->stream = NULL;
+    return ok || fail_to_write(file, reason, error);
+}
+
+bool file_writer_place(file_writer *file, octreel_error *error)
+{
+    if (file->temp && !is_direct(file) && rename(file->temp, file->path) != 0)
+        return fail_to_write(file, errno, error);
     free(file->temp);
-    return ok || error_set(error, "%s: cannot be written: %s", file->path, strerror(reason));
+    file->temp = NULL;
+    return true;
+}
+
+bool file_writer_close(file_writer *file, octreel_error *error)
+{
+    return file_writer_finish(file, error) && file_writer_place(file, error);
 }
 
 bool file_writer_abandon(file_writer *file)
 {
     if (!file->temp)
         return false;
-    fclose(file->stream);
-    if (strcmp(file->temp, file->path) != 0)
+    if (file->stream)
+        fclose(file->stream);
+    if (!is_direct(file))
         remove(file->temp);
     free(file->temp);
+    *file = (file_writer){.path = file->path};
     return false;
 }
 
@@ -210,19 +231,25 @@ static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *er
 
 typedef bool writer_opener(file_writer *file, const char *path, octreel_error *error);
 
-static bool copy_by(writer_opener *open_file, bool lasting, const char *from, const char *to, octreel_error *error)
+static bool copy_beside(file_writer *file, writer_opener *open_file, bool lasting, const char *from, const char *to,
+                        octreel_error *error)
 {
     char reason[FILE_REASON];
-    file_writer file;
     FILE *in = file_open(from, NULL, reason);
     if (!in)
         return error_set(error, "%s: %s", file_title(from), reason);
-    bool ok = open_file(&file, to, error);
-    file.lasting = lasting;
+    bool ok = open_file(file, to, error);
+    file->lasting = lasting;
     if (ok)
-        ok = copy_stream(in, from, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+        ok = copy_stream(in, from, file->stream, error) ? file_writer_finish(file, error) : file_writer_abandon(file);
     fclose(in);
     return ok;
+}
+
+static bool copy_by(writer_opener *open_file, bool lasting, const char *from, const char *to, octreel_error *error)
+{
+    file_writer file;
+    return copy_beside(&file, open_file, lasting, from, to, error) && file_writer_place(&file, error);
 }
 
 bool file_copy_to(const char *from, const char *to, octreel_error *error)
@@ -230,9 +257,9 @@ bool file_copy_to(const char *from, const char *to, octreel_error *error)
     return copy_by(file_writer_open_replacing, false, from, to, error);
 }
 
-bool file_copy_lasting(const char *from, const char *to, octreel_error *error)
+bool file_copy_beside(file_writer *file, const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open_replacing, true, from, to, error);
+    return copy_beside(file, file_writer_open_replacing, true, from, to, error);
 }
 
 bool file_copy_apart(const char *from, const char *to, octreel_error *error)

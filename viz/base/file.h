@@ -72,14 +72,19 @@ bool file_writer_open_replacing(file_writer *file, const char *path, octreel_err
 bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
 
+/* The same in two steps, for files that take their places together: all is on the disk beside the path, and then there
+ * is but a rename to do. */
+bool file_writer_finish(file_writer *file, octreel_error *error);
+bool file_writer_place(file_writer *file, octreel_error *error);
+
 /* Leave the path as it was before; always false, so that a caller can return it. */
 bool file_writer_abandon(file_writer *file);
 
 /* Copy a regular file, a block at a time, by way of "<to>.part" and a rename, whatever was there. */
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
 
-/* The same of what shall last (`lasting`). */
-bool file_copy_lasting(const char *from, const char *to, octreel_error *error);
+/* The same of what shall last (`lasting`), up to file_writer_finish(); `to` must outlive the writer. */
+bool file_copy_beside(file_writer *file, const char *from, const char *to, octreel_error *error);
 
 /* The same of what shall last, by way of a file that nobody else writes at the same time. */
 bool file_copy_apart(const char *from, const char *to, octreel_error *error);

@@ -105,9 +105,11 @@ const command command_accept = {
              "is made where there is nothing. References with the same pixels stay as they are; those that NEW has no "
              "frame for are removed, where all or they are asked for. What was there before is told as octreel diff "
              "tells it. Look at the pictures first.\n",
-    .more = "Of several who accept into one baseline at once each sees what the others did, and where a disk is full "
-            "nothing is accepted. Where the environment has CI set, nothing is either: a test that accepts what it "
-            "should test proves nothing.\n",
+    .more =
+        "Of several who accept into one reference at once each sees what the others did, and where a disk is full "
+        "nothing is accepted. Nor is a recording that is still being filmed, is damaged or was not done: references "
+        "of the frames that it lacks would go. Where the environment has CI set, nothing is either: a test that "
+        "accepts what it should test proves nothing.\n",
     .examples =
         "octreel accept golden frames\n"
         "octreel accept golden frames frame_000041.png frame_000042.png\n"

@@ -51,6 +51,9 @@ const command command_join = {
              "has its line, and every frame is whole, of its tick and of the session. Then write the rest, ticks.jsonl "
              "and index.html, so that DIR is the same as if it had been filmed at once. What is missing is named. "
              "Nothing is played or drawn: octreel verify does that.\n",
+    .more =
+        "What --json prints has \"folder\", \"ticks\", \"frames\", \"gaps\" and \"left_out\", of which octreel help "
+        "record tells.\n",
     .examples = "octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"
                 "octreel join film\n",
     .least = 1,

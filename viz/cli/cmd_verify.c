@@ -57,6 +57,21 @@ const command command_verify = {
              "or lines are missing, torn or too many. Of gaps, ticks that a program which recorded itself could not "
              "hand over, it says how many there are and why; they are no finding. Of a recording without frames the "
              "facts alone are compared. Files are not changed.\n",
+    .more =
+        "What --json prints:\n"
+        "\n"
+        "  \"folder\"      the recording\n"
+        "  \"identical\"   whether there is no finding\n"
+        "  \"ticks\", \"frames\"  how many are the same, before the first tick that differs\n"
+        "  \"gaps\"        how many of these ticks are one\n"
+        "  \"findings\"    one each at most of the session, the first tick that differs, and files that are too "
+        "many. Each says what it is \"in\": \"session\" (session.json is not the one that was filmed), \"view\" "
+        "(recording.json has another size than the frames), \"lines\" (ticks.jsonl lacks one, or has one that is "
+        "torn or too many), \"facts\" (what happened), \"scene\" (what is drawn), \"frame\" (it is missing, torn, "
+        "another one or too many) or \"pixels\"; the \"tick\", where it is of one; the \"fact\", the member of the "
+        "tick's line; how many \"pixels\" differ; and the sentence as \"text\"\n"
+        "  \"drawn_by\", \"drawn_now\"  the renderer of the recording, and that of now; null where nothing was drawn\n"
+        "  \"fill\"        what has filled the pixels now, \"gl\", or null\n",
     .statuses = {"identical", "differs", "trouble"},
     .examples = "octreel verify frames\n"
                 "octreel verify frames --context egl --json\n",

@@ -9,7 +9,6 @@
 #include "diff_words.h"
 #include "file.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,26 +33,6 @@ static bool check_new(const accept_options *o, diff_kind kind, octreel_error *er
                      "%s: there is no such reference, and frames become one in a folder; with --reason TEXT their "
                      "digests become one in a file",
                      o->reference);
-}
-
-/* Frames that come while others are taken over would be missing. A chunk has a log of its own. */
-static bool check_ended(const diff_side *side, octreel_error *error)
-{
-    DIR *entries = side->kind == DIFF_RECORDING ? opendir(side->path) : NULL;
-    bool ok = true;
-    for (struct dirent *entry; entries && ok && (entry = readdir(entries));) {
-        const char *name = entry->d_name, *end = strrchr(name, '.');
-        if (strncmp(name, "ticks", 5) != 0 || !end || strcmp(end, ".jsonl") != 0)
-            continue;
-        char *path = path_join(side->path, name);
-        ok = path ? !file_is_locked(path) ||
-                        error_set(error, "%s: is still being filmed: accept it when it is whole", side->path)
-                  : error_no_memory(error);
-        free(path);
-    }
-    if (entries)
-        closedir(entries);
-    return ok;
 }
 
 /* A reference that does not exist yet starts as an empty side of the same kind. */
@@ -171,20 +150,7 @@ static bool compare(accepting *a, octreel_error *error)
            decide(a, error) && check_overlap(a, error);
 }
 
-/* ---- Doing it ------------------------------------------------------------------------------------------------ */
-
-static bool write_picture(const accepting *a, const diff_pair *pair, action what, octreel_error *error)
-{
-    if (what == REMOVED)
-        return remove(pair->a->path) == 0 ||
-               error_set(error, "%s: cannot be removed: %s", pair->a->path, strerror(errno));
-    if (a->reference.kind == DIFF_PICTURE || pair->a)
-        return file_copy_lasting(pair->b->path, pair->a ? pair->a->path : a->reference.path, error);
-    char *to = path_join(a->reference.path, pair->b->name);
-    const bool ok = to ? file_copy_lasting(pair->b->path, to, error) : error_no_memory(error);
-    free(to);
-    return ok;
-}
+/* ---- Said ---------------------------------------------------------------------------------------------------- */
 
 static const char *const action_words[] = {[CHANGED] = "changed", [ADDED] = "new", [REMOVED] = "removed"};
 
@@ -198,51 +164,6 @@ static void say(const accepting *a, const diff_pair *pair, action what)
     if (what == ADDED)
         fprintf(a->out, ": %dx%d", pair->about[1].width, pair->about[1].height);
     fputc('\n', a->out);
-}
-
-static bool write_pictures(const accepting *a, octreel_error *error)
-{
-    for (size_t i = 0; i < a->result.count; i++)
-        if (a->actions[i] != KEPT && a->reference.kind != DIFF_DIGESTS &&
-            !write_picture(a, &a->result.pairs[i], a->actions[i], error))
-            return false;
-    return true;
-}
-
-static bool copy_fact(const accepting *a, const char *name, octreel_error *error)
-{
-    char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
-    bool ok = (from && to) || error_no_memory(error);
-    if (ok && access(from, F_OK) == 0 && !same_bytes(from, to))
-        ok = file_copy_lasting(from, to, error);
-    free(from);
-    free(to);
-    return ok;
-}
-
-/* The other files of a recording describe its frames, and frames of the same pixels may name another session. */
-static bool write_facts(const accepting *a, octreel_error *error)
-{
-    bool ok = true;
-    for (size_t i = 0; ok && i < a->result.count; i++)
-        if (a->result.pairs[i].finding == FOUND_SAME_PIXELS)
-            ok = copy_fact(a, diff_pair_name(&a->result.pairs[i]), error);
-    for (size_t i = 0; ok && folder_fact_name(i); i++)
-        ok = copy_fact(a, folder_fact_name(i), error);
-    return ok;
-}
-
-static bool write_all(accepting *a, octreel_error *error)
-{
-    const bool whole = a->options->names->count == 0;
-    const diff_kind kind = a->reference.kind;
-    if (a->is_new && kind != DIFF_PICTURE && kind != DIFF_DIGESTS && !folder_prepare(a->reference.path, error))
-        return false;
-    if (kind == DIFF_DIGESTS)
-        return accept_digests(a, error);
-    if (!write_pictures(a, error))
-        return false;
-    return kind != DIFF_RECORDING || !whole || write_facts(a, error);
 }
 
 static void tell(const accepting *a)
@@ -299,9 +220,10 @@ static void tell_as_json(const accepting *a)
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
-    const int lock = file_kind_of(options->reference) == KIND_FOLDER ? -1 : file_lock_folder_of(options->reference);
-    const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && check_ended(&a.frames, error) &&
-                    (a.is_new || check_ended(&a.reference, error)) && compare(&a, error) && write_all(&a, error);
+    const int lock = file_lock_folder_of(options->reference);
+    const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && accept_check_whole(&a.frames, error) &&
+                    (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
+                    (a.reference.kind == DIFF_DIGESTS ? accept_digests : accept_pictures)(&a, error);
     if (ok && out)
         (options->json ? tell_as_json : tell)(&a);
     free(a.actions);

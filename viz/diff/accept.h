@@ -22,12 +22,15 @@ typedef struct accept_options {
     bool json;              /* what was done is said as one JSON object, which lists all frames that it was done to */
 } accept_options;
 
-/* Compare, then write what differs: each file whole, by a rename. A reference with the same pixels stays as it is; but
- * of a recording that is accepted whole, all files are taken over. What was done is said on `out` at the end; it may be
- * null. False with an error: before anything is written when a side, a new frame or a name is invalid.
+/* Compare, then write what differs. A reference with the same pixels stays as it is; but of a recording that is
+ * accepted whole, all files are taken over. What was done is said on `out` at the end; it may be null. False with an
+ * error: before anything is written when a side, a new frame or a name is invalid.
  *
- * A file of digests is read, changed and renamed while its folder is locked, after pictures are in the store: of two
- * who accept at once the second sees what the first has done, and where a disk is full the file is that of before. */
+ * Of two who accept at once the second sees what the first has done: a file, and a folder, is locked by the folder in
+ * which it lies. Where a disk is full the reference is that of before. For all that is taken over is on the disk, as
+ * NAME.part, before the first of these takes its place by a rename; pictures are in the store before a file of digests
+ * is renamed. Where a rename fails or the process is killed among them, each file is the one of before or the new one,
+ * whole, and none is removed yet whose frame is gone: to accept once more does the rest. */
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accepting.h - what accept.c and accept_digests.c share: both sides while the new one is taken over. */
+/* accepting.h - what the files of accept.c share: both sides while the new one is taken over. */
 #ifndef DIFF_ACCEPTING_H
 #define DIFF_ACCEPTING_H
 
@@ -19,11 +19,19 @@ typedef struct accepting {
     FILE *out;
 } accepting;
 
+/* Whether nobody is filming a recording; and whether it has all that its session makes: the frames that it lacks would
+ * be taken for frames that are gone. What is no recording is fine. */
+bool accept_check_ended(const diff_side *side, octreel_error *error);
+bool accept_check_whole(const diff_side *side, octreel_error *error);
+
 /* Whether what is asked for fits the reference: a baseline wants a reason, and nothing else takes one. One of version 1
  * becomes a baseline where there is a reason. */
 bool accept_check_words(accepting *a, octreel_error *error);
 
 /* Put the pictures into the store, where there is one, and write the file of digests. */
 bool accept_digests(accepting *a, octreel_error *error);
+
+/* Put the pictures, and of a recording that is accepted whole its other files, in place of those of the reference. */
+bool accept_pictures(accepting *a, octreel_error *error);
 
 #endif

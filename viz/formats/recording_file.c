@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "recording_file.h"
 #include "file.h"
-#include "session_file.h"
+#include "octree/digest.h"
 #include "theme.h"
 #include "view_options.h"
 
@@ -85,4 +85,35 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
     }
     free(path);
     return done;
+}
+
+/* ---- session.json --------------------------------------------------------------------------------------------- */
+
+/* `live`: a last line that is torn is left out. */
+static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
+                         octreel_error *error)
+{
+    char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
+    size_t size;
+    bool ok = path || error_no_memory(error);
+    ok = ok && (file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason));
+    while (ok && live && size > 0 && bytes[size - 1] != '\n')
+        size--;
+    if (ok)
+        *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
+    ok = ok && session_parse(path, NULL, bytes, size, file, error);
+    free(bytes);
+    free(path);
+    return ok;
+}
+
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error)
+{
+    return read_session(folder, "session.json", false, file, digest, error);
+}
+
+bool read_live_session(const char *folder, session_file *file, octreel_error *error)
+{
+    uint64_t ignored;
+    return read_session(folder, "session.json.live", true, file, &ignored, error);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* recording_file.h - recording.json: the version of a recording, and its view.
+/* recording_file.h - recording.json: the version of a recording, and its view; and reading the session beside it.
  *
  *   {"octreel": "recording", "version": 3, the view, "theme": "night", "every": 1}
  * "every" is 0 where no tick has a frame.
@@ -15,6 +15,7 @@
 #define FORMATS_RECORDING_FILE_H
 
 #include "error.h"
+#include "session_file.h"
 #include "view.h"
 
 #include <stdio.h>
@@ -33,5 +34,11 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
 
 /* The same of a text in memory; `name` is for errors. */
 bool recording_parse(const char *name, const char *text, size_t size, view *v, uint64_t *every, octreel_error *error);
+
+/* session.json and the digest of its bytes; the caller releases *file. */
+bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error);
+
+/* The session that a program was making when it died: session.json.live, without a last line that is torn. */
+bool read_live_session(const char *folder, session_file *file, octreel_error *error);
 
 #endif

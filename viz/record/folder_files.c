@@ -153,35 +153,6 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
 
-/* `live`: a last line that is torn is left out. */
-static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
-                         octreel_error *error)
-{
-    char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
-    size_t size;
-    bool ok = path || error_no_memory(error);
-    ok = ok && (file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason));
-    while (ok && live && size > 0 && bytes[size - 1] != '\n')
-        size--;
-    if (ok)
-        *digest = octree_digest_bytes(OCTREE_DIGEST_START, bytes, size);
-    ok = ok && session_parse(path, NULL, bytes, size, file, error);
-    free(bytes);
-    free(path);
-    return ok;
-}
-
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error)
-{
-    return read_session(folder, "session.json", false, file, digest, error);
-}
-
-bool read_live_session(const char *folder, session_file *file, octreel_error *error)
-{
-    uint64_t ignored;
-    return read_session(folder, "session.json.live", true, file, &ignored, error);
-}
-
 char *who_draws(const renderer_info *info, char *text, size_t size)
 {
     enum { LONGEST = 100 }; /* of each of the strings */
@@ -263,9 +234,32 @@ static bool check_known(const char *folder, const char *past, uint64_t session_d
                      folder, past, view ? "session.json" : "recording.json");
 }
 
+/* The first by name of some files of a folder; "" where there is none. */
+typedef char first_name[NAME_MAX + 1];
+
+static void take_first(first_name first, const char *name)
+{
+    if (!*first || strcmp(name, first) < 0)
+        snprintf(first, sizeof(first_name), "%s", name);
+}
+
+/* What the first frame says of its session stands for all: where session.json was changed since, none is of it. One
+ * that is torn, or that another program has saved, says nothing; and one says 0 that a program has recorded which was
+ * killed: it did not know its session yet. */
+static bool check_session(const char *folder, const char *frame, uint64_t session_digest, octreel_error *error)
+{
+    uint64_t tick, session;
+    return !frame_parse_name(frame, &tick) || !frame_session(folder, tick, &session) || session == 0 ||
+           session == session_digest ||
+           error_set(error,
+                     "%s/%s: is a frame of another session than session.json: put back what was filmed, or choose "
+                     "another folder",
+                     folder, frame);
+}
+
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error)
 {
-    char past[NAME_MAX + 1] = ""; /* the first by name of the files that are past the beginning */
+    first_name past = "", frame = "";
     DIR *entries = opendir(folder);
     if (!entries)
         return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
@@ -274,12 +268,15 @@ bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks
         const char *name = entry->d_name;
         if (!is_past_beginning(folder, name))
             continue;
-        if (!*past || strcmp(name, past) < 0)
-            snprintf(past, sizeof past, "%s", name);
-        if (strncmp(name, "frame_", 6) == 0 && !frame_is_name(name, ticks, every))
+        take_first(past, name);
+        if (strncmp(name, "frame_", 6) != 0)
+            continue;
+        take_first(frame, name);
+        if (!frame_is_name(name, ticks, every))
             ok = error_set(error, "%s/%s: is no frame of this recording: remove it, or choose another folder", folder,
                            name);
     }
     closedir(entries);
-    return ok && (!*past || check_known(folder, past, session_digest, error));
+    return ok && (!*past || (check_known(folder, past, session_digest, error) &&
+                             check_session(folder, frame, session_digest, error)));
 }

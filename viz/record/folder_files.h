@@ -41,12 +41,6 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
 
-/* session.json and the digest of its bytes; the caller releases *file. */
-bool read_session_file(const char *folder, session_file *file, uint64_t *digest, octreel_error *error);
-
-/* The session that a program was making when it died: session.json.live, without a last line that is torn. */
-bool read_live_session(const char *folder, session_file *file, octreel_error *error);
-
 /* A renderer in one phrase: context, renderer and version. Returns `text`. */
 char *who_draws(const renderer_info *info, char *text, size_t size);
 
@@ -56,7 +50,8 @@ char *who_drew(const char *folder, char *text, size_t size);
 /* Whether the recording of a session, of so many ticks, each every-th filmed, may go on in a folder, whose
  * recording.json and session.json, if any, are known to be its own. A folder without recordings is fine. One that has
  * frames, lines or a page but not both of these files is refused, since nothing says whose they are, and so are frames
- * of other ticks; for session.json stands session.json.live of a program that died. */
+ * of other ticks, or of another session as the first one says; for session.json stands session.json.live of a program
+ * that died. */
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error);
 
 #endif

@@ -3,7 +3,7 @@
 #include "array.h"
 #include "file.h"
 #include "file_kind.h"
-#include "folder_files.h"
+#include "recording_file.h"
 #include "judgement.h"
 #include "number.h"
 #include "session_file.h"

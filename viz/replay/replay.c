@@ -2,7 +2,6 @@
 /* replay.c - opens a recording and plays it to a tick. */
 #include "replay.h"
 #include "file.h"
-#include "folder_files.h"
 #include "recording_file.h"
 
 #include <inttypes.h>

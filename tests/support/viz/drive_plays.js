@@ -35,8 +35,16 @@ async function sayAnswers()
     say("asked nothing", player().engine.digest() === digest);
 }
 
+/* What the bar offers, and says of what was played. */
+function sayBar(when)
+{
+    const [back, taken] = ["live-end", "taken"].map(id => byId(id).hidden ? "" : byId(id).textContent);
+    say(`bar ${when}`, `${back}; ${taken}`);
+}
+
 async function sayTakenOver()
 {
+    sayBar("before");
     octreel.goTo(30);
     await until(() => !interaction.busy && player().engine.tick === 30, "tick 30");
     for (const key of "wwdnes.afnnq")
@@ -45,6 +53,7 @@ async function sayTakenOver()
     octreel.goTo(35);
     await until(() => !interaction.busy && player().engine.tick === 35, "tick 35");
     await interaction.press("e");
+    sayBar("taken");
     say("taken again", `${octreel.tick} of ${octreel.last}`);
     say("session", player().save().replaceAll("\n", " "));
     for (let tick = 0; tick <= octreel.last; tick++)
@@ -120,9 +129,17 @@ async function driveAlone()
     say("begins", `${octreel.tick} ${byId("caption").hidden} ${byId("hint").hidden} ${byId("about").textContent}`);
     await until(() => player().scout?.tick === player().length - 1, "the end of the session");
     await sayTicks();
+    sayBar("before");
+    await interaction.live.look({labels: true});
+    sayBar("looked at");
+    await interaction.live.lookAsRecorded();
+    octreel.goTo(octreel.last);
+    await until(isShown, "the last picture");
     await interaction.press("w");
+    sayBar("played on");
     interaction.goBack();
     await until(isShown, "a picture again");
+    sayBar("given back");
     say("given back", `${interaction.isLive} ${octreel.last}`);
 }
 

@@ -91,11 +91,19 @@ static void a_file_system_that_cannot_sync_is_written_all_the_same(void **state)
     assert_true(written && holds(sync_seen.path, "new"));
 }
 
+static bool copy_beside(const char *from, const char *to, octreel_error *error)
+{
+    file_writer file;
+    assert_true(file_copy_beside(&file, from, to, error));
+    assert_true(holds(to, "old"));
+    return file_writer_place(&file, error);
+}
+
 static void copies_that_last_are_synced_too(void **state)
 {
     char from[sizeof((temp_folder *)0)->path];
     octreel_error error;
-    bool (*const copies[])(const char *, const char *, octreel_error *) = {file_copy_lasting, file_copy_apart};
+    bool (*const copies[])(const char *, const char *, octreel_error *) = {copy_beside, file_copy_apart};
     snprintf(from, sizeof from, "%s", temp_file(*state, "b"));
     assert_true(write_text(from, "new", false));
     const char *path = temp_file(*state, "a");

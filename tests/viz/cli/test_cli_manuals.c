@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"
+#include "verify.h"
 
 /* What there is a manual of: octreel, commands and, with section 5, kinds of files. */
 typedef struct page {
@@ -167,7 +168,7 @@ static void assert_names_are_told(const char *json, const char *text)
         snprintf(name, sizeof name, "%.*s", (int)length, at);
         at += length;
         if (*at == ':' && !strstr(text, name))
-            fail_msg("octreel help recording does not tell of %s", name);
+            fail_msg("octreel help does not tell of %s", name);
     }
 }
 
@@ -202,6 +203,44 @@ static void every_member_of_a_recording_is_told(void **state)
     command_release(&told);
 }
 
+/* Of a recording that fits and one that does not, so that there is a finding with a fact. */
+static void every_member_of_a_summary_is_told(void **state)
+{
+    static const char *const commands[][2] = {{"record", "record -q --keys wd --size 32x32 --ticks 0: -o film --json"},
+                                              {"join", "join film --json"},
+                                              {"verify", "verify film --json"},
+                                              {"verify", "verify spoilt --json"}};
+    const temp_folder *own = *state;
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        command_result told =
+            run_script("%s help %s; %s help recording", octreel_program(), commands[i][0], octreel_program());
+        command_result said = run_script("cd %s && %s %s", own->name, octreel_program(), commands[i][1]);
+        assert_int_equal(said.status, i == 3 ? 1 : 0);
+        assert_names_are_told(said.out, told.out);
+        command_release(&told);
+        command_release(&said);
+        said = run_script("cd %s && rm -rf spoilt && cp -r film spoilt && sed -i 's/moved/mowed/' spoilt/ticks*",
+                          own->name);
+        assert_done(&said);
+        command_release(&said);
+    }
+}
+
+static void every_kind_of_finding_of_verify_is_told(void **state)
+{
+    static const char *const kinds[] = {
+#define KIND(name, word, words) "\"" word "\"",
+        VERIFY_KIND_MAP(KIND)
+#undef KIND
+    };
+    (void)state;
+    command_result told = run_octreel(NULL, "help verify");
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (!strstr(told.out, kinds[i]))
+            fail_msg("octreel help verify does not tell of %s", kinds[i]);
+    command_release(&told);
+}
+
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -214,6 +253,8 @@ int main(void)
         IN_FOLDER(mandoc_has_no_warning),
         cmocka_unit_test(manual_of_the_library_has_every_function),
         IN_FOLDER(every_member_of_a_recording_is_told),
+        IN_FOLDER(every_member_of_a_summary_is_told),
+        cmocka_unit_test(every_kind_of_finding_of_verify_is_told),
     };
     return cmocka_run_group_tests(tests, list_pages, NULL);
 }

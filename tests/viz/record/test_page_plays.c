@@ -104,6 +104,9 @@ static void what_is_played_on_is_a_session_that_films_the_same(void **state)
     session_file session;
     assert_said_about(d->said, "taken", "41 of 41");
     assert_said_about(d->said, "taken again", "36 of 36");
+    assert_said_about(d->said, "bar before", "Back to the recording; ");
+    assert_said_about(d->said, "bar taken",
+                      "Back to the recording; Played from tick 30, without what the session has after it: wwdnee");
     char *text = said_about(d->said, "session");
     if (!session_parse("the session", "", text, strlen(text), &session, &error))
         fail_msg("%s", error.text);
@@ -172,6 +175,10 @@ static void a_page_without_frames_draws_at_once(void **state)
     assert_said_about(alone.said, "begins", "0 true false driven 253 ticks · 160 × 90 · iso");
     assert_ticks_said(alone.said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
     assert_said_about(alone.said, "given back", "true 252");
+    assert_said_about(alone.said, "bar before", "; "); /* nothing is there to go back from */
+    assert_said_about(alone.said, "bar looked at", "Back to the session; ");
+    assert_said_about(alone.said, "bar played on", "Back to the session; Played from tick 252: w");
+    assert_said_about(alone.said, "bar given back", "; ");
     assert_said_about(alone.said, "errors", "");
     free(alone.said);
 }

@@ -122,6 +122,21 @@ static void another_session_is_refused_before_a_file_is_written(void **state)
     assert_refused(state, "--resume --size 64x48 --keys wwd", film.path, "session.json: is another session");
 }
 
+/* The file is as octreel writes one: only the frames tell. */
+static void session_that_was_changed_after_it_was_filmed_is_refused(void **state)
+{
+    const place film = recorded(state, "film"), other = place_in(*state, "other");
+    record("--size 64x48 --keys wwddeend", other.path);
+    command_result result = run_script("cp %s/session.json %s", other.path, film.path);
+    assert_done(&result);
+    command_release(&result);
+    static const char sentence[] =
+        "is a frame of another session than session.json: put back what was filmed, or choose another folder";
+    assert_refused(state, "--resume", film.path, sentence);
+    assert_refused(state, "--resume --jobs 2", film.path, sentence);
+    assert_refused(state, "--ticks 0:2 --size 64x48 --keys wwddeend", film.path, sentence);
+}
+
 static void surplus_frame_is_refused(void **state)
 {
     static const char *const names[] = {"frame_000300.png", "frame_000009.png", "frame_cover.png"};
@@ -171,6 +186,7 @@ int main(void)
         IN_FOLDER(frames_without_a_view_or_a_session_are_not_replaced),
         IN_FOLDER(session_in_the_making_is_not_replaced_by_another),
         IN_FOLDER(another_session_is_refused_before_a_file_is_written),
+        IN_FOLDER(session_that_was_changed_after_it_was_filmed_is_refused),
         IN_FOLDER(surplus_frame_is_refused),
         IN_FOLDER(files_of_somebody_else_are_not_replaced),
         IN_FOLDER(what_only_begins_as_a_file_of_a_recording_stays),

@@ -101,8 +101,7 @@ class Interaction {
         this.viewer.follow(recording);
         this.showView();
         this.showTaken();
-        for (const shown of ["view", "asking", "live-end"])
-            byId(shown).hidden = false;
+        byId("view").hidden = byId("asking").hidden = false;
         byId("live-start").hidden = true;
         byId("hint").hidden = recording.hasFrames; /* else nobody began, and has not read it */
         byId("caption").hidden = true;
@@ -236,7 +235,7 @@ class Interaction {
         if (!this.isLive || player !== this.player)
             return;
         if (key === "q") {
-            this.tell(player.isTaken ? "The game has ended. Save it, or go back to the recording." : "");
+            this.tell(player.isTaken ? "The game has ended. Save it, or go back." : "");
             return;
         }
         try {
@@ -256,9 +255,19 @@ class Interaction {
 
     showTaken()
     {
-        const {isTaken, taken, keys} = this.player;
+        const {isTaken, taken, keys, given} = this.player;
+        const without = taken < given - 1 ? ", without what the session has after it" : "";
         byId("taken").hidden = byId("save").hidden = !isTaken;
-        byId("taken").textContent = `Played from tick ${grouped(taken)}: ${keys.slice(-24)}`;
+        byId("taken").textContent = `Played from tick ${grouped(taken)}${without}: ${keys.slice(-24)}`;
+        this.showWayBack();
+    }
+
+    /* To frames always; where there are none, from another view and from what was played. */
+    showWayBack()
+    {
+        const {hasFrames} = this.recorded, button = byId("live-end");
+        button.textContent = hasFrames ? "Back to the recording" : "Back to the session";
+        button.hidden = !hasFrames && !this.player.isTaken && byId("view-options").hidden;
     }
 
     save()
@@ -312,6 +321,7 @@ class Interaction {
         this.controls.show(view);
         byId("view-options").hidden = options === "";
         byId("view-options").querySelector("code").textContent = options;
+        this.showWayBack();
     }
 
     showPick({pixel, color, elements}, place)

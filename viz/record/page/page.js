@@ -270,7 +270,7 @@ const PLAYING_KEYS = [
     [["Shift+PageUp"], "Shift Page Up", "closer; so does the wheel", viewer => viewer.interaction.zoom(1.25)],
     [["Shift+PageDown"], "Shift Page Down", "farther", viewer => viewer.interaction.zoom(0.8)],
     [["c"], "c", "what is in the middle of the view; a click says it of any place", viewer => viewer.interaction.pick()],
-    [["Escape"], "Esc", "back to the recording, as it was recorded", viewer => viewer.interaction.goBack()],
+    [["Escape"], "Esc", "back to the recording, or the session, as it was", viewer => viewer.interaction.goBack()],
 ];
 
 /* Keys as KeyboardEvent names them, as people read them, what they do in words, and what they do. */

@@ -22,7 +22,8 @@ class Player {
         this.run = 0;   /* the number of what goes on in the background; a new one ends the old */
         this.engine = new Engine(module);
         this.engine.open(session, view);
-        this.taken = this.length - 1;
+        this.given = this.length; /* ticks, whatever is played after some of them */
+        this.taken = this.given - 1;
         this.states.keep(this.engine, false);
         this.playsAhead = this.engine.used().length <= MOST_AHEAD;
         this.scout = null; /* who plays ahead, once the first picture is drawn */
@@ -159,7 +160,7 @@ class Player {
         this.keys = "";
         this.rewind(state => state.isTaken);
         this.restore(this.engine, this.states.list.at(-1));
-        this.taken = this.length - 1;
+        this.taken = this.given - 1;
     }
 
     /* Open the session once more, for a view that shows sums over all ticks: the engine is then at tick 0. */

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT */
+/* accept_pictures.c - new frames take the places of those of a reference: none of them, or all. */
+#include "accepting.h"
+#include "array.h"
+#include "file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- Files that take their places together ------------------------------------------------------------------- */
+
+typedef struct set_file {
+    file_writer copy; /* is finished, and waits for its place */
+    char *path;       /* of that; owned */
+} set_file;
+
+typedef struct file_set {
+    set_file *files;
+    size_t count, room;
+} file_set;
+
+/* Copy a file to beside its place. The path becomes the set's; null: there was no memory for it. */
+static bool set_aside(file_set *set, const char *from, char *path, octreel_error *error)
+{
+    set_file *grown = path ? array_reserve(set->files, set->count + 1, &set->room, sizeof *grown) : NULL;
+    set->files = grown ? grown : set->files;
+    const bool ok = grown ? file_copy_beside(&grown[set->count].copy, from, path, error) : error_no_memory(error);
+    if (ok)
+        set->files[set->count++].path = path;
+    else
+        free(path);
+    return ok;
+}
+
+static bool put_in_place(file_set *set, octreel_error *error)
+{
+    for (size_t i = 0; i < set->count; i++)
+        if (!file_writer_place(&set->files[i].copy, error))
+            return false;
+    return true;
+}
+
+/* What has no place yet is removed. */
+static void release(file_set *set)
+{
+    for (size_t i = 0; i < set->count; i++) {
+        file_writer_abandon(&set->files[i].copy);
+        free(set->files[i].path);
+    }
+    free(set->files);
+}
+
+/* ---- What they are ------------------------------------------------------------------------------------------- */
+
+static char *place_of(const accepting *a, const diff_pair *pair)
+{
+    if (pair->a)
+        return strdup(pair->a->path);
+    return a->reference.kind == DIFF_PICTURE ? strdup(a->reference.path) : path_join(a->reference.path, pair->b->name);
+}
+
+static bool write_pictures(const accepting *a, file_set *set, octreel_error *error)
+{
+    for (size_t i = 0; i < a->result.count; i++) {
+        const diff_pair *pair = &a->result.pairs[i];
+        if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) &&
+            !set_aside(set, pair->b->path, place_of(a, pair), error))
+            return false;
+    }
+    return true;
+}
+
+static bool copy_fact(const accepting *a, const char *name, file_set *set, octreel_error *error)
+{
+    char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
+    bool ok = (from && to) || error_no_memory(error);
+    if (ok && access(from, F_OK) == 0 && !same_bytes(from, to)) {
+        ok = set_aside(set, from, to, error);
+        to = NULL;
+    }
+    free(from);
+    free(to);
+    return ok;
+}
+
+/* The other files of a recording describe its frames, and frames of the same pixels may name another session. */
+static bool write_facts(const accepting *a, file_set *set, octreel_error *error)
+{
+    bool ok = true;
+    for (size_t i = 0; ok && i < a->result.count; i++)
+        if (a->result.pairs[i].finding == FOUND_SAME_PIXELS)
+            ok = copy_fact(a, diff_pair_name(&a->result.pairs[i]), set, error);
+    for (size_t i = 0; ok && folder_fact_name(i); i++)
+        ok = copy_fact(a, folder_fact_name(i), set, error);
+    return ok;
+}
+
+/* ---- Done ---------------------------------------------------------------------------------------------------- */
+
+static bool remove_gone(const accepting *a, octreel_error *error)
+{
+    for (size_t i = 0; i < a->result.count; i++) {
+        const diff_pair *pair = &a->result.pairs[i];
+        if (a->actions[i] == REMOVED && remove(pair->a->path) != 0)
+            return error_set(error, "%s: cannot be removed: %s", pair->a->path, strerror(errno));
+    }
+    return true;
+}
+
+static bool replace_files(const accepting *a, octreel_error *error)
+{
+    file_set set = {0};
+    const bool facts = a->reference.kind == DIFF_RECORDING && a->options->names->count == 0;
+    const bool ok = write_pictures(a, &set, error) && (!facts || write_facts(a, &set, error)) &&
+                    put_in_place(&set, error) && remove_gone(a, error);
+    release(&set);
+    return ok;
+}
+
+bool accept_pictures(accepting *a, octreel_error *error)
+{
+    const bool makes = a->is_new && a->reference.kind != DIFF_PICTURE;
+    if (makes && !folder_prepare(a->reference.path, error))
+        return false;
+    const bool ok = replace_files(a, error);
+    if (!ok && makes)
+        rmdir(a->reference.path); /* unless something is in it */
+    return ok;
+}

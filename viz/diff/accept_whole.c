@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* accept_whole.c - what is accepted is a recording that is done, and has all of its frames. */
+#include "accepting.h"
+#include "file.h"
+#include "frame_file.h"
+#include "hint.h"
+#include "recording_file.h"
+#include "text.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Frames that come while others are taken over would be missing. A chunk has a log of its own. */
+bool accept_check_ended(const diff_side *side, octreel_error *error)
+{
+    DIR *entries = side->kind == DIFF_RECORDING ? opendir(side->path) : NULL;
+    bool ok = true;
+    for (struct dirent *entry; entries && ok && (entry = readdir(entries));) {
+        const char *name = entry->d_name, *end = strrchr(name, '.');
+        if (strncmp(name, "ticks", 5) != 0 || !end || strcmp(end, ".jsonl") != 0)
+            continue;
+        char *path = path_join(side->path, name);
+        ok = path ? !file_is_locked(path) ||
+                        error_set(error, "%s: is still being filmed: accept it when it is whole", side->path)
+                  : error_no_memory(error);
+        free(path);
+    }
+    if (entries)
+        closedir(entries);
+    return ok;
+}
+
+static bool refuse_damaged(const char *folder, octreel_error *error, const char *format, ...)
+{
+    char lack[128];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(lack, sizeof lack, format, arguments);
+    va_end(arguments);
+    return error_set(
+        error,
+        "%s: %s, and a recording that is damaged or was not done is not accepted; %s record --resume completes it",
+        folder, lack, hint_program());
+}
+
+static bool count_lines(const char *folder, uint64_t *lines, octreel_error *error)
+{
+    char block[1 << 14], reason[FILE_REASON], *path = path_join(folder, "ticks.jsonl");
+    if (!path)
+        return error_no_memory(error);
+    FILE *in = file_open(path, NULL, reason);
+    bool ok = in || error_set(error, "%s: %s", path, reason);
+    *lines = 0;
+    for (size_t size; in && (size = fread(block, 1, sizeof block, in)) > 0;)
+        for (const char *at = block; (at = memchr(at, '\n', size - (size_t)(at - block))); at++)
+            ++*lines;
+    if (in) {
+        ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));
+        fclose(in);
+    }
+    free(path);
+    return ok;
+}
+
+static bool check_lines(const char *folder, uint64_t ticks, octreel_error *error)
+{
+    uint64_t lines;
+    if (!count_lines(folder, &lines, error))
+        return false;
+    return lines == ticks ||
+           refuse_damaged(folder, error, "its ticks.jsonl has %" PRIu64 " line%s for %" PRIu64 " tick%s", lines,
+                          plural(lines), ticks, plural(ticks));
+}
+
+static bool check_frames(const char *folder, const octree_session *session, uint64_t every, octreel_error *error)
+{
+    char name[FRAME_NAME];
+    const uint64_t last = octree_session_length(session);
+    for (uint64_t tick = 0; every > 0 && tick <= last; tick += every)
+        if (!octree_session_gap(session, tick) && !folder_has(folder, frame_name(tick, name)))
+            return refuse_damaged(folder, error, "%s is missing", name);
+    return true;
+}
+
+/* The files that tell what else there is to be. */
+static bool check_facts(const char *folder, octreel_error *error)
+{
+    static const char *const names[] = {"session.json", "ticks.jsonl"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        if (!folder_has(folder, names[i]))
+            return refuse_damaged(folder, error, "%s is missing", names[i]);
+    return true;
+}
+
+bool accept_check_whole(const diff_side *side, octreel_error *error)
+{
+    session_file file;
+    view ignored;
+    uint64_t digest, every;
+    const char *folder = side->path;
+    if (side->kind != DIFF_RECORDING)
+        return true;
+    if (!accept_check_ended(side, error) || !recording_read(folder, &ignored, &every, error) ||
+        !check_facts(folder, error) || !read_session_file(folder, &file, &digest, error))
+        return false;
+    const bool ok = check_frames(folder, &file.session, every, error) &&
+                    check_lines(folder, octree_session_length(&file.session) + 1, error);
+    session_release(&file);
+    return ok;
+}
