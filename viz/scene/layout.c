@@ -56,12 +56,12 @@ camera_window layout_space(const scene *s)
 
 int layout_number_letters(const octree_box *box)
 {
-    enum { LEAST = 6, MOST = 10 };
+    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 12 };
     double most = 1;
     for (int i = 0; i < 3; i++)
         most = fmax(most, fmax(box->max[i], -box->min[i]));
-    const double letters = floor(log10(most)) + 3; /* its digits, a sign or a margin, and the tick */
-    return letters < LEAST ? LEAST : letters > MOST ? MOST : (int)letters;
+    const double digits = floor(log10(most)) + 1, letters = digits + 3; /* a sign or a margin, and the tick */
+    return digits <= FEW_DIGITS ? LEAST : letters > MOST ? MOST : (int)letters;
 }
 
 camera_window layout_camera(const scene *s, const octree_box *world)

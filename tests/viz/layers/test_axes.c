@@ -361,6 +361,24 @@ static void worlds_without_room_for_numbers_have_none(void **state)
     scene_release(&s);
 }
 
+/* As of a map in metres: those of an upright axis stand at the left, where the column of text ends. */
+static void numbers_of_seven_digits_have_room(void **state)
+{
+    (void)state;
+    const octree_box world = {{512000, 5403000, 0}, {513000, 5404000, 1000}};
+    static const int sizes[][2] = {{700, 700}, {700, 900}, {1000, 1000}, {1920, 2000}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const view v = view_of(sizes[i][0], sizes[i][1], CAMERA_TOP, VIEW_DEFAULT_LAYERS);
+        scene s = scene_of_world(&world, &v);
+        size_t on_axis[3] = {0};
+        for (size_t k = 0; k < s.labels.count; k++)
+            if (is_number(&s.labels.items[k]))
+                on_axis[s.labels.items[k].id / FIRST_ID - 1]++;
+        assert_true(on_axis[0] >= 3 && on_axis[1] >= 3);
+        scene_release(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -373,6 +391,7 @@ int main(void)
         cmocka_unit_test(a_letter_stands_beyond_the_end_of_its_axis),
         cmocka_unit_test(an_orbit_keeps_its_ticks),
         cmocka_unit_test(worlds_without_room_for_numbers_have_none),
+        cmocka_unit_test(numbers_of_seven_digits_have_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

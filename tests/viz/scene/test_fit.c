@@ -173,7 +173,8 @@ static void every_camera_but_the_follower_sees_all_points_of_odd_clouds(void **s
     }
 }
 
-/* Exactly representable scenes at 2^600 times the size, and at 1e15, have the same pixels. */
+/* Exactly representable scenes at 2^600 times the size, and at 1e15, have the same pixels; without text, since numbers
+ * of axes take the room that their digits need. */
 static void neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel(void **state)
 {
     (void)state;
@@ -189,6 +190,7 @@ static void neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel(void **state
         insert_all(here, points, 3);
         insert_all(there, (const double(*)[3])moved, 3);
         view a = fitting(CAMERA_ORBIT), b = fitting(CAMERA_ORBIT);
+        a.layers = b.layers &= ~(1u << LAYER_TEXT);
         scene s = {0}, t = {0};
         camera_fit(&a, here);
         camera_fit(&b, there);
