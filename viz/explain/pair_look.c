@@ -215,7 +215,8 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
 
 /* ---- What all pairs of one cause have alike ----------------------------------------------------------------- */
 
-/* Nothing tells a cause: one that changes the same pixels by as much in several frames is one. */
+/* Nothing tells a cause, or not what was done to a frame: one that changes the same pixels by as much in several frames
+ * is one. */
 static void print_tally(FILE *out, const diff_pair *pair)
 {
     const image_tally *t = &pair->difference.unlike;
@@ -239,14 +240,14 @@ static void print_key(FILE *out, const explanation *e, const diff_pair *pair, co
         fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
                 pair->about[1].height);
     if (is_tampered(l))
-        fprintf(out, "faults %d %d", (int)l->faults[0], (int)l->faults[1]);
-    else if (is_only_drawn(e, l))
+        fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
+    if (is_only_drawn(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick_of(pair));
-    else if (e->recordings && known)
-        fputs("recordings", out);
-    else if (both_told(l))
+    else if (e->recordings && known && !is_tampered(l))
+        fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, tick_of(pair)));
+    else if (both_told(l) && !is_tampered(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally(out, pair);

@@ -18,29 +18,6 @@ static comparison_of compare(const char *a, const char *b, uint64_t most)
     return made;
 }
 
-/* Each group by its frames, a line each. */
-static char *tell(comparison_of *made, bool each, bool others)
-{
-    const frame_groups *g = group_frames(made, each);
-    char *text;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    for (size_t i = 0; i < g->count; i++) {
-        frame_group_print(out, g, &made->result, i, others);
-        fputc('\n', out);
-    }
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
-static void assert_groups(comparison_of *made, bool each, const char *expected)
-{
-    char *text = tell(made, each, false);
-    assert_string_equal(text, expected);
-    free(text);
-}
-
 /* 1, 2 and 5 differ in the same pixels by as much; 3 in more; 4 is the same; 6, 7 are of another size; 8 is gone; 9 and
  * 10 cannot be read. */
 static comparison_of make_all(void **state)
@@ -112,7 +89,7 @@ static void long_groups_are_told_in_runs(void **state)
         gallery_write(place_below(b.path, name).path, 1, i % 5 ? 1 : 0);
     }
     comparison_of made = compare(a.path, b.path, 10);
-    char *text = tell(&made, false, true);
+    char *text = tell_groups(&made, false, true);
     assert_string_equal(text, "ticks 2 to 4, 6 to 9, 11 to 14, 16 to 19\n");
     free(text);
     comparison_release(&made);
