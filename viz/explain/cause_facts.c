@@ -91,7 +91,7 @@ static cause_group shown_of(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;
     if (is_about_all(group)) {
-        shown.found *= strcmp(group->where, "every") != 0; /* it changes no frame */
+        shown.found *= strcmp(group->where, "every") != 0 && strcmp(group->where, "ticks") != 0;
         return shown;
     }
     shown.found = 0;
@@ -99,6 +99,14 @@ static cause_group shown_of(const cause_group *group, uint64_t tick)
         if (cause_origin_shows(group->where, group->listed[i].tick, tick))
             shown.listed[shown.found++] = group->listed[i];
     return shown;
+}
+
+bool cause_facts_show(const cause_facts *facts, uint64_t tick)
+{
+    for (size_t i = 0; i < facts->count; i++)
+        if (shown_of(&facts->groups[i], tick).found > 0)
+            return true;
+    return false;
 }
 
 cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick)

@@ -60,9 +60,10 @@ void cause_facts_release(cause_facts *facts);
 /* Put groups about all ticks first, and then the others by the first tick that they are about. */
 void cause_facts_sort(cause_facts *facts);
 
-/* The facts that can show in the frame of a tick: those about all of them but the interval of frames, and the listed
- * ones about it. They refer to `facts`; free the groups alone. */
+/* The facts that can show in the frame of a tick, of those listed: about all ticks, but for the interval of frames and
+ * the last tick, or about this one. They refer to `facts`; free the groups alone. And whether there are any. */
 cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
+bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 
 /* The group of these facts, or null. */
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);

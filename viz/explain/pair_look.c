@@ -38,7 +38,10 @@ static frame_fault find_foreign(const recorded *r, const frame_origin *origin, u
 {
     if (origin->session != r->filmed && origin->session != r->replay.session_digest)
         return FAULT_SESSION;
-    return origin->tick == tick ? FAULT_NONE : FAULT_TICK;
+    if (origin->tick != tick)
+        return FAULT_TICK;
+    const uint64_t scene = recorded_scene(r, tick);
+    return scene == 0 || origin->scene == scene ? FAULT_NONE : FAULT_SCENE;
 }
 
 static uint64_t tick_of(const diff_pair *pair)
@@ -54,6 +57,8 @@ pair_look pair_look_at(const explanation *e, const diff_pair *pair)
     pair_look l = {.told = {false}};
     read_origins(pair, &l);
     for (int i = 0; i < 2; i++) {
+        if (frames[i] && !l.told[i] && e->recordings)
+            l.faults[i] = FAULT_TEXTS;
         if (l.told[i] && e->recordings)
             l.faults[i] = find_foreign(&e->sides[i], &l.of[i], tick_of(pair));
         if (l.told[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.of[i]))
@@ -70,7 +75,7 @@ static bool is_tampered(const pair_look *l)
 
 static bool is_only_drawn(const explanation *e, const pair_look *l)
 {
-    return l->same_scene && !is_tampered(l) && e->cause.view.count == 0;
+    return l->same_scene && !is_tampered(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
 /* Name the frames that were exchanged, or changed after they were drawn. */
@@ -86,6 +91,10 @@ static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
             fputs("is a frame of another session", out);
         else if (l->faults[i] == FAULT_TICK)
             fprintf(out, "is the frame of tick %" PRIu64, l->of[i].tick);
+        else if (l->faults[i] == FAULT_SCENE)
+            fputs("shows another scene than ticks.jsonl beside it has of its tick", out);
+        else if (l->faults[i] == FAULT_TEXTS)
+            fputs("has none of octreel's texts, as after another program has saved it", out);
         else
             fputs("was changed after it was drawn: its pixels are not those that it says", out);
         any = true;
@@ -126,20 +135,15 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
         fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
 }
 
-/* Nothing differs that the files beside the frames tell. */
-static void print_unknown(FILE *out, const diff_pair *pair, const pair_look *l)
+/* Whether anything is known that can show in the frame of a tick. */
+static bool differs_at(const explanation *e, uint64_t tick)
 {
-    if (both_told(l))
-        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
-              "the frames were changed",
-              out);
-    for (int i = 0; i < 2; i++)
-        if (!l->told[i])
-            fprintf(out, "%s%s has none of octreel's texts, as after another program has saved it",
-                    i && !l->told[0] ? "; " : "", (i ? pair->b : pair->a)->path);
+    const cause_tick *told = cause_at(&e->cause, tick);
+    return (told && told->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
+           cause_facts_show(&e->cause.session, tick);
 }
 
-static void print_tick(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l, uint64_t tick)
+static void print_tick(FILE *out, const explanation *e, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
     const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
@@ -156,7 +160,9 @@ static void print_tick(FILE *out, const explanation *e, const diff_pair *pair, c
         fputs("the same happened in it; ", out);
         cause_print_facts(out, &e->cause.session, true);
     } else {
-        print_unknown(out, pair, l);
+        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
+              "the frames were changed",
+              out);
     }
 }
 
@@ -183,16 +189,26 @@ static void print_trace(FILE *out, const explanation *e, uint64_t tick)
     }
 }
 
+/* A picture without texts may be the right one: why that differs is told as well. */
+static bool may_be_right(const pair_look *l)
+{
+    return (l->faults[0] == FAULT_NONE || l->faults[0] == FAULT_TEXTS) &&
+           (l->faults[1] == FAULT_NONE || l->faults[1] == FAULT_TEXTS);
+}
+
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool both = pair->a && pair->b, tampered = is_tampered(l), drawn = is_only_drawn(e, l);
     const uint64_t tick = tick_of(pair);
+    const bool tick_told = e->recordings && both && !drawn && (!tampered || (may_be_right(l) && differs_at(e, tick)));
+    const bool missing_told = e->recordings && !both;
     print_tampered(out, pair, l);
+    fputs(tampered && (tick_told || missing_told) ? "; " : "", out);
     if (drawn)
         pair_print_rendering(out, e);
-    else if (e->recordings && both && !tampered)
-        print_tick(out, e, pair, l, tick);
-    else if (e->recordings && !both)
+    else if (tick_told)
+        print_tick(out, e, tick);
+    else if (missing_told)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
     else if (both_told(l) && !tampered)
         print_origins(out, l);

@@ -6,9 +6,9 @@
 #include "explain.h"
 #include "frame_file.h"
 
-/* What is wrong with a frame by what its text chunks say: it is not the one that its recording made for this tick, or
- * was changed after it was drawn. */
-typedef enum frame_fault { FAULT_NONE, FAULT_SESSION, FAULT_TICK, FAULT_PIXELS } frame_fault;
+/* What is wrong with a frame by what its text chunks say: it is not the one that its recording made for this tick, was
+ * changed after it was drawn, or, in a recording, says nothing. */
+typedef enum frame_fault { FAULT_NONE, FAULT_SESSION, FAULT_TICK, FAULT_SCENE, FAULT_PIXELS, FAULT_TEXTS } frame_fault;
 
 /* What both frames say of themselves in their text chunks. */
 typedef struct pair_look {

@@ -126,6 +126,54 @@ static void frames_changed_in_unlike_ways_are_of_unlike_groups(void **state)
     comparison_release(&made);
 }
 
+static void assert_cause(const comparison_of *made, const char *name, const char *part, const char *missing)
+{
+    const char *cause = cause_of(made, name);
+    assert_holds(cause, part);
+    if (strstr(cause, missing))
+        fail_msg("\"%s\" holds \"%s\"", cause, missing);
+}
+
+/* What its own recording did not make is no effect of the other session. */
+static void a_foreign_frame_is_in_no_group_of_the_sessions(void **state)
+{
+    const place a = film_changed(state, "a", NULL, NULL),
+                b = film_changed(state, "b", NULL, (const change[]){other_radius, {0}});
+    lose_texts(b.path, 16, true);
+    spoil_frame(b.path, 17, 78, false);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_groups(&made, false, "tick 3\ntick 16\ntick 17\n");
+    assert_cause(&made, "frame_000016.png", "b/frame_000016.png has none of octreel's texts", "query");
+    assert_cause(&made, "frame_000017.png", "b/frame_000017.png was changed after it was drawn", "query");
+    comparison_release(&made);
+}
+
+static void a_frame_of_another_view_is_in_no_group_of_the_sessions(void **state)
+{
+    film_options options = small_film("");
+    options.view.camera = CAMERA_TOP;
+    const change changes[] = {other_capacity, {0}};
+    const place a = film_changed(state, "a", NULL, NULL), b = film_changed(state, "b", NULL, changes),
+                c = film_changed(state, "c", &options, changes);
+    assert_int_equal(rename(frame_place(c.path, 16).path, frame_place(b.path, 16).path), 0);
+    comparison_of made = assert_explained(&a, &b, 20);
+    assert_groups(&made, false, "ticks 0 to 15, 17 to 20\ntick 16\n");
+    assert_cause(&made, "frame_000016.png", "b/frame_000016.png shows another scene than ticks.jsonl", "tick 16: ");
+    comparison_release(&made);
+}
+
+/* ---- Sentences ----------------------------------------------------------------------------------------------- */
+
+static void a_foreign_frame_after_the_last_tick_has_both_told(void **state)
+{
+    place b;
+    const place a = film_twins(*state, "wdn.", &b);
+    file_copy(b.path, "frame_000003.png", "frame_000005.png");
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_cause(&made, "frame_000005.png", "b/frame_000005.png is the frame of tick 3; the session of ", "3the");
+    comparison_release(&made);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -139,6 +187,9 @@ int main(void)
         TEST(one_tick_may_have_one_cause_more),
         TEST(heat_keeps_a_query_in_force),
         TEST(frames_changed_in_unlike_ways_are_of_unlike_groups),
+        TEST(a_foreign_frame_is_in_no_group_of_the_sessions),
+        TEST(a_frame_of_another_view_is_in_no_group_of_the_sessions),
+        TEST(a_foreign_frame_after_the_last_tick_has_both_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
