@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void read_origins(const diff_pair *pair, pair_look *l)
@@ -143,27 +144,34 @@ static bool differs_at(const explanation *e, uint64_t tick)
            cause_facts_show(&e->cause.session, tick);
 }
 
+/* Where nothing differs in the tick itself: what differs between the sessions, best what can show in it. */
+static void print_same_tick(FILE *out, const explanation *e, const cause_facts *shown, bool other_view)
+{
+    const cause_facts *session = shown->count || other_view ? shown : &e->cause.session;
+    if (!other_view)
+        fputs(session->count ? "the same happened in it; "
+                             : "another scene of the same session and view: drawn by another version of octreel, or "
+                               "the files beside the frames were changed",
+              out);
+    else if (session->count)
+        fputs("; ", out);
+    cause_print_facts(out, session, true);
+}
+
 static void print_tick(FILE *out, const explanation *e, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
-    const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
+    const bool facts = told && told->facts.count > 0;
+    cause_facts view = cause_facts_shown(&e->cause.view, tick), session = cause_facts_shown(&e->cause.session, tick);
     fprintf(out, "tick %" PRIu64 ": ", tick);
     if (facts)
         cause_print_facts(out, &told->facts, false);
-    if (view) {
-        fputs(facts ? "; " : "", out);
-        cause_print_facts(out, &e->cause.view, false);
-    }
-    if (facts || view)
-        return;
-    if (e->cause.session.count > 0) {
-        fputs("the same happened in it; ", out);
-        cause_print_facts(out, &e->cause.session, true);
-    } else {
-        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
-              "the frames were changed",
-              out);
-    }
+    fputs(facts && view.count ? "; " : "", out);
+    cause_print_facts(out, &view, false);
+    if (!facts)
+        print_same_tick(out, e, &session, view.count > 0);
+    free(view.groups);
+    free(session.groups);
 }
 
 /* Frames without recordings: only their text chunks are known. */

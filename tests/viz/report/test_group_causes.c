@@ -26,6 +26,7 @@ static const change other_radius = {"\"radius\": 25", "\"radius\": 60"};
 static const change other_nearest = {"[20, 20, 20]", "[-70, -20, 20]"};
 static const change other_key = {".wd\"", ".ww\""};
 static const change other_edit = {"\"remove\": 5", "\"remove\": 7"};
+static const change other_shape = {"40, 40]}}]", "50, 50]}}]"};
 static const change other_capacity = {"\"capacity\": 4", "\"capacity\": 2"};
 
 static place film_changed(void **state, const char *name, const film_options *how, const change *changes)
@@ -174,6 +175,28 @@ static void a_foreign_frame_after_the_last_tick_has_both_told(void **state)
     comparison_release(&made);
 }
 
+/* The interval of frames changes none of them. */
+static void session_and_view_are_both_told_where_both_matter(void **state)
+{
+    static const char shape[] = "another shape shown at every tick (box (-40, -40, -40) to (40, 50, 50), was ";
+    film_options options = small_film("");
+    options.every = 5;
+    const change changes[] = {other_shape, other_nearest, {0}};
+    const place a = film_changed(state, "a", NULL, NULL), b = film_changed(state, "b", &options, changes);
+    comparison_of made = assert_explained(&a, &b, 10);
+    assert_cause(&made, "frame_000005.png", "tick 5: the same happened in it; ", "interval");
+    assert_cause(&made, "frame_000005.png", shape, "nearest");
+    comparison_release(&made);
+    options.every = 1;
+    options.view.camera = CAMERA_TOP;
+    const place c = film_changed(state, "c", &options, changes);
+    made = assert_explained(&a, &c, 10);
+    assert_cause(&made, "frame_000005.png", "tick 5: another camera (top, was iso); another shape shown ", "nearest");
+    assert_cause(&made, "frame_000006.png", "tick 6: another nearest point in the nearest query", "the same happened");
+    assert_cause(&made, "frame_000006.png", "; another camera (top, was iso)", "the same happened");
+    comparison_release(&made);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, temp_folder_make, nested_folder_remove)
 
 int main(void)
@@ -190,6 +213,7 @@ int main(void)
         TEST(a_foreign_frame_is_in_no_group_of_the_sessions),
         TEST(a_frame_of_another_view_is_in_no_group_of_the_sessions),
         TEST(a_foreign_frame_after_the_last_tick_has_both_told),
+        TEST(session_and_view_are_both_told_where_both_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
