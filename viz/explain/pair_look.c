@@ -256,7 +256,8 @@ static void print_origins_key(FILE *out, const pair_look *l)
             b->tick - a->tick);
 }
 
-static void print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
+/* False where nothing tells whether another pair has the same cause, as of digests, or where one frame is missing. */
+static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;
     fprintf(out, "%s, ", diff_finding_name(pair->finding));
@@ -275,13 +276,18 @@ static void print_key(FILE *out, const explanation *e, const diff_pair *pair, co
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally(out, pair);
+    else
+        return pair->finding == FOUND_SIZE;
+    return true;
 }
 
 char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     text_stream s;
     char *key;
-    if (text_stream_begin(&s))
-        print_key(s.stream, e, pair, l);
-    return text_stream_end(&s, &key) ? key : NULL;
+    const bool told = text_stream_begin(&s) && print_key(s.stream, e, pair, l);
+    if (text_stream_end(&s, &key) && told)
+        return key;
+    free(key);
+    return NULL;
 }

@@ -26,8 +26,8 @@ pair_look pair_look_at(const explanation *e, const diff_pair *pair);
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *look, pair_cause *cause,
                      octreel_error *error);
 
-/* What is the same in all pairs that differ for one cause, for the program alone; null where there is no memory. The
- * caller frees it. */
+/* What is the same in all pairs that differ for one cause, for the program alone; null where nothing tells, or there is
+ * no memory. The caller frees it. */
 char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look *look);
 
 /* The sentence for frames of the same scene: who drew them, where that is known. */

@@ -57,6 +57,19 @@ static void without_an_explanation_nothing_is_lumped_together(void **state)
     comparison_release(&made);
 }
 
+/* Of unlike digests, and of a frame that only one side has, nothing tells whether others are alike; of two sizes the
+ * sizes do. */
+static void what_cannot_be_compared_is_not_lumped_together(void **state)
+{
+    const place a = place_in(*state, "a.digests"), b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 5.png 6.png");
+    file_write_text(a.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 1.png\n"
+                            "0123456789abcdef 24x16 2.png\n0123456789abcdef 9x9 3.png\n0123456789abcdef 9x9 4.png\n"
+                            "0123456789abcdef 9x9 7.png\n0123456789abcdef 9x9 8.png\n");
+    comparison_of made = compare(a.path, b.path, 10);
+    assert_groups(&made, false, "1.png\n2.png\n3.png, 4.png\n5.png\n6.png\n7.png\n8.png\n");
+    comparison_release(&made);
+}
+
 /* One pixel elsewhere, or by another colour, is another cause. */
 static void another_place_or_color_is_another_group(void **state)
 {
@@ -102,6 +115,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(frames_are_grouped_by_what_makes_them_differ),
         WITH_FOLDER(without_an_explanation_nothing_is_lumped_together),
+        WITH_FOLDER(what_cannot_be_compared_is_not_lumped_together),
         WITH_FOLDER(another_place_or_color_is_another_group),
         WITH_FOLDER(long_groups_are_told_in_runs),
     };
