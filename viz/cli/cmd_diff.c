@@ -195,8 +195,8 @@ static void print_report(const arguments *a, const diff_report *report)
     if (a->json)
         diff_report_json(stdout, report);
     else if (!is_standard_output_taken(outputs, OUTPUTS) &&
-             (report->result->by_ticks ||
-              report->result->found[FOUND_UNREADABLE] < report->result->count)) /* else nothing was compared */
+             (report->result->count != 1 ||
+              report->result->found[FOUND_UNREADABLE] == 0)) /* else standard error has all there is to say */
         diff_report_text(stdout, report);
 }
 

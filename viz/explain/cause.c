@@ -108,6 +108,14 @@ static void note_answers(cause_answers *wrong, const octree_tick *a, const octre
         extend(&wrong->other, 1, a->number);
 }
 
+/* Whether what happens from here on may differ, too. */
+static bool games_differ(const playing *p, bool trees)
+{
+    const octree_tick *a = octree_game_tick(p->games[0]), *b = octree_game_tick(p->games[1]);
+    return trees || a->has_player != b->has_player || memcmp(a->player, b->player, sizeof a->player) != 0 ||
+           a->foreign.digest != b->foreign.digest;
+}
+
 /* The trees are compared node by node only for ticks that are reported in detail. */
 static bool look_at(playing *p, octreel_error *error)
 {
@@ -122,7 +130,8 @@ static bool look_at(playing *p, octreel_error *error)
     const bool differs = trees || facts.count > 0;
     if (differs)
         note(p->found, tick);
-    bool ok = !facts.out_of_memory;
+    bool ok =
+        !facts.out_of_memory && cause_origins_reach(&p->found->session.origins, tick, games_differ(p, trees), p->warm);
     if (is_wanted(p, tick, differs)) {
         cause_facts_release(&facts);
         if (trees)

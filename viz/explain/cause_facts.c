@@ -2,6 +2,7 @@
 /* cause_facts.c - facts, grouped by where they are and how they changed. */
 #include "cause_facts.h"
 #include "array.h"
+#include "cause_pairs.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -51,6 +52,9 @@ void cause_add(cause_facts *facts, const char *where, const char *query, cause_c
     if (!group)
         group = add_group(facts, where, query, change);
     facts->out_of_memory |= !group;
+    if (fact.tick != CAUSE_NO_TICK)
+        facts->out_of_memory |=
+            !cause_origins_add(&facts->origins, fact.tick, where, cause_kind_of(fact.b ? fact.b : fact.a));
     if (group && group->found++ < CAUSE_LISTED) {
         json_incref(fact.a);
         json_incref(fact.b);
@@ -80,6 +84,40 @@ void cause_facts_sort(cause_facts *facts)
             facts->groups[j] = facts->groups[j - 1];
             facts->groups[j - 1] = swapped;
         }
+    cause_origins_sort(&facts->origins);
+}
+
+static cause_group shown_of(const cause_group *group, uint64_t tick)
+{
+    cause_group shown = *group;
+    if (is_about_all(group)) {
+        shown.found *= strcmp(group->where, "every") != 0 && strcmp(group->where, "ticks") != 0;
+        return shown;
+    }
+    shown.found = 0;
+    for (size_t i = 0; i < cause_listed(group); i++)
+        if (cause_origin_shows(group->where, group->listed[i].tick, tick))
+            shown.listed[shown.found++] = group->listed[i];
+    return shown;
+}
+
+bool cause_facts_show(const cause_facts *facts, uint64_t tick)
+{
+    for (size_t i = 0; i < facts->count; i++)
+        if (shown_of(&facts->groups[i], tick).found > 0)
+            return true;
+    return false;
+}
+
+cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick)
+{
+    cause_facts shown = {.groups = malloc((facts->count + 1) * sizeof *shown.groups)};
+    shown.out_of_memory = !shown.groups;
+    for (size_t i = 0; shown.groups && i < facts->count; i++) {
+        shown.groups[shown.count] = shown_of(&facts->groups[i], tick);
+        shown.count += shown.groups[shown.count].found > 0;
+    }
+    return shown;
 }
 
 void cause_facts_release(cause_facts *facts)
@@ -90,5 +128,6 @@ void cause_facts_release(cause_facts *facts)
             json_decref(facts->groups[i].listed[j].b);
         }
     free(facts->groups);
+    cause_origins_release(&facts->origins);
     *facts = (cause_facts){0};
 }

@@ -10,6 +10,8 @@
 #ifndef EXPLAIN_CAUSE_FACTS_H
 #define EXPLAIN_CAUSE_FACTS_H
 
+#include "cause_origins.h"
+
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -47,7 +49,8 @@ typedef struct cause_group {
 typedef struct cause_facts {
     cause_group *groups; /* in the order in which they were found */
     size_t count, room;
-    bool out_of_memory; /* the list is not whole */
+    bool out_of_memory;    /* the list is not whole */
+    cause_origins origins; /* the ticks of all facts that are about one */
 } cause_facts;
 
 /* Add a fact, which refers to its values. */
@@ -56,6 +59,11 @@ void cause_facts_release(cause_facts *facts);
 
 /* Put groups about all ticks first, and then the others by the first tick that they are about. */
 void cause_facts_sort(cause_facts *facts);
+
+/* The facts that can show in the frame of a tick, of those listed: about all ticks, but for the interval of frames and
+ * the last tick, or about this one. They refer to `facts`; free the groups alone. And whether there are any. */
+cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
+bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 
 /* The group of these facts, or null. */
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);

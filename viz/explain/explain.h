@@ -22,7 +22,7 @@
 /* Why the frames of one pair differ. */
 typedef struct pair_cause {
     char *text;      /* one sentence; null where none is known; owned */
-    char *key;       /* the same in all pairs that differ for one cause; null where that is not asked; owned */
+    char *key;       /* the same in all pairs that differ for one cause; null where nothing tells; owned */
     bool only_drawn; /* both frames show the same scene, as they were drawn */
 } pair_cause;
 

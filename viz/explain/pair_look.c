@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void read_origins(const diff_pair *pair, pair_look *l)
@@ -38,7 +39,10 @@ static frame_fault find_foreign(const recorded *r, const frame_origin *origin, u
 {
     if (origin->session != r->filmed && origin->session != r->replay.session_digest)
         return FAULT_SESSION;
-    return origin->tick == tick ? FAULT_NONE : FAULT_TICK;
+    if (origin->tick != tick)
+        return FAULT_TICK;
+    const uint64_t scene = recorded_scene(r, tick);
+    return scene == 0 || origin->scene == scene ? FAULT_NONE : FAULT_SCENE;
 }
 
 static uint64_t tick_of(const diff_pair *pair)
@@ -54,6 +58,8 @@ pair_look pair_look_at(const explanation *e, const diff_pair *pair)
     pair_look l = {.told = {false}};
     read_origins(pair, &l);
     for (int i = 0; i < 2; i++) {
+        if (frames[i] && !l.told[i] && e->recordings)
+            l.faults[i] = FAULT_TEXTS;
         if (l.told[i] && e->recordings)
             l.faults[i] = find_foreign(&e->sides[i], &l.of[i], tick_of(pair));
         if (l.told[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.of[i]))
@@ -70,7 +76,7 @@ static bool is_tampered(const pair_look *l)
 
 static bool is_only_drawn(const explanation *e, const pair_look *l)
 {
-    return l->same_scene && !is_tampered(l) && e->cause.view.count == 0;
+    return l->same_scene && !is_tampered(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
 /* Name the frames that were exchanged, or changed after they were drawn. */
@@ -86,6 +92,10 @@ static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
             fputs("is a frame of another session", out);
         else if (l->faults[i] == FAULT_TICK)
             fprintf(out, "is the frame of tick %" PRIu64, l->of[i].tick);
+        else if (l->faults[i] == FAULT_SCENE)
+            fputs("shows another scene than ticks.jsonl beside it has of its tick", out);
+        else if (l->faults[i] == FAULT_TEXTS)
+            fputs("has none of octreel's texts, as after another program has saved it", out);
         else
             fputs("was changed after it was drawn: its pixels are not those that it says", out);
         any = true;
@@ -126,38 +136,42 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
         fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
 }
 
-/* Nothing differs that the files beside the frames tell. */
-static void print_unknown(FILE *out, const diff_pair *pair, const pair_look *l)
-{
-    if (both_told(l))
-        fputs("another scene of the same session and view: drawn by another version of octreel, or the files beside "
-              "the frames were changed",
-              out);
-    for (int i = 0; i < 2; i++)
-        if (!l->told[i])
-            fprintf(out, "%s%s has none of octreel's texts, as after another program has saved it",
-                    i && !l->told[0] ? "; " : "", (i ? pair->b : pair->a)->path);
-}
-
-static void print_tick(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l, uint64_t tick)
+/* Whether anything is known that can show in the frame of a tick. */
+static bool differs_at(const explanation *e, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
-    const bool facts = told && told->facts.count > 0, view = e->cause.view.count > 0;
+    return (told && told->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
+           cause_facts_show(&e->cause.session, tick);
+}
+
+/* Where nothing differs in the tick itself: what differs between the sessions, best what can show in it. */
+static void print_same_tick(FILE *out, const explanation *e, const cause_facts *shown, bool other_view)
+{
+    const cause_facts *session = shown->count || other_view ? shown : &e->cause.session;
+    if (!other_view)
+        fputs(session->count ? "the same happened in it; "
+                             : "another scene of the same session and view: drawn by another version of octreel, or "
+                               "the files beside the frames were changed",
+              out);
+    else if (session->count)
+        fputs("; ", out);
+    cause_print_facts(out, session, true);
+}
+
+static void print_tick(FILE *out, const explanation *e, uint64_t tick)
+{
+    const cause_tick *told = cause_at(&e->cause, tick);
+    const bool facts = told && told->facts.count > 0;
+    cause_facts view = cause_facts_shown(&e->cause.view, tick), session = cause_facts_shown(&e->cause.session, tick);
     fprintf(out, "tick %" PRIu64 ": ", tick);
     if (facts)
         cause_print_facts(out, &told->facts, false);
-    if (view) {
-        fputs(facts ? "; " : "", out);
-        cause_print_facts(out, &e->cause.view, false);
-    }
-    if (facts || view)
-        return;
-    if (e->cause.session.count > 0) {
-        fputs("the same happened in it; ", out);
-        cause_print_facts(out, &e->cause.session, true);
-    } else {
-        print_unknown(out, pair, l);
-    }
+    fputs(facts && view.count ? "; " : "", out);
+    cause_print_facts(out, &view, false);
+    if (!facts)
+        print_same_tick(out, e, &session, view.count > 0);
+    free(view.groups);
+    free(session.groups);
 }
 
 /* Frames without recordings: only their text chunks are known. */
@@ -183,16 +197,26 @@ static void print_trace(FILE *out, const explanation *e, uint64_t tick)
     }
 }
 
+/* A picture without texts may be the right one: why that differs is told as well. */
+static bool may_be_right(const pair_look *l)
+{
+    return (l->faults[0] == FAULT_NONE || l->faults[0] == FAULT_TEXTS) &&
+           (l->faults[1] == FAULT_NONE || l->faults[1] == FAULT_TEXTS);
+}
+
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool both = pair->a && pair->b, tampered = is_tampered(l), drawn = is_only_drawn(e, l);
     const uint64_t tick = tick_of(pair);
+    const bool tick_told = e->recordings && both && !drawn && (!tampered || (may_be_right(l) && differs_at(e, tick)));
+    const bool missing_told = e->recordings && !both;
     print_tampered(out, pair, l);
+    fputs(tampered && (tick_told || missing_told) ? "; " : "", out);
     if (drawn)
         pair_print_rendering(out, e);
-    else if (e->recordings && both && !tampered)
-        print_tick(out, e, pair, l, tick);
-    else if (e->recordings && !both)
+    else if (tick_told)
+        print_tick(out, e, tick);
+    else if (missing_told)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
     else if (both_told(l) && !tampered)
         print_origins(out, l);
@@ -215,7 +239,8 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
 
 /* ---- What all pairs of one cause have alike ----------------------------------------------------------------- */
 
-/* Nothing tells a cause: one that changes the same pixels by as much in several frames is one. */
+/* Nothing tells a cause, or not what was done to a frame: one that changes the same pixels by as much in several frames
+ * is one. */
 static void print_tally(FILE *out, const diff_pair *pair)
 {
     const image_tally *t = &pair->difference.unlike;
@@ -231,7 +256,8 @@ static void print_origins_key(FILE *out, const pair_look *l)
             b->tick - a->tick);
 }
 
-static void print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
+/* False where nothing tells whether another pair has the same cause, as of digests, or where one frame is missing. */
+static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;
     fprintf(out, "%s, ", diff_finding_name(pair->finding));
@@ -239,24 +265,29 @@ static void print_key(FILE *out, const explanation *e, const diff_pair *pair, co
         fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
                 pair->about[1].height);
     if (is_tampered(l))
-        fprintf(out, "faults %d %d", (int)l->faults[0], (int)l->faults[1]);
-    else if (is_only_drawn(e, l))
+        fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
+    if (is_only_drawn(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick_of(pair));
-    else if (e->recordings && known)
-        fputs("recordings", out);
-    else if (both_told(l))
+    else if (e->recordings && known && !is_tampered(l))
+        fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, tick_of(pair)));
+    else if (both_told(l) && !is_tampered(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally(out, pair);
+    else
+        return pair->finding == FOUND_SIZE;
+    return true;
 }
 
 char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     text_stream s;
     char *key;
-    if (text_stream_begin(&s))
-        print_key(s.stream, e, pair, l);
-    return text_stream_end(&s, &key) ? key : NULL;
+    const bool told = text_stream_begin(&s) && print_key(s.stream, e, pair, l);
+    if (text_stream_end(&s, &key) && told)
+        return key;
+    free(key);
+    return NULL;
 }

@@ -6,9 +6,9 @@
 #include "explain.h"
 #include "frame_file.h"
 
-/* What is wrong with a frame by what its text chunks say: it is not the one that its recording made for this tick, or
- * was changed after it was drawn. */
-typedef enum frame_fault { FAULT_NONE, FAULT_SESSION, FAULT_TICK, FAULT_PIXELS } frame_fault;
+/* What is wrong with a frame by what its text chunks say: it is not the one that its recording made for this tick, was
+ * changed after it was drawn, or, in a recording, says nothing. */
+typedef enum frame_fault { FAULT_NONE, FAULT_SESSION, FAULT_TICK, FAULT_SCENE, FAULT_PIXELS, FAULT_TEXTS } frame_fault;
 
 /* What both frames say of themselves in their text chunks. */
 typedef struct pair_look {
@@ -26,8 +26,8 @@ pair_look pair_look_at(const explanation *e, const diff_pair *pair);
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *look, pair_cause *cause,
                      octreel_error *error);
 
-/* What is the same in all pairs that differ for one cause, for the program alone; null where there is no memory. The
- * caller frees it. */
+/* What is the same in all pairs that differ for one cause, for the program alone; null where nothing tells, or there is
+ * no memory. The caller frees it. */
 char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look *look);
 
 /* The sentence for frames of the same scene: who drew them, where that is known. */

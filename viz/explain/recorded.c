@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* recorded.c - the files of a recording that is explained. */
 #include "recorded.h"
+#include "array.h"
 #include "frame_file.h"
 #include "text.h"
 #include "ticks_write.h"
@@ -59,11 +60,38 @@ void recorded_close(recorded *r)
     for (size_t i = 0; i < r->warning_count; i++)
         free(r->warnings[i]);
     lines_close(&r->lines);
+    free(r->scenes);
     replay_close(&r->replay);
     *r = (recorded){0};
 }
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
+
+/* The digest of the scene at the end of the line that was read last; 0 where there is none. */
+static uint64_t line_scene(const recorded *r)
+{
+    static const char before[] = "\"scene\": \"";
+    const size_t tail = sizeof "0123456789abcdef\"}\n" - 1, length = sizeof before - 1;
+    if (r->lines.size <= tail + length)
+        return 0;
+    const char *digits = r->lines.line + r->lines.size - tail;
+    return memcmp(digits - length, before, length) == 0 ? strtoull(digits, NULL, 16) : 0;
+}
+
+static bool keep_scene(recorded *r)
+{
+    uint64_t *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
+    if (!grown)
+        return false;
+    r->scenes = grown;
+    r->scenes[r->scene_count++] = line_scene(r);
+    return true;
+}
+
+uint64_t recorded_scene(const recorded *r, uint64_t tick)
+{
+    return tick < r->scene_count ? r->scenes[tick] : 0;
+}
 
 static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
 {
@@ -75,22 +103,17 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
         return true;
     const line_state state = lines_next(&r->lines, LONGEST_LINE);
     r->reading = state == LINE_WHOLE;
-    return r->reading || warn(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
+    if (r->reading)
+        return keep_scene(r) || error_no_memory(error);
+    return warn(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
 }
 
 /* The scene digest to expect in a line: that in the frame, else that in the line itself, since no scene is built here.
  */
 static uint64_t scene_of(const recorded *r, uint64_t tick)
 {
-    static const char before[] = "\"scene\": \"";
-    const size_t tail = sizeof "0123456789abcdef\"}\n" - 1, length = sizeof before - 1;
     uint64_t scene = 0;
-    if (frame_scene(r->side->path, tick, &scene))
-        return scene;
-    const char *digits = r->lines.line + r->lines.size - tail;
-    if (r->lines.size > tail + length && memcmp(digits - length, before, length) == 0)
-        scene = strtoull(digits, NULL, 16);
-    return scene;
+    return frame_scene(r->side->path, tick, &scene) ? scene : line_scene(r);
 }
 
 /* What the line of the tick says beyond it; `name` has room for the name of its frame. */

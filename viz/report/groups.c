@@ -21,19 +21,6 @@ static int by_key(const void *a, const void *b)
     return order ? order : (x->pair > y->pair) - (x->pair < y->pair);
 }
 
-static const char *key_of(const diff_result *result, const explanation *why, size_t i)
-{
-    const char *key = explanation_key(why, i);
-    return key ? key : diff_finding_name(result->pairs[i].finding);
-}
-
-/* Without an explanation there is no key that tells causes apart: pixels that differ are each frame's own. */
-static bool is_alone(const diff_result *result, const explanation *why, size_t i)
-{
-    const diff_pair *pair = &result->pairs[i];
-    return pair->finding == FOUND_UNREADABLE || (!explanation_key(why, i) && pair->a && pair->b);
-}
-
 /* Number the groups in the order of their first pairs, and count what is in them. */
 static void number_groups(frame_groups *g, size_t pairs, const size_t *first)
 {
@@ -57,10 +44,11 @@ bool frame_groups_make(frame_groups *g, const diff_result *result, const explana
     const bool ok = (first && keyed && g->groups && g->of) || error_no_memory(error);
     for (size_t i = 0; ok && i < pairs; i++) {
         const bool listed = diff_is_listed(result->pairs[i].finding);
+        const char *key = each ? NULL : explanation_key(why, i);
         g->of[i] = GROUP_NONE;
         first[i] = listed ? i : GROUP_NONE;
-        if (listed && !each && !is_alone(result, why, i))
-            keyed[count++] = (keyed_pair){key_of(result, why, i), i};
+        if (listed && key)
+            keyed[count++] = (keyed_pair){key, i};
     }
     if (ok && count > 0)
         qsort(keyed, count, sizeof *keyed, by_key);

@@ -18,8 +18,8 @@ typedef struct frame_groups {
     size_t *of; /* the group of each pair, or GROUP_NONE; owned */
 } frame_groups;
 
-/* Frames are of one group where their cause has the same key, or, where nothing was explained, by what is found alone.
- * `each`: every frame is one of its own. To be released in any case; false when there is no memory. */
+/* Frames are of one group where their cause has the same key; those that have none are each of one of their own, and
+ * with `each` all are. To be released in any case; false when there is no memory. */
 bool frame_groups_make(frame_groups *g, const diff_result *result, const explanation *why, bool each,
                        octreel_error *error);
 void frame_groups_release(frame_groups *g);

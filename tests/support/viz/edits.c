@@ -11,6 +11,12 @@
 
 #include "files.h"
 #include "fixture.h"
+#include "image_digest.h"
+#include "png_chunks.h"
+#include "png_read.h"
+#include "png_write.h"
+#include "recordings.h"
+#include "theme.h"
 
 /* Write a file of text anew, with `length` bytes at a place replaced. */
 static void splice(const char *path, const char *text, size_t size, size_t at, size_t length, const char *to)
@@ -95,4 +101,36 @@ void file_copy(const char *folder, const char *from, const char *to)
     char *bytes = file_read(place_below(folder, from).path, &size);
     file_write(place_below(folder, to).path, bytes, size);
     free(bytes);
+}
+
+void spoil_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn)
+{
+    static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
+    char values[4][32];
+    image_text texts[4];
+    octreel_error error;
+    image frame;
+    const place file = frame_place(folder, tick);
+    assert_true(image_read_png(file.path, &frame, &error));
+    for (int i = 0; i < 4; i++) {
+        assert_true(image_read_text(file.path, keywords[i], values[i], sizeof values[i]));
+        texts[i] = (image_text){keywords[i], values[i]};
+    }
+    frame.pixels[pixel] = theme_index(ROLE_TEXT, 0);
+    if (as_drawn)
+        image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&frame), values[3]);
+    assert_true(image_write_png(&frame, file.path, texts, 4, &error));
+    image_release(&frame);
+}
+
+void lose_texts(const char *folder, uint64_t tick, bool spoilt)
+{
+    octreel_error error;
+    image frame;
+    const place file = frame_place(folder, tick);
+    assert_true(image_read_png(file.path, &frame, &error));
+    if (spoilt)
+        frame.pixels[77] = theme_index(ROLE_TEXT, 0);
+    assert_true(image_write_png(&frame, file.path, NULL, 0, &error));
+    image_release(&frame);
 }

@@ -3,7 +3,9 @@
 #ifndef EDITS_H
 #define EDITS_H
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* In a file of a folder, put `to` in the place of the first `from`. */
 void edit_file(const char *folder, const char *name, const char *from, const char *to);
@@ -22,5 +24,11 @@ void cut_file(const char *folder, const char *name, size_t size);
 
 /* A copy of a file, in the same folder. */
 void file_copy(const char *folder, const char *from, const char *to);
+
+/* Write the frame of a tick anew with a pixel changed. With `as_drawn` its texts say that it was drawn so. */
+void spoil_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn);
+
+/* Write it as other programs save it: the picture alone, with `spoilt` a pixel of it changed. */
+void lose_texts(const char *folder, uint64_t tick, bool spoilt);
 
 #endif

@@ -70,6 +70,28 @@ const frame_groups *group_frames(comparison_of *made, bool each)
     return &made->groups;
 }
 
+char *tell_groups(comparison_of *made, bool each, bool others)
+{
+    const frame_groups *g = group_frames(made, each);
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    for (size_t i = 0; i < g->count; i++) {
+        frame_group_print(out, g, &made->result, i, others);
+        fputc('\n', out);
+    }
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+void assert_groups(comparison_of *made, bool each, const char *expected)
+{
+    char *text = tell_groups(made, each, false);
+    assert_string_equal(text, expected);
+    free(text);
+}
+
 const char *cause_of(const comparison_of *made, const char *name)
 {
     const diff_pair *pair = diff_find(&made->result, name);

@@ -35,6 +35,10 @@ comparison_of assert_compared(const char *a, const char *b, const diff_options *
 /* Group the frames by what is found and explained so far, or each by itself. */
 const frame_groups *group_frames(comparison_of *made, bool each);
 
+/* Each group by its frames, or by all but its first, a line each; the caller frees it. */
+char *tell_groups(comparison_of *made, bool each, bool others);
+void assert_groups(comparison_of *made, bool each, const char *expected);
+
 /* The sentence of a pair of this name, or null. */
 const char *cause_of(const comparison_of *made, const char *name);
 

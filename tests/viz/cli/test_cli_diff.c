@@ -122,6 +122,20 @@ static void one_unreadable_frame_leaves_the_others_compared(void **state)
     command_release(&result);
 }
 
+/* Standard error names the first of them. */
+static void frames_none_of_which_can_be_read_are_listed(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
+    assert_int_equal(truncate(place_below(b.path, "1.png").path, 120), 0);
+    assert_int_equal(truncate(place_below(b.path, "2.png").path, 120), 0);
+    command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
+    assert_int_equal(result.status, 2);
+    assert_non_null(strstr(result.err, "1.png: the file is cut short (and 1 more)\n"));
+    assert_non_null(strstr(result.out, "trouble: 2 frames, 2 cannot be read\n  1.png: cannot be read: "));
+    assert_non_null(strstr(result.out, "\n  2.png: cannot be read: "));
+    command_release(&result);
+}
+
 static double number(const json_t *object, const char *name)
 {
     return json_number_value(json_member(object, name));
@@ -284,6 +298,7 @@ int main(void)
         WITH_FOLDER(tolerance_is_printed_with_every_verdict),
         WITH_FOLDER(trouble_is_said_and_is_status_2),
         WITH_FOLDER(one_unreadable_frame_leaves_the_others_compared),
+        WITH_FOLDER(frames_none_of_which_can_be_read_are_listed),
         WITH_FOLDER(json_tells_all_of_it),
         WITH_FOLDER(json_is_said_in_trouble_too),
         WITH_FOLDER(long_lists_are_cut_for_people_and_not_for_programs),

@@ -9,43 +9,17 @@
 #include "explained.h"
 #include "fixture.h"
 #include "layer.h"
-#include "theme.h"
-#include "png_chunks.h"
-#include "image_digest.h"
-#include "png_read.h"
-#include "png_write.h"
 
 #define KEYS "wdn."
 
 /* ---- What only the drawing makes ------------------------------------------------------------------------------ */
 
-/* Write the frame of a tick anew with a pixel changed. With `as_drawn` its texts say that it was drawn so. */
-static void spoil_frame(const place *folder, uint64_t tick, bool as_drawn)
-{
-    static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
-    char values[4][32];
-    image_text texts[4];
-    octreel_error error;
-    image frame;
-    const place file = frame_place(folder->path, tick);
-    assert_true(image_read_png(file.path, &frame, &error));
-    for (int i = 0; i < 4; i++) {
-        assert_true(image_read_text(file.path, keywords[i], values[i], sizeof values[i]));
-        texts[i] = (image_text){keywords[i], values[i]};
-    }
-    frame.pixels[77] = theme_index(ROLE_TEXT, 0);
-    if (as_drawn)
-        image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&frame), values[3]);
-    assert_true(image_write_png(&frame, file.path, texts, 4, &error));
-    image_release(&frame);
-}
-
 static void the_same_scene_drawn_otherwise_is_a_difference_of_rendering(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
-    spoil_frame(&b, 1, true);
-    spoil_frame(&b, 3, true);
+    spoil_frame(b.path, 1, 77, true);
+    spoil_frame(b.path, 3, 77, true);
     edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
     comparison_of made = assert_explained(&a, &b, 10);
     const char *cause = cause_of(&made, "frame_000003.png");
@@ -76,7 +50,7 @@ static void a_frame_changed_after_it_was_drawn_is_told(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
-    spoil_frame(&b, 1, false);
+    spoil_frame(b.path, 1, 77, false);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_holds(cause_of(&made, "frame_000001.png"), "b/frame_000001.png was changed after it was drawn");
     comparison_release(&made);
@@ -109,28 +83,15 @@ static void a_frame_of_another_session_is_told(void **state)
     comparison_release(&made);
 }
 
-/* As other programs save it: the picture alone. */
-static void lose_texts(const place *folder, uint64_t tick, bool spoilt)
-{
-    octreel_error error;
-    image frame;
-    const place file = frame_place(folder->path, tick);
-    assert_true(image_read_png(file.path, &frame, &error));
-    if (spoilt)
-        frame.pixels[77] = theme_index(ROLE_TEXT, 0);
-    assert_true(image_write_png(&frame, file.path, NULL, 0, &error));
-    image_release(&frame);
-}
-
 static void both_frames_may_be_none_of_octreels(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
-    spoil_frame(&a, 1, false);
+    spoil_frame(a.path, 1, 77, false);
     assert_int_equal(remove(frame_place(b.path, 1).path), 0);
     file_copy(b.path, "frame_000003.png", "frame_000001.png");
-    lose_texts(&a, 2, false);
-    lose_texts(&b, 2, true);
+    lose_texts(a.path, 2, false);
+    lose_texts(b.path, 2, true);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_holds(cause_of(&made, "frame_000001.png"), "a/frame_000001.png was changed after it was drawn");
     assert_holds(cause_of(&made, "frame_000001.png"), "; ");
@@ -146,8 +107,8 @@ static void a_frame_without_its_texts_is_told(void **state)
     octree_session session = short_session(KEYS);
     place b;
     const place a = film_twins(*state, KEYS, &b);
-    lose_texts(&b, 1, false);
-    lose_texts(&b, 2, true);
+    lose_texts(b.path, 1, false);
+    lose_texts(b.path, 2, true);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_SAME_PIXELS);
     assert_holds(cause_of(&made, "frame_000002.png"),
@@ -155,7 +116,7 @@ static void a_frame_without_its_texts_is_told(void **state)
     comparison_release(&made);
     session.tree.leaf_capacity = 3;
     const place c = film_in(*state, "c", &session, NULL);
-    lose_texts(&c, 2, false);
+    lose_texts(c.path, 2, false);
     made = assert_explained(&a, &c, 10);
     assert_holds(cause_of(&made, "frame_000002.png"), "tick 2: node");
     comparison_release(&made);
@@ -193,7 +154,7 @@ static void frames_in_a_folder_tell_rendering_by_their_scenes(void **state)
     place b;
     const place a = film_twins(*state, KEYS, &b);
     make_folders(&a, &b);
-    spoil_frame(&b, 1, true);
+    spoil_frame(b.path, 1, 77, true);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_string_equal(cause_of(&made, "frame_000001.png"), "rendering differs: the scene digests are equal");
     assert_string_equal(made.why.headline, "rendering differs: the scene digests are equal");

@@ -18,29 +18,6 @@ static comparison_of compare(const char *a, const char *b, uint64_t most)
     return made;
 }
 
-/* Each group by its frames, a line each. */
-static char *tell(comparison_of *made, bool each, bool others)
-{
-    const frame_groups *g = group_frames(made, each);
-    char *text;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    for (size_t i = 0; i < g->count; i++) {
-        frame_group_print(out, g, &made->result, i, others);
-        fputc('\n', out);
-    }
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
-static void assert_groups(comparison_of *made, bool each, const char *expected)
-{
-    char *text = tell(made, each, false);
-    assert_string_equal(text, expected);
-    free(text);
-}
-
 /* 1, 2 and 5 differ in the same pixels by as much; 3 in more; 4 is the same; 6, 7 are of another size; 8 is gone; 9 and
  * 10 cannot be read. */
 static comparison_of make_all(void **state)
@@ -80,6 +57,19 @@ static void without_an_explanation_nothing_is_lumped_together(void **state)
     comparison_release(&made);
 }
 
+/* Of unlike digests, and of a frame that only one side has, nothing tells whether others are alike; of two sizes the
+ * sizes do. */
+static void what_cannot_be_compared_is_not_lumped_together(void **state)
+{
+    const place a = place_in(*state, "a.digests"), b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 5.png 6.png");
+    file_write_text(a.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 1.png\n"
+                            "0123456789abcdef 24x16 2.png\n0123456789abcdef 9x9 3.png\n0123456789abcdef 9x9 4.png\n"
+                            "0123456789abcdef 9x9 7.png\n0123456789abcdef 9x9 8.png\n");
+    comparison_of made = compare(a.path, b.path, 10);
+    assert_groups(&made, false, "1.png\n2.png\n3.png, 4.png\n5.png\n6.png\n7.png\n8.png\n");
+    comparison_release(&made);
+}
+
 /* One pixel elsewhere, or by another colour, is another cause. */
 static void another_place_or_color_is_another_group(void **state)
 {
@@ -112,7 +102,7 @@ static void long_groups_are_told_in_runs(void **state)
         gallery_write(place_below(b.path, name).path, 1, i % 5 ? 1 : 0);
     }
     comparison_of made = compare(a.path, b.path, 10);
-    char *text = tell(&made, false, true);
+    char *text = tell_groups(&made, false, true);
     assert_string_equal(text, "ticks 2 to 4, 6 to 9, 11 to 14, 16 to 19\n");
     free(text);
     comparison_release(&made);
@@ -125,6 +115,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(frames_are_grouped_by_what_makes_them_differ),
         WITH_FOLDER(without_an_explanation_nothing_is_lumped_together),
+        WITH_FOLDER(what_cannot_be_compared_is_not_lumped_together),
         WITH_FOLDER(another_place_or_color_is_another_group),
         WITH_FOLDER(long_groups_are_told_in_runs),
     };

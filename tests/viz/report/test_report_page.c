@@ -300,6 +300,44 @@ static void page_of_no_difference_says_so(void **state)
                       "bytes</p>\n  <p id=\"calm-tolerance\">Compared exactly</p>");
 }
 
+static void page_of_what_is_forgiven_says_that_it_differs(void **state)
+{
+    driven *d = *state;
+    const place a = gallery_make(d->folder, "strict", "1.png 2.png"), b = gallery_make(d->folder, "lax", "1.png 2.png");
+    const place folder = place_in(d->folder, "forgiven");
+    diff_options options = diff_options_default();
+    options.tolerance.max_pixels = 9;
+    gallery_write(place_below(b.path, "1.png").path, 0, 7);
+    comparison_of made = assert_compared(a.path, b.path, &options);
+    write_page_of(&made, folder.path, true, NULL);
+    assert_opens_with(state, folder, "<h2>1 frame differs and is forgiven</h2>");
+}
+
+/* In the list beside the pictures, as wide windows have it. */
+static void names_of_files_are_neither_changed_nor_cut(void **state)
+{
+    static const char look[] =
+        "for (const {cssRules, ownerNode} of document.styleSheets)\n"
+        "    for (let i = cssRules.length; i-- > 0;)\n"
+        "        if (cssRules[i].media?.mediaText.includes('max-width')) ownerNode.sheet.deleteRule(i);\n"
+        "const made = document.body.appendChild(document.createElement('pre'));\n"
+        "const cut = [...document.querySelectorAll('#list .name')].filter(n => n.scrollWidth > n.clientWidth);\n"
+        "made.textContent = `cut\\t${cut.length}\\nheadline\\t${document.getElementById('headline').textContent}\\n`;\n"
+        "made.id = 'said';\n";
+    driven *d = *state;
+    const place a = place_in(d->folder, "a.digests"), b = gallery_make(d->folder, "listed", "shown.png title.png"),
+                folder = place_in(d->folder, "names"), script = place_in(d->folder, "look.js");
+    need_browser();
+    file_write_text(a.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 shown.png\n"
+                            "0123456789abcdef 24x16 title.png\n");
+    file_write_text(script.path, look);
+    write_page(a.path, b.path, folder.path, NULL, NULL);
+    char *said = browser_drive(d->folder, place_below(folder.path, "report.html").path, script.path);
+    assert_said_about(said, "cut", "0");
+    assert_said_about(said, "headline", "shown.png is the first that differs");
+    free(said);
+}
+
 static void page_of_few_differences_leaves_none_out(void **state)
 {
     driven *d = *state;
@@ -370,6 +408,8 @@ int main(void)
         cmocka_unit_test(frames_of_one_cause_are_one_entry),
         cmocka_unit_test(page_loads_nothing),
         cmocka_unit_test(page_of_no_difference_says_so),
+        cmocka_unit_test(page_of_what_is_forgiven_says_that_it_differs),
+        cmocka_unit_test(names_of_files_are_neither_changed_nor_cut),
         cmocka_unit_test(page_of_few_differences_leaves_none_out),
         cmocka_unit_test(pictures_that_are_too_large_for_a_page_are_left_beside_it),
     };

@@ -63,7 +63,8 @@ function shortWords(finding)
     return `${grouped(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
 }
 
-const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
+/* What begins with the name of a picture stays as it is. */
+const capital = text => /^[^;]*\.png /i.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 
 /* The cause where one is known, or how much differs, up to the first pause. */
 function headlineOf(finding)
@@ -74,8 +75,9 @@ function headlineOf(finding)
 /* The first frame that differs, and why. */
 function headlineOfAll(whole, [first])
 {
-    const words = [`${capital(shortName(first))} is the first that differs`, ...whole.headline ? [whole.headline] : []];
-    return words.join(": ");
+    const name = shortName(first);
+    return [`${name === first.frame ? name : capital(name)} is the first that differs`,
+            ...whole.headline ? [whole.headline] : []].join(": ");
 }
 
 /* What else the cause says, and what differs where it is not counted. */

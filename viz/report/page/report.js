@@ -283,8 +283,10 @@ function fillControls(look)
 
 function showCalm(whole)
 {
+    const forgiven = whole.found.within_tolerance;
+    const words = `${grouped(forgiven)} ${forgiven === 1 ? "frame differs and is" : "frames differ and are"} forgiven`;
     byId("calm").hidden = false;
-    byId("calm").querySelector("h2").textContent = "No frame differs";
+    byId("calm").querySelector("h2").textContent = forgiven > 0 ? words : "No frame differs";
     byId("calm-words").textContent = whole.verdict_words.replace(/^.*?: /, "");
     byId("calm-tolerance").textContent = capital(whole.tolerance_words);
 }

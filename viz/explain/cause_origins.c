@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: MIT */
+#include "cause_origins.h"
+#include "array.h"
+#include "cause_facts.h"
+#include "text.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The panel has the keys of so many ticks after its own and before it; see write_keys() in panel.c. */
+enum { KEYS_AHEAD = 6, KEYS_BEHIND = 5 };
+
+bool cause_origin_shows(const char *where, uint64_t origin, uint64_t tick)
+{
+    const bool keys = strcmp(where, "keys") == 0;
+    return origin == tick || (keys && origin < tick + KEYS_AHEAD + 1 && tick < origin + KEYS_BEHIND + 1);
+}
+
+/* ---- Noting them --------------------------------------------------------------------------------------------- */
+
+static size_t find_kind(cause_origins *o, const char *name)
+{
+    for (size_t i = 0; i < o->kind_count; i++)
+        if (strcmp(o->kinds[i].name, name) == 0)
+            return i;
+    cause_kind *grown = array_reserve(o->kinds, o->kind_count + 1, &o->kind_room, sizeof *grown);
+    if (!grown)
+        return SIZE_MAX;
+    o->kinds = grown;
+    cause_kind *kind = &grown[o->kind_count];
+    kind->since = CAUSE_NO_TICK;
+    snprintf(kind->name, sizeof kind->name, "%s", name);
+    return o->kind_count++;
+}
+
+/* Nothing is left of it in the next tick but heat. */
+static bool is_momentary(const char *where)
+{
+    return strncmp(where, "queries", 7) == 0 || strncmp(where, "shapes", 6) == 0;
+}
+
+/* What lasts is of one kind, whatever is done: its effects cannot be told apart. */
+bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const char *kind)
+{
+    char name[CAUSE_KIND];
+    snprintf(name, sizeof name, "%s%s%s", where, is_momentary(where) ? " " : "", is_momentary(where) ? kind : "");
+    const cause_origin origin = {tick, find_kind(o, name)};
+    const cause_origin *last = o->count ? &o->listed[o->count - 1] : NULL;
+    if (origin.kind == SIZE_MAX || (last && last->tick == tick && last->kind == origin.kind))
+        return origin.kind != SIZE_MAX;
+    cause_origin *grown = array_reserve(o->listed, o->count + 1, &o->room, sizeof *grown);
+    if (!grown)
+        return false;
+    o->listed = grown;
+    o->listed[o->count++] = origin;
+    return true;
+}
+
+static int by_tick(const void *a, const void *b)
+{
+    const cause_origin *x = a, *y = b;
+    return (x->tick > y->tick) - (x->tick < y->tick);
+}
+
+void cause_origins_sort(cause_origins *o)
+{
+    if (o->count)
+        qsort(o->listed, o->count, sizeof *o->listed, by_tick);
+}
+
+void cause_origins_release(cause_origins *o)
+{
+    for (size_t i = 0; i < o->stretch_count; i++)
+        free(o->stretches[i].causes);
+    free(o->stretches);
+    free(o->listed);
+    free(o->kinds);
+    *o = (cause_origins){0};
+}
+
+/* ---- Which ticks they reach ---------------------------------------------------------------------------------- */
+
+static bool add_stretch(cause_origins *o, uint64_t tick)
+{
+    cause_stretch *grown = array_reserve(o->stretches, o->stretch_count + 1, &o->stretch_room, sizeof *grown);
+    text_stream s;
+    bool any = false;
+    if (!grown)
+        return false;
+    o->stretches = grown;
+    if (text_stream_begin(&s))
+        for (size_t i = 0; i < o->kind_count; i++) {
+            if (o->kinds[i].since == CAUSE_NO_TICK)
+                continue;
+            fprintf(s.stream, "%s%s %" PRIu64, any ? ", " : "", o->kinds[i].name, o->kinds[i].since);
+            any = true;
+        }
+    grown[o->stretch_count] = (cause_stretch){.first = tick};
+    return text_stream_end(&s, &grown[o->stretch_count].causes) && ++o->stretch_count;
+}
+
+static bool differs_here(const cause_origins *o, uint64_t tick, size_t kind)
+{
+    for (size_t i = o->next; i < o->count && o->listed[i].tick == tick; i++)
+        if (o->listed[i].kind == kind)
+            return true;
+    return false;
+}
+
+bool cause_origins_reach(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat)
+{
+    bool changed = false;
+    for (size_t i = 0; i < o->kind_count; i++) {
+        cause_kind *kind = &o->kinds[i];
+        const bool lasts = other_heat || (games_differ && !is_momentary(kind->name));
+        const uint64_t before = kind->since;
+        if (!differs_here(o, tick, i))
+            kind->since = lasts ? kind->since : CAUSE_NO_TICK;
+        else if (kind->since == CAUSE_NO_TICK)
+            kind->since = tick;
+        changed = changed || kind->since != before;
+    }
+    while (o->next < o->count && o->listed[o->next].tick == tick)
+        o->next++;
+    return !changed || add_stretch(o, tick);
+}
+
+static const char *causes_at(const cause_origins *o, uint64_t tick)
+{
+    size_t low = 0, high = o->stretch_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (o->stretches[middle].first <= tick)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low && o->stretches[low - 1].causes ? o->stretches[low - 1].causes : "";
+}
+
+/* The first origin of this tick or a later one. */
+static size_t find_origin(const cause_origins *o, uint64_t tick)
+{
+    size_t low = 0, high = o->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (o->listed[middle].tick < tick)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Keys to come are shown before those that were. */
+const char *cause_origins_at(const cause_origins *o, uint64_t tick)
+{
+    const char *causes = causes_at(o, tick);
+    const size_t here = find_origin(o, tick);
+    for (size_t i = here; !*causes && i < o->count && o->listed[i].tick <= tick + KEYS_AHEAD; i++)
+        if (cause_origin_shows(o->kinds[o->listed[i].kind].name, o->listed[i].tick, tick))
+            causes = causes_at(o, o->listed[i].tick);
+    for (size_t i = here; !*causes && i > 0 && o->listed[i - 1].tick + KEYS_BEHIND >= tick; i--)
+        if (cause_origin_shows(o->kinds[o->listed[i - 1].kind].name, o->listed[i - 1].tick, tick))
+            causes = causes_at(o, o->listed[i - 1].tick);
+    return causes;
+}
