@@ -56,12 +56,14 @@ camera_window layout_space(const scene *s)
 
 int layout_number_letters(const octree_box *box)
 {
-    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 12 };
-    double most = 1;
+    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 }; /* than its digits: a sign or a margin, and the tick */
+    double most = 0;
+    int digits = 1;
     for (int i = 0; i < 3; i++)
         most = fmax(most, fmax(box->max[i], -box->min[i]));
-    const double digits = floor(log10(most)) + 1, letters = digits + 3; /* a sign or a margin, and the tick */
-    return digits <= FEW_DIGITS ? LEAST : letters > MOST ? MOST : (int)letters;
+    for (; most >= 10 && digits < MOST; most /= 10)
+        digits++;
+    return digits <= FEW_DIGITS ? LEAST : digits + MORE;
 }
 
 camera_window layout_camera(const scene *s, const octree_box *world)

@@ -28,12 +28,9 @@ function(compile_wasm source objects)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
   # A page is to be small: fast is what is done for each node, point, line and pixel.
   set(optimized -Oz)
-  if(name MATCHES "/src/(tree/|query/(region|search)|game/(game|bodies)[.])" OR
+  if(name MATCHES "/src/(tree/(leaf|tree|walk)|query/(region|search)|game/(game|bodies))[.]c$" OR
      name MATCHES "/(camera|filter|node_layers|node_boxes|fill|edges|box_lines|quads|stroke|project|splats|canvas)[.]c$")
     set(optimized -O2 -fno-unroll-loops)
-  endif()
-  if(name MATCHES "/(batch|bulk|few|grid_fill|move_order|plan|remake|restructure|tune|change|plane)[.]c$")
-    set(optimized -Oz)
   endif()
   string(REPLACE "/" "_" name ${name})
   set(object ${wasm_folder}/${name}.o)
