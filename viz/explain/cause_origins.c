@@ -3,13 +3,11 @@
 #include "array.h"
 #include "cause_facts.h"
 #include "text.h"
+#include "tick_scene.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The panel has the keys of so many ticks after its own and before it; see write_keys() in panel.c. */
-enum { KEYS_AHEAD = 6, KEYS_BEHIND = 5 };
 
 bool cause_origin_shows(const char *where, uint64_t origin, uint64_t tick)
 {

@@ -5,6 +5,7 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "text.h"
+#include "tick_scene.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -194,7 +195,6 @@ static void write_refusals(pen *p, const octree_tick *tick)
 /* A few keys before and after this tick's, which is in brackets and always at the same place. */
 static void write_keys(pen *p, const layer_source *in)
 {
-    enum { BEFORE = 5, AFTER = 6 };
     const uint64_t now = in->tick->number;
     const char *keys = in->session->keys ? in->session->keys : "";
     const uint64_t count = strlen(keys);
@@ -202,13 +202,13 @@ static void write_keys(pen *p, const layer_source *in)
     size_t used = 0;
     if (!count)
         return;
-    for (uint64_t i = 0; i <= BEFORE + AFTER; i++) {
-        const uint64_t tick = now + i - BEFORE; /* from 1; below that it wraps around */
+    for (uint64_t i = 0; i <= KEYS_BEHIND + KEYS_AHEAD; i++) {
+        const uint64_t tick = now + i - KEYS_BEHIND; /* from 1; below that it wraps around */
         const char key = tick - 1 < count ? keys[tick - 1] : ' ';
         used += (size_t)snprintf(text + used, sizeof text - used,
-                                 i != BEFORE  ? "%c "
-                                 : key == ' ' ? " %c  "
-                                              : "[%c] ",
+                                 i != KEYS_BEHIND ? "%c "
+                                 : key == ' '     ? " %c  "
+                                                  : "[%c] ",
                                  key);
     }
     while (used && text[used - 1] == ' ')

@@ -9,6 +9,9 @@
 #include "point_values.h"
 #include "scene.h"
 
+/* A tick's panel has the keys of so many ticks before its own, and after it. */
+enum { KEYS_BEHIND = 5, KEYS_AHEAD = 6 };
+
 /* What the ticks up to one leave behind for its scene. All zero: before tick 0. */
 typedef struct tick_history {
     heat heat; /* where the view shows it */

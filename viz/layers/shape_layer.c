@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* shape_layer.c - the layer of what a session shows beside its points. Ids are places among the tick's shapes. */
 #include "layer_type.h"
+#include "layout.h"
 #include "text.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+
+#define MARK 3 /* half units: half the size of a point's marker */
 
 static bool applies(const layer_source *in)
 {
@@ -20,11 +23,16 @@ static void add_box(scene *s, uint64_t id, const octree_shape *shape, scene_styl
     scene_add_box(s, box);
 }
 
-static void add_label(scene *s, uint64_t id, const octree_shape *shape, scene_style style)
+/* Beside its place, where there is room; else over what is there. */
+static void add_label(scene *s, text_space *words, uint64_t id, const octree_shape *shape, scene_style style)
 {
     _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label holds a shape's text and a blank before it");
-    scene_label label = {.id = id, .in_world = true, .style = style};
+    scene_label label = {.id = id, .style = style};
     label.style.width = 1;
+    snprintf(label.text, sizeof label.text, "%s", shape->text);
+    if (text_add_beside(words, s, label, shape->at, MARK))
+        return;
+    label.in_world = true;
     memcpy(label.at, shape->at, sizeof label.at);
     snprintf(label.text, sizeof label.text, " %s", shape->text); /* the blank leaves room for a marker */
     scene_add_label(s, label);
@@ -32,6 +40,7 @@ static void add_label(scene *s, uint64_t id, const octree_shape *shape, scene_st
 
 static void add(scene *s, const layer_source *in, view_layer own)
 {
+    text_space words = text_space_of(s);
     for (size_t i = 0; i < in->tick->shape_count; i++) {
         const octree_shape *shape = &in->tick->shapes[i];
         const scene_style style = layer_style(own, STROKE_SOLID, 2);
@@ -40,9 +49,9 @@ static void add(scene *s, const layer_source *in, view_layer own)
         else if (shape->kind == OCTREE_SHAPE_SEGMENT)
             scene_add_line(s, i, shape->at, shape->to, style);
         else if (shape->kind == OCTREE_SHAPE_POINT)
-            scene_add_mark(s, i, shape->at, SHAPE_SQUARE, layer_style(own, STROKE_SOLID, 3));
+            scene_add_mark(s, i, shape->at, SHAPE_SQUARE, layer_style(own, STROKE_SOLID, MARK));
         else
-            add_label(s, i, shape, style);
+            add_label(s, &words, i, shape, style);
     }
 }
 
@@ -55,7 +64,8 @@ static void describe(description *d, const described *element)
 {
     const octree_shape *shape = &d->tick->shapes[element->id];
     const bool label = shape->kind == OCTREE_SHAPE_LABEL;
-    say(d, "%sshape %" PRIu64 " of the session, %s %s", label ? ", " : "", element->id, octree_shape_name(shape->kind),
+    const char *ground = element->kind == SCENE_PANEL ? "the ground of " : label ? ", " : "";
+    say(d, "%sshape %" PRIu64 " of the session, %s %s", ground, element->id, octree_shape_name(shape->kind),
         label ? "at " : "");
     say_place(d, shape->at);
     if (shape->kind == OCTREE_SHAPE_BOX || shape->kind == OCTREE_SHAPE_SEGMENT) {

@@ -47,6 +47,7 @@ static const struct {
     {LAYER_SHAPES, SCENE_SEGMENT, "shape 1 of the session, segment (-900, -900, 0) to (900, 900, 0)", false, false},
     {LAYER_SHAPES, SCENE_MARKER, "shape 2 of the session, point (300, -300, 300)", false, false},
     {LAYER_SHAPES, SCENE_LABEL, "text \"goal\", shape 3 of the session, label at (300, -300, 300)", false, false},
+    {LAYER_SHAPES, SCENE_PANEL, "the ground of shape 3 of the session, label at (300, -300, 300)", false, false},
     {LAYER_WRONG, SCENE_MARKER, " the program's answer to the nearest query (answer ", false, true},
     {LAYER_WRONG, SCENE_SEGMENT, "the line to a point that is wrongly in the program's answer", false, false},
     {LAYER_WRONG, SCENE_PANEL, "the ground of words about the program's answer", false, false},

@@ -202,12 +202,55 @@ static void nobody_who_does_not_ask_has_labels(void **state)
     octree_destroy(tree);
 }
 
+/* Nor on a number of an axis; where there is no room at all, a label is there all the same. */
+static void labels_of_shapes_stand_beside_each_other(void **state)
+{
+    (void)state;
+    enum { LABELS = 5 };
+    octree_shape shapes[LABELS] = {{.at = {0, 0, 0}, .text = "one"},
+                                   {.at = {1, 0, 0}, .text = "two, near it"},
+                                   {.at = {990, 990, 0}, .text = "a long one, at the very edge of the world"},
+                                   {.at = {-990, -1000, 0}, .text = "at an axis"},
+                                   {.at = {0, 1, 0}, .text = "three"}};
+    octree_session session = small_session(NULL, 0);
+    session.tree.world = cube(-1000, 1000);
+    session.shapes = shapes;
+    session.shape_count = LABELS;
+    for (int i = 0; i < LABELS; i++) {
+        shapes[i].kind = OCTREE_SHAPE_LABEL;
+        shapes[i].tick = OCTREE_EVERY_TICK;
+    }
+    octree_game *game = start_game(&session);
+    for (int small = 0; small < 2; small++) {
+        const view v = view_of(small ? 64 : 1280, small ? 48 : 720, CAMERA_TOP, VIEW_DEFAULT_LAYERS);
+        scene s = {0};
+        build_tick(&s, &v, game);
+        size_t found = 0;
+        for (size_t i = 0; i < s.labels.count; i++) {
+            const scene_label *label = &s.labels.items[i];
+            const room own = room_of(&s, label->text, label->at[0], label->at[1]);
+            found += label->style.layer == LAYER_SHAPES;
+            for (size_t k = 0; label->style.layer == LAYER_SHAPES && !label->in_world && k < s.labels.count; k++) {
+                const scene_label *other = &s.labels.items[k];
+                const room theirs = room_of(&s, other->text, other->at[0], other->at[1]);
+                assert_true(k == i || other->in_world || other->style.layer > LAYER_SHAPES ||
+                            !overlap(&own, &theirs, 0));
+            }
+            assert_true(label->style.layer != LAYER_SHAPES || small || !label->in_world);
+        }
+        assert_int_equal(found, LABELS);
+        scene_release(&s);
+    }
+    octree_game_destroy(game);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(labels_are_paths_at_their_nodes_wherever_there_is_room),
         cmocka_unit_test(where_all_fit_nothing_is_said),
         cmocka_unit_test(nobody_who_does_not_ask_has_labels),
+        cmocka_unit_test(labels_of_shapes_stand_beside_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
