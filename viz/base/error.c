@@ -17,10 +17,10 @@ bool error_set(octreel_error *error, const char *format, ...)
     vsnprintf(whole, sizeof whole, format, arguments);
     va_end(arguments);
     const size_t length = strlen(whole), room = sizeof error->text - 1;
-    if (length <= room)
-        snprintf(error->text, sizeof error->text, "%s", whole);
-    else
-        snprintf(error->text, sizeof error->text, "...%s", whole + length - room + 3);
+    const size_t left_out = length > room ? length - room : 0;
+    memcpy(error->text, whole + left_out, length - left_out + 1);
+    if (left_out)
+        memcpy(error->text, "...", 3);
     return false;
 }
 

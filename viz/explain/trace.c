@@ -191,7 +191,7 @@ static bool pick(tracer *t, const scene *s, uint32_t *numbers)
     if (t->renderer && renderer_pick(t->renderer, s, numbers, &why))
         return true;
     if (!*t->untraced)
-        snprintf(t->untraced, sizeof t->untraced, "%s", why.text);
+        snprintf(t->untraced, sizeof t->untraced, "%.*s", (int)sizeof t->untraced - 1, why.text);
     return false;
 }
 
