@@ -25,13 +25,19 @@ typedef struct file_set {
 static bool set_aside(file_set *set, const char *from, char *path, octreel_error *error)
 {
     set_file *grown = path ? array_reserve(set->files, set->count + 1, &set->room, sizeof *grown) : NULL;
-    set->files = grown ? grown : set->files;
-    const bool ok = grown ? file_copy_beside(&grown[set->count].copy, from, path, error) : error_no_memory(error);
-    if (ok)
-        set->files[set->count++].path = path;
-    else
+    if (!grown) {
         free(path);
-    return ok;
+        return error_no_memory(error);
+    }
+    set->files = grown;
+    set_file *file = &grown[set->count];
+    file->path = path;
+    if (file_copy_beside(&file->copy, from, path, error)) {
+        set->count++;
+        return true;
+    }
+    free(path);
+    return false;
 }
 
 static bool put_in_place(file_set *set, octreel_error *error)
