@@ -7,6 +7,7 @@
 #include "text.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 /* ---- Statistics ----------------------------------------------------------------------------------------- */
@@ -115,6 +116,26 @@ static void print_box(FILE *out, const char *name, const octree_box *box)
     fputc('\n', out);
 }
 
+static octree_walk_order widen(const octree_node *node, void *context)
+{
+    octree_box *bounds = context;
+    for (size_t i = 0; node->leaf && i < node->count; i++)
+        for (int axis = 0; axis < 3; axis++) {
+            const double at = node->points[i].position[axis];
+            bounds->min[axis] = fmin(bounds->min[axis], at);
+            bounds->max[axis] = fmax(bounds->max[axis], at);
+        }
+    return OCTREE_WALK_ON;
+}
+
+/* The smallest box around the points of a tree that has any. */
+static octree_box bounds_of(const octree *tree)
+{
+    octree_box bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    octree_walk(tree, widen, &bounds);
+    return bounds;
+}
+
 static void print_statistics(const inspection *i, const octree_stats *stats, const char *name, FILE *out)
 {
     const octree_def def = octree_definition(i->tree);
@@ -124,6 +145,10 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
     if (i->skipped)
         fprintf(out, "  skipped   %zu %s\n", i->skipped, i->why_skipped);
     inspect_print_values(i, out);
+    if (stats->points) {
+        const octree_box bounds = bounds_of(i->tree);
+        print_box(out, "  bounds   ", &bounds);
+    }
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
     fprintf(out, "  nodes     %zu (%zu %s); deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,
@@ -168,6 +193,10 @@ static void write_statistics(const inspection *i, const octree_stats *stats, con
     json_member_integer(w, "outside", i->outside);
     json_member_integer(w, "stored", stats->points);
     inspect_write_values(i, w);
+    if (stats->points) {
+        const octree_box bounds = bounds_of(i->tree);
+        json_member_box(w, "bounds", &bounds);
+    }
     json_member_box(w, "world", &def.world);
     json_member_integer(w, "capacity", def.leaf_capacity);
     json_member_integer(w, "max_depth", def.max_depth);

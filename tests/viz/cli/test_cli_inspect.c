@@ -92,8 +92,11 @@ static void assert_occupancy(const json_t *object)
 
 static void assert_adds_up(const json_t *object)
 {
-    assert_members(object, "cloud points skipped refused outside stored world capacity max_depth nodes leaves depth "
-                           "largest_leaf memory nodes_by_depth leaves_by_depth leaves_by_points");
+    assert_members(object, whole(object, "stored")
+                               ? "cloud points skipped refused outside stored bounds world capacity max_depth nodes "
+                                 "leaves depth largest_leaf memory nodes_by_depth leaves_by_depth leaves_by_points"
+                               : "cloud points skipped refused outside stored world capacity max_depth nodes leaves "
+                                 "depth largest_leaf memory nodes_by_depth leaves_by_depth leaves_by_points");
     assert_int_equal(whole(object, "points"),
                      whole(object, "stored") + whole(object, "refused") + whole(object, "outside"));
     assert_int_equal(sum(json_member(object, "leaves_by_depth")), whole(object, "leaves"));
@@ -122,6 +125,24 @@ static void statistics_add_up(void **state)
         assert_string_equal(json_string_value(json_member(object, "cloud")), "points.txt");
         json_decref(object);
     }
+}
+
+/* Of the points that are in the tree, and not of its world. */
+static void the_bounds_are_those_of_the_points(void **state)
+{
+    const place points = place_in(*state, "points.txt");
+    file_write_text(points.path, "1 2 3\n-4 5 6.5\n7 -8 9\n100 100 100\n");
+    command_result result = run_octreel(NULL, "inspect %s --world=-10,-10,-10,10,10,10", points.path);
+    assert_done(&result);
+    assert_non_null(strstr(result.out, "\n  bounds    -4 -8 3  to  7 5 9\n"));
+    command_release(&result);
+    json_t *object = inspect_json(points.path, "--world=-10,-10,-10,10,10,10");
+    const json_t *box = json_member(object, "bounds");
+    static const double ends[2][3] = {{-4, -8, 3}, {7, 5, 9}};
+    for (size_t i = 0; i < 6; i++)
+        assert_true(json_real_value(json_array_get(json_member(box, i < 3 ? "min" : "max"), i % 3)) ==
+                    ends[i / 3][i % 3]);
+    json_decref(object);
 }
 
 static void statistics_for_people_have_the_same_numbers(void **state)
@@ -459,6 +480,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(statistics_add_up),
         IN_FOLDER(statistics_for_people_have_the_same_numbers),
+        IN_FOLDER(the_bounds_are_those_of_the_points),
         IN_FOLDER(nodes_lie_within_their_parents_and_hold_all_points),
         IN_FOLDER(one_node_has_its_box_and_its_points),
         IN_FOLDER(node_that_is_not_there_is_refused_and_nothing_is_made),
