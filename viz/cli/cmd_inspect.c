@@ -321,7 +321,8 @@ const command command_inspect = {
     .usage = "CLOUD [-o PICTURE.png] [OPTION ...]",
     .about = "Build an octree from a point cloud (x y z text, PLY, PCD, LAS or LAZ), print its statistics, and draw "
              "its subdivision. CLOUD may be -, standard input: what it is is told by what it holds, as of a file.\n",
-    .more = "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite "
+    .more = "Text may begin with the names of its columns or, as .pts does, with the number of its points. "
+            "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite "
             "coordinates, or withheld in LAS. LAZ and COPC are read by an octreel that was built with liblaszip "
             "(Debian 13); else, first: pdal translate in.laz out.las\n",
     .examples = "octreel inspect scan.pcd -o tree.png --capacity 32\n"

@@ -311,17 +311,29 @@ static cloud_lines lines_of(const cloud_file *file)
     return lines;
 }
 
+/* The number of points, which is the first line of a .pts file: digits, and nothing else. */
+static bool is_count(cloud_span line, double *count)
+{
+    const char *end;
+    cloud_span rest = line;
+    while (rest.begin < rest.limit && '0' <= *rest.begin && *rest.begin <= '9')
+        rest.begin++;
+    const char *limit = rest.begin;
+    rest.begin = skip_blanks(rest);
+    return limit > line.begin && is_over(rest) && number_parse(line.begin, limit, &end, count);
+}
+
 bool cloud_text_begins(const cloud_file *file)
 {
     cloud_lines lines = lines_of(file);
     cloud_span line;
-    double position[3];
+    double position[3], count;
     char mark = ' ';
     for (bool first = true; cloud_next_line(&lines, &line);) {
         line.begin = skip_blanks(line);
         if (is_over(line))
             continue;
-        if (!first || !is_header(line))
+        if (!first || (!is_header(line) && !is_count(line, &count)))
             return parse_position(file, lines.number, &line, &mark, position);
         first = false;
     }
@@ -361,12 +373,15 @@ static bool is_named_comment(cloud_span *line)
     return is_header(names);
 }
 
-/* A line of names comes before the first point; a comment that names columns may come before it. */
+/* A line of names or a count of points comes before the first point; a comment that names columns may come before it.
+ * Points beyond the count are read as well. */
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
     cloud_lines lines = lines_of(file);
     cloud_span line;
     bool first = true, named = false, has_header = false;
+    double count = 0, points = 0;
+    size_t counted = 0; /* the line of the count */
     while (cloud_next_line(&lines, &line)) {
         cloud_tell(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);
         line.begin = skip_blanks(line);
@@ -379,13 +394,18 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
             columns->count = 0;
             if (!read_header(file, lines.number, line, columns))
                 return false;
+        } else if (first && !has_header && !counted && is_count(line, &count)) {
+            counted = lines.number;
         } else {
             if (!parse_point(file, lines.number, line, named, columns))
                 return false;
             first = false;
+            points++;
         }
     }
-    return true;
+    return points >= count ||
+           cloud_fail_line(file, counted, "counts %.0f points, and there are %.0f: the file is cut short", count,
+                           points);
 }
 
 static bool parse_text(cloud_file *file)

@@ -27,6 +27,9 @@ static void text_is_read_with_any_separator_and_line_end(void **state)
         "x y z\n1 2 3\n-4.5 5e10 0.1\n",
         "# points\n\n\"X\";\"Y\";\"Z\";\"red\"\n1;2;3\n-4.5;5e10;0.1\n",
         "X [m], Y [m], Z [m]\n1,2,3\n-4.5,5e10,0.1\n",
+        "2\n1 2 3\n-4.5 5e10 0.1\n",
+        "2 \r\n1 2 3 -1024 10 20 30\r\n-4.5 5e10 0.1 2047 1 2 3\r\n",
+        "# X Y Z\n1 # at least\n1 2 3\n-4.5 5e10 0.1\n",
     };
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
@@ -60,7 +63,12 @@ static void text_that_is_no_cloud_is_refused_with_its_line(void **state)
         {"", "a.xyz: holds no points"},
         {"\n\n# nothing\n", "a.xyz: holds no points"},
         {"x y z\n", "a.xyz: holds no points"},
-        {"1", "a.xyz:1: has 1 of the three coordinates x y z"},
+        {"1", "a.xyz:1: counts 1 points, and there are 0: the file is cut short"},
+        {"# scan\n3\n1 2 3\n4 5 6\n", "a.xyz:2: counts 3 points, and there are 2: the file is cut short"},
+        {"1 2 3\n7\n4 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
+        {"2\n2\n1 2 3\n4 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
+        {"x y z\n2\n1 2 3\n4 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
+        {"-2\n1 2 3\n", "a.xyz:1: has 1 of the three coordinates x y z"},
         {"1 2 3\n4 5\n", "a.xyz:2: has 2 of the three coordinates x y z"},
         {"1 2 3\n4 # 5 6\n", "a.xyz:2: has 1 of the three coordinates x y z"},
         {"1 2 3\n\n4 five 6\n", "a.xyz:3: 'five' is not a number"},
