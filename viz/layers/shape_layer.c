@@ -40,7 +40,7 @@ static void add_label(scene *s, text_space *words, uint64_t id, const octree_sha
 
 static void add(scene *s, const layer_source *in, view_layer own)
 {
-    text_space words = text_space_of(s);
+    text_space words = {.count = 0}; /* where they stand does not depend on the other layers that are shown */
     for (size_t i = 0; i < in->tick->shape_count; i++) {
         const octree_shape *shape = &in->tick->shapes[i];
         const scene_style style = layer_style(own, STROKE_SOLID, 2);
