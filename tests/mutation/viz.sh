@@ -3,7 +3,7 @@
 # shellcheck shell=sh disable=SC2034,SC2154 # variables of run
 
 sets=whole
-sources='viz/[!fw]*/*.c viz/f[!a]*/*.c' # but faces and web, which are not of the program
+sources='viz/[!f]*/*.c viz/f[!a]*/*.c' # without faces and page/module, which are not linked into the program
 prefix=viz
 
 flags_of()

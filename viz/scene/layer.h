@@ -3,7 +3,7 @@
  *
  * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, a row in the tables of
  * test_describe, test_legend and golden_frames. Data that a tick lacks is added to octree_tick first; a new colour is a
- * row of theme.h; a curve of a recording's page is a line of CURVES in viz/record/page/facts.js.
+ * row of theme.h; a curve of a recording's page is a line of CURVES in viz/page/viewer/facts.js.
  */
 #ifndef SCENE_LAYER_H
 #define SCENE_LAYER_H

@@ -144,7 +144,7 @@ typedef struct view {
     view_diagram diagram; /* of Octreel's tree, whichever the space view shows */
     view_filter filter;
     bool labels;  /* the paths of nodes on their boxes */
-    bool closeup; /* what appears small is shown larger in a part of the picture: frame/closeup_course.h says what */
+    bool closeup; /* what appears small is shown larger in a part of the picture: compose/closeup_course.h says what */
     double lod;   /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
     int aa;       /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
     uint64_t budget; /* the most boxes of nodes of each tree, and the most points, of a frame, and 1000 times the most

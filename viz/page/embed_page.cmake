@@ -43,7 +43,7 @@ math(EXPR behind "${cut} + 7")
 string(SUBSTRING "${page}" 0 ${cut} head)
 string(SUBSTRING "${page}" ${behind} -1 tail)
 
-include(${CMAKE_CURRENT_LIST_DIR}/c_bytes.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/../c_bytes.cmake)
 set(source "#include \"${name}.h\"\n")
 foreach(part head tail)
   string(HEX "${${part}}" bytes)

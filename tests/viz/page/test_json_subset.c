@@ -21,8 +21,8 @@
 #define json_number_value subset_number_value
 json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *error);
 void json_delete(json_t *json);
-#include "../../../viz/web/json_subset.c"
-#include "../../../viz/web/json_values.c"
+#include "../../../viz/page/module/json_subset.c"
+#include "../../../viz/page/module/json_values.c"
 #undef json_loadb
 #undef json_delete
 #undef json_array_size

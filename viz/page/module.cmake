@@ -59,14 +59,14 @@ set(wasm_includes -I${PROJECT_SOURCE_DIR}/lib/include -I${CMAKE_CURRENT_SOURCE_D
 foreach(room exact tree query game)
   list(APPEND wasm_includes -I${PROJECT_SOURCE_DIR}/lib/src/${room})
 endforeach()
-foreach(room base image scene layers frame draw clouds formats record replay)
+foreach(room base image scene layers compose draw clouds formats record replay)
   list(APPEND wasm_includes -I${CMAKE_CURRENT_SOURCE_DIR}/${room})
 endforeach()
 list(APPEND wasm_includes -isystem ${wasm_folder}/include)
 
 # absent.c stands for what a page does not have; of the rest the linker takes what is used.
 file(GLOB wasm_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/src/*/*.c base/*.c image/image.c scene/*.c layers/*.c
-     frame/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c web/*.c)
+     compose/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c page/module/*.c)
 list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read|parallel)\\.c$")
 list(APPEND wasm_sources ${GLYPHS})
 set(wasm_objects "")
@@ -74,8 +74,8 @@ foreach(source ${wasm_sources})
   compile_wasm(${source} wasm_objects)
 endforeach()
 
-file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/web/module.c exports REGEX "^[a-z].* \\**web_[a-z_]+\\(")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS web/module.c) # for its exports
+file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/page/module/module.c exports REGEX "^[a-z].* \\**web_[a-z_]+\\(")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS page/module/module.c) # for its exports
 list(TRANSFORM exports REPLACE "^[^(]*[ *](web_[a-z_]+)\\(.*" "-Wl,--export=\\1")
 # Without -O, which would have clang run wasm-opt where that is installed: it refuses what the stripped module does not
 # say it uses.
@@ -84,7 +84,7 @@ add_custom_command(OUTPUT ${wasm_folder}/octreel.wasm DEPENDS ${wasm_objects} VE
                            -Wl,--strip-all,--compress-relocations -Wl,-z,stack-size=1048576 ${exports}
                            -Wl,--export=web_used -o ${wasm_folder}/octreel.wasm)
 set(PAGE_MODULE ${wasm_folder}/octreel.wasm.letters)
-set(pack ${CMAKE_CURRENT_SOURCE_DIR}/web/pack_module)
+set(pack ${CMAKE_CURRENT_SOURCE_DIR}/page/module/pack_module)
 add_custom_command(OUTPUT ${PAGE_MODULE} DEPENDS ${wasm_folder}/octreel.wasm ${pack} VERBATIM
                    COMMAND sh -c "\"$0\" octreel.wasm >octreel.wasm.letters" ${pack}
                    WORKING_DIRECTORY ${wasm_folder})

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* engine.js - the program itself, as WebAssembly: it plays the session, draws its ticks and answers questions with the
- * code that recorded them. What each function does is said in viz/web/module.c. */
+ * code that recorded them. What each function does is said in viz/page/module/module.c. */
 "use strict";
 
 const NO_FILE = 8; /* EBADF: what every call of a system says, since a page has no files */
@@ -13,7 +13,7 @@ function hasModule()
     return Boolean(moduleText()) && typeof WebAssembly === "object" && typeof DecompressionStream === "function";
 }
 
-/* The bytes of such a text: what viz/web/pack_module makes. */
+/* The bytes of such a text: what viz/page/module/pack_module makes. */
 function unpackLetters(text)
 {
     const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
