@@ -14,12 +14,19 @@
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
 
+/* The separator between a folder and a name. Without it an empty folder leaves the name alone, which is then found in
+ * the current folder; "" and a slash would be the root of the file system. */
+static const char *slash_after(const char *folder)
+{
+    return *folder ? "/" : "";
+}
+
 char *path_join(const char *folder, const char *name)
 {
     const size_t size = strlen(folder) + strlen(name) + 2;
     char *path = malloc(size);
     if (path)
-        snprintf(path, size, "%s/%s", folder, name);
+        snprintf(path, size, "%s%s%s", folder, slash_after(folder), name);
     return path;
 }
 
@@ -34,11 +41,12 @@ static char *parent_of(const char *path)
     return length == 0 ? strdup(".") : strndup(path, length > 1 ? length - 1 : 1);
 }
 
-/* It needs no memory, without which it would find nothing. A longer path names nothing either. */
+/* Uses a buffer on the stack, because with malloc() it would report "missing" when memory runs out. The system refuses
+ * paths of PATH_MAX bytes and more, so a longer path exists nowhere. */
 bool folder_has(const char *folder, const char *name)
 {
     char path[PATH_MAX];
-    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    const int length = snprintf(path, sizeof path, "%s%s%s", folder, slash_after(folder), name);
     struct stat status;
     return length >= 0 && (size_t)length < sizeof path && stat(path, &status) == 0;
 }

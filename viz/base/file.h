@@ -10,10 +10,11 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-/* "folder/name"; owned by the caller, null when there is no memory. */
+/* Returns "folder/name", or the name alone where the folder is "", which is the current folder. The caller frees it.
+ * Returns null when out of memory. */
 char *path_join(const char *folder, const char *name);
 
-/* Whether the folder has anything of this name. */
+/* Whether the folder contains a file or folder of this name. "" is the current folder. */
 bool folder_has(const char *folder, const char *name);
 
 /* Lock a file that is open, for as long as it is; false where somebody has, this process included. A file system

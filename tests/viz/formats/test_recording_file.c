@@ -249,7 +249,7 @@ static void what_is_no_recording_is_refused(void **state)
     octreel_error error;
     assert_false(recording_read(folder->name, &read, &every, &error));
     assert_non_null(strstr(error.text, "recording.json: cannot be opened"));
-    assert_false(recording_read("", &read, &every, &error));
+    assert_false(recording_read(place_in(folder, "absent").path, &read, &every, &error));
     assert_int_equal(mkdir(place_in(folder, "recording.json").path, 0777), 0);
     assert_false(recording_read(folder->name, &read, &every, &error));
 }
