@@ -112,7 +112,8 @@ static void every_line_of_shell_does_what_it_says(void **state)
         }
     }
     assert_true(quoted && run >= 9);
-    static const char *const made_by[] = {"flight", "hunt", "cloud.png", "asked.png", "mine", "baseline.txt", "evidence"};
+    static const char *const made_by[] = {"flight", "hunt",         "cloud.png", "asked.png",
+                                          "mine",   "baseline.txt", "evidence"};
     for (size_t i = 0; i < sizeof made_by / sizeof made_by[0]; i++)
         assert_true(file_exists(place_in(folder, made_by[i]).path));
     free(readme);
