@@ -154,7 +154,7 @@ static bool take_acceptance(diff_side *side, char *line, size_t number, octreel_
     const size_t kind = strcspn(at, " ");
     a.width = size.width;
     a.height = size.height;
-    a.kind = image_digest_kind_of(at, kind);
+    a.kind = image_digest_kind_find(at, kind);
     if (a.kind == IMAGE_DIGEST_KINDS)
         return error_set(error, "%s:%zu: this version knows no digests of the kind \"%.*s\"", side->path, number,
                          kind < 40 ? (int)kind : 40, at);

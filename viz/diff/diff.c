@@ -183,7 +183,7 @@ static void open_reading(reading *r, const char *path, const diff_options *optio
     r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
     if (!r->source)
         return;
-    const image *about = image_source_about(r->source);
+    const image *about = image_source_image(r->source);
     r->rows = options->tolerance.antialias ? about->height : image_band_rows(about);
 }
 
@@ -206,7 +206,7 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
     image bands[2];
     bool more[2] = {true, true};
     if (opened)
-        c = image_comparison_begin(image_source_about(of[0].source), image_source_about(of[1].source), tolerance);
+        c = image_comparison_begin(image_source_image(of[0].source), image_source_image(of[1].source), tolerance);
     while (!failed(&of[0]) && (more[0] || more[1])) {
         for (int i = 0; i < 2; i++)
             more[i] = next_rows(&of[i], &bands[i]);
@@ -219,17 +219,17 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
 static void judge(diff_pair *pair, const reading of[2], const image_tolerance *tolerance)
 {
     for (int i = 0; i < 2; i++) {
-        const image *about = image_source_about(of[i].source);
+        const image *about = image_source_image(of[i].source);
         pair->about[i] = (frame_digest){.width = about->width, .height = about->height};
         pair->transparent = pair->transparent || about->transparent;
     }
     pair->other_color_space =
-        image_source_about(of[0].source)->color_space != image_source_about(of[1].source)->color_space;
+        image_source_image(of[0].source)->color_space != image_source_image(of[1].source)->color_space;
     if (!pair->difference.same_size)
         pair->finding = FOUND_SIZE;
-    else if (image_same(&pair->difference))
+    else if (image_is_same(&pair->difference))
         pair->finding = FOUND_SAME_PIXELS;
-    else if (image_forgiven(&pair->difference, tolerance))
+    else if (image_is_within(&pair->difference, tolerance))
         pair->finding = FOUND_WITHIN;
     else
         pair->finding = FOUND_PIXELS;

@@ -180,7 +180,7 @@ bool digest_frame(const char *path, image_color background, frame_digest *digest
 {
     image about;
     uint64_t pixels;
-    if (!image_digest_png_of(digest->kind, path, background, &about, &pixels, error))
+    if (!image_digest_png_by(digest->kind, path, background, &about, &pixels, error))
         return false;
     *digest = (frame_digest){pixels, about.width, about.height, digest->kind, 0};
     return true;

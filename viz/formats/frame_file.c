@@ -110,7 +110,7 @@ static bool check_pixels(const char *path, frame_origin *origin, octreel_error *
     uint64_t told = 0;
     origin->kind = IMAGE_DIGEST_NEWEST;
     const bool tells = read_pixels(path, &origin->kind, &told, error);
-    if (!image_digest_png_of(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &unread))
+    if (!image_digest_png_by(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &unread))
         return error_set(error, "%s", unread.text);
     return tells && (told == origin->pixels || error_set(error, "%s: %s", path, unlike_pixels));
 }

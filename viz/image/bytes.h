@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* bytes.h - bytes, eight at a time. */
+/* bytes.h - compares and searches bytes eight at a time, without alignment or byte-order requirements. */
 #ifndef IMAGE_BYTES_H
 #define IMAGE_BYTES_H
 
@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Eight bytes as a word whose lowest is the first, on every machine; compilers make one instruction of it. */
+/* Load eight bytes, little-endian on every machine. Compilers turn it into one load. */
 static inline uint64_t bytes_load(const uint8_t *at)
 {
     return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
@@ -26,8 +26,8 @@ static inline void bytes_store(uint8_t *to, uint64_t word)
     to[7] = (uint8_t)(word >> 56);
 }
 
-/* How many bytes of a word that is not zero are zero before the first that is not. */
-static inline size_t bytes_zero_before(uint64_t word)
+/* The number of zero bytes before the first non-zero byte of a non-zero word. */
+static inline size_t bytes_count_leading_zeros(uint64_t word)
 {
 #ifdef __GNUC__
     return (size_t)__builtin_ctzll(word) / 8;
@@ -39,21 +39,21 @@ static inline size_t bytes_zero_before(uint64_t word)
 #endif
 }
 
-/* The highest bit of each byte that is zero. */
-static inline uint64_t bytes_zero(uint64_t word)
+/* A word with the highest bit set in each byte that is zero in `word`. */
+static inline uint64_t bytes_mark_zeros(uint64_t word)
 {
     const uint64_t low = UINT64_C(0x7f7f7f7f7f7f7f7f);
     return ~(((word & low) + low) | word | low);
 }
 
-/* How many bytes are equal before the first two that differ. */
-static inline size_t bytes_alike(const uint8_t *a, const uint8_t *b, size_t size)
+/* The length of the common prefix of a and b, at most `size`. */
+static inline size_t bytes_common_prefix(const uint8_t *a, const uint8_t *b, size_t size)
 {
     size_t at = 0;
     for (; at + 8 <= size; at += 8) {
         const uint64_t unlike = bytes_load(a + at) ^ bytes_load(b + at);
         if (unlike != 0)
-            return at + bytes_zero_before(unlike);
+            return at + bytes_count_leading_zeros(unlike);
     }
     while (at < size && a[at] == b[at])
         at++;

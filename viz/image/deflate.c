@@ -1,4 +1,18 @@
 /* SPDX-License-Identifier: MIT */
+/* deflate.c - finds the repeats in a picture's rows; deflate_block.c writes them.
+ *
+ * Deflate (RFC 1951) describes bytes as literals and as repeats (length, distance) of bytes up to 32768 back. General
+ * encoders find repeats by hashing every position, which costs most of their time. In a drawn picture nearly all
+ * useful repeats lie at two known distances: one pixel back (a run of one colour) and one row back (the row above). So
+ * this encoder compares with these two places first, eight bytes at a time, and skips over equal bytes without looking
+ * at each. Only RGB pictures, whose pixels cost three literals, also use a small hash table for other distances. Where
+ * the next position has a clearly better repeat, one literal is written first (lazy matching, as in zlib).
+ *
+ * The Adler-32 checksum costs nothing for bytes that equal the row above: both of its sums are linear in the bytes, so
+ * only the change from one row to the next is added; see end_row().
+ *
+ * Cost: O(bytes). Result: smaller than zlib level 6 and faster than level 1 on indexed line drawings.
+ */
 #include "deflate.h"
 #include "bytes.h"
 #include "deflate_block.h"
@@ -7,48 +21,49 @@
 #include <string.h>
 
 enum {
-    CHUNK = 32 << 10, /* so many bytes are collected before they are looked at: they stay in the nearest cache */
-    WORD = 8,         /* so many bytes after the last are read, and do not matter */
+    CHUNK = 32 << 10, /* bytes collected before they are encoded: they fit the L1 cache */
+    WORD = 8,         /* readable bytes after the window's end; their values do not matter */
 
-    /* Rough sizes in bits, by which repeats are chosen: of a byte that has no repeat, and of a repeat of the pixel
-     * before, of the row above, and of anything else. */
+    /* Estimated sizes in bits, used to choose among repeats: of a literal, and of a repeat of the pixel before, of the
+     * row above, and at any other distance. */
     BYTE_BITS = 3,
     RUN_BITS = 6,
     ABOVE_BITS = 14,
     FAR_BITS = 16,
-    LONG_REPEAT = 64, /* is taken without looking for a better one */
+    LONG_REPEAT = 64, /* a repeat of at least this length is used without looking for a better one */
 
     HASH_BITS = 12,
-    HASHED = 6, /* bytes: two pixels of a picture without palette */
+    HASHED = 6, /* bytes per hash: two RGB pixels */
     ADLER_BASE = 65521,
 };
 
 struct deflater {
     size_t stride, rows, pixel;
-    size_t kept; /* bytes before the present one that are to stay in the window */
-    size_t room; /* of the window */
-    size_t end;  /* of the bytes in it */
-    size_t at;   /* the first that has no token yet */
+    size_t kept; /* bytes of history that slide() keeps in the window */
+    size_t room; /* size of the window */
+    size_t end;  /* end of the bytes in the window */
+    size_t at;   /* the first byte without a token */
     bool begun;
-    bool above;            /* the row above can be repeated */
-    size_t block;          /* where the bytes of the block begin, */
-    bool block_whole;      /* if they are all in the window still */
+    bool above;            /* the row above is near enough to be repeated */
+    size_t block;          /* where the current block's bytes begin in the window */
+    bool block_whole;      /* all bytes of the current block are still in the window */
     size_t unsummed;       /* the first byte whose change is not in the sums */
-    size_t row;            /* where the row of that byte begins, */
-    size_t rows_left;      /* how many there are from this one on, */
-    int64_t row_change;    /* and how its bytes so far differ from those above: the sum, */
-    int64_t row_by_column; /* and that of each times its column */
-    int64_t sums[2];       /* of the Adler-32, without what they begin with */
+    size_t row;            /* where the row of `unsummed` begins */
+    size_t rows_left;      /* the number of rows from that row on, itself included */
+    int64_t row_change;    /* sum of (byte - byte above) over the summed part of that row */
+    int64_t row_by_column; /* sum of (byte - byte above) * column over the same part */
+    int64_t sums[2];       /* the two sums of Adler-32, without their initial values */
     deflate_blocks blocks;
-    uint32_t heads[1 << HASH_BITS]; /* of RGB: where bytes with this hash were met last */
-    uint8_t *window;                /* a row of zeros stands before the first row */
+    uint32_t heads[1 << HASH_BITS]; /* RGB only: the last position of bytes with each hash; 0: none */
+    uint8_t *window;                /* begins with a row of zeros, the row above the first row */
 };
 
 /* ---- Adler-32 ------------------------------------------------------------------------------------------------ */
 
-/* Both sums are linear, so a byte that is equal to the one above it costs nothing: the change from the byte above
- * counts once for each of the m rows from this one on. The first sum has it m times, the second m * (m + 1) / 2 *
- * stride less m times its column. */
+/* Both sums of Adler-32 are linear in the bytes, so that a byte equal to the byte above costs nothing. A change c from
+ * the byte above, at column x, persists through the remaining m rows (this one included). It adds m * c to the first
+ * sum and (m * (m + 1) / 2 * stride - m * x) * c to the second, which weights each byte by its distance from the end.
+ */
 static void end_row(deflater *d)
 {
     const int64_t m = (int64_t)d->rows_left--, plain = d->row_change % ADLER_BASE;
@@ -72,10 +87,10 @@ static void add_change(deflater *d, size_t from, size_t end)
     d->row_by_column += by_place + (int64_t)(from - d->row) * plain;
 }
 
-/* The bytes before `end` do not repeat the row above, as far as is known. */
+/* Sum the changes of all bytes up to `end` that were not skipped as repeats of the row above. */
 static void add_changes(deflater *d, size_t end)
 {
-    enum { MOST = 256 }; /* products with places fit 32 bits */
+    enum { MOST = 256 }; /* the sum of this many products fits 32 bits */
     for (size_t at = d->unsummed, next; at < end; at = next) {
         while (at - d->row >= d->stride)
             end_row(d);
@@ -89,7 +104,7 @@ static void add_changes(deflater *d, size_t end)
 static uint32_t find_adler32(deflater *d)
 {
     end_row(d);
-    const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE; /* the second sum has the first's 1 so often */
+    const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE; /* the first sum's initial 1, added per byte */
     const int64_t first = (d->sums[0] + 1 + ADLER_BASE) % ADLER_BASE;
     const int64_t second = (d->sums[1] + each + ADLER_BASE) % ADLER_BASE;
     return (uint32_t)second << 16 | (uint32_t)first;
@@ -110,7 +125,7 @@ static void put_bytes(deflater *d, size_t count)
     d->at += count;
 }
 
-/* Whether so many bytes repeat the pixel before them, which takes the fewest bits. */
+/* Whether the next `size` bytes repeat the pixel before them: the repeat that takes the fewest bits. */
 static inline bool is_run(const deflater *d, size_t size)
 {
     const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;
@@ -135,31 +150,32 @@ static void put_repeat(deflater *d, size_t length, size_t distance)
     }
 }
 
-/* How many bytes there are before the next at which a repeat may begin, of a group. */
+/* The number of literals, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin. */
 static inline size_t count_single(const deflater *d)
 {
     const uint8_t *at = d->window + d->at;
     const uint64_t word = bytes_load(at);
-    const uint64_t run = bytes_zero(word ^ bytes_load(at - d->pixel));
-    const uint64_t above = d->above ? bytes_zero(word ^ bytes_load(at - d->stride)) : 0;
+    const uint64_t run = bytes_mark_zeros(word ^ bytes_load(at - d->pixel));
+    const uint64_t above = d->above ? bytes_mark_zeros(word ^ bytes_load(at - d->stride)) : 0;
     const uint64_t three = (run & run >> 8 & run >> 16) | (above & above >> 8 & above >> 16);
-    const size_t count = bytes_zero_before(three | UINT64_C(0x80) << (8 * DEFLATE_GROUP)), left = d->end - d->at;
+    const size_t count = bytes_count_leading_zeros(three | UINT64_C(0x80) << (8 * DEFLATE_GROUP)),
+                 left = d->end - d->at;
     return count < left ? count : left;
 }
 
 typedef struct repeat {
     size_t length, distance;
-    int64_t gain; /* in bits; none where it is not above 0, and then it is not to be used */
+    int64_t gain; /* estimated bits saved; a repeat with a gain <= 0 is not used */
 } repeat;
 
 static inline repeat repeat_at(const deflater *d, size_t at, size_t distance, int64_t cost)
 {
     const uint8_t *bytes = d->window + at;
-    const size_t length = bytes_alike(bytes, bytes - distance, d->end - at);
+    const size_t length = bytes_common_prefix(bytes, bytes - distance, d->end - at);
     return (repeat){length, distance, (int64_t)length * BYTE_BITS - cost};
 }
 
-/* The place where the same bytes may have been met last; `at` where there is none. */
+/* The last position with the same hash, which becomes `at`. Returns `at` if there is none within reach. */
 static inline size_t last_place(deflater *d, size_t at)
 {
     const uint64_t bytes = bytes_load(d->window + at) << (8 * (WORD - HASHED));
@@ -169,7 +185,7 @@ static inline size_t last_place(deflater *d, size_t at)
     return place > 0 && at - place <= DEFLATE_FARTHEST ? place : at;
 }
 
-/* The repeat that is likely to save most. */
+/* Find the repeat at `at` with the largest estimated gain. */
 static inline repeat find_repeat(deflater *d, size_t at)
 {
     repeat best = {.gain = 0};
@@ -187,7 +203,8 @@ static inline repeat find_repeat(deflater *d, size_t at)
     return far.gain > best.gain ? far : best;
 }
 
-/* Indices are cheap one by one; it does not pay to look for their repeats in other places. */
+/* Encode the next literals or the next repeat. An index costs few bits as a literal, so that looking for repeats at
+ * every index does not pay: those before the next possible repeat are skipped together. */
 static void put_next(deflater *d)
 {
     if (d->pixel == 1) {
@@ -222,7 +239,7 @@ static void put_all(deflater *d)
 
 /* ---- The window ---------------------------------------------------------------------------------------------- */
 
-/* Move what is to stay to the window's beginning. */
+/* Move the history that is kept to the window's beginning. */
 static void slide(deflater *d)
 {
     if (d->end <= d->kept)
@@ -230,7 +247,7 @@ static void slide(deflater *d)
     const size_t by = d->end - d->kept;
     memmove(d->window, d->window + by, d->kept);
     d->block_whole = d->block_whole && d->block >= by;
-    d->block -= by; /* may wrap: only its distance is used then */
+    d->block -= by; /* may wrap around: then only its distance from `at` is used */
     d->row -= by;
     d->at -= by;
     d->unsummed -= by;
@@ -250,7 +267,7 @@ void deflater_add(deflater *d, const uint8_t *pixels)
     d->end += d->stride;
     if (d->begun)
         return;
-    put_bytes(d, d->pixel); /* which stand before all that could be repeated */
+    put_bytes(d, d->pixel); /* the first bytes have nothing before them to repeat */
     put_all(d);
     d->begun = true;
     d->above = d->stride <= DEFLATE_FARTHEST;
@@ -274,7 +291,7 @@ deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink
     d->end = d->at = d->block = d->unsummed = d->row = row_size;
     d->block_whole = true;
     deflate_blocks_begin(&d->blocks, sink, context);
-    deflate_write_bytes(&d->blocks, (const uint8_t[]){0x78, 0x01}, 2); /* a window of 32 KiB, the fastest level */
+    deflate_write_bytes(&d->blocks, (const uint8_t[]){0x78, 0x01}, 2); /* zlib header: 32 KiB window, fastest level */
     return d;
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* deflate.h - the rows of a picture to a zlib stream (RFC 1950 and 1951), in one pass.
+/* deflate.h - compresses the rows of a picture into a zlib stream (RFC 1950 and 1951) in one pass.
  *
- * It is made for pictures that are drawn: most of a row repeats the row above or is a run of one colour. The same rows
- * make the same bytes on every machine.
+ * The encoder is tuned for drawn pictures, where most of a row repeats the row above or is a run of one colour. The
+ * same rows produce the same bytes on every machine.
  */
 #ifndef IMAGE_DEFLATE_H
 #define IMAGE_DEFLATE_H
@@ -11,20 +11,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Takes the next bytes of the stream. It may jump out of the encoder, which can then only be closed. */
+/* Receives the next bytes of the stream. It may leave by longjmp; the encoder can then only be closed. */
 typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 
 typedef struct deflater deflater;
 
-/* An encoder for so many rows of `row_size` bytes each, with 1 or 3 bytes a pixel. Null without memory: it takes 170 KB
- * and three rows. */
+/* Create an encoder for `rows` rows of `row_size` bytes each, with `pixel` bytes (1 or 3) per pixel. Memory: 170 KB and
+ * three rows. Returns null if memory runs out. */
 deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context);
 void deflater_close(deflater *d); /* null is allowed */
 
-/* The next row, as PNG has it: a zero, which says that it is not filtered, and row_size - 1 bytes of pixels. */
+/* Append the next row: PNG's filter byte 0 (no filter) and then row_size - 1 bytes of pixels. */
 void deflater_add(deflater *d, const uint8_t *pixels);
 
-/* After the last row, hand the rest of the stream to the sink. */
+/* Call after the last row: passes the rest of the stream to the sink. */
 void deflater_finish(deflater *d);
 
 #endif

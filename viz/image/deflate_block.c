@@ -1,4 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+/* deflate_block.c - entropy coding of deflate (RFC 1951, 3.2): tokens become a block of bits.
+ *
+ * Each block may have its own Huffman codes, one for literals and lengths and one for distances. The block's header
+ * lists the lengths of their code words, run-length encoded and themselves Huffman coded (the "precode"). For each
+ * block this file counts the symbols, builds both codes, computes the exact size of the block with these codes, with
+ * the fixed codes of the standard, and stored without compression, and writes the smallest.
+ *
+ * Bits are collected in a 64-bit word and moved to the output in whole bytes (settle()). Literals and repeats take the
+ * same path without a branch, because the kind of the next token is unpredictable: list_beginnings() prepares, for
+ * each of the 512 token kinds, the bits of the symbol together with the extra bits of a length.
+ */
 #include "deflate_block.h"
 #include "bytes.h"
 
@@ -8,9 +19,11 @@ enum {
     PRECODE_SYMBOLS = 19,
     LONGEST_PRECODE = 7,
     HEADER_ROOM = DEFLATE_LITERALS + DEFLATE_DISTANCES,
-    /* bytes: 48 bits a token and less than 16 a length of a code, and some to spare */
+    /* The largest block in bytes: at most 48 bits a token and 16 bits a code length, rounded up generously. */
     MOST_OF_BLOCK = 6 * (BLOCK_TOKENS + BLOCK_SPARE) + 2 * HEADER_ROOM + 64
 };
+
+/* RFC 1951, 3.2.5: the smallest length or distance of each symbol, and the number of extra bits. */
 
 static const uint16_t length_bases[] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
                                         31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
@@ -53,7 +66,7 @@ void deflate_flush(deflate_blocks *b)
         b->sink(b->context, b->output, size);
 }
 
-/* The state of writing, in registers. */
+/* A local copy of the writer's state, so that the compiler keeps it in registers. */
 typedef struct bit_writer {
     uint64_t bits;
     int count;
@@ -72,14 +85,14 @@ static inline void end_bits(deflate_blocks *b, const bit_writer *w)
     b->size = (size_t)(w->to - b->output);
 }
 
-/* At most 56 bits between two settle(). */
+/* Append bits; at most 56 between two calls of settle(). */
 static inline void put(bit_writer *w, uint32_t bits, int count)
 {
     w->bits |= (uint64_t)bits << w->count;
     w->count += count;
 }
 
-/* Move whole bytes to the output, which has room for a block. */
+/* Move whole bytes to the output, where deflate_write_block() reserved room for the block. */
 static inline void settle(bit_writer *w)
 {
     bytes_store(w->to, w->bits);
@@ -111,9 +124,9 @@ void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
     }
 }
 
-/* ---- The code of codes --------------------------------------------------------------------------------------- */
+/* ---- Block headers ------------------------------------------------------------------------------------------- */
 
-/* The lengths of both codes' codes, in runs: symbols of the precode, and the bits that follow each. */
+/* The code lengths of both codes, run-length encoded: symbols of the precode and the extra bits of each. */
 typedef struct header {
     uint8_t symbols[HEADER_ROOM], extra[HEADER_ROOM];
     size_t count;
@@ -122,7 +135,7 @@ typedef struct header {
     uint32_t counts[PRECODE_SYMBOLS];
 } header;
 
-static const uint8_t extra_of_run[] = {2, 3, 7}; /* of symbols 16 to 18 */
+static const uint8_t extra_of_run[] = {2, 3, 7}; /* number of extra bits of the precode symbols 16 to 18 */
 
 static void add_run(header *h, unsigned symbol, size_t extra)
 {
@@ -253,13 +266,13 @@ static void count_tokens(deflate_blocks *b)
         b->literal_counts[DEFLATE_END + 1 + b->length_symbols[more]] += kinds[DEFLATE_REPEAT + more];
 }
 
-/* Bits that are written together. */
+/* Bits that are written by one put(). */
 typedef struct bit_string {
     uint32_t bits;
     int32_t count;
 } bit_string;
 
-/* What each kind of token begins with: its symbol, and what is added to a length's least. */
+/* The first bits of each kind of token: the code word of its symbol, then the extra bits of a length. */
 static void list_beginnings(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
 {
     const huffman_code *code = &b->literals;
@@ -273,7 +286,6 @@ static void list_beginnings(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
     }
 }
 
-/* The same for bytes and repeats, since which of them comes next cannot be foreseen. */
 static void put_tokens(bit_writer *to, deflate_blocks *b)
 {
     bit_string beginnings[TOKEN_KINDS];
@@ -307,7 +319,7 @@ static void write_stored(deflate_blocks *b, const uint8_t *bytes, size_t size, b
     deflate_write_bytes(b, bytes, size);
 }
 
-/* `h`: of the code that was made for the tokens; null for the fixed one. */
+/* `h`: the header of the block's own codes; null for the fixed codes. */
 static void write_coded(deflate_blocks *b, const header *h, bool last)
 {
     bit_writer w = begin_bits(b);
@@ -337,8 +349,8 @@ void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, b
     } else if (dynamic_bits < fixed_bits) {
         write_coded(b, &h, last);
     } else {
-        huffman_number(&fixed[0], DEFLATE_LITERALS);
-        huffman_number(&fixed[1], DEFLATE_DISTANCES);
+        huffman_assign_bits(&fixed[0], DEFLATE_LITERALS);
+        huffman_assign_bits(&fixed[1], DEFLATE_DISTANCES);
         b->literals = fixed[0];
         b->distances = fixed[1];
         write_coded(b, NULL, last);

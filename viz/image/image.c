@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* image.c - allocates images, reads single pixels, and shrinks supersampled images. */
 #include "image.h"
 
 #include <stdlib.h>
@@ -26,7 +27,7 @@ void image_release(image *image)
     memset(image, 0, sizeof *image);
 }
 
-bool image_has_colors(const image *image)
+bool image_indices_are_valid(const image *image)
 {
     const size_t size = (size_t)image->width * (size_t)image->height;
     uint8_t largest = 0;
@@ -52,9 +53,9 @@ image_color image_color_at(const image *image, int x, int y)
     return (image_color){narrow(samples[0]), narrow(samples[1]), narrow(samples[2])};
 }
 
-/* ---- Fewer pixels ------------------------------------------------------------------------------------------- */
+/* ---- Shrinking ---------------------------------------------------------------------------------------------- */
 
-/* One block of samples, whose first is at `at`. */
+/* A square block of pixels of `of` that becomes one pixel; its top left pixel is at offset `at`. */
 typedef struct block {
     const image *of;
     const uint8_t *own;
@@ -62,7 +63,7 @@ typedef struct block {
     int side;
 } block;
 
-/* Most blocks are of one colour of the palette. */
+/* Whether all pixels of the block have the same colour of the palette: the common case, which needs no mean. */
 static bool is_flat(const block *b)
 {
     const uint8_t *at = b->of->pixels + b->at;
@@ -87,7 +88,7 @@ static image_color sample_at(const block *b, size_t at)
 static image_color mean_of(const block *b)
 {
     const unsigned count = (unsigned)(b->side * b->side);
-    unsigned sums[3] = {count / 2, count / 2, count / 2}; /* to the nearest */
+    unsigned sums[3] = {count / 2, count / 2, count / 2}; /* half a unit, so that the division rounds to nearest */
     for (int y = 0; y < b->side; y++) {
         for (int x = 0; x < b->side; x++) {
             const image_color color = sample_at(b, b->at + (size_t)y * (size_t)b->of->width + (size_t)x);

@@ -1,4 +1,14 @@
 /* SPDX-License-Identifier: MIT */
+/* image_compare.c - counting differing pixels, forgiving some of them, and drawing the result.
+ *
+ * The common case is two equal images. If both are stored alike (same format, same palette), equal bytes mean equal
+ * colours: spans are compared by memcmp, and within a differing span the common prefix is skipped eight bytes at a
+ * time. Only differing pixels are expanded to r, g, b and measured; neighbours often have the same pair of colours, so
+ * the last measurement is kept. An identical picture thus costs about as much as reading it.
+ *
+ * Colour distances use only sums and products of doubles, and squares until the very end, so that every machine gets
+ * the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see below.
+ */
 #include "image_compare.h"
 #include "bytes.h"
 
@@ -18,26 +28,26 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* ---- Pixels as samples, however an image stores them --------------------------------------------------------- */
+/* ---- Pixels as r, g, b, whatever the image's format ---------------------------------------------------------- */
 
-/* The measure's value for its two farthest colours of 8 bits a sample. */
+/* The largest squared distance of two colours with 8 bits a sample. */
 #define LARGEST 35215.0
 
-/* Colours are compared in spans of this many pixels, small enough for the stack and the first cache. */
+/* Colours are compared in spans of this many pixels, which fit the stack and the L1 cache. */
 #define SPAN 128
 
-/* Red, green and blue of a pixel, 8 bits each or 16. */
+/* Red, green and blue of a pixel, with 8 or 16 bits each. */
 typedef struct pixel_samples {
     uint16_t of[3];
 } pixel_samples;
 
-/* What samples of both images are out of. */
+/* The largest sample value to which both images are expanded. */
 static int samples_range(const image *a, const image *b)
 {
     return a->wide || b->wide ? 65535 : 255;
 }
 
-/* `count` pixels from the n-th on, as wide as the range. */
+/* Read `count` pixels from the n-th pixel on, and scale their samples to the range. */
 static void samples_read(const image *image, size_t n, int count, int range, pixel_samples *span)
 {
     const size_t step = image_pixel_size(image);
@@ -60,8 +70,8 @@ static bool samples_equal(const pixel_samples *a, const pixel_samples *b)
     return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
 }
 
-/* The square of the distance in IMAGE_DELTA_UNIT, in sums and products of doubles: the same on every machine. The
- * conversion to YIQ is linear, so that of the difference is taken: exact zeros for equal samples, no cancellation. */
+/* The squared distance in units of IMAGE_DELTA_UNIT. The conversion to YIQ is linear, so the difference is converted
+ * instead of the colours: equal samples give exactly 0, and nothing cancels. */
 static double delta_square(const pixel_samples *a, const pixel_samples *b, int range)
 {
     const double r = a->of[0] - b->of[0], g = a->of[1] - b->of[1], u = a->of[2] - b->of[2];
@@ -74,20 +84,21 @@ static double delta_square(const pixel_samples *a, const pixel_samples *b, int r
 
 /* ---- Anti-aliased edges --------------------------------------------------------------------------------------
  *
- * After V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009, as in pixelmatch and odiff: a pixel on
- * such an edge has both a darker and a brighter neighbour, and at most two neighbours as bright as itself; and its
- * darkest or its brightest neighbour lies in a patch of one colour in both images: three of that one's neighbours have
- * its colour. What lies beyond the border counts as one equal neighbour.
+ * Source: V. Vysniauskas, "Anti-aliased Pixel and Intensity Slope Detector", 2009, as in pixelmatch and odiff. A pixel
+ * lies on an anti-aliased edge if it has both a darker and a brighter neighbour, fewer than three neighbours as bright
+ * as itself, and if its darkest or its brightest neighbour lies in a patch of one colour in both images. A pixel lies
+ * in a patch if at least three of its neighbours have its colour. At the image's border, the missing neighbours count
+ * as one equal neighbour.
  */
 
-/* Three equal neighbours make a patch; a pixel with as many is itself in one. */
+/* The number of equal neighbours that make a patch. */
 #define PATCH 3
 
-/* A pixel and its neighbours: the part of 3 x 3 that lies within the image. */
+/* A pixel and the part of its 3 x 3 neighbourhood inside the image. */
 typedef struct window {
     int x, y;
     int left, right, top, bottom;
-    int equal_outside; /* 1 at the border */
+    int equal_outside; /* 1 at the image's border, else 0 */
 } window;
 
 static window window_at(const image *image, int x, int y)
@@ -101,18 +112,18 @@ static window window_at(const image *image, int x, int y)
     return w;
 }
 
-/* Luma in 1e-8 of a level: whole numbers, so that equal means equal. */
+/* Luma in units of 1e-8 of a level: integers, so that comparisons are exact. */
 static int64_t brightness(const image *image, int x, int y)
 {
     const image_color color = image_color_at(image, x, y);
     return INT64_C(29889531) * color.r + INT64_C(58662247) * color.g + INT64_C(11448223) * color.b;
 }
 
-static bool in_patch(const image *image, int x, int y)
+static bool is_in_patch(const image *image, int x, int y)
 {
     const window w = window_at(image, x, y);
     const image_color own = image_color_at(image, x, y);
-    int equal = w.equal_outside - 1; /* the pixel meets itself too */
+    int equal = w.equal_outside - 1; /* the loop counts the pixel itself, too */
     for (int j = w.top; j <= w.bottom; j++) {
         for (int i = w.left; i <= w.right; i++) {
             const image_color color = image_color_at(image, i, j);
@@ -122,14 +133,14 @@ static bool in_patch(const image *image, int x, int y)
     return equal >= PATCH;
 }
 
-/* A neighbour and by how much it is brighter. */
+/* A neighbour, and how much brighter it is than the pixel. */
 typedef struct neighbor {
     int x, y;
     int64_t brighter;
 } neighbor;
 
-/* The darkest and the brightest neighbour, of equals the first, column by column. False when there are not both, or
- * when too many are as bright as the pixel itself. */
+/* Find the darkest and the brightest neighbour; among equals the first, column by column. Returns false if no neighbour
+ * is darker, none is brighter, or PATCH neighbours are as bright as the pixel. */
 static bool find_slope(const image *image, int x, int y, neighbor *darkest, neighbor *brightest)
 {
     const window w = window_at(image, x, y);
@@ -149,29 +160,29 @@ static bool find_slope(const image *image, int x, int y, neighbor *darkest, neig
     return equal < PATCH && darkest->brighter < 0 && brightest->brighter > 0;
 }
 
-static bool on_edge(const image *of, const image *other, int x, int y)
+static bool is_on_edge(const image *of, const image *other, int x, int y)
 {
     neighbor darkest, brightest;
     return find_slope(of, x, y, &darkest, &brightest) &&
-           ((in_patch(of, darkest.x, darkest.y) && in_patch(other, darkest.x, darkest.y)) ||
-            (in_patch(of, brightest.x, brightest.y) && in_patch(other, brightest.x, brightest.y)));
+           ((is_in_patch(of, darkest.x, darkest.y) && is_in_patch(other, darkest.x, darkest.y)) ||
+            (is_in_patch(of, brightest.x, brightest.y) && is_in_patch(other, brightest.x, brightest.y)));
 }
 
-/* Whether a pixel lies on an anti-aliased edge of either image. Both have the same size. Reads 5 x 5 pixels. */
+/* Whether the pixel lies on an anti-aliased edge of either image; both have the same size. Reads 5 x 5 pixels. */
 static bool is_antialiased(const image *a, const image *b, int x, int y)
 {
-    return on_edge(a, b, x, y) || on_edge(b, a, x, y);
+    return is_on_edge(a, b, x, y) || is_on_edge(b, a, x, y);
 }
 
 /* ---- Counting ------------------------------------------------------------------------------------------------ */
 
-/* The next rows of both images. */
+/* A band of rows of both images. */
 typedef struct rows {
     const image *a, *b;
-    int first; /* their place in the whole */
+    int first; /* the y of the band's first row */
 } rows;
 
-/* Whether equal bytes mean equal colours. Whole palettes are compared: unused entries are zero. */
+/* Whether equal bytes mean equal colours. Palettes can be compared as a whole because unused entries are zero. */
 static bool stored_alike(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)
@@ -179,6 +190,7 @@ static bool stored_alike(const image *a, const image *b)
     return a->channels == 3 || memcmp(a->palette.colors, b->palette.colors, sizeof a->palette.colors) == 0;
 }
 
+/* Measure a pair of colours into c->last_square and c->last_channel. */
 static void measure(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
     if (memcmp(a, c->last[0], sizeof *a) == 0 && memcmp(b, c->last[1], sizeof *b) == 0)
@@ -208,10 +220,11 @@ static void add_pixel(image_tally *tally, int x, int y, const image_comparison *
     tally->max_y = y; /* rows come in order */
 }
 
-typedef enum forgiven { COUNTED, IGNORED, CLOSE, ANTIALIASED } forgiven;
+typedef enum verdict { COUNTED, IGNORED, CLOSE, ANTIALIASED } verdict;
 
-/* Why an unlike pixel is forgiven, or not; y is its row among these, `square` its delta's. */
-static forgiven forgive(const image_tolerance *t, const rows *r, int x, int y, double square)
+/* Decide whether a differing pixel counts, or why it is forgiven. y is its row within the band, `square` its squared
+ * colour distance. */
+static verdict judge_pixel(const image_tolerance *t, const rows *r, int x, int y, double square)
 {
     if (image_is_ignored(t, r->a->width, x, r->first + y))
         return IGNORED;
@@ -225,17 +238,17 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
 {
     image_difference *difference = &c->difference;
     measure(c, a, b);
-    const forgiven why = forgive(c->tolerance, r, x, y, c->last_square);
-    difference->ignored += why == IGNORED;
-    difference->close += why == CLOSE;
-    difference->antialiased += why == ANTIALIASED;
-    if (why != IGNORED)
+    const verdict v = judge_pixel(c->tolerance, r, x, y, c->last_square);
+    difference->ignored += v == IGNORED;
+    difference->close += v == CLOSE;
+    difference->antialiased += v == ANTIALIASED;
+    if (v != IGNORED)
         add_pixel(&difference->unlike, x, r->first + y, c);
-    if (why == COUNTED)
+    if (v == COUNTED)
         add_pixel(&difference->counted, x, r->first + y, c);
 }
 
-/* Of `count` pixels from (x, y) on. Where equal bytes mean equal colours, only pixels of unlike bytes are read. */
+/* Count the differing pixels among `count` pixels from (x, y) on. */
 static void count_span(image_comparison *c, const rows *r, int x, int y, int count)
 {
     const size_t n = (size_t)y * (size_t)r->a->width + (size_t)x, size = image_pixel_size(r->a);
@@ -247,7 +260,7 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
         some = count - i;
         if (c->stored_alike) {
             const size_t at = (size_t)i * size;
-            i += (int)(bytes_alike(at_a + at, at_b + at, (size_t)some * size) / size);
+            i += (int)(bytes_common_prefix(at_a + at, at_b + at, (size_t)some * size) / size);
             some = i < count;
         }
         samples_read(r->a, n + (size_t)i, some, c->difference.channel_range, a);
@@ -303,26 +316,24 @@ image_difference image_compare(const image *a, const image *b)
 
 /* ---- Judging ------------------------------------------------------------------------------------------------- */
 
-bool image_same(const image_difference *difference)
+bool image_is_same(const image_difference *difference)
 {
     return difference->same_size && difference->unlike.pixels == 0 && difference->ignored == 0;
 }
 
-bool image_forgiven(const image_difference *difference, const image_tolerance *tolerance)
+bool image_is_within(const image_difference *difference, const image_tolerance *tolerance)
 {
     return difference->same_size && difference->counted.pixels <= tolerance->max_pixels;
 }
 
-/* ---- A picture ----------------------------------------------------------------------------------------------- */
+/* ---- The picture of the difference --------------------------------------------------------------------------- */
 
-/* The colour of a difference follows the square root of its delta, so that half of the scale is for barely visible
- * ones. */
-/* Indices of the palette: greys, what is forgiven, pixels of one image only, and the heat of a difference. */
+/* Indices of the palette: greys, then forgiven pixels, pixels of one image only, and differences by size. */
 enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
 
 static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
 
-/* Distinct from the greys under colour blindness too, each brighter than the one before. */
+/* Colours that differ from the greys under colour blindness too; each is brighter than the one before. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
 
 static uint8_t between(int from, int to, int part, int whole)
@@ -360,8 +371,9 @@ static uint8_t grey_index(const pixel_samples *p, int range)
 
 static uint8_t unlike_index(const rows *r, const image_tolerance *tolerance, int x, int y, double square)
 {
-    if (forgive(tolerance, r, x, y, square) != COUNTED)
+    if (judge_pixel(tolerance, r, x, y, square) != COUNTED)
         return FORGIVEN;
+    /* The square root of the distance: half of the colours are for barely visible differences. */
     return (uint8_t)(HEAT + (int)((HEATS - 1) * sqrt(sqrt(square))));
 }
 

@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* image_compare.h - where two images differ, and by how much: counted, judged and drawn. */
+/* image_compare.h - counts the pixels that differ between two images, judges them by a tolerance, and draws them. */
 #ifndef IMAGE_IMAGE_COMPARE_H
 #define IMAGE_IMAGE_COMPARE_H
 
 #include "image.h"
 
-/* The perceived distance of two colours: the measure of Kotsarenko and Ramos ("Measuring perceived color
- * difference using YIQ NTSC transmission color space in mobile applications", 2010), as a fraction of its largest
- * value: the scale of pixelmatch's and odiff's threshold. 0 only for equal colours. */
+/* The perceived distance of two colours, from 0 (equal colours only) to 1. Source: Kotsarenko and Ramos, "Measuring
+ * perceived color difference using YIQ NTSC transmission color space in mobile applications", 2010. pixelmatch and
+ * odiff use the same scale for their thresholds. */
 #define IMAGE_DELTA_UNIT "YIQ"
 
 typedef struct image_rectangle {
     int x, y, width, height; /* may reach beyond the image */
 } image_rectangle;
 
-/* Which differences are forgiven; all zero forgives none. */
+/* The differences that are forgiven. All zero: none. */
 typedef struct image_tolerance {
-    uint64_t max_pixels; /* so many unlike pixels that nothing else forgives */
-    double max_delta;    /* unlike pixels that differ by at most this, in IMAGE_DELTA_UNIT */
-    bool antialias;      /* pixels on anti-aliased edges */
-    const image_rectangle *ignored;
+    uint64_t max_pixels;            /* forgive up to this many differing pixels that no other rule forgives */
+    double max_delta;               /* forgive pixels whose colours differ by at most this, in IMAGE_DELTA_UNIT */
+    bool antialias;                 /* forgive pixels on anti-aliased edges */
+    const image_rectangle *ignored; /* rectangles that are not compared */
     size_t ignored_count;
-    const uint8_t *ignored_mask; /* a byte per pixel of the images, not 0: ignored too. May be null */
+    const uint8_t *ignored_mask; /* one byte per pixel; pixels with a non-zero byte are not compared. May be null */
 } image_tolerance;
 
-/* Whether a pixel of images that are `width` pixels wide is ignored. */
+/* Whether the pixel (x, y) of an image of this width is excluded from the comparison. */
 static inline bool image_is_ignored(const image_tolerance *tolerance, int width, int x, int y)
 {
     if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])
@@ -37,57 +37,59 @@ static inline bool image_is_ignored(const image_tolerance *tolerance, int width,
     return false;
 }
 
-/* The number, size and place of some unlike pixels. Places are -1 when there are none. */
+/* Statistics of a set of differing pixels. Coordinates are -1 if the set is empty. */
 typedef struct image_tally {
-    uint64_t pixels;
-    double worst_delta;   /* of the farthest pair of colours, in IMAGE_DELTA_UNIT */
-    int worst_x, worst_y; /* the first pixel in reading order that has it */
-    int largest_channel;  /* the largest difference of a channel, of any pixel */
-    int min_x, min_y;     /* the box around all of them, both corners in it */
+    uint64_t pixels;      /* their number */
+    double worst_delta;   /* the largest colour difference, in IMAGE_DELTA_UNIT */
+    int worst_x, worst_y; /* the first pixel in reading order with that difference */
+    int largest_channel;  /* the largest difference of a single channel */
+    int min_x, min_y;     /* the bounding box of the pixels, both corners inclusive */
     int max_x, max_y;
 } image_tally;
 
 typedef struct image_difference {
-    bool same_size;       /* otherwise nothing is counted */
-    int channel_range;    /* the most that largest_channel can be: 255, or 65535 when an image has 16 bits a sample */
-    image_tally unlike;   /* pixels with any unlike channel, except those ignored */
-    image_tally counted;  /* those of them that are not forgiven */
-    uint64_t close;       /* forgiven: within max_delta */
-    uint64_t antialiased; /* forgiven: by anti-aliasing, of those beyond max_delta */
-    uint64_t ignored;     /* unlike, in ignored rectangles or the mask: part of no tally */
+    bool same_size;       /* false: the sizes differ, and nothing was counted */
+    int channel_range;    /* the largest possible largest_channel: 255, or 65535 if an image has 16 bits a sample */
+    image_tally unlike;   /* pixels of different colour, without ignored ones */
+    image_tally counted;  /* the part of `unlike` that is not forgiven */
+    uint64_t close;       /* the number forgiven because they are within max_delta */
+    uint64_t antialiased; /* the number beyond max_delta forgiven because they lie on an anti-aliased edge */
+    uint64_t ignored;     /* the number of differing pixels in ignored rectangles or the mask; in no tally */
 } image_difference;
 
-/* Colours are compared, so an indexed image equals an RGB image of the same colours. */
+/* Compare colours: an indexed image equals an RGB image of the same colours. image_compare() forgives nothing. */
 image_difference image_compare(const image *a, const image *b);
 image_difference image_compare_within(const image *a, const image *b, const image_tolerance *tolerance);
 
-/* The same, given rows as they come. */
+/* The same comparison, given the images band by band. */
 typedef struct image_comparison {
     const image_tolerance *tolerance;
-    image_difference difference; /* its worst_delta are squares until image_comparison_end() */
+    image_difference difference; /* worst_delta holds squares until image_comparison_end() */
     bool stored_alike;           /* equal bytes mean equal colours */
-    int y;                       /* of the next rows */
-    uint16_t last[2][3];         /* the last unlike colours that were measured: neighbours often have the same */
-    double last_square;
-    int last_channel;
+    int y;                       /* the first row of the next band */
+    uint16_t last[2][3];         /* the pair of colours measured last: neighbouring pixels often have the same pair */
+    double last_square;          /* its squared difference */
+    int last_channel;            /* its largest difference of a channel */
 } image_comparison;
 
-/* Begin with two images, whose pixels are not read. If their sizes differ, no rows may be added. The
- * tolerance must outlive it. */
+/* Begin a comparison of two images, of which only the descriptions are read. If their sizes differ, no bands may be
+ * added. The tolerance must outlive the comparison. */
 image_comparison image_comparison_begin(const image *a, const image *b, const image_tolerance *tolerance);
-/* Add the next rows of both: as many of each, and all at once under a tolerance with antialias, which looks at the rows
- * above and below. */
+/* Add the next band of both images, with the same number of rows. With tolerance->antialias the band must be the whole
+ * image, because the test reads the rows above and below. */
 void image_comparison_add(image_comparison *comparison, const image *a, const image *b);
 image_difference image_comparison_end(const image_comparison *comparison);
 
-/* The judgements: the same size and no unlike pixel at all; the same size and no more counted ones than forgiven. */
-bool image_same(const image_difference *difference);
-bool image_forgiven(const image_difference *difference, const image_tolerance *tolerance);
+/* Same size and no differing pixel, ignored ones included. */
+bool image_is_same(const image_difference *difference);
 
-/* A picture of the difference, row by row: counted pixels range from orange for one level to white for the largest
- * difference, over a dim grey copy of `a`; forgiven ones are blue. If the sizes differ, pixels that only one image has
- * are violet, and nothing is forgiven. `row` receives an index of the palette for each pixel of the longer row; y is a
- * row of the taller image. */
+/* Same size and at most max_pixels counted pixels. */
+bool image_is_within(const image_difference *difference, const image_tolerance *tolerance);
+
+/* Draw row y of a picture of the difference, as indices of image_difference_palette(). Counted pixels range from orange
+ * (one level) to white (the largest difference) over a dim grey copy of `a`; forgiven pixels are blue. If the sizes
+ * differ, pixels that only one image has are violet, and nothing is forgiven. `row` has room for the wider image; y is
+ * a row of the taller image. */
 image_palette image_difference_palette(void);
 void image_difference_row(const image *a, const image *b, const image_tolerance *tolerance, int y, uint8_t *row);
 

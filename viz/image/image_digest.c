@@ -1,4 +1,18 @@
 /* SPDX-License-Identifier: MIT */
+/* image_digest.c - digests of a picture's colours, by two algorithms.
+ *
+ * A digest must not depend on the palette, on how many rows are decoded at a time, or on the machine, and it should
+ * cost far less than drawing the frame. Hashing every pixel in order is slow and serial. Two observations help: a drawn
+ * frame is mostly background, and most of a row equals the row above.
+ *
+ * "runs" (the older algorithm) hashes the length and colour of each run of equal pixels in reading order.
+ *
+ * "rows" cuts each row into groups of 8 pixels. A group's number is a sum over its pixels of a hash of (place in the
+ * group, colour), hashed with the group's place in the row; a row's number is the sum of its groups' numbers; the row
+ * numbers are hashed in order. Sums can be updated: a group that equals the one above keeps its number and is skipped,
+ * and a changed one replaces its old number in the row's sum. For indexed images, the pixel hashes come from a table of
+ * 8 * 256 entries. Cost: one comparison per 64 pixels that repeat the row above, 8 table look-ups per changed group.
+ */
 #include "image_digest.h"
 #include "bytes.h"
 #include "octree/digest.h"
@@ -22,7 +36,7 @@ const char *image_digest_kind_name(image_digest_kind kind)
     return kind_names[kind];
 }
 
-image_digest_kind image_digest_kind_of(const char *name, size_t length)
+image_digest_kind image_digest_kind_find(const char *name, size_t length)
 {
     int kind = 0;
     while (kind < IMAGE_DIGEST_KINDS && (strlen(kind_names[kind]) != length || memcmp(kind_names[kind], name, length)))
@@ -44,11 +58,11 @@ bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *dig
     const size_t name = strcspn(text, "-");
     const bool bare = text[name] == 0;
     const char *digits = bare ? text : text + name + 1;
-    const image_digest_kind told = bare ? IMAGE_DIGEST_RUNS : image_digest_kind_of(text, name);
-    if (told == IMAGE_DIGEST_KINDS || bare != (told == IMAGE_DIGEST_RUNS) ||
+    const image_digest_kind named = bare ? IMAGE_DIGEST_RUNS : image_digest_kind_find(text, name);
+    if (named == IMAGE_DIGEST_KINDS || bare != (named == IMAGE_DIGEST_RUNS) ||
         strspn(digits, "0123456789abcdef") != DIGITS || digits[DIGITS] != 0)
         return false;
-    *kind = told;
+    *kind = named;
     *digest = strtoull(digits, NULL, 16);
     return true;
 }
@@ -57,21 +71,22 @@ bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *dig
 
 enum { GROUP = 8 };
 
+/* The state of a digest between bands of rows. */
 typedef struct digesting {
     image_digest_kind kind;
     uint64_t digest;
     bool wide;
-    uint64_t color;                /* of runs: of the last, which may go on, */
-    size_t length;                 /* and how long it is so far */
-    uint64_t of_index[GROUP][256]; /* of rows: the number of each index at each place of a group */
+    uint64_t color;                /* runs: the colour of the current run */
+    size_t length;                 /* runs: its length so far */
+    uint64_t of_index[GROUP][256]; /* rows: the hash of each index at each place of a group */
 } digesting;
 
-static uint64_t word_of(image_color color)
+static uint64_t pack_color(image_color color)
 {
     return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
 }
 
-/* The colour of a pixel as one word: 8 bits a sample, or 16. */
+/* The colour of a pixel as one word, with 8 or 16 bits a sample. */
 static uint64_t color_word(const image *image, const uint8_t *at)
 {
     if (image->wide) {
@@ -79,17 +94,16 @@ static uint64_t color_word(const image *image, const uint8_t *at)
         memcpy(samples, at, sizeof samples);
         return (uint64_t)samples[0] << 32 | (uint64_t)samples[1] << 16 | samples[2];
     }
-    return word_of(image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]});
+    return pack_color(image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]});
 }
 
-/* The end of the run of pixels equal to pixel `start`. Eight bytes at a time are compared with those one pixel earlier,
- * since a frame is mostly background. */
+/* The end of the run of pixels equal to pixel `start`. A run is where the bytes equal those one pixel earlier. */
 static size_t run_end(const image *image, size_t start, size_t pixel_count)
 {
     const size_t step = image_pixel_size(image);
     const uint8_t *first = image->pixels + start * step;
     const size_t rest = (pixel_count - start - 1) * step;
-    return start + 1 + bytes_alike(first + step, first, rest) / step;
+    return start + 1 + bytes_common_prefix(first + step, first, rest) / step;
 }
 
 static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool wide)
@@ -101,8 +115,8 @@ static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool 
     return octree_digest_word(digest, (uint64_t)length << 24 | color);
 }
 
-/* Adjacent runs of different indices may have the same colour, and runs may continue in the next rows: these are
- * joined, so that the digest depends neither on the palette nor on bands. */
+/* Runs of different indices with the same colour are joined, and a run may continue in the next band: the digest
+ * depends neither on the palette nor on the height of bands. */
 static void add_runs(digesting *d, const image *rows)
 {
     const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
@@ -120,10 +134,7 @@ static void add_runs(digesting *d, const image *rows)
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* A row is cut into groups of eight pixels, the last of which may have fewer. A group's number is the sum of one for
- * each pixel, which depends on its place in the group and on its colour, mixed with the group's place in the row; a
- * row's is the sum of its groups'; the rows' are mixed in turn. So what is equal in the row above need not be looked at
- * again, and what changed depends on nothing else, in any order. */
+/* The hash of a colour at one place of a group. */
 static inline uint64_t digest_pixel(size_t place, uint64_t color, bool wide)
 {
     return octree_digest_word(~(uint64_t)place, color | (uint64_t)wide << 48);
@@ -134,6 +145,7 @@ static inline uint64_t digest_place(size_t group, uint64_t sum)
     return octree_digest_word((uint64_t)group, sum);
 }
 
+/* The sum of the pixel hashes of a group of `count` pixels, at most GROUP; the last group of a row may be shorter. */
 static uint64_t digest_group(const digesting *d, const image *rows, const uint8_t *pixels, size_t count)
 {
     const size_t step = image_pixel_size(rows);
@@ -144,7 +156,7 @@ static uint64_t digest_group(const digesting *d, const image *rows, const uint8_
     return sum;
 }
 
-/* The same of GROUP indices. */
+/* digest_group() for GROUP indices in one word. */
 static inline uint64_t digest_indices(const digesting *d, uint64_t word)
 {
     return d->of_index[0][word & 255] + d->of_index[1][word >> 8 & 255] + d->of_index[2][word >> 16 & 255] +
@@ -152,7 +164,7 @@ static inline uint64_t digest_indices(const digesting *d, uint64_t word)
            d->of_index[6][word >> 48 & 255] + d->of_index[7][word >> 56];
 }
 
-/* The numbers of the groups of the row before. */
+/* The numbers of the current row's groups, and their sum. */
 typedef struct row_groups {
     uint64_t sum, of_group[IMAGE_MAX_SIDE / GROUP];
 } row_groups;
@@ -164,7 +176,7 @@ static inline void set_group(row_groups *g, size_t group, uint64_t sum)
     g->of_group[group] = digest;
 }
 
-enum { BLOCK = 8 }; /* groups that are looked at together */
+enum { BLOCK = 8 }; /* groups that are compared with the row above together */
 
 static inline bool block_differs(const uint8_t *row, const uint8_t *above)
 {
@@ -174,8 +186,8 @@ static inline bool block_differs(const uint8_t *row, const uint8_t *above)
     return differ != 0;
 }
 
-/* Most blocks are equal to those above. Which groups of others differ cannot be foreseen, so they are listed without a
- * branch; their number. */
+/* List the groups that differ from the row above; returns their number. Whole blocks that are equal are skipped.
+ * Within other blocks, groups are listed without a branch, because which of them differ is unpredictable. */
 static size_t list_changes(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
 {
     size_t count = 0;
@@ -191,7 +203,7 @@ static size_t list_changes(uint16_t *changed, const uint8_t *row, const uint8_t 
     return count;
 }
 
-/* `above`: null for the first row. */
+/* Update the numbers of the first `groups` groups. `above` is null for the first row. */
 static void add_indices(const digesting *d, row_groups *g, const uint8_t *row, const uint8_t *above, size_t groups)
 {
     uint16_t changed[IMAGE_MAX_SIDE / GROUP];
@@ -233,7 +245,7 @@ static void begin(digesting *d, image_digest_kind kind, const image *about)
     d->length = 0;
     for (size_t place = 0; kind == IMAGE_DIGEST_ROWS && about->channels == 1 && place < GROUP; place++)
         for (int i = 0; i < 256; i++)
-            d->of_index[place][i] = digest_pixel(place, word_of(about->palette.colors[i]), false);
+            d->of_index[place][i] = digest_pixel(place, pack_color(about->palette.colors[i]), false);
 }
 
 static void add_band(digesting *d, const image *rows)
@@ -249,7 +261,7 @@ static uint64_t finish(const digesting *d)
     return d->kind == IMAGE_DIGEST_RUNS ? digest_run(d->digest, d->length, d->color, d->wide) : d->digest;
 }
 
-uint64_t image_digest_of(image_digest_kind kind, const image *image)
+uint64_t image_digest_by(image_digest_kind kind, const image *image)
 {
     digesting d;
     begin(&d, kind, image);
@@ -259,16 +271,16 @@ uint64_t image_digest_of(image_digest_kind kind, const image *image)
 
 uint64_t image_digest(const image *image)
 {
-    return image_digest_of(IMAGE_DIGEST_NEWEST, image);
+    return image_digest_by(IMAGE_DIGEST_NEWEST, image);
 }
 
-bool image_digest_png_of(image_digest_kind kind, const char *path, image_color background, image *about,
+bool image_digest_png_by(image_digest_kind kind, const char *path, image_color background, image *about,
                          uint64_t *digest, octreel_error *error)
 {
     image_source *source = image_source_open(path, background, false, error);
     if (!source)
         return false;
-    *about = *image_source_about(source);
+    *about = *image_source_image(source);
     about->pixels = NULL;
     const int rows = image_band_rows(about);
     digesting d;
@@ -283,5 +295,5 @@ bool image_digest_png_of(image_digest_kind kind, const char *path, image_color b
 
 bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
 {
-    return image_digest_png_of(IMAGE_DIGEST_NEWEST, path, background, about, digest, error);
+    return image_digest_png_by(IMAGE_DIGEST_NEWEST, path, background, about, digest, error);
 }

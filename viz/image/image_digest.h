@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* image_digest.h - one number for the size and the colours of a picture. */
+/* image_digest.h - a 64-bit digest of the size and the colours of a picture. */
 #ifndef IMAGE_IMAGE_DIGEST_H
 #define IMAGE_IMAGE_DIGEST_H
 
 #include "image.h"
 
-/* A digest of size and colours (not of how they are stored): equal for an indexed image and its RGB twin. */
+/* The digest of size and colours. It does not depend on how they are stored: an indexed image and an RGB image with the
+ * same colours have the same digest. */
 uint64_t image_digest(const image *image);
 
-/* The same of a PNG as image_read_png_over() reads it, row by row. `about` is the image without pixels. */
+/* The digest of a PNG file, read row by row under the rules of image_read_png_over(). *about receives the image's
+ * description without pixels. Returns false and sets *error if the file cannot be read. */
 bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error);
 
-/* The ways in which digests were ever made, the newest last, and the name of each in files that hold digests of several
- * kinds: what was accepted by an old kind is compared by that kind. */
+/* All digest algorithms that Octreel has used, the newest last, with their names in baseline files. A frame that was
+ * accepted with an older algorithm is compared with that algorithm. */
 #define IMAGE_DIGEST_MAP(X) X(RUNS, "runs") X(ROWS, "rows")
 
 typedef enum image_digest_kind {
@@ -22,24 +24,23 @@ typedef enum image_digest_kind {
         IMAGE_DIGEST_KINDS
 } image_digest_kind;
 
-#define IMAGE_DIGEST_NEWEST ((image_digest_kind)(IMAGE_DIGEST_KINDS - 1)) /* that of the functions above */
+#define IMAGE_DIGEST_NEWEST ((image_digest_kind)(IMAGE_DIGEST_KINDS - 1)) /* used by the functions above */
 
 const char *image_digest_kind_name(image_digest_kind kind);
 
-/* The kind of a name; IMAGE_DIGEST_KINDS where there is none such, as in a file of a later version. */
-image_digest_kind image_digest_kind_of(const char *name, size_t length);
+/* The kind with this name; IMAGE_DIGEST_KINDS if the name is unknown, as in a file by a later version. */
+image_digest_kind image_digest_kind_find(const char *name, size_t length);
 
-/* A digest as frames tell it, with its kind: "rows-0123456789abcdef", and the digits alone for that of runs. Returns
- * `text`. */
+/* Print a digest as frames hold it: "rows-0123456789abcdef"; for the kind "runs" only the digits. Returns `text`. */
 #define IMAGE_DIGEST_TEXT 24
 char *image_digest_print(image_digest_kind kind, uint64_t digest, char text[IMAGE_DIGEST_TEXT]);
 
-/* Read it back. False for anything else, as what a later version writes; both are then unchanged. */
+/* Parse such a text. Returns false and changes nothing for any other text, including kinds of later versions. */
 bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *digest);
 
-/* image_digest() and image_digest_png() of any kind. */
-uint64_t image_digest_of(image_digest_kind kind, const image *image);
-bool image_digest_png_of(image_digest_kind kind, const char *path, image_color background, image *about,
+/* image_digest() and image_digest_png() with a given algorithm. */
+uint64_t image_digest_by(image_digest_kind kind, const image *image);
+bool image_digest_png_by(image_digest_kind kind, const char *path, image_color background, image *about,
                          uint64_t *digest, octreel_error *error);
 
 #endif

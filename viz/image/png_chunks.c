@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* png_chunks.c - walks the chunks in the first 4096 bytes of a PNG file. */
 #include "png_chunks.h"
 #include "file.h"
 
@@ -8,10 +9,10 @@
 #include <sys/stat.h>
 #include <zlib.h>
 
-/* A chunk: four bytes of its data's size, four of its name, the data, and a check sum over name and data. */
+/* A chunk: 4 bytes for the size of its data, 4 for its name, the data, and a CRC-32 of name and data. */
 enum { NAME = 4, DATA = 8, CRC_SIZE = 4 };
 
-/* The first page of a file, where the chunks before the pixels are. */
+/* The beginning of a file, which holds the chunks before the pixels. */
 typedef struct page {
     uint8_t bytes[4096];
     size_t size;
@@ -19,7 +20,7 @@ typedef struct page {
 
 typedef struct chunk {
     uint8_t *at;
-    uint32_t size; /* of its data */
+    uint32_t size; /* bytes of data */
 } chunk;
 
 static const uint8_t signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -45,7 +46,7 @@ static bool is_named(const chunk *c, const char *name)
     return memcmp(c->at + NAME, name, DATA - NAME) == 0;
 }
 
-/* Whether a whole chunk with the right check sum begins at an offset of the page. */
+/* Find the chunk at an offset of the page. Returns false if it is cut short or its CRC is wrong. */
 static bool find_chunk(page *p, size_t offset, chunk *c)
 {
     if (offset + DATA + CRC_SIZE > p->size)
@@ -54,7 +55,7 @@ static bool find_chunk(page *p, size_t offset, chunk *c)
     return c->size <= p->size - offset - DATA - CRC_SIZE && get_number(c->at + DATA + c->size) == crc_of(c);
 }
 
-/* Read the first page of a file, which may be null. Null, and closed, where it is no PNG. */
+/* Read the first page of a file; `file` may be null. Closes the file and returns null if it is not a PNG. */
 static FILE *begin_png(FILE *file, page *p)
 {
     p->size = file ? fread(p->bytes, 1, sizeof p->bytes, file) : 0;
@@ -71,7 +72,7 @@ static FILE *open_png(const char *path, page *p)
     return begin_png(file_open(path, NULL, ignored), p);
 }
 
-/* A regular file alone: opening a pipe would block. */
+/* Only regular files are opened, because opening a pipe would block. */
 static FILE *open_to_change(const char *path, page *p)
 {
     struct stat status;
@@ -107,10 +108,10 @@ bool image_png_size(const char *path, int *width, int *height)
 
 /* ---- Texts --------------------------------------------------------------------------------------------------- */
 
-/* The text of a keyword, and its chunk; null when there is none. */
+/* Find the text with this keyword and its chunk. Returns null if there is none. */
 static uint8_t *find_text(page *p, const char *keyword, chunk *c)
 {
-    const size_t key = strlen(keyword) + 1; /* its zero ends it in the file, too */
+    const size_t key = strlen(keyword) + 1; /* in the file, a zero ends the keyword, too */
     for (size_t at = sizeof signature; find_chunk(p, at, c) && !is_named(c, "IDAT"); at += DATA + c->size + CRC_SIZE)
         if (is_named(c, "tEXt") && key <= c->size && memcmp(c->at + DATA, keyword, key) == 0)
             return c->at + DATA + key;
@@ -130,7 +131,7 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
     return found;
 }
 
-/* Text and check sum are adjacent and within one page, so that one write replaces both at once. */
+/* The text and its CRC are adjacent and within one page of 4096 bytes: one write replaces both atomically. */
 static bool replace(FILE *file, page *p, const char *keyword, const char *text)
 {
     chunk c;

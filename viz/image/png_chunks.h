@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* png_chunks.h - size and texts of PNG files, read chunk by chunk without decoding pixels. */
+/* png_chunks.h - reads the size and the texts of PNG files without decoding pixels, and replaces a text in place. */
 #ifndef IMAGE_PNG_CHUNKS_H
 #define IMAGE_PNG_CHUNKS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The sides of a picture whose file begins and ends as a PNG; false for any other file. */
+/* Read the width and height of a file that begins and ends like a PNG. Returns false for any other file. */
 bool image_png_size(const char *path, int *width, int *height);
 
-/* Read the first tEXt chunk with this keyword, of those before the pixels and in the file's first 4096 bytes, into text
- * (cut at size - 1). False when there is none. */
+/* Copy the text of the first tEXt chunk with this keyword to `text`, truncated to size - 1 characters. Only chunks
+ * before the pixels and within the file's first 4096 bytes are searched. Returns false if there is none. */
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size);
 
-/* Overwrite it with a text of the same length; nothing else in the file changes. The file stays valid even if the
- * process is killed. False when the file has no such text or cannot be written. */
+/* Overwrite that text with another of the same length. The file stays valid even if the process is killed meanwhile.
+ * Returns false if the file has no such text, the lengths differ, or the file cannot be written. */
 bool image_replace_text(const char *path, const char *keyword, const char *text);
 
 #endif

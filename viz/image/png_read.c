@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* png_read.c - reads PNG files through libpng, strictly: a damaged file is an error, never a picture. */
 #include "png_read.h"
 #include "file.h"
 #include "octree/digest.h"
@@ -9,14 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Limits on a hostile file's chunks other than pixels. */
+/* Limits on the chunks other than pixels of a hostile file: bytes of one, and their number. */
 #define LARGEST_CHUNK 8000000
 #define MOST_TEXTS 1000
 
-/* Deflate spends at least two bits on 258 bytes. */
+/* The highest compression ratio of deflate: at least two bits for 258 bytes. */
 #define MOST_BYTES_A_BYTE 1032
 
-/* Compressed bytes are handed to zlib in pieces of this size. */
+/* Compressed bytes are passed to zlib in pieces of this size. */
 #define COMPRESSED_BUFFER_SIZE ((size_t)1 << 14)
 
 struct image_source {
@@ -27,15 +28,15 @@ struct image_source {
     FILE *file;
     uint64_t file_size;
     image_color background;
-    bool whole;                 /* all rows at once: it was requested, or the format requires it */
-    png_byte color_type, depth; /* as stored */
-    size_t samples;             /* of a pixel as libpng delivers it: 1, an index or a grey; 3; or 4, with alpha */
-    int passes;
-    image about;   /* its pixels when all rows are in memory, else null */
-    uint8_t *band; /* pixels of the last rows that were asked for, */
-    int band_rows; /* as many as it has room for */
-    int next_y;
-    bool beyond; /* an index beyond the palette was met; reported last */
+    bool whole;                 /* all rows are read at once: requested, or required by the format */
+    png_byte color_type, depth; /* as stored in the file */
+    size_t samples;             /* per pixel, as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
+    int passes;                 /* 7 if the file is interlaced, else 1 */
+    image about;                /* the image's description; pixels only if `whole` */
+    uint8_t *band;              /* pixels of the last band */
+    int band_rows;              /* rows that fit `band` */
+    int next_y;                 /* the first row of the next band */
+    bool beyond;                /* an index beyond the palette occurred; reported after the last row */
     bool failed;
 };
 
@@ -47,7 +48,7 @@ static bool fail(image_source *s, const char *reason)
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
 
-/* A step of reading; an error of libpng's aborts it. */
+/* A step of reading, which an error of libpng aborts. */
 typedef void step(png_structp png, png_infop info, void *context);
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -63,14 +64,14 @@ static void ignore_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-/* Keep the reason and jump back to the setjmp. */
+/* libpng's error handler: keep the reason and jump back to run(). */
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
     fail(png_get_error_ptr(png), message);
     png_longjmp(png, 1);
 }
 
-/* The function that libpng's errors jump back to; nothing in it changes between setjmp and jump. */
+/* Run a step; returns false if libpng fails. No local variable changes between setjmp and longjmp. */
 static bool run(image_source *s, step *task, void *context)
 {
     if (setjmp(png_jmpbuf(s->png)) != 0)
@@ -79,13 +80,12 @@ static bool run(image_source *s, step *task, void *context)
     return true;
 }
 
-/* libpng keeps these as they are, and applies none. */
+/* Chunks about the meaning of colours: libpng keeps their bytes and applies none of them. */
 static const uint8_t color_chunks[] = "gAMA\0cHRM\0sRGB\0iCCP\0cICP";
 
-/* Strict, because a damaged file must not be compared as a picture: a wrong CRC of any chunk and
- * broken streams are errors. The Adler-32 within the stream, a fifth of the time, is skipped if libpng was built with
- * that option (Debian 12's, not 13's): the CRCs are over the same bytes. Chunks that affect no pixel here are skipped,
- * but for those that say what samples mean, which are kept packed. */
+/* Strict rules, because a damaged file must not be compared as a picture: wrong CRCs and broken streams are errors. The
+ * Adler-32 inside the stream, a fifth of the reading time, is skipped if libpng can do so (Debian 12's can, 13's
+ * cannot): the CRCs cover the same bytes. Chunks that affect no pixel are skipped, except color_chunks. */
 static void set_rules(png_structp png, FILE *file)
 {
     png_set_read_fn(png, file, read_bytes);
@@ -98,13 +98,13 @@ static void set_rules(png_structp png, FILE *file)
     png_set_chunk_cache_max(png, MOST_TEXTS);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, color_chunks, (sizeof color_chunks) / 5);
-    /* check_size() tests the sides: libpng's own test says only "Invalid IHDR data". */
+    /* No limit here: check_size() tests the sides and names the reason, where libpng says only "Invalid IHDR data". */
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
 }
 
-/* ---- What comes before the pixels ---------------------------------------------------------------------------- */
+/* ---- Before the pixels --------------------------------------------------------------------------------------- */
 
-/* Whatever their order. */
+/* A digest of the color_chunks, independent of their order. */
 static uint64_t digest_color_chunks(png_structp png, png_infop info)
 {
     png_unknown_chunkp chunks = NULL;
@@ -126,8 +126,8 @@ static bool is_indexed(const image_source *s)
     return s->color_type == PNG_COLOR_TYPE_PALETTE || (s->color_type == PNG_COLOR_TYPE_GRAY && s->depth <= 8);
 }
 
-/* Have libpng deliver whole samples without loss. It does not blend with the background: 1.6.39 turns the
- * white of 16-bit files into 254. */
+/* Have libpng deliver whole samples without loss. Blending with the background is done here, because libpng 1.6.39
+ * turns the white of 16-bit files into 254. */
 static void set_conversion(png_structp png, png_infop info, image_source *s)
 {
     s->color_type = png_get_color_type(png, info);
@@ -148,17 +148,18 @@ static void set_conversion(png_structp png, png_infop info, image_source *s)
         png_set_swap(png);
 }
 
-/* Checked before memory is allocated. */
+/* Refuse impossible sizes before memory is allocated. */
 static void check_size(png_structp png, png_infop info, const image_source *s)
 {
     const png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
     if (width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
-        png_error(png, "a side is longer than this program's largest picture");
+        png_error(png, "a side is longer than 16384 pixels, the largest that Octreel reads");
     const uint64_t stored = (uint64_t)png_get_rowbytes(png, info) * height;
     if (stored > MOST_BYTES_A_BYTE * s->file_size)
-        png_error(png, "the file is cut short, or claims more pixels than it can hold");
+        png_error(png, "the file is truncated, or claims more pixels than it can hold");
 }
 
+/* Blend a sample with the background; alpha is 0 to `most`. */
 static unsigned mix(unsigned value, unsigned ground, unsigned alpha, unsigned most)
 {
     return (value * alpha + ground * (most - alpha) + most / 2) / most;
@@ -170,7 +171,7 @@ static image_color mix_color(image_color color, image_color ground, unsigned alp
                          (uint8_t)mix(color.b, ground.b, alpha, 255)};
 }
 
-/* The colours of a file's indices or grey levels. */
+/* Fill the palette with the colours of the file's indices or grey levels, blended with the background. */
 static void set_colors(png_structp png, png_infop info, image_source *s)
 {
     image_palette *palette = &s->about.palette;
@@ -197,7 +198,7 @@ static void set_colors(png_structp png, png_infop info, image_source *s)
     }
 }
 
-/* Bytes of a row as libpng delivers it: no fewer than an image keeps of it. */
+/* Bytes of a row as libpng delivers it; the converted row is never longer. */
 static size_t row_size(const image_source *s)
 {
     return (size_t)s->about.width * s->samples * (s->depth == 16 ? 2 : 1);
@@ -218,17 +219,17 @@ static void begin(png_structp png, png_infop info, void *context)
     s->about.height = (int)png_get_image_height(png, info);
     s->about.channels = s->samples == 1 ? 1 : 3;
     if (png_get_rowbytes(png, info) != row_size(s))
-        png_error(png, "libpng cannot turn it into whole samples");
+        png_error(png, "libpng cannot convert the pixels to whole samples");
     if (s->samples == 1)
         set_colors(png, info, s);
-    /* Interlaced rows come in passes; only all rows together show whether 16 bits a sample are needed. */
+    /* Interlaced rows arrive in passes, and whether 16 bits a sample are needed shows only when all rows are read. */
     s->whole = s->whole || s->passes > 1 || s->about.wide;
 }
 
 /* ---- Pixels -------------------------------------------------------------------------------------------------- */
 
-/* From four samples a pixel to three, in place. */
-static void lay_over(uint8_t *pixels, size_t count, image_color ground)
+/* Blend r, g, b, alpha with the background to r, g, b, in place. */
+static void blend(uint8_t *pixels, size_t count, image_color ground)
 {
     for (size_t n = 0; n < count; n++) {
         const uint8_t *from = pixels + 4 * n;
@@ -237,16 +238,18 @@ static void lay_over(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
+/* Whether 8 bits hold each of these 16-bit samples without loss: both bytes are equal, a multiple of 257. */
 static bool fits_bytes(const uint8_t *samples, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (samples[2 * i] != samples[2 * i + 1]) /* a multiple of 257 */
+        if (samples[2 * i] != samples[2 * i + 1])
             return false;
     return true;
 }
 
-/* Laying over rounds. A pixel that 8 bits hold is rounded to those, so that a file's depth does not show. */
-static void lay_over_wide(uint8_t *pixels, size_t count, image_color ground)
+/* blend() for samples of 16 bits. Blending rounds; a pixel that 8 bits hold is rounded to 8 bits, so that the same
+ * picture stored with 8 or with 16 bits gives the same colours. */
+static void blend_wide(uint8_t *pixels, size_t count, image_color ground)
 {
     const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
     for (size_t n = 0; n < count; n++) {
@@ -259,7 +262,7 @@ static void lay_over_wide(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-/* 16 bits a sample are kept only if needed, so that equal pictures are stored alike. */
+/* Keep 16 bits a sample only if needed, so that equal pictures are stored alike. */
 static void narrow_where_exact(image *band)
 {
     const size_t count = 3 * (size_t)band->width * (size_t)band->height;
@@ -270,24 +273,24 @@ static void narrow_where_exact(image *band)
     band->wide = false;
 }
 
-/* From what libpng delivered to what an image holds. */
+/* Convert a band, in place, from libpng's samples to the image's format. */
 static void convert(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
-        s->beyond = s->beyond || !image_has_colors(band); /* libpng lets indices beyond the palette pass */
+        s->beyond = s->beyond || !image_indices_are_valid(band); /* libpng accepts indices beyond the palette */
     if (s->samples == 4)
-        (band->wide ? lay_over_wide : lay_over)(band->pixels, count, s->background);
+        (band->wide ? blend_wide : blend)(band->pixels, count, s->background);
     narrow_where_exact(band);
 }
 
-/* The rows to read, and where their pixels go. */
+/* The argument of decode(). */
 typedef struct band_request {
     image_source *source;
     image *band;
 } band_request;
 
-/* After the last rows, read to the end of the file. */
+/* Read a band of rows; after the last row, read to the end of the file to check it. */
 static void decode(png_structp png, png_infop info, void *context)
 {
     (void)info;
@@ -303,7 +306,7 @@ static void decode(png_structp png, png_infop info, void *context)
         return;
     png_read_end(png, NULL);
     if (s->beyond)
-        png_error(png, "a pixel's index lies beyond the palette");
+        png_error(png, "a pixel's index is beyond the palette");
 }
 
 static bool read_whole(image_source *s)
@@ -348,7 +351,7 @@ bool image_source_next(image_source *s, int rows, image *band)
 
 /* ---- Opening and closing ------------------------------------------------------------------------------------- */
 
-const image *image_source_about(const image_source *s)
+const image *image_source_image(const image_source *s)
 {
     return &s->about;
 }
@@ -397,7 +400,7 @@ void image_source_close(image_source *s)
     image_release(&s->about);
     free(s->band);
     if (s->file)
-        fclose(s->file); /* only read from: nothing is left to fail */
+        fclose(s->file); /* the file was only read: closing it loses nothing */
     free(s);
 }
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* png_write.c - writes PNG files: libpng writes the chunks, deflate.h compresses the pixels. */
 #include "png_write.h"
 #include "deflate.h"
 #include "file.h"
@@ -9,7 +10,7 @@
 #include <string.h>
 #include <zlib.h>
 
-/* A file being written: libpng's error pointer. */
+/* A file that is being written; libpng's error handler receives a pointer to it. */
 typedef struct output {
     const image_rows *rows;
     const image_text *texts;
@@ -19,16 +20,16 @@ typedef struct output {
     octreel_error *error;
 } output;
 
-/* Why this image cannot be written, or null. */
-static const char *refusal(const image *image)
+/* The reason why an image cannot be written; null if it can. */
+static const char *find_refusal(const image *image)
 {
     if (image->wide)
         return "the image has more than 8 bits a sample";
     if (image->channels == 3)
         return NULL;
     if (image->palette.count < 1 || image->palette.count > 256)
-        return "the palette has not 1 to 256 colours";
-    return image_has_colors(image) ? NULL : "a pixel's index lies beyond the palette";
+        return "the palette must have 1 to 256 colours";
+    return image_indices_are_valid(image) ? NULL : "a pixel's index is beyond the palette";
 }
 
 static void write_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -63,7 +64,7 @@ static void set_header(png_structp png, png_infop info, const image_rows *rows)
 static void set_texts(png_structp png, png_infop info, const image_text *texts, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        /* libpng copies both, but takes them without const. */
+        /* libpng copies both strings, although its parameters are not const. */
         png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
                          .key = (png_charp)texts[i].keyword,
                          .text = (png_charp)texts[i].text};
@@ -71,17 +72,17 @@ static void set_texts(png_structp png, png_infop info, const image_text *texts, 
     }
 }
 
-/* libpng's error handler: keep the reason and jump back to the setjmp. */
+/* libpng's error handler: keep the reason and jump back to write_chunks(). */
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
     const output *out = png_get_error_ptr(png);
-    char reason[200]; /* it may quote a keyword */
+    char reason[200]; /* a printable copy: the message may quote a keyword */
     snprintf(reason, sizeof reason, "%s", message);
     error_set(out->error, "%s: cannot be written: %s", out->file.path, make_printable(reason));
     png_longjmp(png, 1);
 }
 
-/* The function that libpng's errors jump back to; nothing in it changes between setjmp and jump. */
+/* Write all chunks; returns false if libpng fails. No local variable changes between setjmp and longjmp. */
 static bool write_chunks(png_structp png, png_infop info, const output *out)
 {
     if (setjmp(png_jmpbuf(png)) != 0)
@@ -97,8 +98,7 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
     return true;
 }
 
-/* Warnings count as errors: libpng warns when it would write something other than it was given, such as an invalid
- * keyword. */
+/* libpng's warnings are treated as errors: it warns when it changes its input, such as an invalid keyword. */
 static bool encode(output *out)
 {
     const size_t pixel = out->rows->palette ? 1 : 3, row_size = (size_t)out->rows->width * pixel + 1;
@@ -111,24 +111,23 @@ static bool encode(output *out)
     return whole;
 }
 
-/* Opening a pipe would block. */
+/* A missing file, a regular file, or a folder (opening it fails with its own error). Opening a pipe would block. */
 static bool is_replaceable(const char *path)
 {
     struct stat status;
-    return file_is_standard(path) || stat(path, &status) != 0 || S_ISREG(status.st_mode) ||
-           S_ISDIR(status.st_mode); /* opening a folder fails */
+    return file_is_standard(path) || stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
 }
 
 static bool write_file(output *out, const char *path)
 {
     if (!is_replaceable(path))
-        return error_set(out->error, "%s: cannot be replaced: it is there, and is not a regular file", path);
+        return error_set(out->error, "%s: exists and is not a regular file; choose another name", path);
     if (!file_writer_open(&out->file, path, out->error))
         return false;
     return encode(out) ? file_writer_close(&out->file, out->error) : file_writer_abandon(&out->file);
 }
 
-static const uint8_t *row_of_image(int y, void *context)
+static const uint8_t *find_row(int y, void *context)
 {
     const image *image = context;
     return image->pixels + (size_t)y * (size_t)image->width * (size_t)image->channels;
@@ -137,14 +136,14 @@ static const uint8_t *row_of_image(int y, void *context)
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      octreel_error *error)
 {
-    const char *reason = refusal(image);
+    const char *reason = find_refusal(image);
     if (reason)
         return error_set(error, "%s: %s", path, reason);
     const image_rows rows = {.width = image->width,
                              .height = image->height,
                              .palette = image->channels == 1 ? &image->palette : NULL,
-                             .row = row_of_image,
-                             .context = (void *)image}; /* which is only read */
+                             .row = find_row,
+                             .context = (void *)image}; /* find_row() only reads it */
     return write_file(&(output){.rows = &rows, .texts = texts, .text_count = text_count, .error = error}, path);
 }
 

@@ -31,8 +31,8 @@ static void lines_are_those_of_the_format(void **state)
     write_digests(folder.path, file.path);
     snprintf(expected, sizeof expected,
              "octreel-digests 1\nbackground ffffff\n%016" PRIx64 " %dx%d a.png\n%016" PRIx64 " %dx%d b.png\n",
-             image_digest_of(IMAGE_DIGEST_RUNS, &first), GALLERY_WIDTH, GALLERY_HEIGHT,
-             image_digest_of(IMAGE_DIGEST_RUNS, &second), GALLERY_WIDTH, GALLERY_HEIGHT);
+             image_digest_by(IMAGE_DIGEST_RUNS, &first), GALLERY_WIDTH, GALLERY_HEIGHT,
+             image_digest_by(IMAGE_DIGEST_RUNS, &second), GALLERY_WIDTH, GALLERY_HEIGHT);
     char *text = file_read(file.path, NULL);
     assert_string_equal(text, expected);
     free(text);

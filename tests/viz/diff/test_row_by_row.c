@@ -76,7 +76,7 @@ static bool read_in_bands(const char *path, int rows, const image *whole, octree
     image_source *source = image_source_open(path, ground, false, error);
     if (!source)
         return false;
-    const image *about = image_source_about(source);
+    const image *about = image_source_image(source);
     int y = 0;
     for (image band; image_source_next(source, rows, &band); y += band.height) {
         const size_t size = (size_t)band.width * image_pixel_size(&band);
@@ -158,9 +158,9 @@ static diff_finding expected_finding(const image_difference *difference, const i
 {
     if (!difference->same_size)
         return FOUND_SIZE;
-    if (image_same(difference))
+    if (image_is_same(difference))
         return FOUND_SAME_PIXELS;
-    return image_forgiven(difference, tolerance) ? FOUND_WITHIN : FOUND_PIXELS;
+    return image_is_within(difference, tolerance) ? FOUND_WITHIN : FOUND_PIXELS;
 }
 
 static void assert_same_finding(const diff_pair *pair, const image images[2], const image_tolerance *tolerance)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_compare.c - counting and judging the difference of two images, against an oracle that goes pixel by pixel. */
+/* test_compare.c - counting and judging the difference of two images, against an oracle that compares pixel by pixel.
+ */
 #include "images.h"
 #include "naive_compare.h"
 #include "image_digest.h"
@@ -83,7 +84,7 @@ static void spoil(image *picture, uint64_t *state, int times)
     }
 }
 
-static void counts_are_those_of_the_naive_comparison(void **state)
+static void counts_equal_the_naive_comparison(void **state)
 {
     (void)state;
     static const image_rectangle ignored[] = {{3, 2, 5, 4}, {-4, -4, 6, 6}, {15, 10, 2147483647, 2147483647}};
@@ -145,7 +146,7 @@ static double delta_of(const uint8_t a[3], const uint8_t b[3])
 }
 
 /* Figures of pixelmatch 7.2's own colorDelta(), divided by 35215 and rooted. */
-static void unit_is_the_scale_of_pixelmatch(void **state)
+static void color_distance_has_the_scale_of_pixelmatch(void **state)
 {
     (void)state;
     static const struct {
@@ -161,7 +162,7 @@ static void unit_is_the_scale_of_pixelmatch(void **state)
         assert_true(fabs(delta_of(known[i].a, known[i].b) - known[i].delta) < 1e-6);
 }
 
-static void no_two_colours_are_farther_apart_than_1_and_none_at_0(void **state)
+static void color_distance_is_at_most_1_and_0_only_for_equal_colours(void **state)
 {
     (void)state;
     double most = 0;
@@ -191,7 +192,7 @@ static void a_palette_change_on_every_line_is_found(void **state)
     for (int n = 0; n < 640 * 360; n++)
         expected += a.pixels[n] == 2;
     const image_difference difference = image_compare(&a, &b);
-    assert_false(image_same(&difference));
+    assert_false(image_is_same(&difference));
     assert_int_equal(difference.unlike.pixels, expected);
     assert_int_equal(difference.unlike.largest_channel, 32);
     assert_int_equal(difference.unlike.min_y, 0);
@@ -201,7 +202,7 @@ static void a_palette_change_on_every_line_is_found(void **state)
     image_release(&b);
 }
 
-static void the_last_of_16_bits_is_found(void **state)
+static void a_difference_in_the_lowest_of_16_bits_is_found(void **state)
 {
     (void)state;
     image a = make_picture(9, 9, WIDE, 8), b = copy_image(&a);
@@ -215,12 +216,12 @@ static void the_last_of_16_bits_is_found(void **state)
     assert_int_equal(difference.channel_range, 65535);
     assert_true(difference.unlike.worst_delta > 0);
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++)
-        assert_true(image_digest_of((image_digest_kind)kind, &a) != image_digest_of((image_digest_kind)kind, &b));
+        assert_true(image_digest_by((image_digest_kind)kind, &a) != image_digest_by((image_digest_kind)kind, &b));
     image_release(&a);
     image_release(&b);
 }
 
-static void narrow_image_and_its_wide_twin_are_alike(void **state)
+static void image_equals_the_same_image_with_16_bits_a_sample(void **state)
 {
     (void)state;
     image narrow = make_picture(31, 7, RGB, 4), wide = empty_image(31, 7, WIDE);
@@ -229,12 +230,12 @@ static void narrow_image_and_its_wide_twin_are_alike(void **state)
         put_wide(&wide, n, (unsigned[]){at[0] * 257u, at[1] * 257u, at[2] * 257u});
     }
     const image_difference difference = image_compare(&narrow, &wide);
-    assert_true(image_same(&difference));
+    assert_true(image_is_same(&difference));
     image_release(&narrow);
     image_release(&wide);
 }
 
-static void judgement_forgives_what_was_asked_and_no_more(void **state)
+static void tolerance_forgives_only_what_it_names(void **state)
 {
     (void)state;
     image a = make_picture(30, 30, RGB, 21), b = copy_image(&a);
@@ -244,8 +245,8 @@ static void judgement_forgives_what_was_asked_and_no_more(void **state)
         const image_tolerance tolerance = {.max_pixels = most};
         const image_difference difference = image_compare_within(&a, &b, &tolerance);
         assert_int_equal(difference.unlike.pixels, 5);
-        assert_int_equal(image_forgiven(&difference, &tolerance), most >= 5);
-        assert_false(image_same(&difference));
+        assert_int_equal(image_is_within(&difference, &tolerance), most >= 5);
+        assert_false(image_is_same(&difference));
     }
     image_release(&a);
     image_release(&b);
@@ -264,7 +265,7 @@ static void an_antialiased_edge_is_forgiven_and_a_dot_is_not(void **state)
     const image_tolerance tolerance = {.antialias = true};
     image_difference difference = image_compare_within(&hard, &soft, &tolerance);
     assert_true(difference.unlike.pixels > 20);
-    assert_true(image_forgiven(&difference, &tolerance));
+    assert_true(image_is_within(&difference, &tolerance));
     memset(soft.pixels + 3 * (20 * 40 + 35), 0, 3);
     difference = image_compare_within(&hard, &soft, &tolerance);
     assert_int_equal(difference.counted.pixels, 1);
@@ -273,15 +274,15 @@ static void an_antialiased_edge_is_forgiven_and_a_dot_is_not(void **state)
     image_release(&soft);
 }
 
-static void images_of_unlike_size_are_forgiven_by_nothing(void **state)
+static void no_tolerance_forgives_different_sizes(void **state)
 {
     (void)state;
     image a = empty_image(4, 6, RGB), b = empty_image(6, 4, RGB);
     const image_tolerance all = {.max_pixels = UINT64_MAX, .max_delta = 1, .antialias = true};
     const image_difference difference = image_compare_within(&a, &b, &all);
     assert_false(difference.same_size);
-    assert_false(image_same(&difference));
-    assert_false(image_forgiven(&difference, &all));
+    assert_false(image_is_same(&difference));
+    assert_false(image_is_within(&difference, &all));
     assert_int_equal(difference.unlike.pixels, 0);
     image_release(&a);
     image_release(&b);
@@ -290,16 +291,16 @@ static void images_of_unlike_size_are_forgiven_by_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(counts_are_those_of_the_naive_comparison),
+        cmocka_unit_test(counts_equal_the_naive_comparison),
         cmocka_unit_test(rows_longer_than_a_span_are_counted_whole),
-        cmocka_unit_test(unit_is_the_scale_of_pixelmatch),
-        cmocka_unit_test(no_two_colours_are_farther_apart_than_1_and_none_at_0),
+        cmocka_unit_test(color_distance_has_the_scale_of_pixelmatch),
+        cmocka_unit_test(color_distance_is_at_most_1_and_0_only_for_equal_colours),
         cmocka_unit_test(a_palette_change_on_every_line_is_found),
-        cmocka_unit_test(the_last_of_16_bits_is_found),
-        cmocka_unit_test(narrow_image_and_its_wide_twin_are_alike),
-        cmocka_unit_test(judgement_forgives_what_was_asked_and_no_more),
+        cmocka_unit_test(a_difference_in_the_lowest_of_16_bits_is_found),
+        cmocka_unit_test(image_equals_the_same_image_with_16_bits_a_sample),
+        cmocka_unit_test(tolerance_forgives_only_what_it_names),
         cmocka_unit_test(an_antialiased_edge_is_forgiven_and_a_dot_is_not),
-        cmocka_unit_test(images_of_unlike_size_are_forgiven_by_nothing),
+        cmocka_unit_test(no_tolerance_forgives_different_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_deflate.c - rows of pictures to zlib streams: zlib gives them back, and makes no shorter ones of what is drawn.
- */
+/* test_deflate.c - compression of rows: zlib decodes the streams, and they are smaller than its own for drawings. */
 #include "deflate.h"
 #include "huffman.h"
 #include "octree/digest.h"
@@ -153,7 +152,7 @@ enum { FILLINGS = sizeof fillings / sizeof fillings[0] };
 
 /* ---- Tests --------------------------------------------------------------------------------------------------- */
 
-static void rows_of_all_kinds_come_back(void **state)
+static void zlib_decodes_rows_of_all_kinds(void **state)
 {
     (void)state;
     static const size_t sizes[][2] = {{1, 1},    {1, 2},     {2, 1},     {1, 700},   {3, 5},     {7, 300},  {8, 9},
@@ -184,7 +183,7 @@ static size_t zlib_size(const rows *r)
     return z.total_out;
 }
 
-static void what_is_drawn_is_shorter_than_zlibs(void **state)
+static void drawn_pictures_are_smaller_than_by_zlib(void **state)
 {
     (void)state;
     static fill_rows *const drawn[] = {fill_lines, fill_runs};
@@ -200,7 +199,7 @@ static void what_is_drawn_is_shorter_than_zlibs(void **state)
         }
 }
 
-static void noise_is_hardly_longer_than_itself_and_comes_in_parts(void **state)
+static void noise_grows_little_and_reaches_the_sink_in_parts(void **state)
 {
     (void)state;
     uint64_t random = 3;
@@ -214,7 +213,7 @@ static void noise_is_hardly_longer_than_itself_and_comes_in_parts(void **state)
 }
 
 /* A row that repeats the one above it is cheaper where it is one colour: a distance of one pixel takes no more bits. */
-static void what_repeats_and_is_flat_is_a_run(void **state)
+static void flat_repeats_are_coded_as_runs(void **state)
 {
     (void)state;
     enum { WIDTH = 1280, HEIGHT = 720 };
@@ -231,7 +230,7 @@ static void what_repeats_and_is_flat_is_a_run(void **state)
 }
 
 /* As RFC 1951 counts them: as they are, in the fixed code, in one of their own. */
-static void each_block_has_the_code_that_is_shortest(void **state)
+static void each_block_uses_its_shortest_code(void **state)
 {
     (void)state;
     static const struct {
@@ -251,7 +250,7 @@ static void each_block_has_the_code_that_is_shortest(void **state)
 }
 
 /* A frame has the same bytes wherever it is written. */
-static void streams_are_pinned(void **state)
+static void compressed_streams_have_pinned_digests(void **state)
 {
     (void)state;
     static const uint64_t pinned[FILLINGS][2] = {{UINT64_C(0x575e84a3a45d7680), UINT64_C(0xf5bae9ce13422df8)},
@@ -299,12 +298,12 @@ static void codes_are_complete_and_within_the_limit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_of_all_kinds_come_back),
-        cmocka_unit_test(what_is_drawn_is_shorter_than_zlibs),
-        cmocka_unit_test(noise_is_hardly_longer_than_itself_and_comes_in_parts),
-        cmocka_unit_test(what_repeats_and_is_flat_is_a_run),
-        cmocka_unit_test(each_block_has_the_code_that_is_shortest),
-        cmocka_unit_test(streams_are_pinned),
+        cmocka_unit_test(zlib_decodes_rows_of_all_kinds),
+        cmocka_unit_test(drawn_pictures_are_smaller_than_by_zlib),
+        cmocka_unit_test(noise_grows_little_and_reaches_the_sink_in_parts),
+        cmocka_unit_test(flat_repeats_are_coded_as_runs),
+        cmocka_unit_test(each_block_uses_its_shortest_code),
+        cmocka_unit_test(compressed_streams_have_pinned_digests),
         cmocka_unit_test(codes_are_complete_and_within_the_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

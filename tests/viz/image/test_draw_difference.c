@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_draw_difference.c - the picture of a difference: what glows in it, what is blue, and how it is written. */
+/* test_draw_difference.c - the picture of a difference: its colours, and writing it row by row. */
 #include "fixture.h"
 #include "images.h"
 #include "temp_folder.h"
@@ -74,7 +74,7 @@ static looks count_looks(const image *a, const image *b, const image_tolerance *
     return found;
 }
 
-static void what_counts_glows_and_what_is_forgiven_is_blue(void **state)
+static void counted_pixels_are_hot_and_forgiven_pixels_are_blue(void **state)
 {
     (void)state;
     static const image_rectangle ignored = {100, 2, 90, 5};
@@ -147,7 +147,7 @@ static void larger_differences_are_brighter(void **state)
     image_release(&b);
 }
 
-static void one_level_of_sixteen_bits_glows_too(void **state)
+static void one_level_of_sixteen_bits_is_visible(void **state)
 {
     (void)state;
     image a = solid(1, 1, 40), b = solid(1, 1, 40);
@@ -163,7 +163,7 @@ static void one_level_of_sixteen_bits_glows_too(void **state)
 }
 
 /* Of unlike sizes all is drawn, and nothing is forgiven. */
-static void what_only_one_image_has_is_violet(void **state)
+static void pixels_of_only_one_image_are_violet(void **state)
 {
     (void)state;
     static const image_rectangle all = {0, 0, 1000, 1000};
@@ -195,7 +195,7 @@ static const uint8_t *make_row(int y, void *context)
     return row;
 }
 
-static void rows_are_written_as_they_are_made(void **state)
+static void rows_are_written_while_they_are_produced(void **state)
 {
     const image_palette palette = image_difference_palette();
     uint8_t row[WIDTH * 3];
@@ -212,7 +212,7 @@ static void rows_are_written_as_they_are_made(void **state)
     }
 }
 
-static void rows_that_cannot_be_written_leave_a_sentence_and_no_file(void **state)
+static void failed_write_of_rows_reports_why_and_leaves_no_file(void **state)
 {
     uint8_t row[WIDTH * 3];
     const image_rows rows = {WIDTH, HEIGHT, NULL, make_row, row};
@@ -228,13 +228,13 @@ static void rows_that_cannot_be_written_leave_a_sentence_and_no_file(void **stat
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_counts_glows_and_what_is_forgiven_is_blue),
+        cmocka_unit_test(counted_pixels_are_hot_and_forgiven_pixels_are_blue),
         cmocka_unit_test(one_level_stands_out_from_every_grey),
         cmocka_unit_test(larger_differences_are_brighter),
-        cmocka_unit_test(one_level_of_sixteen_bits_glows_too),
-        cmocka_unit_test(what_only_one_image_has_is_violet),
-        WITH_FOLDER(rows_are_written_as_they_are_made),
-        WITH_FOLDER(rows_that_cannot_be_written_leave_a_sentence_and_no_file),
+        cmocka_unit_test(one_level_of_sixteen_bits_is_visible),
+        cmocka_unit_test(pixels_of_only_one_image_are_violet),
+        WITH_FOLDER(rows_are_written_while_they_are_produced),
+        WITH_FOLDER(failed_write_of_rows_reports_why_and_leaves_no_file),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

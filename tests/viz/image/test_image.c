@@ -29,7 +29,7 @@ static void created_image_is_all_zero_and_release_empties_it(void **state)
     image_release(&image);
 }
 
-static void digest_is_of_size_and_colours_alone(void **state)
+static void digest_depends_on_size_and_colours_only(void **state)
 {
     (void)state;
     image_twins twins = make_twins(37, 11);
@@ -38,9 +38,9 @@ static void digest_is_of_size_and_colours_alone(void **state)
     turned.height = 37;
     for (int n = 0; n < IMAGE_DIGEST_KINDS; n++) {
         const image_digest_kind kind = (image_digest_kind)n;
-        const uint64_t digest = image_digest_of(kind, &twins.rgb);
-        assert_true(image_digest_of(kind, &twins.indexed) == digest);
-        assert_true(image_digest_of(kind, &turned) != digest);
+        const uint64_t digest = image_digest_by(kind, &twins.rgb);
+        assert_true(image_digest_by(kind, &twins.indexed) == digest);
+        assert_true(image_digest_by(kind, &turned) != digest);
     }
     release_twins(&twins);
 }
@@ -51,11 +51,11 @@ static void digest_changes_with_any_channel_of_any_pixel(void **state)
     image blank;
     assert_true(image_create(&blank, 23, 9, 3));
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++) {
-        const uint64_t digest = image_digest_of((image_digest_kind)kind, &blank);
+        const uint64_t digest = image_digest_by((image_digest_kind)kind, &blank);
         uint64_t before = digest;
         for (size_t i = 0; i < 23 * 9 * 3; i++) {
             blank.pixels[i] = 1;
-            const uint64_t changed = image_digest_of((image_digest_kind)kind, &blank);
+            const uint64_t changed = image_digest_by((image_digest_kind)kind, &blank);
             assert_true(changed != digest && changed != before);
             before = changed;
             blank.pixels[i] = 0;
@@ -84,7 +84,7 @@ static uint64_t digest_rows_by_the_letter(const image *image)
     return digest;
 }
 
-static void digest_of_rows_is_what_it_is_defined_as(void **state)
+static void digest_of_rows_equals_its_definition(void **state)
 {
     (void)state;
     for (int width = 1; width < 70; width++) {
@@ -98,8 +98,8 @@ static void digest_of_rows_is_what_it_is_defined_as(void **state)
                     memcpy(rgb, rgb - 3 * width, 3);
                 }
         const uint64_t expected = digest_rows_by_the_letter(&twins.rgb);
-        assert_true(image_digest_of(IMAGE_DIGEST_ROWS, &twins.rgb) == expected);
-        assert_true(image_digest_of(IMAGE_DIGEST_ROWS, &twins.indexed) == expected);
+        assert_true(image_digest_by(IMAGE_DIGEST_ROWS, &twins.rgb) == expected);
+        assert_true(image_digest_by(IMAGE_DIGEST_ROWS, &twins.indexed) == expected);
         release_twins(&twins);
     }
 }
@@ -139,13 +139,13 @@ static void digests_of_small_changes_are_far_apart(void **state)
 }
 
 /* Files have these texts. */
-static void digest_of_each_kind_is_pinned_and_its_text_says_the_kind(void **state)
+static void digest_of_each_kind_is_pinned_and_its_text_names_the_kind(void **state)
 {
     (void)state;
     static const char *const texts[IMAGE_DIGEST_KINDS] = {"5f63f82b7be5075e", "rows-4f2058f8635040af"};
     image_twins twins = make_twins(37, 11);
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++) {
-        const uint64_t digest = image_digest_of((image_digest_kind)kind, &twins.indexed);
+        const uint64_t digest = image_digest_by((image_digest_kind)kind, &twins.indexed);
         char text[IMAGE_DIGEST_TEXT];
         image_digest_kind told;
         uint64_t read;
@@ -156,7 +156,7 @@ static void digest_of_each_kind_is_pinned_and_its_text_says_the_kind(void **stat
     release_twins(&twins);
 }
 
-static void text_that_is_no_digest_is_not_read(void **state)
+static void text_that_is_not_a_digest_is_refused(void **state)
 {
     (void)state;
     static const char *const texts[] = {"",
@@ -180,7 +180,7 @@ static void text_that_is_no_digest_is_not_read(void **state)
     }
 }
 
-static void compare_sees_through_palettes(void **state)
+static void comparison_ignores_how_palettes_are_ordered(void **state)
 {
     (void)state;
     image_twins a = make_twins(30, 30);
@@ -188,7 +188,7 @@ static void compare_sees_through_palettes(void **state)
     for (int n = 0; n < 900; n++)
         b.indexed.pixels[n] = b.indexed.pixels[n] == 3 ? 2 : b.indexed.pixels[n]; /* the same colour, another index */
     image_difference difference = image_compare(&a.indexed, &b.indexed);
-    assert_true(image_same(&difference));
+    assert_true(image_is_same(&difference));
     b.indexed.palette.colors[0].g ^= 2; /* the same index, another colour */
     difference = image_compare(&a.indexed, &b.indexed);
     assert_int_equal(difference.unlike.largest_channel, 2);
@@ -203,10 +203,10 @@ static void each_kind_of_digest_is_found_by_its_name(void **state)
     assert_string_equal(image_digest_kind_name(IMAGE_DIGEST_RUNS), "runs");
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++) {
         const char *name = image_digest_kind_name((image_digest_kind)kind);
-        assert_int_equal(image_digest_kind_of(name, strlen(name)), kind);
-        assert_int_equal(image_digest_kind_of(name, strlen(name) - 1), IMAGE_DIGEST_KINDS);
+        assert_int_equal(image_digest_kind_find(name, strlen(name)), kind);
+        assert_int_equal(image_digest_kind_find(name, strlen(name) - 1), IMAGE_DIGEST_KINDS);
     }
-    assert_int_equal(image_digest_kind_of("", 0), IMAGE_DIGEST_KINDS);
+    assert_int_equal(image_digest_kind_find("", 0), IMAGE_DIGEST_KINDS);
 }
 
 int main(void)
@@ -214,14 +214,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(create_refuses_sides_and_channels_out_of_range),
         cmocka_unit_test(created_image_is_all_zero_and_release_empties_it),
-        cmocka_unit_test(digest_is_of_size_and_colours_alone),
+        cmocka_unit_test(digest_depends_on_size_and_colours_only),
         cmocka_unit_test(digest_changes_with_any_channel_of_any_pixel),
         cmocka_unit_test(each_kind_of_digest_is_found_by_its_name),
-        cmocka_unit_test(digest_of_rows_is_what_it_is_defined_as),
+        cmocka_unit_test(digest_of_rows_equals_its_definition),
         cmocka_unit_test(digests_of_small_changes_are_far_apart),
-        cmocka_unit_test(digest_of_each_kind_is_pinned_and_its_text_says_the_kind),
-        cmocka_unit_test(text_that_is_no_digest_is_not_read),
-        cmocka_unit_test(compare_sees_through_palettes),
+        cmocka_unit_test(digest_of_each_kind_is_pinned_and_its_text_names_the_kind),
+        cmocka_unit_test(text_that_is_not_a_digest_is_refused),
+        cmocka_unit_test(comparison_ignores_how_palettes_are_ordered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_png_bombs.c - no PNG takes more memory than png_read.h says for its size, whatever it claims or unpacks to. */
+/* test_png_bombs.c - reading a hostile PNG takes no more memory than png_read.h states for its file size. */
 #include "fixture.h"
 #include "heap_peak.h"
 #include "png_by_hand.h"
@@ -77,7 +77,7 @@ static void begin(png_bytes *out, const kind *k, uint32_t width, uint32_t height
 }
 
 /* Zeros, a thousand for each byte. */
-static void pictures_take_8300_bytes_a_byte(void **state)
+static void reading_takes_at_most_8300_bytes_per_byte_of_file(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     static png_bytes file;
@@ -143,7 +143,7 @@ static void chunks_that_unpack_to_much_are_not_unpacked(void **state)
     }
 }
 
-static void rows_beyond_the_last_take_nothing(void **state)
+static void data_beyond_the_last_row_takes_no_memory(void **state)
 {
     static png_bytes file;
     begin(&file, &kinds[1], 8, 8, false);
@@ -153,7 +153,7 @@ static void rows_beyond_the_last_take_nothing(void **state)
 }
 
 /* The length of a chunk is believed up to a limit, before its data is there. */
-static void claims_of_chunks_take_one_chunk(void **state)
+static void claimed_chunk_sizes_take_at_most_one_chunk(void **state)
 {
     static const char *const types[] = {"iCCP", "zTXt", "tEXt", "IDAT", "PLTE", "tRNS", "eXIf", "sPLT", "gAMA"};
     static const uint8_t lengths[][4] = {{0x00, 0x7a, 0x12, 0x00}, {0x7f, 0xff, 0xff, 0xff}};
@@ -168,7 +168,7 @@ static void claims_of_chunks_take_one_chunk(void **state)
 }
 
 /* More than a thousand are refused. */
-static void many_chunks_take_what_they_are(void **state)
+static void many_chunks_take_memory_by_their_size(void **state)
 {
     static png_bytes file;
     begin(&file, &kinds[1], 8, 8, false);
@@ -184,12 +184,9 @@ static void many_chunks_take_what_they_are(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(pictures_take_8300_bytes_a_byte),
-        TEST(sizes_that_a_file_cannot_hold_are_refused),
-        TEST(chunks_that_unpack_to_much_are_not_unpacked),
-        TEST(rows_beyond_the_last_take_nothing),
-        TEST(claims_of_chunks_take_one_chunk),
-        TEST(many_chunks_take_what_they_are),
+        TEST(reading_takes_at_most_8300_bytes_per_byte_of_file), TEST(sizes_that_a_file_cannot_hold_are_refused),
+        TEST(chunks_that_unpack_to_much_are_not_unpacked),       TEST(data_beyond_the_last_row_takes_no_memory),
+        TEST(claimed_chunk_sizes_take_at_most_one_chunk),        TEST(many_chunks_take_memory_by_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

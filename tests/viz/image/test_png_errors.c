@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_png_errors.c - files that are no PNG, or a damaged or hostile one: each is refused with a sentence. */
+/* test_png_errors.c - damaged, hostile and non-PNG files: each is refused with a sentence. */
 #include "images.h"
 #include "png_chunks.h"
 #include "png_kinds.h"
@@ -27,14 +27,14 @@ static void assert_bytes_unreadable(const png_bytes *file, const char *path, con
     assert_unreadable(path, reason);
 }
 
-static void missing_file_and_folder_are_told_apart(void **state)
+static void missing_file_and_folder_have_different_errors(void **state)
 {
     temp_folder *folder = *state;
     assert_unreadable(temp_file(folder, "missing.png"), strerror(ENOENT));
     assert_unreadable(folder->name, "is not a regular file");
 }
 
-static void what_is_no_png_is_refused(void **state)
+static void file_that_is_not_a_png_is_refused(void **state)
 {
     png_bytes file = {.size = 0};
     assert_bytes_unreadable(&file, temp_file(*state, "a.png"), "cut short");
@@ -72,7 +72,7 @@ static void wrong_crc_of_any_chunk_is_an_error(void **state)
 }
 
 /* Every byte has a CRC; the stream's own Adler-32 is not asked as well, where libpng can be told so. */
-static void stream_with_a_wrong_sum_of_its_own_is_read_as_it_is(void **state)
+static void stream_with_a_wrong_adler32_is_read(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     static const uint8_t rows[] = {0, 10, 20, 30, 0, 40, 50, 60};
@@ -122,7 +122,7 @@ static void huge_sides_are_refused_before_memory_is_spent(void **state)
 }
 
 /* A picture that this program may read, in a file of a few bytes. */
-static void pixels_that_a_file_is_too_short_for_are_refused(void **state)
+static void more_pixels_than_the_file_can_hold_are_refused(void **state)
 {
     static const int types[] = {PNG_KIND_GREY, PNG_KIND_RGB, PNG_KIND_GREY_ALPHA, PNG_KIND_RGB_ALPHA};
     const char *path = temp_file(*state, "a.png");
@@ -205,13 +205,13 @@ static void overlong_path_still_gets_its_reason(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(pixels_that_a_file_is_too_short_for_are_refused),
+        WITH_FOLDER(more_pixels_than_the_file_can_hold_are_refused),
         WITH_FOLDER(pipe_is_refused_without_waiting),
-        WITH_FOLDER(missing_file_and_folder_are_told_apart),
-        WITH_FOLDER(what_is_no_png_is_refused),
+        WITH_FOLDER(missing_file_and_folder_have_different_errors),
+        WITH_FOLDER(file_that_is_not_a_png_is_refused),
         WITH_FOLDER(truncation_anywhere_is_an_error),
         WITH_FOLDER(wrong_crc_of_any_chunk_is_an_error),
-        WITH_FOLDER(stream_with_a_wrong_sum_of_its_own_is_read_as_it_is),
+        WITH_FOLDER(stream_with_a_wrong_adler32_is_read),
         WITH_FOLDER(any_flipped_bit_is_an_error),
         WITH_FOLDER(huge_sides_are_refused_before_memory_is_spent),
         WITH_FOLDER(too_few_pixels_are_an_error),

@@ -83,7 +83,7 @@ static void check_over_color(const char *path, png_kind kind)
     image_release(&image);
 }
 
-static void every_legal_kind_lies_over_the_background_asked_for(void **state)
+static void transparent_pixels_are_blended_with_the_given_background(void **state)
 {
     png_for_every_kind(check_over_color, temp_file(*state, "a.png"));
 }
@@ -96,7 +96,7 @@ static void check_size(const char *path, png_kind kind)
     assert_true(width == PNG_KIND_SIDE && height == PNG_KIND_SIDE);
 }
 
-static void size_is_told_of_files_that_begin_and_end_as_png(void **state)
+static void size_is_read_from_files_that_begin_and_end_as_png(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     png_for_every_kind(check_size, path);
@@ -110,7 +110,7 @@ static void size_is_told_of_files_that_begin_and_end_as_png(void **state)
 }
 
 /* A file of 16 bits a sample that 8 would hold is the same picture, and is stored as one. */
-static void wide_files_of_narrow_pictures_become_narrow(void **state)
+static void sixteen_bit_files_that_fit_8_bits_become_8_bit(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     static const uint8_t row[] = {0, 7, 7, 255, 255, 0, 0, 90, 90, 91, 91, 92, 92};
@@ -140,7 +140,7 @@ static void save_row(const char *path, int depth, int color_type, const uint8_t 
 }
 
 /* Laying alpha over rounds, to 8 bits here and to 16 there: the depth of a file must not show. */
-static void what_is_transparent_is_the_same_picture_in_8_and_16_bits(void **state)
+static void transparency_gives_the_same_picture_in_8_and_16_bits(void **state)
 {
     static const uint8_t samples[] = {10, 20, 30, 100, 200, 3, 77, 1, 255, 128, 0, 254, 9, 8, 7, 0, 1, 2, 3, 255};
     static const int types[] = {PNG_KIND_GREY_ALPHA, PNG_KIND_RGB_ALPHA};
@@ -159,7 +159,7 @@ static void what_is_transparent_is_the_same_picture_in_8_and_16_bits(void **stat
 }
 
 /* One pixel that only 16 bits hold changes none of the others. */
-static void a_pixel_is_laid_over_alike_whatever_the_others_are(void **state)
+static void blending_a_pixel_does_not_depend_on_other_pixels(void **state)
 {
     static const uint8_t samples[] = {10, 20, 30, 100, 200, 3, 77, 1, 255, 128, 0, 254, 9, 8, 7, 0, 1, 2, 3, 255};
     const char *path = temp_file(*state, "a.png");
@@ -193,7 +193,7 @@ static uint64_t color_space_of(const char *path, const char *type, const char *d
     return color_space;
 }
 
-static void what_samples_mean_is_kept_as_one_number(void **state)
+static void colour_space_chunks_are_kept_as_a_digest(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     const uint64_t screen = color_space_of(path, "gAMA", "\0\0\xb1\x8f", 4);
@@ -231,12 +231,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(every_legal_kind_is_read_without_loss),
-        WITH_FOLDER(every_legal_kind_lies_over_the_background_asked_for),
-        WITH_FOLDER(size_is_told_of_files_that_begin_and_end_as_png),
-        WITH_FOLDER(wide_files_of_narrow_pictures_become_narrow),
-        WITH_FOLDER(what_is_transparent_is_the_same_picture_in_8_and_16_bits),
-        WITH_FOLDER(a_pixel_is_laid_over_alike_whatever_the_others_are),
-        WITH_FOLDER(what_samples_mean_is_kept_as_one_number),
+        WITH_FOLDER(transparent_pixels_are_blended_with_the_given_background),
+        WITH_FOLDER(size_is_read_from_files_that_begin_and_end_as_png),
+        WITH_FOLDER(sixteen_bit_files_that_fit_8_bits_become_8_bit),
+        WITH_FOLDER(transparency_gives_the_same_picture_in_8_and_16_bits),
+        WITH_FOLDER(blending_a_pixel_does_not_depend_on_other_pixels),
+        WITH_FOLDER(colour_space_chunks_are_kept_as_a_digest),
         WITH_FOLDER(texts_are_found_by_their_keyword),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

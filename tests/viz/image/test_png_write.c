@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_png_write.c - images to PNG files: what is in them, byte by byte, and what is left when writing fails. */
+/* test_png_write.c - the bytes of written PNG files, and the files left after a failed write. */
 #include "files.h"
 #include "images.h"
 #include "png_by_hand.h"
@@ -32,7 +32,7 @@ static void indexed_and_rgb_survive_the_file(void **state)
             assert_written(each[j], path);
             image back = assert_read(path);
             image_difference difference = image_compare(&back, &twins.rgb);
-            assert_true(image_same(&difference));
+            assert_true(image_is_same(&difference));
             image_release(&back);
         }
         release_twins(&twins);
@@ -74,7 +74,7 @@ static void assert_types(const png_bytes *file, const char *const *types, size_t
     assert_int_equal(at, file->size);
 }
 
-static void indexed_file_holds_only_the_chunks_that_are_promised(void **state)
+static void indexed_file_holds_only_the_documented_chunks(void **state)
 {
     static const char *const types[] = {"IHDR", "PLTE", "tEXt", "tEXt", "tEXt", "IDAT", "IEND"};
     image_twins twins = make_twins(64, 48);
@@ -92,7 +92,7 @@ static void indexed_file_holds_only_the_chunks_that_are_promised(void **state)
     release_twins(&twins);
 }
 
-static void rgb_file_holds_only_the_chunks_that_are_promised(void **state)
+static void rgb_file_holds_only_the_documented_chunks(void **state)
 {
     static const char *const types[] = {"IHDR", "IDAT", "IEND"};
     image_twins twins = make_twins(64, 48);
@@ -137,7 +137,7 @@ static void same_image_makes_the_same_bytes(void **state)
     release_twins(&twins);
 }
 
-static void failed_write_says_why_and_leaves_nothing(void **state)
+static void failed_write_reports_why_and_leaves_no_file(void **state)
 {
     temp_folder *folder = *state;
     image_twins small = make_twins(8, 8);
@@ -255,11 +255,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(indexed_and_rgb_survive_the_file),
-        WITH_FOLDER(indexed_file_holds_only_the_chunks_that_are_promised),
-        WITH_FOLDER(rgb_file_holds_only_the_chunks_that_are_promised),
+        WITH_FOLDER(indexed_file_holds_only_the_documented_chunks),
+        WITH_FOLDER(rgb_file_holds_only_the_documented_chunks),
         WITH_FOLDER(texts_are_stored_plain_in_the_order_given),
         WITH_FOLDER(same_image_makes_the_same_bytes),
-        WITH_FOLDER(failed_write_says_why_and_leaves_nothing),
+        WITH_FOLDER(failed_write_reports_why_and_leaves_no_file),
         WITH_FOLDER(full_disk_removes_the_part_and_keeps_the_old_file),
         cmocka_unit_test(unwritable_folder_is_named),
         WITH_FOLDER(stale_part_is_overwritten),
