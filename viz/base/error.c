@@ -29,7 +29,7 @@ bool error_no_memory(octreel_error *error)
     return error_set(error, "there is no memory");
 }
 
-bool system_served(octreel_error *error)
+bool check_system_resources(octreel_error *error)
 {
     static const int troubles[] = {EIO, EMFILE, ENFILE, ENOSPC, EDQUOT, EINTR};
     if (errno == ENOMEM)

@@ -16,6 +16,6 @@ bool error_no_memory(octreel_error *error);
 /* False, with a sentence, where the last call that failed had no memory or no file that can be read, be it ours,
  * libpng's, jansson's or the C library's: then what was found wrong may be right. A file that is missing or that may
  * not be read is no such trouble. Set errno to 0 before what is asked about. */
-bool system_served(octreel_error *error);
+bool check_system_resources(octreel_error *error);
 
 #endif

@@ -67,7 +67,7 @@ bool file_is_locked(const char *path)
     return locked;
 }
 
-int file_lock_folder_of(const char *path)
+int file_lock_parent_folder(const char *path)
 {
     char *parent = parent_of(path);
     const int folder = parent ? open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
@@ -155,7 +155,7 @@ bool file_writer_open_replacing(file_writer *file, const char *path, octreel_err
 }
 
 /* Two names are hardly alike, and where they are the file of the other is left alone. */
-bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *error)
+bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error)
 {
     bool ok = false;
     errno = EEXIST;
@@ -265,14 +265,14 @@ bool file_copy_to(const char *from, const char *to, octreel_error *error)
     return copy_by(file_writer_open_replacing, false, from, to, error);
 }
 
-bool file_copy_beside(file_writer *file, const char *from, const char *to, octreel_error *error)
+bool file_copy_prepare(file_writer *file, const char *from, const char *to, octreel_error *error)
 {
     return copy_beside(file, file_writer_open_replacing, true, from, to, error);
 }
 
-bool file_copy_apart(const char *from, const char *to, octreel_error *error)
+bool file_copy_unique(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open_apart, true, from, to, error);
+    return copy_by(file_writer_open_unique, true, from, to, error);
 }
 
 /* ---- Compared ----------------------------------------------------------------------------------------------- */
@@ -289,7 +289,7 @@ static bool same_streams(FILE *a, FILE *b)
     }
 }
 
-bool same_bytes(const char *a, const char *b)
+bool have_same_bytes(const char *a, const char *b)
 {
     struct stat of_a, of_b;
     if (file_is_standard(a) || file_is_standard(b))
@@ -306,7 +306,7 @@ bool same_bytes(const char *a, const char *b)
     return same;
 }
 
-bool same_file(const struct stat *a, const struct stat *b)
+bool is_same_file(const struct stat *a, const struct stat *b)
 {
     return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
@@ -326,7 +326,7 @@ static bool same_name(const char *a, const char *b)
     const char *slashes[2] = {strrchr(a, '/'), strrchr(b, '/')};
     if (!stat_parent(a, &folders[0]) || !stat_parent(b, &folders[1]))
         return strcmp(a, b) == 0;
-    return same_file(&folders[0], &folders[1]) &&
+    return is_same_file(&folders[0], &folders[1]) &&
            strcmp(slashes[0] ? slashes[0] + 1 : a, slashes[1] ? slashes[1] + 1 : b) == 0;
 }
 
@@ -337,17 +337,17 @@ static bool are_one(const char *a, const char *b)
         return false;
     const bool there[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
     if (there[0] && there[1])
-        return S_ISREG(files[0].st_mode) && same_file(&files[0], &files[1]);
+        return S_ISREG(files[0].st_mode) && is_same_file(&files[0], &files[1]);
     return !there[0] && !there[1] && same_name(a, b);
 }
 
-bool output_spares(const output_file *output, const char *input, octreel_error *error)
+bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error)
 {
     return !output->path || !are_one(output->path, input) ||
            error_set(error, "%s %s is the same file as %s, which is read", output->option, output->path, input);
 }
 
-bool outputs_apart(const output_file *outputs, size_t count, octreel_error *error)
+bool check_outputs_differ(const output_file *outputs, size_t count, octreel_error *error)
 {
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < i; j++)

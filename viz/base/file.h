@@ -24,7 +24,7 @@ bool file_is_locked(const char *path);
 
 /* Lock the folder in which a path lies, and wait for whoever has it: what is read, changed and renamed in it by all who
  * do so is lost to nobody. Released by close(); -1 where the folder or its file system has no locks. */
-int file_lock_folder_of(const char *path);
+int file_lock_parent_folder(const char *path);
 
 /* "-" stands for standard input where a file is read, and for standard output where one is written: in each function
  * below, and so in every command. ./- is a file of that name. */
@@ -70,7 +70,7 @@ bool file_writer_open(file_writer *file, const char *path, octreel_error *error)
 bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error);
 
 /* The same by way of a file that nobody else writes at the same time. */
-bool file_writer_open_apart(file_writer *file, const char *path, octreel_error *error);
+bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
 
 /* The same in two steps, for files that take their places together: all is on the disk beside the path, and then there
@@ -85,10 +85,10 @@ bool file_writer_abandon(file_writer *file);
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
 
 /* The same of what shall last (`lasting`), up to file_writer_finish(); `to` must outlive the writer. */
-bool file_copy_beside(file_writer *file, const char *from, const char *to, octreel_error *error);
+bool file_copy_prepare(file_writer *file, const char *from, const char *to, octreel_error *error);
 
 /* The same of what shall last, by way of a file that nobody else writes at the same time. */
-bool file_copy_apart(const char *from, const char *to, octreel_error *error);
+bool file_copy_unique(const char *from, const char *to, octreel_error *error);
 
 /* A file that a command line names as an output: none may take the place of what is read, nor of another one. */
 typedef struct output_file {
@@ -98,16 +98,16 @@ typedef struct output_file {
 
 /* False, with a sentence, where an output is this file that is read: the same device and inode, however they are named.
  * A path that is not a regular file, such as a pipe, may be both, and so may "-". */
-bool output_spares(const output_file *output, const char *input, octreel_error *error);
+bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error);
 
 /* False, with a sentence, where two outputs are one file, be it there already or not; two may not be "-". */
-bool outputs_apart(const output_file *outputs, size_t count, octreel_error *error);
+bool check_outputs_differ(const output_file *outputs, size_t count, octreel_error *error);
 
 /* Whether both are regular files with the same bytes; standard input is none. */
-bool same_bytes(const char *a, const char *b);
+bool have_same_bytes(const char *a, const char *b);
 
 /* Whether both are one file; and the folder in which a path lies. */
-bool same_file(const struct stat *a, const struct stat *b);
+bool is_same_file(const struct stat *a, const struct stat *b);
 bool stat_parent(const char *path, struct stat *status);
 
 #endif

@@ -114,7 +114,7 @@ void hint_set_program(const char *called)
     fclose(out);
 }
 
-const char *hint_program(void)
+const char *hint_program_name(void)
 {
     return program;
 }

@@ -34,7 +34,7 @@ const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT]);
 void hint_set_program(const char *called);
 
 /* That, as a shell reads it; "octreel" where it is not known. */
-const char *hint_program(void);
+const char *hint_program_name(void);
 
 /* Write a text in which "octreel COMMAND", except within a sentence, becomes that of the program as it was called. */
 void hint_write_commands(FILE *out, const char *text);

@@ -39,7 +39,7 @@ bool whole_parse(const char **text, uint64_t max, uint64_t *value);
 size_t number_print(double value, char text[NUMBER_TEXT]);
 
 /* A finite float as the double of the fewest digits that rounds to it, and is no larger than FLT_MAX: 0.1f as 0.1. */
-double number_of_float(float value);
+double number_from_float(float value);
 
 /* Write a double with at most so many significant digits, as people read it. Returns `text`. */
 const char *number_text(double value, int digits, char text[NUMBER_TEXT]);

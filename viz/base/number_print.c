@@ -203,7 +203,7 @@ double number_round_up(double limit)
     return 0;
 }
 
-double number_of_float(float value)
+double number_from_float(float value)
 {
     for (int digits = FLT_DIG; digits < FLT_DECIMAL_DIG; digits++) {
         char text[NUMBER_TEXT];

@@ -75,7 +75,7 @@ const char *plural_verb(uint64_t count)
     return count == 1 ? "s" : "";
 }
 
-void print_more(FILE *out, uint64_t count, uint64_t shown, const char *how)
+void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char *how)
 {
     if (count > shown)
         fprintf(out, "  ... and %" PRIu64 " more%s%s\n", count - shown, *how ? "; " : "", how);
@@ -124,7 +124,7 @@ const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_R
     return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? numbered(*at, room) : NULL;
 }
 
-bool utf8_is_unfit(const unsigned char *at)
+bool utf8_is_unprintable(const unsigned char *at)
 {
     switch (at[0]) {
     case 0xc2: /* U+0080 to U+009F */
@@ -145,7 +145,7 @@ bool utf8_is_unfit(const unsigned char *at)
 static size_t write_beyond_ascii(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_length(at);
-    if (length == 0 || utf8_is_unfit(at))
+    if (length == 0 || utf8_is_unprintable(at))
         fputs(UTF8_REPLACEMENT, out);
     else
         fwrite(at, 1, length, out);

@@ -30,7 +30,7 @@ size_t utf8_length(const unsigned char *at);
 
 /* Whether the character beyond ASCII there is none to show: control characters, marks that turn the direction of what
  * follows, ends of lines, and the two that are no characters. */
-bool utf8_is_unfit(const unsigned char *at);
+bool utf8_is_unprintable(const unsigned char *at);
 
 /* Put a question mark in the place of every character of UTF-8, and of every byte that is of none, that is not
  * printable ASCII. Returns `text`. */
@@ -42,7 +42,7 @@ const char *plural_verb(uint64_t count);
 
 /* A list for people ends after so many lines: the next says how many there are beyond `shown`, and how to see all. */
 #define LIST_LINES 10
-void print_more(FILE *out, uint64_t count, uint64_t shown, const char *how);
+void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char *how);
 
 /* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
 #define ESCAPE_ROOM 16

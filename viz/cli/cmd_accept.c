@@ -57,7 +57,7 @@ static const char *today(char text[11])
     return text;
 }
 
-static int accept_them(const arguments *a, char **paths, int count)
+static int accept_listed(const arguments *a, char **paths, int count)
 {
     char date[11];
     octreel_error error;
@@ -74,7 +74,7 @@ static int accept_them(const arguments *a, char **paths, int count)
         ok = frame_list_add(&names, paths[i], 0, &error);
     ok = ok && accept_frames(&all, is_quiet() && !a->json ? NULL : stdout, &error);
     frame_list_release(&names);
-    return ok ? EXIT_DONE : trouble("%s", error.text);
+    return ok ? EXIT_DONE : print_error("%s", error.text);
 }
 
 #define SIDE (FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING))
@@ -82,16 +82,16 @@ static int accept_them(const arguments *a, char **paths, int count)
 static int run(int argc, char **argv)
 {
     arguments a = {0};
-    const int status = command_read(&command_accept, &a, argc, argv);
+    const int status = command_read_arguments(&command_accept, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     if (getenv("CI"))
-        return trouble("nothing is accepted where CI is set in the environment: references change by hand alone");
+        return print_error("nothing is accepted where CI is set in the environment: references change by hand alone");
     if (a.date && !a.reason)
-        return trouble("--date is that of a reason: give --reason, too");
+        return print_error("--date is that of a reason: give --reason, too");
     if (a.from && file_is_standard(a.from) && file_is_standard(argv[optind + 1]))
-        return trouble("standard input can be read once, and \"-\" names it twice");
-    return accept_them(&a, argv + optind, argc - optind);
+        return print_error("standard input can be read once, and \"-\" names it twice");
+    return accept_listed(&a, argv + optind, argc - optind);
 }
 
 const command command_accept = {

@@ -96,9 +96,10 @@ static bool check_files(const char *path, const char *page, const char *junit, o
 {
     const output_file outputs[] = {{"--html", page}, {"--junit", junit}};
     char *session = path_join(path, "session.json");
-    bool ok = session ? outputs_apart(outputs, 2, error) : error_no_memory(error);
+    bool ok = session ? check_outputs_differ(outputs, 2, error) : error_no_memory(error);
     for (int i = 0; ok && i < 2; i++)
-        ok = output_spares(&outputs[i], path, error) && output_spares(&outputs[i], session, error);
+        ok = check_output_is_not_input(&outputs[i], path, error) &&
+             check_output_is_not_input(&outputs[i], session, error);
     free(session);
     return ok;
 }
@@ -140,7 +141,8 @@ static void print_verdict(const arguments *a, const audit_verdict *verdict)
 
 /* ---- The command -------------------------------------------------------------------------------------------- */
 
-static bool audit_to(const arguments *a, const char *path, const char *page, audit_report *report, octreel_error *error)
+static bool write_audit(const arguments *a, const char *path, const char *page, audit_report *report,
+                        octreel_error *error)
 {
     progress p = progress_start("ticks");
     const bool done =
@@ -154,7 +156,7 @@ static bool audit_to(const arguments *a, const char *path, const char *page, aud
     return true;
 }
 
-static int audit_it(const arguments *a, const char *path)
+static int audit(const arguments *a, const char *path)
 {
     const output_file outputs[] = {{"--html", a->html}, {"--junit", a->junit}};
     audit_report report = {0};
@@ -163,18 +165,18 @@ static int audit_it(const arguments *a, const char *path)
         return EXIT_TROUBLE;
     char *page = a->html ? page_file(a->html) : NULL;
     if (a->html && !page)
-        return trouble("there is no memory");
-    const bool done = audit_to(a, path, page, &report, &error), passes = done && audit_passes(&report);
+        return print_error("there is no memory");
+    const bool done = write_audit(a, path, page, &report, &error), passes = done && audit_passes(&report);
     free(page);
     audit_release(&report);
-    return !done ? trouble("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;
+    return !done ? print_error("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;
 }
 
 static int run(int argc, char **argv)
 {
     arguments a = {.json = false};
-    const int status = command_read(&command_audit, &a, argc, argv);
-    return status == COMMAND_GO_ON ? audit_it(&a, argv[optind]) : status;
+    const int status = command_read_arguments(&command_audit, &a, argc, argv);
+    return status == COMMAND_GO_ON ? audit(&a, argv[optind]) : status;
 }
 
 const command command_audit = {

@@ -64,7 +64,7 @@ static bool refuse_layer(const command_option *option, const char *bad)
     for (int i = 0; view_layer_at(i); i++)
         hint_offer(&h, view_layer_at(i));
     return refuse("--%s takes names of layers with commas between, and \"%.*s\" is none%s%s record --help lists them",
-                  option->name, (int)length, bad, hint_text(&h, "", meant), hint_program());
+                  option->name, (int)length, bad, hint_text(&h, "", meant), hint_program_name());
 }
 
 static bool read_layers(const command_option *option, const char *text, void *into)
@@ -142,16 +142,16 @@ static const command_option options[] = {
 };
 
 /* The first sentence of what cannot be read, and how many more there are; or why nobody can say why. */
-static int tell_trouble(const diff_result *result, const explanation *why)
+static int print_first_error(const diff_result *result, const explanation *why)
 {
     size_t i = 0;
     if (result->found[FOUND_UNREADABLE] == 0)
-        return trouble("%s; --causes 0 does not ask why", why->trouble);
+        return print_error("%s; --causes 0 does not ask why", why->trouble);
     while (result->pairs[i].finding != FOUND_UNREADABLE)
         i++;
     const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "there is no memory";
     const size_t more = result->found[FOUND_UNREADABLE] - 1;
-    return more ? trouble("%s (and %zu more)", sentence, more) : trouble("%s", sentence);
+    return more ? print_error("%s (and %zu more)", sentence, more) : print_error("%s", sentence);
 }
 
 /* ---- What is said, and where --------------------------------------------------------------------------------- */
@@ -221,8 +221,8 @@ static int report(const arguments *a, diff_report *all)
         ok = error_no_memory(&error);
     evidence_release(&e);
     if (!ok)
-        return trouble("%s", error.text);
-    return verdict == DIFF_TROUBLE ? tell_trouble(all->result, all->why) : statuses[verdict];
+        return print_error("%s", error.text);
+    return verdict == DIFF_TROUBLE ? print_first_error(all->result, all->why) : statuses[verdict];
 }
 
 /* What is written may not take the place of what is compared, nor a report that of another. */
@@ -231,7 +231,7 @@ static bool check_files(const arguments *a, const diff_side sides[2], octreel_er
     char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
     output_file outputs[OUTPUTS];
     list_outputs(a, page, outputs);
-    bool ok = outputs_apart(outputs, OUTPUTS, error);
+    bool ok = check_outputs_differ(outputs, OUTPUTS, error);
     for (size_t i = 0; ok && i < OUTPUTS; i++)
         ok = diff_side_spared(&sides[0], &outputs[i], error) && diff_side_spared(&sides[1], &outputs[i], error);
     free(page);
@@ -259,7 +259,7 @@ static int compare(const arguments *a, const char *paths[2])
                     frame_groups_make(&groups, &result, &why, a->each, &error);
     diff_report all = {
         .a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines, .groups = &groups};
-    const int status = ok ? report(a, &all) : trouble("%s", error.text);
+    const int status = ok ? report(a, &all) : print_error("%s", error.text);
     frame_groups_release(&groups);
     explanation_release(&why);
     diff_release(&result);
@@ -273,7 +273,7 @@ static int compare(const arguments *a, const char *paths[2])
 static int run(int argc, char **argv)
 {
     arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
-    int status = command_read(&command_diff, &a, argc, argv);
+    int status = command_read_arguments(&command_diff, &a, argc, argv);
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.causes_said && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.causes_said)

@@ -14,21 +14,21 @@ static bool write_file(const diff_side *side, const char *path, octreel_error *e
     return digest_file_write(file.stream, side, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
 }
 
-static int digest_it(const char *folder, const char *path, image_color background)
+static int write_digests(const char *folder, const char *path, image_color background)
 {
     const output_file output = {"-o", path};
     diff_side side;
     octreel_error error;
     if (!diff_side_open(&side, folder, &error))
-        return trouble("%s", error.text);
+        return print_error("%s", error.text);
     int status = EXIT_DONE;
     if (side.no_frames)
-        status = trouble("%s was recorded without frames, of which there could be digests", folder);
+        status = print_error("%s was recorded without frames, of which there could be digests", folder);
     else if (side.count == 0)
-        status = trouble("%s: there is no PNG in it", folder);
+        status = print_error("%s: there is no PNG in it", folder);
     else if (!diff_side_spared(&side, &output, &error) || !digest_all(&side, background, &error) ||
              !write_file(&side, path, &error))
-        status = trouble("%s", error.text);
+        status = print_error("%s", error.text);
     diff_side_release(&side);
     return status;
 }
@@ -48,8 +48,8 @@ static const command_option options[] = {
 static int run(int argc, char **argv)
 {
     arguments a = {.path = "-", .background = IMAGE_WHITE};
-    const int status = command_read(&command_digest, &a, argc, argv);
-    return status == COMMAND_GO_ON ? digest_it(argv[optind], a.path, a.background) : status;
+    const int status = command_read_arguments(&command_digest, &a, argc, argv);
+    return status == COMMAND_GO_ON ? write_digests(argv[optind], a.path, a.background) : status;
 }
 
 const command command_digest = {

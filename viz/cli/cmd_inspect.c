@@ -197,11 +197,11 @@ static bool make_report(report *r, octreel_error *error)
     if (!inspect_ask(r->made->tree, a->queries.items, a->queries.count, &r->answers, error))
         return false;
     r->view = a->view;
-    const bool ok = (!a->picture ||
-                     (inspect_choose_view(r->made, gives_view_option(&a->view_options, "color-points"),
-                                          gives_view_option(&a->view_options, "shade"), &r->view, r->chosen, error) &&
-                      draw(r, error))) &&
-                    (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
+    const bool ok =
+        (!a->picture || (inspect_choose_view(r->made, has_view_option(&a->view_options, "color-points"),
+                                             has_view_option(&a->view_options, "shade"), &r->view, r->chosen, error) &&
+                         draw(r, error))) &&
+        (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
     if (ok)
         print(r);
     inspect_answers_release(&r->answers);
@@ -258,17 +258,17 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
     return ok;
 }
 
-static int inspect_it(const arguments *a)
+static int inspect(const arguments *a)
 {
     const char *title = file_title(a->cloud), *slash = strrchr(title, '/');
     inspection made;
     octreel_error error;
     if (!build(a, &made, &error))
-        return trouble("%s", error.text);
+        return print_error("%s", error.text);
     report r = {.a = a, .name = slash ? slash + 1 : title, .made = &made};
     const bool ok = make_report(&r, &error);
     inspect_release(&made);
-    return ok ? EXIT_DONE : trouble("%s", error.text);
+    return ok ? EXIT_DONE : print_error("%s", error.text);
 }
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
@@ -294,8 +294,9 @@ static bool check_outputs(const arguments *a)
     list_outputs(a, outputs);
     if (!check_standard_output(outputs, OUTPUTS, a->json))
         return false;
-    return (outputs_apart(outputs, OUTPUTS, &error) && output_spares(&outputs[0], a->cloud, &error) &&
-            output_spares(&outputs[1], a->cloud, &error)) ||
+    return (check_outputs_differ(outputs, OUTPUTS, &error) &&
+            check_output_is_not_input(&outputs[0], a->cloud, &error) &&
+            check_output_is_not_input(&outputs[1], a->cloud, &error)) ||
            refuse("%s", error.text);
 }
 
@@ -304,13 +305,13 @@ static int run(int argc, char **argv)
     arguments a = {.def = octree_def_default(), .view = view_default()};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
-    const int status = command_read(&command_inspect, &a, argc, argv);
+    const int status = command_read_arguments(&command_inspect, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     a.cloud = argv[optind];
     const bool ok =
         check_renderer(&a.renderer) && check_picture(&a) && read_view(&a.view_options, &a.view) && check_outputs(&a);
-    return ok ? inspect_it(&a) : EXIT_TROUBLE;
+    return ok ? inspect(&a) : EXIT_TROUBLE;
 }
 
 const command command_inspect = {

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-static int join_it(const char *folder, bool json)
+static int join(const char *folder, bool json)
 {
     watch w = watch_begin("ticks");
     film_options film = {.folder = folder, .progress = watch_progress, .keep_going = watch_keep_going, .context = &w};
@@ -16,9 +16,9 @@ static int join_it(const char *folder, bool json)
     const bool ok = join_chunks(&film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
     if (!ok)
-        trouble("%s", error.text);
+        print_error("%s", error.text);
     else if (!whole)
-        trouble("stopped; %s is as it was", folder);
+        print_error("stopped; %s is as it was", folder);
     else if (json || !is_quiet())
         film_report_joined(stdout, &summary, &film, json);
     watch_end(&w);
@@ -37,8 +37,8 @@ static const command_option options[] = {
 static int run(int argc, char **argv)
 {
     arguments a = {.json = false};
-    const int status = command_read(&command_join, &a, argc, argv);
-    return status == COMMAND_GO_ON ? join_it(argv[optind], a.json) : status;
+    const int status = command_read_arguments(&command_join, &a, argc, argv);
+    return status == COMMAND_GO_ON ? join(argv[optind], a.json) : status;
 }
 
 const command command_join = {

@@ -31,12 +31,12 @@ static const command_option options[] = {
     {0},
 };
 
-static int pick_it(const char *frame, const pick_options *options, bool json)
+static int print_pick(const char *frame, const pick_options *options, bool json)
 {
     pick found;
     octreel_error error;
     if (!pick_frame(frame, options, &found, &error))
-        return trouble("%s", error.text);
+        return print_error("%s", error.text);
     pick_print(stdout, &found, json);
     pick_release(&found);
     return EXIT_DONE;
@@ -45,12 +45,12 @@ static int pick_it(const char *frame, const pick_options *options, bool json)
 static int run(int argc, char **argv)
 {
     arguments a = {.pick.radius = 8};
-    const int status = command_read(&command_pick, &a, argc, argv);
+    const int status = command_read_arguments(&command_pick, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     const bool ok = check_renderer(&a.pick.renderer) && read_place("X", argv[optind + 1], &a.pick.x) &&
                     read_place("Y", argv[optind + 2], &a.pick.y);
-    return ok ? pick_it(argv[optind], &a.pick, a.json) : EXIT_TROUBLE;
+    return ok ? print_pick(argv[optind], &a.pick, a.json) : EXIT_TROUBLE;
 }
 
 const command command_pick = {

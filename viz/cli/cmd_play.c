@@ -64,7 +64,7 @@ static bool check_page(const arguments *a)
     octreel_error error;
     if (file_is_standard(a->page))
         return true;
-    if (a->session && !output_spares(&output, a->session, &error))
+    if (a->session && !check_output_is_not_input(&output, a->session, &error))
         return refuse("%s", error.text);
     if (is_of_recording(a->page))
         return refuse("%s: is the page of a recording: choose another name (-o)", a->page);
@@ -116,7 +116,7 @@ static bool write_file(const arguments *a, const octree_session *session, film_s
                                                                : file_writer_abandon(&file);
 }
 
-static int play_it(arguments *a, const octree_session *session)
+static int make_page(arguments *a, const octree_session *session)
 {
     watch w = watch_begin("ticks");
     film_summary summary;
@@ -129,7 +129,7 @@ static int play_it(arguments *a, const octree_session *session)
     if (ok && !is_quiet())
         film_report_start(stderr, &summary.start, session);
     if (!ok)
-        trouble("%s", error.text);
+        print_error("%s", error.text);
     else if (!file_is_standard(a->page) && !is_quiet())
         tell(a->page, summary.ticks);
     watch_end(&w);
@@ -146,7 +146,7 @@ static int play(arguments *a)
     a->film.values = &file.values;
     if (ok && *file.note)
         note("%s", file.note);
-    const int status = ok ? play_it(a, &file.session) : trouble("%s", error.text);
+    const int status = ok ? make_page(a, &file.session) : print_error("%s", error.text);
     session_release(&file);
     return status;
 }
@@ -155,7 +155,7 @@ static int run(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default()}};
     char name[NAME_MAX + 1];
-    const int status = command_read(&command_play, &a, argc, argv);
+    const int status = command_read_arguments(&command_play, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     a.session = argv[optind];

@@ -74,7 +74,7 @@ static void tell(const arguments *a, const film_summary *summary, const watch *w
         film_report(stdout, summary, &a->film, progress_seconds(&w->progress), a->json);
 }
 
-static int film_it(arguments *a, const octree_session *session)
+static int film(arguments *a, const octree_session *session)
 {
     watch w = watch_begin("ticks");
     film_summary summary;
@@ -91,7 +91,7 @@ static int film_it(arguments *a, const octree_session *session)
         film_report_empty(stderr, &summary, &a->film);
     }
     if (!ok)
-        trouble("%s", error.text);
+        print_error("%s", error.text);
     else if (!whole)
         film_report_stopped(stderr, &summary, &a->film);
     else
@@ -123,13 +123,15 @@ static int end_stream(const arguments *a, film_stream_end how, const film_summar
     if (how == FILM_STREAM_WHOLE)
         tell(a, summary, w);
     else if (how == FILM_STREAM_STOPPED && ticks == 0)
-        trouble("stopped before a tick was filmed");
+        print_error("stopped before a tick was filmed");
     else if (how == FILM_STREAM_STOPPED)
-        trouble("stopped after %" PRIu64 " tick%s, of which %s is a recording", ticks, plural(ticks), a->film.folder);
+        print_error("stopped after %" PRIu64 " tick%s, of which %s is a recording", ticks, plural(ticks),
+                    a->film.folder);
     else if (ticks == 0)
-        trouble("%s", error->text);
+        print_error("%s", error->text);
     else
-        trouble("%s; %s has what came before: %" PRIu64 " tick%s", error->text, a->film.folder, ticks, plural(ticks));
+        print_error("%s; %s has what came before: %" PRIu64 " tick%s", error->text, a->film.folder, ticks,
+                    plural(ticks));
     return how == FILM_STREAM_WHOLE ? EXIT_DONE : EXIT_TROUBLE;
 }
 
@@ -143,7 +145,7 @@ static int film_standard_input(arguments *a)
     a->film.context = &w;
     session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, watch_keep_going, &w);
     if (!stream)
-        return trouble("there is no memory to read standard input");
+        return print_error("there is no memory to read standard input");
     const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
     progress_end(&w.progress);
     if (*session_stream_note(stream))
@@ -210,7 +212,7 @@ static int play(arguments *a)
     a->film.values = &file.values;
     if (ok && *file.note)
         note("%s", file.note);
-    const int status = ok ? film_it(a, &file.session) : trouble("%s", error.text);
+    const int status = ok ? film(a, &file.session) : print_error("%s", error.text);
     session_release(&file);
     return status;
 }
@@ -222,8 +224,8 @@ static bool holds_current(const char *folder)
     char up[PATH_MAX] = ".";
     bool is = false, more = stat(folder, &named) == 0;
     for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
-        more = stat(up, &here) == 0 && (length == 1 || !same_file(&here, &before)); /* the root is above itself */
-        is = more && same_file(&named, &here);
+        more = stat(up, &here) == 0 && (length == 1 || !is_same_file(&here, &before)); /* the root is above itself */
+        is = more && is_same_file(&named, &here);
         length += (size_t)snprintf(up + length, sizeof up - length, "/..");
     }
     return is;
@@ -237,24 +239,24 @@ static bool is_own_folder(const char *folder)
 static int run(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_default()}};
-    const int status = command_read(&command_record, &a, argc, argv);
+    const int status = command_read_arguments(&command_record, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
     if (!a.film.folder)
-        return trouble("record needs a folder for its frames: -o DIR");
+        return print_error("record needs a folder for its frames: -o DIR");
     if (!is_own_folder(a.film.folder))
-        return trouble(
+        return print_error(
             "-o takes a folder of its own for the frames, and \"%s\" is the current one or holds it: -o frames, say",
             a.film.folder);
     if (a.film.replace && (a.film.resume || a.film.last != 0))
-        return trouble("--replace does not go with %s: it begins a whole recording anew",
-                       a.film.resume ? "--resume" : "--ticks");
+        return print_error("--replace does not go with %s: it begins a whole recording anew",
+                           a.film.resume ? "--resume" : "--ticks");
     if (a.no_frames && a.every)
-        return trouble("--no-frames films no tick, and --every some: give one of them");
+        return print_error("--no-frames films no tick, and --every some: give one of them");
     a.session = argv[optind];
     const bool stream = a.session && file_is_standard(a.session);
     if (stream && refuse_stream(&a))
-        return trouble("%s", refuse_stream(&a));
+        return print_error("%s", refuse_stream(&a));
     if (!check_renderer(&a.film.renderer) || !read_film(&a))
         return EXIT_TROUBLE;
     return stream ? film_standard_input(&a) : play(&a);

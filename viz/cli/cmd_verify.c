@@ -22,7 +22,7 @@ static const command_option options[] = {
     {0},
 };
 
-static int verify_it(const char *folder, const arguments *a)
+static int verify(const char *folder, const arguments *a)
 {
     progress p = progress_start("ticks");
     const verify_options options = {.renderer = a->renderer, .progress = on_progress, .context = &p};
@@ -31,7 +31,7 @@ static int verify_it(const char *folder, const arguments *a)
     const bool ok = verify_recording(folder, &options, &report, &error);
     progress_end(&p);
     if (!ok)
-        return trouble("%s", error.text);
+        return print_error("%s", error.text);
     verify_print(stdout, folder, &report, a->json);
     return report.count ? EXIT_FINDING : EXIT_DONE;
 }
@@ -39,10 +39,10 @@ static int verify_it(const char *folder, const arguments *a)
 static int run(int argc, char **argv)
 {
     arguments a = {.json = false};
-    const int status = command_read(&command_verify, &a, argc, argv);
+    const int status = command_read_arguments(&command_verify, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
-    return check_renderer(&a.renderer) ? verify_it(argv[optind], &a) : EXIT_TROUBLE;
+    return check_renderer(&a.renderer) ? verify(argv[optind], &a) : EXIT_TROUBLE;
 }
 
 const command command_verify = {

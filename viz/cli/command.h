@@ -40,7 +40,7 @@ extern const command command_octreel;
 
 /* The n-th command; null beyond the last. */
 const command *command_at(size_t n);
-const command *command_named(const char *name);
+const command *find_command(const char *name);
 
 /* What there is help on beside commands: files, each with a manual of section 5. */
 typedef struct help_topic {
@@ -50,7 +50,7 @@ typedef struct help_topic {
 
 /* The n-th topic; null beyond the last. */
 const help_topic *help_topic_at(size_t n);
-const help_topic *help_topic_named(const char *name);
+const help_topic *find_help_topic(const char *name);
 
 /* The n-th row of a command's options: its own, those of the tables that it shares with others, and those that all
  * commands have. False beyond the last. */
@@ -62,6 +62,6 @@ const char *command_status(const command *c, int status);
 /* Read all options into the command's arguments; optind is then the first of the others. Returns COMMAND_GO_ON, or the
  * command's exit status: help was asked for, or the sentence about what does not fit is printed. */
 enum { COMMAND_GO_ON = -1 };
-int command_read(const command *c, void *arguments, int argc, char **argv);
+int command_read_arguments(const command *c, void *arguments, int argc, char **argv);
 
 #endif

@@ -28,14 +28,14 @@ static bool common_option_row(size_t n, command_option *option)
     return true;
 }
 
-static bool ends_table(const command_option *row)
+static bool is_table_end(const command_option *row)
 {
     return !row->name && !row->help && !row->more;
 }
 
 bool command_option_at(const command *c, size_t n, command_option *option)
 {
-    for (const command_option *own = c->options; own && !ends_table(own); own++) {
+    for (const command_option *own = c->options; own && !is_table_end(own); own++) {
         for (size_t i = 0; own->more && own->more(i, option); i++)
             if (n-- == 0) {
                 option->offset += own->offset;
@@ -50,7 +50,7 @@ bool command_option_at(const command *c, size_t n, command_option *option)
 }
 
 /* The row of the option with this letter; false where the command has none. */
-static bool find_lettered(const command *c, char letter, command_option *option)
+static bool find_option_by_letter(const command *c, char letter, command_option *option)
 {
     for (size_t n = 0; command_option_at(c, n, option); n++)
         if (option->name && option_letter(option->name) == letter)
@@ -83,7 +83,7 @@ static void list_options(const command *c, struct option all[MOST_OPTIONS], char
 /* ---- What does not fit --------------------------------------------------------------------------------------- */
 
 /* "--s could be --size or --slice"; false where fewer than two options begin so. */
-static bool tell_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
+static bool report_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
 {
     char could[256] = "";
     size_t used = 0, found = 0;
@@ -94,7 +94,7 @@ static bool tell_ambiguous(const command *c, const struct option *all, const cha
         }
     if (found < 2)
         return false;
-    trouble("%s: --%.*s could be each of %s", c->name, (int)length, name, could);
+    print_error("%s: --%.*s could be each of %s", c->name, (int)length, name, could);
     return true;
 }
 
@@ -107,21 +107,22 @@ static int refuse_option(const command *c, const struct option *all, bool missin
     if (!letter && optopt)
         command_option_at(c, (size_t)(optopt - OPTION), &known);
     if (missing)
-        return trouble("%s%s takes a value, and has none; %s %s --help tells more", letter ? "-" : "--",
-                       letter ? (char[]){(char)optopt, 0} : known.name, hint_program(), c->name);
+        return print_error("%s%s takes a value, and has none; %s %s --help tells more", letter ? "-" : "--",
+                           letter ? (char[]){(char)optopt, 0} : known.name, hint_program_name(), c->name);
     if (letter)
-        return trouble("%s has no option -%c; %s %s --help lists all", c->name, optopt, hint_program(), c->name);
+        return print_error("%s has no option -%c; %s %s --help lists all", c->name, optopt, hint_program_name(),
+                           c->name);
     if (optopt)
-        return trouble("--%s takes no value", known.name);
+        return print_error("--%s takes no value", known.name);
     const char *name = typed + 2;
     const size_t length = strcspn(name, "=");
     hint h = hint_for(name, length);
-    if (tell_ambiguous(c, all, name, length))
+    if (report_ambiguous(c, all, name, length))
         return EXIT_TROUBLE;
     for (const struct option *o = all; o->name; o++)
         hint_offer(&h, o->name);
-    return trouble("%s has no option --%.*s%s%s %s --help lists all", c->name, (int)length, name,
-                   hint_text(&h, "--", meant), hint_program(), c->name);
+    return print_error("%s has no option --%.*s%s%s %s --help lists all", c->name, (int)length, name,
+                       hint_text(&h, "--", meant), hint_program_name(), c->name);
 }
 
 /* A value that is an option: the option before it has none. */
@@ -135,7 +136,7 @@ static bool is_option(const char *value)
 static bool option_found(const command *c, int number, command_option *option)
 {
     return number >= OPTION ? command_option_at(c, (size_t)(number - OPTION), option)
-                            : find_lettered(c, (char)number, option);
+                            : find_option_by_letter(c, (char)number, option);
 }
 
 /* COMMAND_GO_ON, or the exit status. */
@@ -143,13 +144,13 @@ static int read_option(const command *c, int number, char **argv, void *argument
 {
     command_option o;
     if (!option_found(c, number, &o))
-        return trouble("%s", c->no_negative);
+        return print_error("%s", c->no_negative);
     if (strcmp(o.name, "help") == 0)
         return help_print(stdout, c);
     if (strcmp(o.name, "version") == 0)
-        return help_print_version();
+        return version_print();
     if (optarg && optarg == argv[optind - 1] && is_option(optarg))
-        return trouble("%s takes a value, and \"%s\" is an option", argv[optind - 2], optarg);
+        return print_error("%s takes a value, and \"%s\" is an option", argv[optind - 2], optarg);
     return o.read(&o, optarg, (char *)arguments + o.offset) ? COMMAND_GO_ON : EXIT_TROUBLE;
 }
 
@@ -176,13 +177,14 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
     command_option output;
     const file_kinds kind = 1u << file_kind_of(word);
     const bool no_output = word[0] == '-' || kind & (c->inputs[0] | FILE_KIND(RECORDING));
-    if (!has_output && !no_output && find_lettered(c, 'o', &output) && is_meant_for(output.read, word))
-        return trouble("%s takes %s, not also \"%s\", did you mean -o %s?", c->name, c->takes, word, word);
+    if (!has_output && !no_output && find_option_by_letter(c, 'o', &output) && fits_output_option(output.read, word))
+        return print_error("%s takes %s, not also \"%s\", did you mean -o %s?", c->name, c->takes, word, word);
     if (c->several)
-        return trouble("%s takes %s, not also \"%s\"; for several: for f in %s; do %s %s \"$f\" -o \"$f.png\"; done",
-                       c->name, c->takes, word, c->several, hint_program(), c->name);
-    return trouble("%s takes %s, not also \"%s\"; %s %s --help tells more", c->name, c->takes, word, hint_program(),
-                   c->name);
+        return print_error(
+            "%s takes %s, not also \"%s\"; for several: for f in %s; do %s %s \"$f\" -o \"$f.png\"; done", c->name,
+            c->takes, word, c->several, hint_program_name(), c->name);
+    return print_error("%s takes %s, not also \"%s\"; %s %s --help tells more", c->name, c->takes, word,
+                       hint_program_name(), c->name);
 }
 
 /* A file of a recording stands for its folder where that is taken. */
@@ -217,7 +219,7 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
     if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_part(c, path, kind))
         return false;
     return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->words, c->name, c->takes,
-                  row->command ? hint_program() : "", row->command ? " " : "", row->command ? row->command : "",
+                  row->command ? hint_program_name() : "", row->command ? " " : "", row->command ? row->command : "",
                   row->command ? " " : "", row->use);
 }
 
@@ -231,7 +233,7 @@ static bool check_inputs(const command *c, char **paths, int count)
     return true;
 }
 
-int command_read(const command *c, void *arguments, int argc, char **argv)
+int command_read_arguments(const command *c, void *arguments, int argc, char **argv)
 {
     bool has_output = false;
     const int status = read_options(c, argc, argv, arguments, &has_output);
@@ -241,7 +243,7 @@ int command_read(const command *c, void *arguments, int argc, char **argv)
     if (count > c->most)
         return refuse_surplus(c, argv[optind + c->most], has_output);
     if (count < c->least)
-        return trouble("%s takes %s; %s %s --help tells more", c->name, c->takes, hint_program(), c->name);
+        return print_error("%s takes %s; %s %s --help tells more", c->name, c->takes, hint_program_name(), c->name);
     if (!check_names(c->name, argv + optind, count))
         return EXIT_TROUBLE;
     return check_inputs(c, argv + optind, count) ? COMMAND_GO_ON : EXIT_TROUBLE;

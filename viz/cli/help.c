@@ -30,7 +30,7 @@ static void print_option(FILE *out, const command_option *option)
     const char letter = option_letter(option->name), short_form[] = {'-', letter, ',', 0};
     const int width = fprintf(out, "  %-3s --%s%s%s", letter ? short_form : "", option->name, option->value ? " " : "",
                               option->value ? option->value : "");
-    prose_beside(out, width, option->help, strlen(option->help), OPTION_COLUMN);
+    prose_fill_column(out, width, option->help, strlen(option->help), OPTION_COLUMN);
     if (option->words)
         print_choices(out, option);
 }
@@ -54,7 +54,7 @@ static void print_options(FILE *out, const command *c)
 
 static void print_row(FILE *out, const char *help, const char *name, const char *line)
 {
-    prose_beside(out, fprintf(out, "  %s%s", help, name), line, strlen(line), COMMAND_COLUMN);
+    prose_fill_column(out, fprintf(out, "  %s%s", help, name), line, strlen(line), COMMAND_COLUMN);
 }
 
 static void print_commands(FILE *out)
@@ -98,7 +98,7 @@ static void print_examples(FILE *out, const char *examples)
 int help_print(FILE *out, const command *c)
 {
     const bool whole = c == &command_octreel;
-    fprintf(out, "usage: %s%s%s %s\n\n", hint_program(), whole ? "" : " ", whole ? "" : c->name, c->usage);
+    fprintf(out, "usage: %s%s%s %s\n\n", hint_program_name(), whole ? "" : " ", whole ? "" : c->name, c->usage);
     prose_print(out, c->about);
     putc('\n', out);
     if (whole)
@@ -133,7 +133,7 @@ static bool print_renderer(draw_context kind)
     return true;
 }
 
-int help_print_version(void)
+int version_print(void)
 {
     int found = 0;
     printf("octreel %s\n", OCTREEL_VERSION);

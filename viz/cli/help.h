@@ -9,6 +9,6 @@
 int help_print(FILE *out, const command *c);
 
 /* Print the version, and who would draw; returns EXIT_TROUBLE where nobody can. */
-int help_print_version(void);
+int version_print(void);
 
 #endif

@@ -50,7 +50,7 @@ const command command_octreel = {
                 "octreel diff reference frames -o evidence\n",
 };
 
-const command *command_named(const char *name)
+const command *find_command(const char *name)
 {
     for (size_t i = 0; command_at(i); i++)
         if (strcmp(name, command_at(i)->name) == 0)
@@ -58,7 +58,7 @@ const command *command_named(const char *name)
     return NULL;
 }
 
-const help_topic *help_topic_named(const char *name)
+const help_topic *find_help_topic(const char *name)
 {
     for (size_t i = 0; help_topic_at(i); i++)
         if (strcmp(name, help_topic_at(i)->name) == 0)
@@ -67,7 +67,7 @@ const help_topic *help_topic_named(const char *name)
 }
 
 /* `help`: on what help was asked for. */
-static int refuse_word(const char *word, bool help)
+static int report_unknown_word(const char *word, bool help)
 {
     static const char *const other_words[] = {"help", "--help", "--version"};
     char meant[HINT_TEXT];
@@ -80,24 +80,25 @@ static int refuse_word(const char *word, bool help)
         hint_offer(&h, other_words[i]);
     const file_kind kind = help ? KIND_UNKNOWN : file_kind_of(word);
     if (file_kind_rows[kind].command)
-        return trouble("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].words,
-                       hint_program(), file_kind_rows[kind].command, file_kind_rows[kind].use);
+        return print_error("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].words,
+                           hint_program_name(), file_kind_rows[kind].command, file_kind_rows[kind].use);
     if (!help && *word == '-' && !h.name)
-        return trouble("a command comes first, and \"%s\" is an option; %s help lists them", word, hint_program());
-    return trouble("there is no %s \"%s\"%s%s help lists all", help ? "help on" : "command", word,
-                   hint_text(&h, "", meant), hint_program());
+        return print_error("a command comes first, and \"%s\" is an option; %s help lists them", word,
+                           hint_program_name());
+    return print_error("there is no %s \"%s\"%s%s help lists all", help ? "help on" : "command", word,
+                       hint_text(&h, "", meant), hint_program_name());
 }
 
 /* The manual of octreel, a command or a topic, for man(1). */
 static int print_manual(const char *name)
 {
-    const help_topic *topic = help_topic_named(name);
-    const command *found = strcmp(name, command_octreel.name) == 0 ? &command_octreel : command_named(name);
+    const help_topic *topic = find_help_topic(name);
+    const command *found = strcmp(name, command_octreel.name) == 0 ? &command_octreel : find_command(name);
     if (topic)
         manual_write_topic(stdout, topic);
     else if (found)
         manual_write(stdout, found);
-    return topic || found ? EXIT_DONE : refuse_word(name, true);
+    return topic || found ? EXIT_DONE : report_unknown_word(name, true);
 }
 
 static int print_completions(const char *shell)
@@ -108,8 +109,8 @@ static int print_completions(const char *shell)
         hint_offer(&h, completion_shell(i));
     if (completion_write(stdout, shell))
         return EXIT_DONE;
-    return trouble("there are no completions for \"%s\"%sthere are those of %s", shell, hint_text(&h, "", meant),
-                   json_list_names(completion_shell, known, sizeof known));
+    return print_error("there are no completions for \"%s\"%sthere are those of %s", shell, hint_text(&h, "", meant),
+                       json_list_names(completion_shell, known, sizeof known));
 }
 
 /* On nothing, a command or a topic. */
@@ -122,13 +123,13 @@ static int help(int argc, char **argv)
     if (argc == 1)
         return help_print(stdout, &command_octreel);
     if (argc > 2)
-        return trouble("help takes one command, not also \"%s\"", argv[2]);
-    const help_topic *topic = help_topic_named(argv[1]);
-    const command *found = command_named(argv[1]);
+        return print_error("help takes one command, not also \"%s\"", argv[2]);
+    const help_topic *topic = find_help_topic(argv[1]);
+    const command *found = find_command(argv[1]);
     if (topic)
         prose_print(stdout, topic->text);
     else if (!found)
-        return refuse_word(argv[1], true);
+        return report_unknown_word(argv[1], true);
     else
         help_print(stdout, found);
     return EXIT_DONE;
@@ -143,12 +144,12 @@ static int run(int argc, char **argv)
     if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
         return help(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0)
-        return help_print_version();
-    const command *found = command_named(argv[1]);
-    return found ? found->run(argc - 1, argv + 1) : refuse_word(argv[1], false);
+        return version_print();
+    const command *found = find_command(argv[1]);
+    return found ? found->run(argc - 1, argv + 1) : report_unknown_word(argv[1], false);
 }
 
-static void say_context(const char *name, const char *instead_of, const char *why)
+static void report_context_fallback(const char *name, const char *instead_of, const char *why)
 {
     note("%s draws, since %s does not: %s", name, instead_of, why);
 }
@@ -157,10 +158,10 @@ static void say_context(const char *name, const char *instead_of, const char *wh
 int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);
-    draw_context_tell(say_context);
+    draw_context_tell(report_context_fallback);
     json_watch_memory();
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return status;
-    return trouble("what there is to say cannot be written to standard output");
+    return print_error("what there is to say cannot be written to standard output");
 }

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 /* One line, whatever the names of files in it hold. */
-static void say(const char *format, va_list arguments)
+static void print_sentence(const char *format, va_list arguments)
 {
     char sentence[1 << 14];
     vsnprintf(sentence, sizeof sentence, format, arguments);
@@ -40,15 +40,15 @@ void note(const char *format, ...)
     if (quiet)
         return;
     va_start(arguments, format);
-    say(format, arguments);
+    print_sentence(format, arguments);
     va_end(arguments);
 }
 
-int trouble(const char *format, ...)
+int print_error(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    say(format, arguments);
+    print_sentence(format, arguments);
     va_end(arguments);
     return EXIT_TROUBLE;
 }
@@ -57,7 +57,7 @@ bool refuse(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    say(format, arguments);
+    print_sentence(format, arguments);
     va_end(arguments);
     return false;
 }
@@ -94,7 +94,7 @@ char option_letter(const char *name)
     return 0;
 }
 
-const char *option_typed(const command_option *option, char text[OPTION_TYPED])
+const char *option_as_typed(const command_option *option, char text[OPTION_TYPED])
 {
     const char letter = option_letter(option->name);
     snprintf(text, OPTION_TYPED, "%s%s", letter ? "-" : "--", letter ? (char[]){letter, 0} : option->name);
@@ -123,7 +123,7 @@ bool read_text(const command_option *option, const char *text, void *into)
 bool read_name(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
-    return read_text(option, text, into) && check_name(option_typed(option, typed), text);
+    return read_text(option, text, into) && check_name(option_as_typed(option, typed), text);
 }
 
 static bool is_folder(const char *path)
@@ -132,7 +132,7 @@ static bool is_folder(const char *path)
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-bool is_meant_for(command_option_reader *reader, const char *path)
+bool fits_output_option(command_option_reader *reader, const char *path)
 {
     const name_kind kind = name_kind_of(path);
     return reader == read_picture ? kind == NAME_PNG : kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
@@ -144,10 +144,10 @@ bool read_folder(const command_option *option, const char *text, void *into)
     const name_kind kind = name_kind_of(text);
     if (file_is_standard(text))
         return refuse("%s takes the name of a folder, and \"-\" is standard output; ./- is a folder of that name",
-                      option_typed(option, typed));
+                      option_as_typed(option, typed));
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
         return **(const char **)into != 0;
-    return refuse("%s takes the name of a folder, and \"%s\" is that of a %s%s", option_typed(option, typed), text,
+    return refuse("%s takes the name of a folder, and \"%s\" is that of a %s%s", option_as_typed(option, typed), text,
                   kind == NAME_FILE   ? "file"
                   : kind == NAME_FILM ? "film"
                                       : "picture",
@@ -159,7 +159,7 @@ static bool read_file_name(const command_option *option, const char *text, void 
     char typed[OPTION_TYPED];
     return read_name(option, text, into) &&
            (file_is_standard(text) || !is_folder(text) ||
-            refuse("%s takes the name of a file, and \"%s\" is a folder", option_typed(option, typed), text));
+            refuse("%s takes the name of a file, and \"%s\" is a folder", option_as_typed(option, typed), text));
 }
 
 bool read_picture(const command_option *option, const char *text, void *into)
@@ -168,10 +168,10 @@ bool read_picture(const command_option *option, const char *text, void *into)
     const name_kind kind = name_kind_of(text);
     if (file_is_standard(text) && isatty(STDOUT_FILENO))
         return refuse("%s - writes a PNG, which a terminal does not show: name a file, or send it on with | or >",
-                      option_typed(option, typed));
+                      option_as_typed(option, typed));
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
-            refuse("%s takes the name of a PNG, and \"%s\" is none", option_typed(option, typed), text));
+            refuse("%s takes the name of a PNG, and \"%s\" is none", option_as_typed(option, typed), text));
 }
 
 bool read_file(const command_option *option, const char *text, void *into)
@@ -180,14 +180,14 @@ bool read_file(const command_option *option, const char *text, void *into)
     const name_kind kind = name_kind_of(text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_FILE ||
-            refuse("%s writes text, and \"%s\" is the name of a picture", option_typed(option, typed), text));
+            refuse("%s writes text, and \"%s\" is the name of a picture", option_as_typed(option, typed), text));
 }
 
 bool read_whole(const command_option *option, const char *text, void *into)
 {
     char typed[OPTION_TYPED];
     uint64_t value;
-    if (!read_count(option_typed(option, typed), text, option->min, option->max, &value))
+    if (!read_count(option_as_typed(option, typed), text, option->min, option->max, &value))
         return false;
     if (option->size == sizeof value)
         memcpy(into, &value, sizeof value);
@@ -281,7 +281,7 @@ const char *first_view_option(const view_options *given)
     return NULL;
 }
 
-bool gives_view_option(const view_options *given, const char *name)
+bool has_view_option(const view_options *given, const char *name)
 {
     for (size_t i = 0; view_option_at(i); i++)
         if (given->values[i] && view_option_at(i)->name && strcmp(view_option_at(i)->name, name) == 0)

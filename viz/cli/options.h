@@ -22,7 +22,7 @@ typedef bool option_table_row(size_t n, command_option *option);
 enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
 
 /* Print "octreel: " and a sentence on stderr; returns EXIT_TROUBLE. */
-int trouble(const char *format, ...);
+int print_error(const char *format, ...);
 
 /* The same for readers of values: returns false. */
 bool refuse(const char *format, ...);
@@ -58,7 +58,7 @@ char option_letter(const char *name);
 
 /* As it is typed: "--every", "-o". */
 #define OPTION_TYPED 32
-const char *option_typed(const command_option *option, char text[OPTION_TYPED]);
+const char *option_as_typed(const command_option *option, char text[OPTION_TYPED]);
 
 command_option_reader read_flag;    /* bool: the option takes no value */
 command_option_reader read_text;    /* const char * */
@@ -87,7 +87,7 @@ command_option_reader read_quiet;   /* nothing: --quiet */
     }
 
 /* Whether a path without an option can be meant for -o, by the option's reader. */
-bool is_meant_for(command_option_reader *reader, const char *path);
+bool fits_output_option(command_option_reader *reader, const char *path);
 
 /* The keys of a game, which --keys takes. */
 #define KEYS_HELP "w s +-y, d a +-x, e f +-z, n nearest, . wait, q end"
@@ -118,7 +118,7 @@ option_table_row view_option_row;
     }
 
 /* Whether one was given. */
-bool gives_view_option(const view_options *given, const char *name);
+bool has_view_option(const view_options *given, const char *name);
 
 /* The name of the first of them that was given; null: none was. */
 const char *first_view_option(const view_options *given);

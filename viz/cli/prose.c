@@ -131,7 +131,7 @@ void prose_fill(FILE *out, const char *text, size_t length, int column, int inde
     putc('\n', out);
 }
 
-void prose_beside(FILE *out, int width, const char *text, size_t length, int column)
+void prose_fill_column(FILE *out, int width, const char *text, size_t length, int column)
 {
     const bool fits = width + 2 <= column;
     fprintf(out, "%s%*s", fits ? "" : "\n", fits ? column - width : column, "");
@@ -144,7 +144,7 @@ enum { SHORT_TERM = 14 };
 static void print_item(FILE *out, const prose_block *block)
 {
     const int width = fprintf(out, "%*s%.*s", block->indent, "", (int)block->term_length, block->term);
-    prose_beside(out, width, block->text, block->length, block->indent + SHORT_TERM);
+    prose_fill_column(out, width, block->text, block->length, block->indent + SHORT_TERM);
 }
 
 static void print_lines(FILE *out, const prose_block *block)

@@ -42,7 +42,7 @@ void prose_fill(FILE *out, const char *text, size_t length, int column, int inde
 
 /* Write words beside a term, `width` blanks and letters that are written already: from `column` on, in the next line
  * where there is no room for two blanks between. */
-void prose_beside(FILE *out, int width, const char *text, size_t length, int column);
+void prose_fill_column(FILE *out, int width, const char *text, size_t length, int column);
 
 /* Write a whole text so. */
 void prose_print(FILE *out, const char *text);

@@ -177,7 +177,7 @@ static void tell(const accepting *a)
     for (size_t i = 0; i < a->result.count; i++)
         if (a->actions[i] != KEPT && said++ < LIST_LINES)
             say(a, &a->result.pairs[i], a->actions[i]);
-    print_more(a->out, said, LIST_LINES, "");
+    print_remaining_count(a->out, said, LIST_LINES, "");
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
     write_escaped(a->out, a->reference.path, escape_nothing);
     fprintf(a->out, ": %zu before, %zu after: %zu changed, %zu new, %zu removed\n", before, after, a->counts[CHANGED],
@@ -220,7 +220,7 @@ static void tell_as_json(const accepting *a)
 bool accept_frames(const accept_options *options, FILE *out, octreel_error *error)
 {
     accepting a = {.options = options, .out = out};
-    const int lock = file_lock_folder_of(options->reference);
+    const int lock = file_lock_parent_folder(options->reference);
     const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && accept_check_whole(&a.frames, error) &&
                     (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
                     (a.reference.kind == DIFF_DIGESTS ? accept_digests : accept_pictures)(&a, error);

@@ -32,7 +32,7 @@ static bool set_aside(file_set *set, const char *from, char *path, octreel_error
     set->files = grown;
     set_file *file = &grown[set->count];
     file->path = path;
-    if (file_copy_beside(&file->copy, from, path, error)) {
+    if (file_copy_prepare(&file->copy, from, path, error)) {
         set->count++;
         return true;
     }
@@ -82,7 +82,7 @@ static bool copy_fact(const accepting *a, const char *name, file_set *set, octre
 {
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
     bool ok = (from && to) || error_no_memory(error);
-    if (ok && access(from, F_OK) == 0 && !same_bytes(from, to)) {
+    if (ok && access(from, F_OK) == 0 && !have_same_bytes(from, to)) {
         ok = set_aside(set, from, to, error);
         to = NULL;
     }

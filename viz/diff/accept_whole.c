@@ -44,7 +44,7 @@ static bool refuse_damaged(const char *folder, octreel_error *error, const char 
     return error_set(
         error,
         "%s: %s, and a recording that is damaged or was not done is not accepted; %s record --resume completes it",
-        folder, lack, hint_program());
+        folder, lack, hint_program_name());
 }
 
 static bool count_lines(const char *folder, uint64_t *lines, octreel_error *error)

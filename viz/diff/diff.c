@@ -152,7 +152,7 @@ static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *resu
 static bool compare_bytes(diff_pair *pair)
 {
     frame_digest about = {0};
-    if (!pair->a->path || !pair->b->path || !same_bytes(pair->a->path, pair->b->path) ||
+    if (!pair->a->path || !pair->b->path || !have_same_bytes(pair->a->path, pair->b->path) ||
         !image_png_size(pair->a->path, &about.width, &about.height))
         return false; /* equal, and cut short: let the PNG reader say what is wrong */
     pair->about[0] = pair->about[1] = about;
@@ -163,7 +163,7 @@ static bool compare_bytes(diff_pair *pair)
 static void find_unreadable(diff_pair *pair, const octreel_error *error)
 {
     octreel_error ignored;
-    pair->unserved = !system_served(&ignored);
+    pair->unserved = !check_system_resources(&ignored);
     pair->finding = FOUND_UNREADABLE;
     pair->trouble = strdup(error->text); /* null without memory: reports say so */
 }
@@ -380,8 +380,8 @@ static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *r
     bool ok = (paths[0] && paths[1]) || error_no_memory(error);
     errno = 0;
     result->by_ticks = true;
-    result->verdict = ok && same_bytes(paths[0], paths[1]) ? DIFF_SAME : DIFF_DIFFERENT;
-    ok = ok && (result->verdict == DIFF_SAME || system_served(error));
+    result->verdict = ok && have_same_bytes(paths[0], paths[1]) ? DIFF_SAME : DIFF_DIFFERENT;
+    ok = ok && (result->verdict == DIFF_SAME || check_system_resources(error));
     free(paths[0]);
     free(paths[1]);
     return ok;

@@ -48,7 +48,7 @@ bool picture_store_put(const char *store, const char *picture, const frame_diges
     char *folder = folder_of(store, digest), *path = folder ? path_of(folder, digest) : NULL;
     bool ok = path || error_no_memory(error);
     if (ok && (access(path, F_OK) != 0 || !is_picture(path, digest, background, &ignored)))
-        ok = folder_make(folder, error) && file_copy_apart(picture, path, error);
+        ok = folder_make(folder, error) && file_copy_unique(picture, path, error);
     free(path);
     free(folder);
     return ok;

@@ -157,7 +157,7 @@ void diff_side_release(diff_side *side)
 static bool fact_spared(const diff_side *side, const char *name, const output_file *output, octreel_error *error)
 {
     char *path = path_join(side->path, name);
-    const bool ok = path ? output_spares(output, path, error) : error_no_memory(error);
+    const bool ok = path ? check_output_is_not_input(output, path, error) : error_no_memory(error);
     free(path);
     return ok;
 }
@@ -168,9 +168,9 @@ bool diff_side_spared(const diff_side *side, const output_file *output, octreel_
     struct stat status;
     if (!output->path || stat(output->path, &status) != 0)
         return true;
-    bool ok = side->kind != DIFF_DIGESTS || output_spares(output, side->source, error);
+    bool ok = side->kind != DIFF_DIGESTS || check_output_is_not_input(output, side->source, error);
     for (size_t i = 0; ok && i < side->count; i++)
-        ok = !side->frames[i].path || output_spares(output, side->frames[i].path, error);
+        ok = !side->frames[i].path || check_output_is_not_input(output, side->frames[i].path, error);
     for (size_t i = 0; ok && side->kind == DIFF_RECORDING && folder_fact_name(i); i++)
         ok = fact_spared(side, folder_fact_name(i), output, error);
     return ok;

@@ -204,7 +204,7 @@ static bool file_differs(const diff_side *a, const diff_side *b, const char *nam
 {
     char *paths[2] = {path_join(a->path, name), path_join(b->path, name)};
     const bool there = paths[0] && paths[1] && (access(paths[0], F_OK) == 0 || access(paths[1], F_OK) == 0);
-    const bool differs = there && !same_bytes(paths[0], paths[1]);
+    const bool differs = there && !have_same_bytes(paths[0], paths[1]);
     free(paths[0]);
     free(paths[1]);
     return differs;

@@ -31,7 +31,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     uint64_t pixels;
     errno = 0;
     if (!image_digest_png_by(origin->kind, frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
-        return !system_served(&ignored); /* nothing is said of what is not known */
+        return !check_system_resources(&ignored); /* nothing is said of what is not known */
     return pixels == origin->pixels;
 }
 

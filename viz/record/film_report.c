@@ -113,7 +113,7 @@ static void report_left_out(FILE *out, const film_summary *summary)
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
 {
     fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are there: %s join ", options->first,
-            options->first + summary->ticks - 1, hint_program());
+            options->first + summary->ticks - 1, hint_program_name());
     hint_write_word(out, options->folder);
     putc('\n', out);
 }
@@ -210,7 +210,7 @@ void film_report_stopped(FILE *out, const film_summary *summary, const film_opti
         return;
     }
     fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to go on: %s record --resume",
-            summary->ticks, summary->total, plural(summary->total), hint_program());
+            summary->ticks, summary->total, plural(summary->total), hint_program_name());
     if (options->last != 0)
         fprintf(out, " --ticks %" PRIu64 ":%" PRIu64, options->first, options->first + summary->total);
     fputs(" -o ", out);

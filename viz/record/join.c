@@ -102,7 +102,7 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
     char name[FRAME_NAME];
     if (!folder_has(j->options->folder, frame_name(origin.tick, name)))
         return error_set(error, "%s: %s is missing; %s record --resume films what is missing", j->options->folder, name,
-                         hint_program());
+                         hint_program_name());
     if (!frame_check(j->options->folder, &origin, error))
         return false;
     j->summary->frames++;
@@ -176,7 +176,7 @@ static bool join_all(joining *j, bool *stopped, octreel_error *error)
             return false;
     return *stopped || j->summary->ticks == j->summary->total ||
            error_set(error, "%s: no chunk has tick %" PRIu64 "; %s record --resume films what is missing",
-                     j->options->folder, j->summary->ticks, hint_program());
+                     j->options->folder, j->summary->ticks, hint_program_name());
 }
 
 /* ---- All of it ---------------------------------------------------------------------------------------------- */
@@ -199,7 +199,7 @@ static bool write_ticks(joining *j, octreel_error *error)
 static bool check_renderer_file(const char *folder, octreel_error *error)
 {
     return folder_has(folder, "renderer.json") ||
-           error_set(error, "%s: renderer.json is missing; %s record --resume writes it", folder, hint_program());
+           error_set(error, "%s: renderer.json is missing; %s record --resume writes it", folder, hint_program_name());
 }
 
 bool join_chunks(film_options *options, film_summary *summary, octreel_error *error)

@@ -187,7 +187,7 @@ static void release(replacement *r)
 static bool is_there(const replacement *r)
 {
     struct stat open, named;
-    return fstat(r->lock, &open) == 0 && stat(r->aside, &named) == 0 && same_file(&open, &named);
+    return fstat(r->lock, &open) == 0 && stat(r->aside, &named) == 0 && is_same_file(&open, &named);
 }
 
 static bool make_aside(replacement *r, octreel_error *error)

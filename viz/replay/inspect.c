@@ -230,7 +230,7 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
     print_box(out, "  box", &node->box);
     for (size_t i = 0; node->leaf && i < node->count && i < LIST_LINES; i++)
         inspect_print_point(&node->points[i], NULL, out);
-    print_more(out, node->leaf ? node->count : 0, LIST_LINES, "--json lists all");
+    print_remaining_count(out, node->leaf ? node->count : 0, LIST_LINES, "--json lists all");
 }
 
 static void write_node(const octree_node *node, const char *name, FILE *out)

@@ -156,7 +156,7 @@ static void print_answer(const shown_answer *shown, FILE *out)
         fprintf(out, "  note: %s\n", note);
     for (size_t i = 0; i < shown->answer->count && i < LIST_LINES; i++)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
-    print_more(out, shown->answer->count, LIST_LINES, "--json lists all");
+    print_remaining_count(out, shown->answer->count, LIST_LINES, "--json lists all");
     fprintf(out,
             "  cost: %" PRIu64 " node%s visited (%" PRIu64 " %s); %" PRIu64 " point%s compared; %" PRIu64
             " node%s pruned, %" PRIu64 " taken whole\n",

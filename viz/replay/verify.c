@@ -91,7 +91,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
         check_size(v, path);
     }
     free(path);
-    return system_served(error);
+    return check_system_resources(error);
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -203,7 +203,7 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
     bool ok = check_line(v, step, error);
     if (ok && !v->stopped && step->filmed)
         ok = check_frame(v, step, error);
-    if (ok && v->stopped && !system_served(error))
+    if (ok && v->stopped && !check_system_resources(error))
         v->stopped = ok = false;
     if (!ok || v->stopped)
         return false;
@@ -297,7 +297,7 @@ static bool verify_all(verifying *v, octreel_error *error)
     errno = 0;
     if (v->report->has_frames)
         who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
-    return system_served(error) && (!v->report->has_frames || check_first_frame(v, error)) &&
+    return check_system_resources(error) && (!v->report->has_frames || check_first_frame(v, error)) &&
            (v->stopped || play_again(v, error)) && check_extra_frames(v, error);
 }
 

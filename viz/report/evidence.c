@@ -101,7 +101,7 @@ static bool check_apart(const char *folder, const diff_side *side, octreel_error
     if (side->kind == DIFF_DIGESTS || file_is_standard(side->source) || stat(folder, &own) != 0)
         return true;
     const bool found = side->kind == DIFF_PICTURE ? stat_parent(side->path, &other) : stat(side->path, &other) == 0;
-    return !found || !same_file(&own, &other) ||
+    return !found || !is_same_file(&own, &other) ||
            error_set(error, "%s: %s is compared, and would be removed: choose another folder for evidence", folder,
                      side->kind == DIFF_PICTURE ? "a picture in it" : "it");
 }

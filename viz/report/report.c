@@ -40,7 +40,7 @@ static void print_groups(FILE *out, const diff_report *report)
 {
     for (size_t i = 0; i < report->groups->count && i < report->lines; i++)
         print_group(out, report, i);
-    print_more(out, report->groups->count, report->lines, "--causes all lists all, and so does --json");
+    print_remaining_count(out, report->groups->count, report->lines, "--causes all lists all, and so does --json");
 }
 
 /* Recordings are explained up to a number of frames. */

@@ -94,7 +94,7 @@ static void a_file_system_that_cannot_sync_is_written_all_the_same(void **state)
 static bool copy_beside(const char *from, const char *to, octreel_error *error)
 {
     file_writer file;
-    assert_true(file_copy_beside(&file, from, to, error));
+    assert_true(file_copy_prepare(&file, from, to, error));
     assert_true(holds(to, "old"));
     return file_writer_place(&file, error);
 }
@@ -103,7 +103,7 @@ static void copies_that_last_are_synced_too(void **state)
 {
     char from[sizeof((temp_folder *)0)->path];
     octreel_error error;
-    bool (*const copies[])(const char *, const char *, octreel_error *) = {copy_beside, file_copy_apart};
+    bool (*const copies[])(const char *, const char *, octreel_error *) = {copy_beside, file_copy_unique};
     snprintf(from, sizeof from, "%s", temp_file(*state, "b"));
     assert_true(write_text(from, "new", false));
     const char *path = temp_file(*state, "a");

@@ -74,7 +74,7 @@ static void commands_name_the_program_as_it_was_called(void **state)
     assert_written(hint_write_commands, text, text);
     hint_set_program("");
     hint_set_program(NULL);
-    assert_string_equal(hint_program(), "octreel");
+    assert_string_equal(hint_program_name(), "octreel");
     hint_set_program("build/bin/octreel");
     assert_written(
         hint_write_commands, text,

@@ -49,7 +49,7 @@ static void every_character_is_known_by_its_bytes(void **state)
         const size_t length = encode(code, bytes);
         assert_int_equal(utf8_length(bytes), is_none ? 0 : length);
         if (!is_none)
-            assert_int_equal(utf8_is_unfit(bytes), is_one_of_the_unfit(code));
+            assert_int_equal(utf8_is_unprintable(bytes), is_one_of_the_unfit(code));
     }
 }
 
@@ -104,9 +104,9 @@ static void a_list_that_is_cut_says_by_how_much(void **state)
     char *text;
     (void)state;
     assert_true(text_stream_begin(&s));
-    print_more(s.stream, 7, 7, "--all shows them");
-    print_more(s.stream, 9, 7, "--all shows them");
-    print_more(s.stream, 8, 7, "");
+    print_remaining_count(s.stream, 7, 7, "--all shows them");
+    print_remaining_count(s.stream, 9, 7, "--all shows them");
+    print_remaining_count(s.stream, 8, 7, "");
     assert_true(text_stream_end(&s, &text));
     assert_string_equal(text, "  ... and 2 more; --all shows them\n  ... and 1 more\n");
     free(text);
