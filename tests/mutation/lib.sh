@@ -9,7 +9,7 @@ sources='lib/src/*/*.[ch]'
 prefix=lib/src
 
 rules="-std=c17 -O1 $types -ffp-contract=off -D_POSIX_C_SOURCE=200809L -Ilib/include -Ilib/src/exact -Ilib/src/tree
-       -Ilib/src/query -Ilib/src/game -I$root/tests/support -I$root/tests/support/oracle"
+       -Ilib/src/query -Ilib/src/audit -Ilib/src/game -I$root/tests/support -I$root/tests/support/oracle"
 
 flags_of()
 {

@@ -17,8 +17,7 @@
 #ifndef OCTREE_GAME_H
 #define OCTREE_GAME_H
 
-#include "octree/foreign.h"
-#include "octree/octree.h"
+#include "octree/query.h"
 #include "octree/sample.h"
 
 #ifdef __cplusplus
@@ -59,72 +58,6 @@ typedef struct octree_edit {
     octree_body body; /* remove reads the id alone; move reads id and position, and keeps the velocity: that of
                          octree_tick.movers, turned where the body has bounced */
 } octree_edit;
-
-/* The members of octree_query that a kind reads, as bits. */
-typedef enum octree_query_member {
-    OCTREE_QUERY_HAS_BOX = 1,
-    OCTREE_QUERY_HAS_TARGET = 2,
-    OCTREE_QUERY_HAS_K = 4,
-    OCTREE_QUERY_HAS_RADIUS = 8, /* with the target: a closed ball. Another shape takes a bit of its own */
-} octree_query_member;
-
-/* One line per kind of query: its name, the members it reads, which of them bears the kind's name in session files,
- * whether it is answered with neighbours (else with points), and its meaning. A new kind is a line here and its
- * function ask_NAME() in lib/src/game/queries.c. To see it: a row of viz/scene/layer.h with the kind's name and its
- * layer_type in viz/layers; to ask it by octreel inspect: a row of viz/cli/query_options.c. */
-#define OCTREE_QUERY_MAP(X)                                                                                            \
-    X(RANGE, range, OCTREE_QUERY_HAS_BOX, OCTREE_QUERY_HAS_BOX, false, "the points in a box")                          \
-    X(NEAREST, nearest, OCTREE_QUERY_HAS_TARGET, OCTREE_QUERY_HAS_TARGET, true, "the point nearest to a place")        \
-    X(KNEAREST, knearest, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_K, OCTREE_QUERY_HAS_K, true,                      \
-      "the k points nearest to a place")                                                                               \
-    X(RADIUS, radius, OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS, OCTREE_QUERY_HAS_RADIUS, false,               \
-      "the points in a ball")
-
-typedef enum octree_query_kind {
-#define OCTREE_QUERY_ENUM(kind, name, members, named_by, neighbors, words) OCTREE_QUERY_##kind,
-    OCTREE_QUERY_MAP(OCTREE_QUERY_ENUM)
-#undef OCTREE_QUERY_ENUM
-        OCTREE_QUERY_KINDS
-} octree_query_kind;
-
-/* A line of OCTREE_QUERY_MAP. */
-typedef struct octree_query_traits {
-    const char *name;             /* as in session files and ticks.jsonl, such as "range" */
-    unsigned members;             /* bits of octree_query_member */
-    octree_query_member named_by; /* in a session file, the member whose key is the kind's name */
-    bool neighbors;               /* octree_answer.neighbors is the result, else octree_answer.points */
-    const char *words;            /* for people, such as "the points in a box" */
-} octree_query_traits;
-
-/* Static storage. Null from OCTREE_QUERY_KINDS on. */
-const octree_query_traits *octree_query_about(octree_query_kind kind);
-
-/* The name in octree_query_about(kind). Null from OCTREE_QUERY_KINDS on. */
-const char *octree_query_name(octree_query_kind kind);
-
-#define OCTREE_EVERY_TICK UINT64_MAX
-
-/* A question asked at the end of a tick, of the tree as it then is. The player is no neighbour of itself; boxes and
- * balls have it as they have every other point. What is asked at the player is not asked in a tick without one. */
-typedef struct octree_query {
-    uint64_t tick; /* or OCTREE_EVERY_TICK */
-    octree_query_kind kind;
-    bool at_player;   /* the box is relative to the player; the target is the player */
-    octree_box box;   /* range */
-    double target[3]; /* nearest, k nearest, and the ball's centre; unless at_player */
-    size_t k;         /* k nearest: how many; where there are fewer, all */
-    double radius;    /* of the closed ball, >= 0 */
-    octree_skip skip; /* points that no answer has, of whatever kind, in place of the player: COINCIDENT with the
-                         target, which a box has not; NONE leaves it at that */
-    uint64_t skip_id; /* read under OCTREE_SKIP_ID alone */
-    double epsilon; /* as that of octree_search: finite, >= 0, a ratio for neighbours and a length for a box or ball */
-    bool answered;  /* a program answered it: a game judges that by the true answer, and its own then has no epsilon */
-    octree_precision precision; /* answered: what the program promises, and within epsilon */
-    const uint64_t *answer;     /* answered: the ids that it named, in any order; null for none */
-    size_t answer_count;
-    octree_ids met[OCTREE_MET_KINDS]; /* the program's own nodes that it met, by their ids, and how. Pruned ones are
-                                         judged by the true answer, precision and epsilon as an answer is */
-} octree_query;
 
 typedef enum octree_shape_kind {
     OCTREE_SHAPE_BOX,
@@ -228,80 +161,6 @@ typedef struct octree_refusal {
     octree_status why;
     double position[3]; /* where it was to go; 0 for an edit that removes */
 } octree_refusal;
-
-/* What is wrong with a program's answer: the first of these that is. */
-typedef enum octree_fault {
-    OCTREE_FAULT_NONE,
-    OCTREE_FAULT_UNKNOWN,   /* it names an id that no point has at that tick: of one that was removed, perhaps */
-    OCTREE_FAULT_DUPLICATE, /* it names a point twice */
-    OCTREE_FAULT_SKIPPED,   /* it names a point that the query leaves out */
-    OCTREE_FAULT_COUNT,     /* neighbours: they are more or fewer than k, or than there are */
-    OCTREE_FAULT_FARTHER,   /* neighbours: one is farther than the true one of its rank */
-    OCTREE_FAULT_MISSED,    /* box, ball: a point in it is not named */
-    OCTREE_FAULT_EXTRA,     /* box, ball: a point is named that is outside */
-    OCTREE_FAULTS
-} octree_fault;
-
-/* "none", "unknown", "duplicate", "skipped", "count", "farther", "missed", "extra". Null from OCTREE_FAULTS on. */
-const char *octree_fault_name(octree_fault fault);
-
-/* A program's answer, judged by the true one. Points in a box or ball are compared one by one. Neighbours are ranked by
- * their distances, whatever their order in the answer, and compared rank by rank: at the same real distance any point
- * is right. All of that is decided by the real numbers. With epsilon a box is moved out by it, a ball's radius is the
- * sum rounded up, and a neighbour is wrong where it is surely more than 1 + epsilon times as far as the true one:
- * within 2^-46 of that ratio none is accused. What no promise allows is then listed, and what is missing by the true
- * answer. */
-typedef struct octree_judgement {
-    bool judged; /* false: no program answered, and all else is 0 */
-    octree_fault fault;
-    uint64_t fault_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest such id */
-    const uint64_t *given; /* the ids that the program named, as it did */
-    size_t given_count;
-    size_t expected;            /* points of the true answer */
-    const octree_point *missed; /* points of the true answer that no answer may lack; boxes, balls: by id, neighbours:
-                                   by distance */
-    size_t missed_count;        /* recall is 1 - missed_count / expected */
-    const octree_point *extra;  /* points that were named and no answer may have, by id or distance; not those of
-                                   UNKNOWN and SKIPPED */
-    size_t extra_count;
-    size_t rank;  /* neighbours: the first that is wrong, the nearest is 1; 0: none */
-    double ratio; /* neighbours: how many times as far as the true one of its rank one of those named is, at worst; 1
-                     where all are as near, infinite where the true one is at the target, or none is named at all */
-} octree_judgement;
-
-typedef struct octree_answer {
-    octree_query_kind kind;
-    bool by_key;      /* asked by n */
-    octree_box box;   /* range: as asked, in world coordinates */
-    double target[3]; /* nearest, k nearest, and the ball's centre: as asked */
-    size_t k;         /* k nearest: as asked; nearest: 1 */
-    double radius;    /* radius: as asked */
-    octree_skip skip; /* as asked, with its id and epsilon; NONE for what leaves out the player alone */
-    uint64_t skip_id;
-    double epsilon;
-    const octree_point *points;       /* range, radius: the result, by id */
-    const octree_neighbor *neighbors; /* nearest, k nearest: the result, by distance and then by id */
-    size_t count;                     /* of points or neighbours; nearest: 0 or 1 */
-    octree_cost cost;
-    octree_precision precision;
-    octree_judgement judgement; /* in a game, of a query that was answered */
-} octree_answer;
-
-/* Whether a query can be asked. Errors: NULL_ARGUMENT, also for ids that are not there; BAD_OPTION for its kind and
- * precision, and for its skip where there is none such or no target to coincide with; NOT_FINITE (of a box: NaN),
- * BAD_RANGE, BAD_SIZE and FLOAT_MODE for epsilon and the members that its kind reads; BAD_SIZE for a node that it met
- * with an id from OCTREE_NODE_ID_LIMIT on. Its tick is not read. */
-octree_status octree_query_check(const octree_query *query);
-
-/* Answer a query outside of a game. `player` is the place that at_player refers to, and may be null where that is
- * false; `how` may be null; where the query has no skip or no epsilon, that of `how` decides which points are
- * neighbours, and how near to the truth the answer is. What a program answered is not judged. The cost is that of
- * answer->cost, and how->cost is not read. Release the answer with octree_answer_release. Errors: those of
- * octree_query_check, and NULL_ARGUMENT, NO_MEMORY and what octree_range_search says of `how`; the answer is then
- * empty. The memory is the tree's allocator's, which must then be safe to use from this thread. */
-octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
-                                  const octree_search *how, octree_answer *answer);
-void octree_answer_release(const octree *tree, octree_answer *answer);
 
 /* A node that a tick's questions met: its collision test and its queries. */
 typedef struct octree_visit {

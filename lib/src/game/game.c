@@ -200,13 +200,32 @@ static octree_status list_shapes(octree_game *game, const octree_shape *shapes, 
     return OCTREE_OK;
 }
 
-/* Look at the program's tree; ask the queries and show the shapes of a tick, and then those of every tick. */
+static bool look_up_point(const void *game, uint64_t id, octree_point *point)
+{
+    return octree_game_find(game, id, point);
+}
+
+audited_points game_audited_points(const octree_game *game)
+{
+    const octree_player *player = &game->session->player;
+    return (audited_points){.tree = game->tree,
+                            .find = look_up_point,
+                            .context = game,
+                            .own_id = player->kind == OCTREE_PLAYER_KEYS ? &player->id : NULL};
+}
+
+static octree_status check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
+{
+    const audited_points points = game_audited_points(game);
+    const octree_status status = replacement ? foreign_install(&game->foreign, replacement) : OCTREE_OK;
+    return status == OCTREE_OK ? foreign_check(&game->foreign, &points) : status;
+}
+
+/* Check the foreign nodes; ask the queries and show the shapes of the tick, then those of every tick. */
 static octree_status ask_and_show(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
-    octree_status status = input->foreign ? foreign_install(game, input->foreign) : OCTREE_OK;
-    if (status == OCTREE_OK)
-        status = foreign_check(game);
+    octree_status status = check_foreign_nodes(game, input->foreign);
     if (status == OCTREE_OK)
         status = game_ask_by_key(game);
     if (status == OCTREE_OK)
@@ -248,7 +267,10 @@ static void publish(octree_game *game)
     GAME_SHOWN_LISTS(PUBLISH)
 #undef PUBLISH
     game->tick.hit_from = game->tick.swept ? game->hit_from.items : NULL;
-    foreign_publish(game);
+    foreign_publish(&game->foreign);
+    game->tick.foreign = game->foreign.state;
+    if (game->tick.foreign.fault_count)
+        game->tick.events |= OCTREE_EVENT_WRONG;
 }
 
 /* Of a gap nothing is tested, asked or shown. */
@@ -317,6 +339,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
         return OCTREE_NO_MEMORY;
     }
     *made = (octree_game){.session = session, .tree = tree, .memory = memory};
+    made->foreign.memory = made->judge.memory = &made->memory;
     status = start(made);
     if (status == OCTREE_OK)
         *game = made;
@@ -330,10 +353,11 @@ void octree_game_destroy(octree_game *game)
     if (!game)
         return;
     octree_destroy(game->tree);
+    bodies_release(&game->bodies, &game->memory);
+    tree_summary_release(&game->summary, &game->memory);
+    foreign_release(&game->foreign);
+    judge_release(&game->judge);
     arena memory = game->memory;
-    bodies_release(&game->bodies, &memory);
-    tree_summary_release(&game->summary, &memory);
-    foreign_release(&game->foreign, &memory);
 #define RELEASE(name, shown_count, type) list_release(&memory, &game->name, sizeof(type));
     GAME_LISTS(RELEASE)
 #undef RELEASE
@@ -351,7 +375,8 @@ static void begin_tick(octree_game *game, char key)
     game->tick.key = key;
     game->tick.events = 0;
     game->tick.edit_count = 0;
-    foreign_begin_tick(game);
+    game->judge.given.count = game->judge.wrong.count = 0;
+    foreign_begin_tick(&game->foreign);
 }
 
 static void note_edits(octree_tick *tick, const octree_input *input)

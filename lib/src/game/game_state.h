@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* game_state.h - a game's insides, which its files share. Private. */
+/* game_state.h - the members of octree_game, which the files of this room share. Private. */
 #ifndef OCTREE_GAME_STATE_H
 #define OCTREE_GAME_STATE_H
 
 #include "bodies.h"
 #include "foreign.h"
-#include "judge.h"
 #include "tree_summary.h"
 
-/* The lists that a tick shows: as in octree_tick, their counts there, and their items. */
+/* The lists that octree_tick shows: the member, the member for its count, and the type of the items. */
 #define GAME_SHOWN_LISTS(X)                                                                                            \
     X(hits, hit_count, octree_point)                                                                                   \
     X(refusals, refusal_count, octree_refusal)                                                                         \
@@ -20,34 +19,34 @@
     X(shapes, shape_count, octree_shape)                                                                               \
     X(movers, mover_count, octree_body)
 
-/* And those after them: where each hit was, when swept; the points and the neighbours of all answers; of those that are
- * judged the ids given, and the points missed and extra, and room for judging one. */
+/* All lists that a tick starts empty. Besides those above: where each hit was before the tick (with sweep), and the
+ * points and neighbours of all answers. */
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
     X(found, none, octree_point)                                                                                       \
-    X(near, none, octree_neighbor)                                                                                     \
-    X(given, none, uint64_t)                                                                                           \
-    X(accused, none, octree_point)                                                                                     \
-    X(named, none, judged_point)                                                                                       \
-    X(truth, none, judged_point)
+    X(near, none, octree_neighbor)
 
 struct octree_game {
     const octree_session *session;
     octree *tree;
     arena memory;
     bodies bodies;
-    int64_t steps[3]; /* the player's net steps on each axis: its place is computed from them */
-    double fastest;   /* of the session's bodies, along one axis */
+    int64_t steps[3]; /* the player's net steps on each axis; its position is computed from them */
+    double fastest;   /* the largest speed of the session's bodies along one axis */
     bool quit;
-    bool lost_visits; /* there was no memory for one of them */
+    bool lost_visits; /* out of memory while visited nodes were recorded */
     tree_summary summary;
     foreign foreign;
+    judge judge;
     octree_tick tick;
-    char gap[OCTREE_GAP_TEXT]; /* of the tick, where it is one */
+    char gap[OCTREE_GAP_TEXT]; /* the reason, if the tick is a gap */
 #define LIST(name, shown_count, type) list name;
     GAME_LISTS(LIST)
 #undef LIST
 };
+
+/* The points of the game after the changes of the tick. */
+audited_points game_audited_points(const octree_game *game);
 
 #endif

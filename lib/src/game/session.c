@@ -46,14 +46,6 @@ static octree_status check_keys(const char *keys)
     return OCTREE_OK;
 }
 
-bool game_is_text(const char *text, size_t size)
-{
-    size_t length = 0;
-    while (length < size && text[length] >= ' ' && text[length] <= '~')
-        length++;
-    return length < size && text[length] == 0;
-}
-
 static octree_status check_shape(const octree_shape *shape)
 {
     if ((unsigned)shape->kind >= OCTREE_SHAPE_KINDS)
@@ -65,14 +57,14 @@ static octree_status check_shape(const octree_shape *shape)
     for (int i = 0; status == OCTREE_OK && shape->kind == OCTREE_SHAPE_BOX && i < 3; i++)
         if (shape->at[i] > shape->to[i])
             status = OCTREE_BAD_RANGE;
-    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !game_is_text(shape->text, sizeof shape->text))
+    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_text(shape->text, sizeof shape->text))
         status = OCTREE_BAD_TEXT;
     return status;
 }
 
 static octree_status check_gap(const octree_gap *gap)
 {
-    return *gap->why && game_is_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
+    return *gap->why && is_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
 }
 
 octree_status octree_input_check(const octree_input *input)

@@ -12,9 +12,6 @@ octree_input session_input(const octree_session *session, uint64_t tick);
 
 bool game_is_key(char key);
 
-/* Whether so many bytes hold printable ASCII and its final zero. */
-bool game_is_text(const char *text, size_t size);
-
 /* What octree_game_create says of a session whose tree could be made. */
 octree_status game_check_session(const octree_session *session, const octree *tree);
 

@@ -41,6 +41,14 @@ octree_status check_box(const octree_box *box)
     return OCTREE_OK;
 }
 
+bool is_text(const char *text, size_t size)
+{
+    size_t length = 0;
+    while (length < size && text[length] >= ' ' && text[length] <= '~')
+        length++;
+    return length < size && text[length] == 0;
+}
+
 bool collision_visit(const octree_point *point, void *context)
 {
     const collision *c = context;

@@ -26,6 +26,9 @@ octree_status check_length(double length);
 /* NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE (a NaN) or BAD_RANGE. */
 octree_status check_box(const octree_box *box);
 
+/* Whether `size` bytes hold printable ASCII characters and a final zero. */
+bool is_text(const char *text, size_t size);
+
 /* Not fmax(), which is a call: no argument is NaN. */
 static inline double larger(double a, double b)
 {

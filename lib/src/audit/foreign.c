@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign.c - the nodes of a program's own tree: whether they are a tree, and which are in force. */
+/* foreign.c - checks that foreign nodes form a tree, and keeps a copy of the current ones with their depths, kinds and
+ * point counts.
+ */
 #include "foreign.h"
-#include "game_state.h"
 #include "octree/digest.h"
-#include "point.h"
 #include "search.h"
-#include "session.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -17,10 +16,10 @@ const char *octree_met_name(octree_met met)
     return (unsigned)met < OCTREE_MET_KINDS ? names[met] : NULL;
 }
 
-#define NO_DEPTH UINT_MAX
-#define DEPTH_ON_THE_WAY (UINT_MAX - 1)
+#define DEPTH_UNKNOWN UINT_MAX
+#define DEPTH_ON_PATH (UINT_MAX - 1) /* find_depths() is walking through this node */
 
-/* ---- Whether they are a tree -------------------------------------------------------------------------------- */
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
 
 static octree_status check_node(const octree_foreign_node *node)
 {
@@ -35,18 +34,19 @@ static octree_status check_node(const octree_foreign_node *node)
         return OCTREE_BAD_SIZE;
     if (node->has_points && node->points.count && !node->points.ids)
         return OCTREE_NULL_ARGUMENT;
-    if (!game_is_text(node->kind, sizeof node->kind))
+    if (!is_text(node->kind, sizeof node->kind))
         return OCTREE_BAD_TEXT;
     return (unsigned)node->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
 }
 
-static int compare_keys(const void *a, const void *b)
+int foreign_compare_keys(const void *a, const void *b)
 {
     const foreign_key *p = a, *q = b;
     return p->id != q->id ? (p->id > q->id) - (p->id < q->id) : (p->place > q->place) - (p->place < q->place);
 }
 
-static size_t find_key(const list *keys, uint64_t id)
+/* The index of the first key whose id is not below `id`. */
+static size_t first_key(const list *keys, uint64_t id)
 {
     const foreign_key *items = keys->items;
     size_t first = 0, end = keys->count;
@@ -57,6 +57,13 @@ static size_t find_key(const list *keys, uint64_t id)
         else
             end = middle;
     }
+    return first;
+}
+
+static size_t find_key(const list *keys, uint64_t id)
+{
+    const foreign_key *items = keys->items;
+    const size_t first = first_key(keys, id);
     return first < keys->count && items[first].id == id ? items[first].place : SIZE_MAX;
 }
 
@@ -75,7 +82,7 @@ static octree_status list_keys(arena *memory, const octree_foreign_tree *tree, l
     }
     foreign_key *items = keys->items;
     if (!sorted)
-        qsort(items, keys->count, sizeof *items, compare_keys);
+        qsort(items, keys->count, sizeof *items, foreign_compare_keys);
     for (size_t i = 1; i < keys->count; i++)
         if (items[i].id == items[i - 1].id)
             return *fault = items[i].place, OCTREE_DUPLICATE;
@@ -87,7 +94,7 @@ static octree_status list_places(arena *memory, const octree_foreign_tree *tree,
 {
     for (size_t i = 0; i < tree->node_count; i++) {
         const octree_foreign_node *node = &tree->nodes[i];
-        octree_foreign_place place = {.node = node, .parent = SIZE_MAX, .depth = NO_DEPTH, .leaf = true};
+        octree_foreign_place place = {.node = node, .parent = SIZE_MAX, .depth = DEPTH_UNKNOWN, .leaf = true};
         *fault = i;
         if (node->has_parent) {
             place.parent = find_key(keys, node->parent);
@@ -100,29 +107,31 @@ static octree_status list_places(arena *memory, const octree_foreign_tree *tree,
     return OCTREE_OK;
 }
 
-/* The depths of a node and of its ancestors that have none yet: up, marking the way, and down again. Who comes to a
- * mark is its own ancestor. */
-static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t of, list *way)
+/* Find the depths of a node and of its ancestors. Walk up to an ancestor whose depth is known and mark the path, then
+ * walk back down. A walk that reaches a mark has found a node that is its own ancestor. */
+static octree_status find_depths(arena *memory, octree_foreign_place *places, size_t from, list *path)
 {
-    size_t at = of;
-    way->count = 0;
-    for (; at != SIZE_MAX && places[at].depth == NO_DEPTH; at = places[at].parent) {
-        places[at].depth = DEPTH_ON_THE_WAY;
-        if (!list_push(memory, way, &at, sizeof at))
+    size_t at = from;
+    path->count = 0;
+    for (; at != SIZE_MAX && places[at].depth == DEPTH_UNKNOWN; at = places[at].parent) {
+        places[at].depth = DEPTH_ON_PATH;
+        if (!list_push(memory, path, &at, sizeof at))
             return OCTREE_NO_MEMORY;
     }
-    if (at != SIZE_MAX && places[at].depth == DEPTH_ON_THE_WAY)
+    if (at != SIZE_MAX && places[at].depth == DEPTH_ON_PATH)
         return OCTREE_BAD_PARENT;
     unsigned depth = at == SIZE_MAX ? 0 : places[at].depth + 1;
-    while (way->count > 0) {
-        octree_foreign_place *place = &places[((const size_t *)way->items)[--way->count]];
+    while (path->count > 0) {
+        octree_foreign_place *place = &places[((const size_t *)path->items)[--path->count]];
         place->depth = place->node->has_depth ? (unsigned)place->node->depth : depth;
         depth = place->depth + 1;
     }
     return OCTREE_OK;
 }
 
-octree_status foreign_index(arena *memory, const octree_foreign_tree *tree, list *places, list *keys, size_t *fault)
+/* List the nodes' places, and their keys by id. Errors, and *fault: as octree_foreign_check(). */
+static octree_status index_nodes(arena *memory, const octree_foreign_tree *tree, list *places, list *keys,
+                                 size_t *fault)
 {
     *fault = 0;
     if (!tree->nodes && tree->node_count)
@@ -131,14 +140,14 @@ octree_status foreign_index(arena *memory, const octree_foreign_tree *tree, list
     if (status == OCTREE_OK)
         status = list_places(memory, tree, places, keys, fault);
     octree_foreign_place *items = places->items;
-    list way = {0};
+    list path = {0};
     for (size_t i = 0; status == OCTREE_OK && i < places->count; i++) {
         *fault = i;
-        status = find_depths(memory, items, i, &way);
+        status = find_depths(memory, items, i, &path);
         if (items[i].parent != SIZE_MAX)
             items[items[i].parent].leaf = false;
     }
-    list_release(memory, &way, sizeof(size_t));
+    list_release(memory, &path, sizeof(size_t));
     return status;
 }
 
@@ -149,21 +158,21 @@ octree_status octree_foreign_check(const octree_foreign_tree *tree, size_t *plac
         return OCTREE_NULL_ARGUMENT;
     arena memory = {.allocator = default_allocator()};
     list places = {0}, keys = {0};
-    const octree_status status = foreign_index(&memory, tree, &places, &keys, place ? place : &fault);
+    const octree_status status = index_nodes(&memory, tree, &places, &keys, place ? place : &fault);
     list_release(&memory, &places, sizeof(octree_foreign_place));
     list_release(&memory, &keys, sizeof(foreign_key));
     return status;
 }
 
-/* ---- In force ----------------------------------------------------------------------------------------------- */
+/* ---- The current nodes -------------------------------------------------------------------------------------- */
 
-static bool copy_nodes(foreign *f, arena *memory, const octree_foreign_tree *tree)
+static bool copy_nodes(foreign *f, const octree_foreign_tree *tree)
 {
     size_t ids = 0;
     for (size_t i = 0; i < tree->node_count; i++)
         ids += tree->nodes[i].has_points ? tree->nodes[i].points.count : 0;
     f->size = tree->node_count * sizeof *tree->nodes + ids * sizeof(uint64_t);
-    f->nodes = f->size ? arena_take(memory, f->size) : NULL;
+    f->nodes = f->size ? arena_take(f->memory, f->size) : NULL;
     if (!f->nodes)
         return f->size == 0 || (f->size = 0, false);
     uint64_t *room = (uint64_t *)(f->nodes + tree->node_count);
@@ -195,11 +204,12 @@ static uint64_t digest_node(uint64_t digest, const octree_foreign_node *node)
     return octree_digest_word(digest, (uint64_t)node->precision);
 }
 
-/* The place of a kind among those that there were, which it joins while there is room. */
-static bool find_kind(foreign *f, arena *memory, octree_foreign_place *place)
+/* Store the index of a node's kind among all kinds so far. A new kind is added while there is room; further kinds share
+ * the last index. False when there is no memory. */
+static bool find_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
-    const size_t last = place->kind; /* that of the node before: mostly the same */
+    const size_t last = place->kind; /* of the node before: usually the same kind */
     place->kind = 0;
     if (last < f->kinds.count && strcmp(kinds[last], place->node->kind) == 0)
         place->kind = (unsigned)last;
@@ -209,19 +219,20 @@ static bool find_kind(foreign *f, arena *memory, octree_foreign_place *place)
     if (place->kind < f->kinds.count)
         return true;
     if (place->kind < OCTREE_NODE_KINDS)
-        return list_push(memory, &f->kinds, place->node->kind, OCTREE_NODE_KIND);
+        return list_push(f->memory, &f->kinds, place->node->kind, OCTREE_NODE_KIND);
     place->kind = OCTREE_NODE_KINDS - 1;
     return true;
 }
 
-/* Give each node the points of those below it: leaves first, and then whoever has no child left that is to come. */
-static bool sum_points(foreign *f, arena *memory)
+/* Add the points of all descendants to each node: start at each leaf and go on to a parent when its last child is done.
+ * False when there is no memory. */
+static bool sum_points(foreign *f)
 {
     octree_foreign_place *places = f->places.items;
-    list pending = {0}; /* size_t, by place: children to come */
+    list pending = {0}; /* size_t, by node index: the number of children that are not done */
     bool whole = true;
     for (size_t i = 0; whole && i < f->places.count; i++)
-        whole = list_push(memory, &pending, &(size_t){0}, sizeof(size_t));
+        whole = list_push(f->memory, &pending, &(size_t){0}, sizeof(size_t));
     size_t *children = pending.items;
     for (size_t i = 0; whole && i < f->places.count; i++)
         if (places[i].parent != SIZE_MAX)
@@ -234,22 +245,20 @@ static bool sum_points(foreign *f, arena *memory)
                 places[parent].points += places[at].points;
             at = parent != SIZE_MAX && --children[parent] == 0 ? parent : SIZE_MAX;
         }
-    list_release(memory, &pending, sizeof(size_t));
+    list_release(f->memory, &pending, sizeof(size_t));
     return whole;
 }
 
-octree_status foreign_install(octree_game *game, const octree_foreign_tree *tree)
+octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
 {
-    foreign *f = &game->foreign;
-    arena *memory = &game->memory;
-    octree_foreign_state *state = &game->tick.foreign;
+    octree_foreign_state *state = &f->state;
     size_t fault;
-    arena_give(memory, f->nodes, f->size);
+    arena_give(f->memory, f->nodes, f->size);
     f->places.count = f->keys.count = f->marks.count = f->met.count = 0;
-    if (!copy_nodes(f, memory, tree))
+    if (!copy_nodes(f, tree))
         return OCTREE_NO_MEMORY;
-    const octree_foreign_tree own = {.nodes = f->nodes, .node_count = tree->node_count};
-    const octree_status status = foreign_index(memory, &own, &f->places, &f->keys, &fault);
+    const octree_foreign_tree copy = {.nodes = f->nodes, .node_count = tree->node_count};
+    const octree_status status = index_nodes(f->memory, &copy, &f->places, &f->keys, &fault);
     if (status != OCTREE_OK)
         return status;
     state->given = state->fresh = true;
@@ -259,29 +268,28 @@ octree_status foreign_install(octree_game *game, const octree_foreign_tree *tree
     octree_foreign_place *places = f->places.items;
     for (size_t i = 0; i < f->places.count; i++) {
         places[i].kind = i ? places[i - 1].kind : 0;
-        if (!find_kind(f, memory, &places[i]) ||
-            !list_push(memory, &f->marks, &(foreign_mark){.query = 0}, sizeof(foreign_mark)))
+        if (!find_kind(f, &places[i]) ||
+            !list_push(f->memory, &f->marks, &(foreign_mark){.query = 0}, sizeof(foreign_mark)))
             return OCTREE_NO_MEMORY;
         state->digest = digest_node(state->digest, places[i].node);
         state->leaf_count += places[i].leaf;
         state->depth = places[i].depth > state->depth ? places[i].depth : state->depth;
     }
-    return sum_points(f, memory) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return sum_points(f) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-void foreign_release(foreign *f, arena *memory)
+void foreign_release(foreign *f)
 {
-    arena_give(memory, f->nodes, f->size);
-    list_release(memory, &f->places, sizeof(octree_foreign_place));
-    list_release(memory, &f->keys, sizeof(foreign_key));
-    list_release(memory, &f->marks, sizeof(foreign_mark));
-    list_release(memory, &f->holdings, sizeof(foreign_holding));
-    list_release(memory, &f->kinds, OCTREE_NODE_KIND);
-    list_release(memory, &f->repeated, sizeof(foreign_holding));
-    list_release(memory, &f->faults, sizeof(octree_node_fault));
-    list_release(memory, &f->met, sizeof(size_t));
-    list_release(memory, &f->lost, sizeof(uint64_t));
-    list_release(memory, &f->held, sizeof(bool));
+    arena_give(f->memory, f->nodes, f->size);
+    list_release(f->memory, &f->places, sizeof(octree_foreign_place));
+    list_release(f->memory, &f->keys, sizeof(foreign_key));
+    list_release(f->memory, &f->marks, sizeof(foreign_mark));
+    list_release(f->memory, &f->holdings, sizeof(foreign_holding));
+    list_release(f->memory, &f->kinds, OCTREE_NODE_KIND);
+    list_release(f->memory, &f->repeated, sizeof(foreign_holding));
+    list_release(f->memory, &f->faults, sizeof(octree_node_fault));
+    list_release(f->memory, &f->met, sizeof(size_t));
+    list_release(f->memory, &f->unlisted, sizeof(unlisted_point));
 }
 
 size_t foreign_find(const foreign *f, uint64_t id)
@@ -289,10 +297,14 @@ size_t foreign_find(const foreign *f, uint64_t id)
     return find_key(&f->keys, id);
 }
 
-void foreign_publish(octree_game *game)
+size_t foreign_first_holding(const foreign *f, uint64_t point)
 {
-    const foreign *f = &game->foreign;
-    octree_foreign_state *state = &game->tick.foreign;
+    return first_key(&f->holdings, point);
+}
+
+void foreign_publish(foreign *f)
+{
+    octree_foreign_state *state = &f->state;
     if (!state->given)
         return;
     state->nodes = f->places.items;
@@ -304,6 +316,4 @@ void foreign_publish(octree_game *game)
     state->fault_count = 0;
     for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
         state->fault_count += state->faults[kind];
-    if (state->fault_count)
-        game->tick.events |= OCTREE_EVENT_WRONG;
 }

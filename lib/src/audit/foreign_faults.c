@@ -1,0 +1,430 @@
+/* SPDX-License-Identifier: MIT */
+/* foreign_faults.c - finds what is provably wrong with foreign nodes, by themselves and in what queries did with them.
+ *
+ * The problem: an index may hold its points anywhere (in leaves, in inner nodes, in several nodes at once), it may list
+ * them or not, its boxes may overlap, and its answers may be approximate. A rule of one index is no rule of another, so
+ * this file reports only what no index may do.
+ *
+ * The idea: decide which nodes hold a point. A node holds the points that it lists. A leaf that lists nothing holds all
+ * points in its box. By these rules a point is lost if no node holds it. A query that prunes a node loses the points
+ * that are held only below pruned nodes; the nearest node that the query named, from the holder up, decides. The prune
+ * is wrong only if even the best answer without the lost points is wrong (judge_without), so a lucky prune is never
+ * reported. The cost is that of sorting the listed ids, and one judgement for each query that pruned nodes.
+ */
+#include "foreign.h"
+#include "point.h"
+
+#include <stdlib.h>
+
+const char *octree_precision_name(octree_precision precision)
+{
+    static const char *const names[OCTREE_PRECISIONS] = {"double", "float"};
+    return (unsigned)precision < OCTREE_PRECISIONS ? names[precision] : NULL;
+}
+
+static const struct {
+    const char *name, *words;
+} fault_rows[OCTREE_NODE_FAULTS] = {
+    [OCTREE_NODE_OUTSIDE_PARENT] = {"outside_parent", "its box leaves its parent's"},
+    [OCTREE_NODE_UNKNOWN_POINT] = {"unknown_point", "it lists a point that is not there"},
+    [OCTREE_NODE_OUTSIDE_POINT] = {"outside_point", "it lists a point outside its box"},
+    [OCTREE_NODE_REPEATED_POINT] = {"repeated_point", "it lists a point more than once"},
+    [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
+    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query met it, and it is not there"},
+    [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
+};
+
+const char *octree_node_fault_name(octree_node_fault_kind kind)
+{
+    return (unsigned)kind < OCTREE_NODE_FAULTS ? fault_rows[kind].name : NULL;
+}
+
+const char *octree_node_fault_words(octree_node_fault_kind kind)
+{
+    return (unsigned)kind < OCTREE_NODE_FAULTS ? fault_rows[kind].words : NULL;
+}
+
+static octree_foreign_place *places_of(const foreign *f)
+{
+    return f->places.items;
+}
+
+/* Count what is wrong with a node, and list it while there is room. `place` is SIZE_MAX where it is not about a node of
+ * the tree. False when there is no memory. */
+static bool report_wrong(foreign *f, size_t place, octree_node_fault fault)
+{
+    f->state.faults[fault.kind]++;
+    if (place != SIZE_MAX) {
+        fault.node = places_of(f)[place].node->id;
+        places_of(f)[place].faults |= 1u << fault.kind;
+    }
+    return f->faults.count == OCTREE_LISTED_NODE_FAULTS || list_push(f->memory, &f->faults, &fault, sizeof fault);
+}
+
+/* ---- Boxes -------------------------------------------------------------------------------------------------- */
+
+static octree_box rounded_box(const octree_box *box)
+{
+    octree_box rounded;
+    for (int i = 0; i < 3; i++) {
+        rounded.min[i] = round_to_float(box->min[i]);
+        rounded.max[i] = round_to_float(box->max[i]);
+    }
+    return rounded;
+}
+
+bool foreign_contains(const octree_foreign_node *node, const double position[3])
+{
+    if (box_contains(&node->box, position) || node->precision == OCTREE_DOUBLES)
+        return box_contains(&node->box, position);
+    const octree_box box = rounded_box(&node->box);
+    const double rounded[3] = {round_to_float(position[0]), round_to_float(position[1]), round_to_float(position[2])};
+    return box_contains(&box, rounded);
+}
+
+/* Boxes are compared as floats if one of them has this precision. */
+static bool is_within_parent(const octree_foreign_node *child, const octree_foreign_node *parent)
+{
+    octree_box inner = child->box, outer = parent->box;
+    if (child->precision == OCTREE_FLOATS || parent->precision == OCTREE_FLOATS) {
+        inner = rounded_box(&inner);
+        outer = rounded_box(&outer);
+    }
+    return box_contains(&outer, inner.min) && box_contains(&outer, inner.max);
+}
+
+/* ---- Nodes by themselves ------------------------------------------------------------------------------------ */
+
+static bool check_parents(foreign *f)
+{
+    const octree_foreign_place *places = places_of(f);
+    bool whole = true;
+    for (size_t i = 0; whole && i < f->places.count; i++)
+        if (places[i].parent != SIZE_MAX && !is_within_parent(places[i].node, places[places[i].parent].node))
+            whole = report_wrong(f, i, (octree_node_fault){.kind = OCTREE_NODE_OUTSIDE_PARENT});
+    return whole;
+}
+
+/* Check the points that a node lists. */
+static bool check_points(foreign *f, const audited_points *points, size_t place)
+{
+    const octree_foreign_node *node = places_of(f)[place].node;
+    bool whole = true;
+    for (size_t i = 0; whole && i < node->points.count; i++) {
+        octree_point point;
+        const uint64_t id = node->points.ids[i];
+        if (!points->find(points->context, id, &point))
+            whole = report_wrong(f, place, (octree_node_fault){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
+        else if (!foreign_contains(node, point.position))
+            whole = report_wrong(f, place, (octree_node_fault){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
+        whole = whole && list_push(f->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
+    }
+    return whole;
+}
+
+static bool is_same_holding(const foreign_holding *a, const foreign_holding *b)
+{
+    return a->id == b->id && a->place == b->place;
+}
+
+static int compare_by_place(const void *a, const void *b)
+{
+    const foreign_holding *p = a, *q = b;
+    return p->place != q->place ? (p->place > q->place) - (p->place < q->place) : (p->id > q->id) - (p->id < q->id);
+}
+
+/* Report the points that a node lists more than once, by node and then by point. The holdings are sorted. */
+static bool report_repeated(foreign *f)
+{
+    const foreign_holding *items = f->holdings.items;
+    bool whole = true;
+    f->repeated.count = 0;
+    for (size_t i = 1; whole && i < f->holdings.count; i++)
+        if (is_same_holding(&items[i], &items[i - 1]) && !(i > 1 && is_same_holding(&items[i], &items[i - 2])))
+            whole = list_push(f->memory, &f->repeated, &items[i], sizeof *items);
+    const foreign_holding *repeated = f->repeated.items;
+    if (f->repeated.count > 1)
+        qsort(f->repeated.items, f->repeated.count, sizeof *repeated, compare_by_place);
+    for (size_t i = 0; whole && i < f->repeated.count; i++)
+        whole = report_wrong(f, repeated[i].place,
+                             (octree_node_fault){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
+    return whole;
+}
+
+static bool is_listed(const foreign *f, uint64_t point)
+{
+    const size_t first = foreign_first_holding(f, point);
+    return first < f->holdings.count && ((const foreign_holding *)f->holdings.items)[first].id == point;
+}
+
+static bool holds_by_box(const octree_foreign_place *place)
+{
+    return place->leaf && !place->node->has_points;
+}
+
+/* ---- Points that no node holds ------------------------------------------------------------------------------ */
+
+typedef struct holding_search {
+    foreign *foreign;
+    const audited_points *points;
+    const octree_foreign_node *leaf;
+    size_t lost; /* the number of unlisted points that no leaf holds so far */
+    bool failed; /* out of memory */
+} holding_search;
+
+static bool is_own_point(const audited_points *points, uint64_t id)
+{
+    return points->own_id && *points->own_id == id;
+}
+
+/* An octree_point_visitor: collect a point that no node lists. */
+static bool collect_unlisted(const octree_point *point, void *context)
+{
+    holding_search *s = context;
+    foreign *f = s->foreign;
+    const bool listed = is_own_point(s->points, point->id) || is_listed(f, point->id);
+    s->failed =
+        !listed && !list_push(f->memory, &f->unlisted, &(unlisted_point){point->id, false}, sizeof(unlisted_point));
+    return !s->failed;
+}
+
+static int compare_unlisted(const void *a, const void *b)
+{
+    const unlisted_point *p = a, *q = b;
+    return (p->id > q->id) - (p->id < q->id);
+}
+
+/* An octree_point_visitor: mark a point that is in the box of the leaf. */
+static bool hold_point(const octree_point *point, void *context)
+{
+    holding_search *s = context;
+    const list *unlisted = &s->foreign->unlisted;
+    const unlisted_point key = {point->id, false};
+    unlisted_point *found = bsearch(&key, unlisted->items, unlisted->count, sizeof key, compare_unlisted);
+    if (found && !found->held && foreign_contains(s->leaf, point->position)) {
+        found->held = true;
+        s->lost--;
+    }
+    return s->lost > 0;
+}
+
+/* A box that contains all positions that round to floats in the leaf's box. */
+static octree_box enlarged_box(const octree_foreign_node *leaf)
+{
+    octree_box box = leaf->box;
+    for (int i = 0; leaf->precision == OCTREE_FLOATS && i < 3; i++) {
+        box.min[i] -= fabs(box.min[i]) * 0x1p-22 + 0x1p-148;
+        box.max[i] += fabs(box.max[i]) * 0x1p-22 + 0x1p-148;
+    }
+    return box;
+}
+
+static void hold_by_boxes(holding_search *search)
+{
+    const octree_foreign_place *places = places_of(search->foreign);
+    for (size_t i = 0; search->lost > 0 && i < search->foreign->places.count; i++) {
+        if (!holds_by_box(&places[i]))
+            continue;
+        const octree_box box = enlarged_box(places[i].node);
+        search->leaf = places[i].node;
+        octree_range(search->points->tree, &box, hold_point, search); /* a valid box: no error is possible */
+    }
+}
+
+/* Report the points that no node holds, by id. */
+static octree_status find_lost_points(foreign *f, const audited_points *points)
+{
+    static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    holding_search search = {.foreign = f, .points = points};
+    f->unlisted.count = 0;
+    octree_range(points->tree, &all, collect_unlisted, &search);
+    search.lost = f->unlisted.count;
+    unlisted_point *unlisted = f->unlisted.items;
+    if (f->unlisted.count > 1)
+        qsort(unlisted, f->unlisted.count, sizeof *unlisted, compare_unlisted);
+    hold_by_boxes(&search);
+    bool whole = !search.failed;
+    for (size_t i = 0; whole && search.lost > 0 && i < f->unlisted.count; i++)
+        if (!unlisted[i].held)
+            whole =
+                report_wrong(f, SIZE_MAX, (octree_node_fault){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
+    return whole ? OCTREE_OK : OCTREE_NO_MEMORY;
+}
+
+/* ---- A tick ------------------------------------------------------------------------------------------------- */
+
+void foreign_begin_tick(foreign *f)
+{
+    enum { FROM_QUERIES = 1 << OCTREE_NODE_UNKNOWN_NODE | 1 << OCTREE_NODE_PRUNED_POINT };
+    octree_foreign_state *state = &f->state;
+    if (!state->given)
+        return;
+    const size_t *met = f->met.items;
+    for (size_t i = 0; i < f->met.count; i++) {
+        places_of(f)[met[i]].met = 0;
+        places_of(f)[met[i]].faults &= ~(unsigned)FROM_QUERIES;
+    }
+    f->met.count = 0;
+    state->fresh = false;
+    for (int kind = 0; kind < OCTREE_MET_KINDS; kind++)
+        state->met[kind] = 0;
+}
+
+/* Find what is wrong with the nodes apart from queries. */
+static octree_status find_standing(foreign *f, const audited_points *points)
+{
+    octree_foreign_state *state = &f->state;
+    memset(state->faults, 0, sizeof state->faults);
+    f->faults.count = f->holdings.count = 0;
+    for (size_t i = 0; i < f->places.count; i++)
+        places_of(f)[i].faults = 0;
+    bool whole = check_parents(f);
+    for (size_t i = 0; whole && i < f->places.count; i++)
+        whole = check_points(f, points, i);
+    if (!whole)
+        return OCTREE_NO_MEMORY;
+    if (f->holdings.count > 1)
+        qsort(f->holdings.items, f->holdings.count, sizeof(foreign_holding), foreign_compare_keys);
+    const octree_status status = report_repeated(f) ? find_lost_points(f, points) : OCTREE_NO_MEMORY;
+    f->standing = f->faults.count;
+    memcpy(f->standing_counts, state->faults, sizeof state->faults);
+    f->checked = status == OCTREE_OK;
+    f->version = octree_version(points->tree);
+    return status;
+}
+
+octree_status foreign_check(foreign *f, const audited_points *points)
+{
+    if (!f->state.given)
+        return OCTREE_OK;
+    if (!f->checked || f->version != octree_version(points->tree))
+        return find_standing(f, points);
+    f->faults.count = f->standing;
+    memcpy(f->state.faults, f->standing_counts, sizeof f->standing_counts);
+    return OCTREE_OK;
+}
+
+/* ---- Queries ------------------------------------------------------------------------------------------------ */
+
+/* A query that named foreign nodes. */
+typedef struct node_query {
+    foreign *foreign;
+    const audited_points *points;
+    size_t answer; /* the index of its answer among those of the tick */
+} node_query;
+
+static foreign_mark *marks_of(const foreign *f)
+{
+    return f->marks.items;
+}
+
+/* Record that the query visited, pruned or hit a node. */
+static bool note_node(const node_query *q, octree_met met, uint64_t id)
+{
+    foreign *f = q->foreign;
+    const size_t place = foreign_find(f, id);
+    if (place == SIZE_MAX)
+        return report_wrong(f, place,
+                            (octree_node_fault){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});
+    octree_foreign_place *node = &places_of(f)[place];
+    f->state.met[met] += !(node->met >> met & 1);
+    node->met |= 1u << met;
+    foreign_mark *mark = &marks_of(f)[place];
+    const bool first = mark->query != f->query;
+    if (first || mark->met == OCTREE_MET_PRUNED) /* a node that the query also visited is not pruned */
+        *mark = (foreign_mark){.query = f->query, .met = met};
+    return list_push(f->memory, &f->met, &place, sizeof place);
+}
+
+/* The pruned node that excludes a node: the first node from `place` upwards that the query named, if the query pruned
+ * it; else SIZE_MAX. */
+static size_t pruned_above(const foreign *f, size_t place)
+{
+    while (place != SIZE_MAX && marks_of(f)[place].query != f->query)
+        place = places_of(f)[place].parent;
+    return place != SIZE_MAX && marks_of(f)[place].met == OCTREE_MET_PRUNED ? place : SIZE_MAX;
+}
+
+/* Call `visit` for each node that holds a point, until it returns false. */
+static void for_each_holder(const node_query *q, const octree_point *point, bool (*visit)(size_t place, void *),
+                            void *context)
+{
+    const foreign *f = q->foreign;
+    const foreign_holding *items = f->holdings.items;
+    const size_t first = foreign_first_holding(f, point->id);
+    bool on = true;
+    for (size_t i = first; on && i < f->holdings.count && items[i].id == point->id; i++)
+        on = visit(items[i].place, context);
+    if (first < f->holdings.count && items[first].id == point->id)
+        return;
+    for (size_t i = 0; on && i < f->places.count; i++)
+        if (holds_by_box(&places_of(f)[i]) && foreign_contains(places_of(f)[i].node, point->position))
+            on = visit(i, context);
+}
+
+typedef struct holder_count {
+    const foreign *foreign;
+    size_t pruned, others;
+} holder_count;
+
+static bool count_holder(size_t place, void *context)
+{
+    holder_count *c = context;
+    const bool pruned = pruned_above(c->foreign, place) != SIZE_MAX;
+    c->pruned += pruned;
+    c->others += !pruned;
+    return pruned;
+}
+
+/* Whether the query pruned all nodes that hold a point, and there is one. */
+static bool is_pruned(const octree_point *point, void *context)
+{
+    const node_query *q = context;
+    holder_count count = {.foreign = q->foreign};
+    if (is_own_point(q->points, point->id))
+        return false;
+    for_each_holder(q, point, count_holder, &count);
+    return count.pruned > 0 && count.others == 0;
+}
+
+typedef struct prune_report {
+    const node_query *query;
+    const octree_point *point;
+    bool failed; /* out of memory */
+} prune_report;
+
+/* Report the pruned node above a holder, once for each query, with the first point that it loses. */
+static bool report_holder(size_t place, void *context)
+{
+    prune_report *r = context;
+    foreign *f = r->query->foreign;
+    const size_t pruned = pruned_above(f, place);
+    foreign_mark *mark = &marks_of(f)[pruned];
+    const octree_node_fault wrong = {
+        .kind = OCTREE_NODE_PRUNED_POINT, .point = r->point->id, .answer = r->query->answer};
+    if (!mark->reported)
+        r->failed |= !report_wrong(f, pruned, wrong);
+    mark->reported = true;
+    return !r->failed;
+}
+
+static octree_status report_pruned(const octree_point *point, void *context)
+{
+    prune_report r = {.query = context, .point = point};
+    for_each_holder(context, point, report_holder, &r);
+    return r.failed ? OCTREE_NO_MEMORY : OCTREE_OK;
+}
+
+octree_status foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer)
+{
+    const octree_query *query = about->query;
+    node_query q = {f, about->points, answer};
+    bool whole = true;
+    f->query++;
+    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+        for (size_t i = 0; whole && i < query->met[met].count; i++)
+            whole = note_node(&q, (octree_met)met, query->met[met].ids[i]);
+    if (!whole)
+        return OCTREE_NO_MEMORY;
+    return query->met[OCTREE_MET_PRUNED].count ? judge_without(j, about, is_pruned, report_pruned, &q) : OCTREE_OK;
+}

@@ -1,0 +1,470 @@
+/* SPDX-License-Identifier: MIT */
+/* judge.c - judges the answer of a foreign index by the exact answer.
+ *
+ * The problem: an index may promise exact answers, answers that are exact for positions rounded to floats, or answers
+ * within epsilon; and where several neighbours are equally far, any of them is right. Comparing two lists of ids would
+ * report right answers as wrong.
+ *
+ * The idea: make two lists of points, the foreign answer and the exact one, both with the positions that the promise is
+ * about. Regions compare them as sets, sorted by id: a missing point is wrong, and an extra one is wrong unless it lies
+ * within epsilon of the region. Neighbours compare the distances rank by rank, so that ties need no rule. Squared
+ * distances in doubles decide where they are surely apart, and exact arithmetic decides the rest (metric.h).
+ *
+ * With floats, the exact answer is made again: rounding moves a point by at most a share of the world's largest
+ * coordinate, so all points in a region enlarged by that share are collected, and their rounded positions decide. The
+ * cost is that of sorting both lists; with floats also one or more searches.
+ */
+#include "judge.h"
+#include "exact.h"
+#include "kind.h"
+#include "search.h"
+
+#include <stdlib.h>
+
+const char *octree_fault_name(octree_fault fault)
+{
+    static const char *const names[OCTREE_FAULTS] = {"none",  "unknown", "duplicate", "skipped",
+                                                     "count", "farther", "missed",    "extra"};
+    return (unsigned)fault < OCTREE_FAULTS ? names[fault] : NULL;
+}
+
+typedef struct judge_state {
+    judge *judge;
+    const judging *about;
+    octree_judgement *made;
+    octree_answer asked; /* what is asked, rounded to floats where the foreign index promises floats */
+    bool rounds;
+    metric metric;
+    bool failed; /* out of memory */
+} judge_state;
+
+static bool finds_neighbors(const judge_state *s)
+{
+    return octree_query_about(s->asked.kind)->neighbors;
+}
+
+/* ---- Positions ---------------------------------------------------------------------------------------------- */
+
+/* Start judging a query. The state stays where it is: judged points refer to its target. */
+static void begin(judge_state *s, judge *j, const judging *about, octree_judgement *made)
+{
+    const octree *tree = about->points->tree;
+    *s = (judge_state){.judge = j, .about = about, .made = made, .asked = *about->answer};
+    s->rounds = s->asked.precision == OCTREE_FLOATS;
+    if (s->rounds)
+        round_answer(&s->asked);
+    s->metric = metric_make(tree->scale, is_subnormal_world(tree), s->asked.target);
+    j->named.count = j->truth.count = 0;
+}
+
+static judged_point judge_point(const judge_state *s, const octree_point *point)
+{
+    judged_point p = {.point = *point, .target = s->asked.target};
+    for (int i = 0; i < 3; i++)
+        p.at[i] = s->rounds ? round_to_float(point->position[i]) : point->position[i];
+    p.square = metric_point(&s->metric, p.at);
+    return p;
+}
+
+static bool is_skipped(const judge_state *s, const judged_point *p)
+{
+    return (s->about->skip == OCTREE_SKIP_ID && p->point.id == s->about->skip_id) ||
+           (s->about->skip == OCTREE_SKIP_COINCIDENT && same_position(p->at, s->asked.target));
+}
+
+static void keep(judge_state *s, list *l, const judged_point *p)
+{
+    s->failed |= !list_push(s->judge->memory, l, p, sizeof *p);
+}
+
+/* ---- Orders ------------------------------------------------------------------------------------------------- */
+
+static int compare_ids(const void *a, const void *b)
+{
+    const judged_point *p = a, *q = b;
+    return (p->point.id > q->point.id) - (p->point.id < q->point.id);
+}
+
+/* By the real distances. Squares decide where they are surely apart. */
+static int compare_distances(const judged_point *a, const judged_point *b)
+{
+    if (a->square > metric_above(b->square))
+        return 1;
+    if (a->square < metric_below(b->square))
+        return -1;
+    return metric_compare(a->target, a->at, b->at);
+}
+
+static int compare_ranks(const void *a, const void *b)
+{
+    const int by_distance = compare_distances(a, b);
+    return by_distance ? by_distance : compare_ids(a, b);
+}
+
+static void sort(list *l, int (*compare)(const void *, const void *))
+{
+    if (l->count > 1)
+        qsort(l->items, l->count, sizeof(judged_point), compare);
+}
+
+/* ---- The foreign answer ------------------------------------------------------------------------------------- */
+
+/* Record how the answer is wrong, unless a lower kind of wrong is recorded already. `id` counts only for the kinds that
+ * name one. */
+static void record_wrong(judge_state *s, octree_fault fault, uint64_t id)
+{
+    octree_judgement *made = s->made;
+    if (made->fault && (fault > made->fault || (fault == made->fault && id >= made->fault_id)))
+        return;
+    made->fault = fault;
+    made->fault_id = fault <= OCTREE_FAULT_SKIPPED ? id : 0;
+}
+
+/* Remove repeated points from the foreign answer, which is sorted by id. */
+static void remove_duplicates(judge_state *s, list *points)
+{
+    judged_point *items = points->items;
+    size_t kept = 0;
+    for (size_t i = 0; i < points->count; i++) {
+        if (kept > 0 && items[i].point.id == items[kept - 1].point.id)
+            record_wrong(s, OCTREE_FAULT_DUPLICATE, items[i].point.id);
+        else
+            items[kept++] = items[i];
+    }
+    points->count = kept;
+}
+
+/* List the points of the foreign answer by id, each once, without those that the query skips. */
+static void list_named(judge_state *s)
+{
+    judge *j = s->judge;
+    const octree_query *query = s->about->query;
+    const audited_points *points = s->about->points;
+    for (size_t i = 0; !s->failed && i < query->answer_count; i++) {
+        octree_point point;
+        s->failed |= !list_push(j->memory, &j->given, &query->answer[i], sizeof *query->answer);
+        if (!points->find(points->context, query->answer[i], &point)) {
+            record_wrong(s, OCTREE_FAULT_UNKNOWN, query->answer[i]);
+            continue;
+        }
+        judged_point p = judge_point(s, &point);
+        if (is_skipped(s, &p))
+            record_wrong(s, OCTREE_FAULT_SKIPPED, point.id);
+        else
+            keep(s, &j->named, &p);
+    }
+    sort(&j->named, compare_ids);
+    remove_duplicates(s, &j->named);
+}
+
+/* ---- The exact answer --------------------------------------------------------------------------------------- */
+
+/* The exact answer for positions as they are: the game has asked it already. */
+static void list_truth(judge_state *s)
+{
+    const judging *about = s->about;
+    for (size_t i = 0; !s->failed && i < about->answer->count; i++) {
+        judged_point p =
+            judge_point(s, about->exact_points ? &about->exact_points[i] : &about->exact_neighbors[i].point);
+        keep(s, &s->judge->truth, &p);
+    }
+}
+
+/* The farthest that rounding to floats moves a point of the world along one axis. */
+static double rounding_of(const octree *tree)
+{
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+        largest = larger(largest, larger(fabs(tree->def.world.min[i]), fabs(tree->def.world.max[i])));
+    return largest > FLT_MAX ? largest : largest * 0x1p-24 + 0x1p-149;
+}
+
+/* A search that collects points with their positions as judged. */
+typedef struct collecting {
+    judge_state *state;
+    list *into;
+} collecting;
+
+/* An octree_point_visitor: keep a point of the region. Neighbours are kept wherever they are. */
+static bool keep_judged(const octree_point *point, void *context)
+{
+    const collecting *c = context;
+    judge_state *s = c->state;
+    judged_point p = judge_point(s, point);
+    const query_rules *rules = query_rules_of(s->asked.kind);
+    if (!is_skipped(s, &p) && (!rules->contains || rules->contains(&s->asked, p.at, 0)))
+        keep(s, c->into, &p);
+    return !s->failed;
+}
+
+static octree_status collect_ball(judge_state *s, double radius, double slack, list *into)
+{
+    static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    const octree *tree = s->about->points->tree;
+    const double reach = exact_add_up(radius, slack);
+    collecting c = {s, into};
+    return reach < DBL_MAX ? octree_radius(tree, s->asked.target, reach, NULL, keep_judged, &c)
+                           : octree_range(tree, &all, keep_judged, &c);
+}
+
+/* Search larger and larger balls until the k-th neighbour found is nearer than every point outside the ball. */
+static octree_status collect_nearest(judge_state *s, double slack)
+{
+    const octree_answer *answer = s->about->answer;
+    const double *target = s->asked.target;
+    list *truth = &s->judge->truth;
+    const size_t count = answer->count, k = answer->k;
+    double radius =
+        count && count == k ? metric_distance(target, s->about->exact_neighbors[count - 1].point.position) : 0;
+    if (k >= octree_count(s->about->points->tree))
+        radius = DBL_MAX;
+    for (radius += slack;; radius *= 2) {
+        truth->count = 0;
+        radius = radius < DBL_MAX ? radius : DBL_MAX;
+        const octree_status status = collect_ball(s, radius, slack, truth);
+        if (status != OCTREE_OK || s->failed) /* only out of memory: a search of such a ball is never refused */
+            return status;
+        sort(truth, compare_ranks);
+        const judged_point *found = truth->items;
+        if (k == 0 || radius == DBL_MAX ||
+            (truth->count >= k && metric_compare_radius(target, found[k - 1].at, radius) <= 0))
+            break;
+    }
+    truth->count = truth->count < k ? truth->count : k;
+    return OCTREE_OK;
+}
+
+/* The exact answer for positions rounded to floats. */
+static octree_status list_rounded_truth(judge_state *s)
+{
+    const octree *tree = s->about->points->tree;
+    const double slack = 2 * rounding_of(tree); /* a distance in space: above the square root of 3 times that */
+    if (finds_neighbors(s))
+        return collect_nearest(s, slack);
+    const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, slack);
+    collecting c = {s, &s->judge->truth};
+    return octree_range(tree, &bound, keep_judged, &c);
+}
+
+static octree_status find_truth(judge_state *s)
+{
+    octree_status status = OCTREE_OK;
+    if (s->rounds)
+        status = list_rounded_truth(s);
+    else
+        list_truth(s);
+    s->made->expected = s->judge->truth.count;
+    return s->failed ? OCTREE_NO_MEMORY : status;
+}
+
+/* ---- Regions ------------------------------------------------------------------------------------------------ */
+
+static void list_wrong(judge_state *s, const judged_point *p, size_t *count)
+{
+    s->failed |= !list_push(s->judge->memory, &s->judge->wrong, &p->point, sizeof p->point);
+    ++*count;
+}
+
+/* List the points of `from` that are not in `without`. Both lists are sorted by id. Points within `slack` of the region
+ * are right where slack is above 0. */
+static void list_difference(judge_state *s, const list *from, const list *without, double slack, size_t *count)
+{
+    const judged_point *items = from->items, *others = without->items;
+    const query_rules *rules = query_rules_of(s->asked.kind);
+    for (size_t i = 0, j = 0; !s->failed && i < from->count; i++) {
+        while (j < without->count && compare_ids(&others[j], &items[i]) < 0)
+            j++;
+        const bool lacks = j == without->count || compare_ids(&others[j], &items[i]) > 0;
+        if (lacks && !(slack > 0 && rules->contains(&s->asked, items[i].at, slack)))
+            list_wrong(s, &items[i], count);
+    }
+}
+
+static void judge_region(judge_state *s)
+{
+    judge *j = s->judge;
+    sort(&j->truth, compare_ids);
+    list_difference(s, &j->truth, &j->named, 0, &s->made->missed_count);
+    list_difference(s, &j->named, &j->truth, s->asked.epsilon, &s->made->extra_count);
+    if (s->made->missed_count)
+        record_wrong(s, OCTREE_FAULT_MISSED, 0);
+    if (s->made->extra_count)
+        record_wrong(s, OCTREE_FAULT_EXTRA, 0);
+}
+
+/* ---- Neighbours --------------------------------------------------------------------------------------------- */
+
+/* Whether a, which is farther than the exact neighbour b, is farther than epsilon allows. */
+static bool is_farther(const judge_state *s, const judged_point *a, const judged_point *b)
+{
+    if (!(s->asked.epsilon > 0) || same_position(b->at, s->asked.target))
+        return true;
+    const double factor = 1 + s->asked.epsilon; /* its rounding error is within the band of metric_above */
+    return a->square > metric_above(factor * factor * (b->square + 0x1p-999));
+}
+
+static void judge_ranks(judge_state *s, const judged_point *named, const judged_point *truth, size_t count)
+{
+    octree_judgement *made = s->made;
+    made->ratio = count == 0 && made->expected > 0 ? INFINITY : 1;
+    for (size_t i = 0; i < count; i++) {
+        if (compare_distances(&named[i], &truth[i]) <= 0)
+            continue;
+        const double ratio =
+            metric_distance(named[i].at, s->asked.target) / metric_distance(truth[i].at, s->asked.target);
+        made->ratio = ratio > made->ratio ? ratio : made->ratio;
+        if (made->rank == 0 && is_farther(s, &named[i], &truth[i]))
+            made->rank = i + 1;
+    }
+    if (made->rank)
+        record_wrong(s, OCTREE_FAULT_FARTHER, 0);
+}
+
+/* List what is wrong in a wrong answer. Every right answer contains all points that are nearer than the last exact
+ * neighbour, as many of the points at its distance as there is room for, and no farther point. */
+static void list_wrong_neighbors(judge_state *s)
+{
+    const judge *j = s->judge;
+    octree_judgement *made = s->made;
+    const judged_point *truth = j->truth.items, *named = j->named.items;
+    const judged_point *last = j->truth.count ? &truth[j->truth.count - 1] : NULL;
+    size_t in_reach = 0;
+    while (last && in_reach < j->named.count && compare_distances(&named[in_reach], last) <= 0)
+        in_reach++;
+    for (size_t i = 0, n = 0; !s->failed && i < j->truth.count; i++) {
+        while (n < in_reach && compare_ranks(&named[n], &truth[i]) < 0)
+            n++;
+        const bool lacks = n == in_reach || named[n].point.id != truth[i].point.id;
+        const bool needed = compare_distances(&truth[i], last) < 0 || made->missed_count + in_reach < j->truth.count;
+        if (lacks && needed)
+            list_wrong(s, &truth[i], &made->missed_count);
+    }
+    for (size_t i = in_reach; !s->failed && i < j->named.count; i++)
+        if (!last || is_farther(s, &named[i], last))
+            list_wrong(s, &named[i], &made->extra_count);
+}
+
+/* `given` is the number of ids in the foreign answer. */
+static void judge_neighbors(judge_state *s, size_t given)
+{
+    judge *j = s->judge;
+    const size_t named = j->named.count, truth = j->truth.count, ranks = named < truth ? named : truth;
+    sort(&j->named, compare_ranks);
+    judge_ranks(s, j->named.items, j->truth.items, ranks);
+    if (given != truth)
+        record_wrong(s, OCTREE_FAULT_COUNT, 0);
+    if (named != truth && s->made->rank == 0)
+        s->made->rank = ranks + 1;
+    if (s->made->fault)
+        list_wrong_neighbors(s);
+}
+
+/* ---- An answer ---------------------------------------------------------------------------------------------- */
+
+static octree_status compare(judge_state *s, size_t given)
+{
+    if (finds_neighbors(s))
+        judge_neighbors(s, given);
+    else
+        judge_region(s);
+    return s->failed ? OCTREE_NO_MEMORY : OCTREE_OK;
+}
+
+octree_status judge_answer(judge *j, const judging *about, octree_judgement *made)
+{
+    judge_state s;
+    *made = (octree_judgement){.judged = true, .given_count = about->query->answer_count};
+    begin(&s, j, about, made);
+    list_named(&s);
+    const octree_status status = s.failed ? OCTREE_NO_MEMORY : find_truth(&s);
+    return status == OCTREE_OK ? compare(&s, about->query->answer_count) : status;
+}
+
+/* ---- An answer without some points -------------------------------------------------------------------------- */
+
+static void remove_lost(list *l, point_test *is_lost, void *context)
+{
+    judged_point *items = l->items;
+    size_t kept = 0;
+    for (size_t i = 0; i < l->count; i++)
+        if (!is_lost(&items[i].point, context))
+            items[kept++] = items[i];
+    l->count = kept;
+}
+
+/* List as the foreign answer all points that a right answer may contain: those within epsilon of the last exact
+ * neighbour. */
+static octree_status list_possible_neighbors(judge_state *s)
+{
+    const list *truth = &s->judge->truth;
+    const judged_point *last = (const judged_point *)truth->items + truth->count - 1;
+    const double distance = metric_distance(s->asked.target, last->at);
+    const double factor = (1 + s->asked.epsilon) * (1 + 0x1p-40);
+    s->judge->named.count = 0;
+    return collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
+                        s->rounds ? 2 * rounding_of(s->about->points->tree) : 0x1p-1000, &s->judge->named);
+}
+
+/* Make the best answer without the lost points: the nearest others, or all others of the region. */
+static octree_status list_best_named(judge_state *s, point_test *is_lost, void *context)
+{
+    list *named = &s->judge->named;
+    const list *truth = &s->judge->truth;
+    if (!finds_neighbors(s)) {
+        sort(named, compare_ids);
+        return OCTREE_OK;
+    }
+    const octree_status status = list_possible_neighbors(s);
+    remove_lost(named, is_lost, context);
+    sort(named, compare_ranks);
+    named->count = named->count < truth->count ? named->count : truth->count;
+    return s->failed ? OCTREE_NO_MEMORY : status;
+}
+
+octree_status judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context)
+{
+    octree_judgement made = {.judged = true};
+    judge_state s;
+    const size_t listed = j->wrong.count;
+    begin(&s, j, about, &made);
+    octree_status status = find_truth(&s);
+    for (size_t i = 0; i < j->truth.count; i++)
+        keep(&s, &j->named, (const judged_point *)j->truth.items + i);
+    remove_lost(&j->named, is_lost, context);
+    if (status != OCTREE_OK || s.failed || j->named.count == j->truth.count)
+        return s.failed ? OCTREE_NO_MEMORY : status;
+    status = list_best_named(&s, is_lost, context);
+    if (status == OCTREE_OK)
+        status = compare(&s, j->named.count);
+    const octree_point *missed = j->wrong.items;
+    for (size_t i = 0; status == OCTREE_OK && made.fault && i < made.missed_count; i++)
+        status =
+            report(&missed[listed + i], context); /* it misses only lost points: the others are the best there are */
+    j->wrong.count = listed;
+    return status;
+}
+
+/* ---- Lists -------------------------------------------------------------------------------------------------- */
+
+void judge_assign(const judge *j, octree_answer *answers, size_t count)
+{
+    const uint64_t *given = j->given.items;
+    const octree_point *wrong = j->wrong.items;
+    size_t ids = 0, points = 0; /* of the answers before */
+    for (size_t i = 0; i < count; i++) {
+        octree_judgement *made = &answers[i].judgement;
+        made->given = made->given_count ? given + ids : NULL;
+        made->missed = made->missed_count ? wrong + points : NULL;
+        made->extra = made->extra_count ? wrong + points + made->missed_count : NULL;
+        ids += made->given_count;
+        points += made->missed_count + made->extra_count;
+    }
+}
+
+void judge_release(judge *j)
+{
+    list_release(j->memory, &j->given, sizeof(uint64_t));
+    list_release(j->memory, &j->wrong, sizeof(octree_point));
+    list_release(j->memory, &j->named, sizeof(judged_point));
+    list_release(j->memory, &j->truth, sizeof(judged_point));
+}

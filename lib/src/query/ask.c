@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT */
+/* ask.c - the tables of octree/query.h, and checking and asking a query of any kind by its row. */
+#include "kind.h"
+#include "search.h"
+
+#include <stdlib.h>
+
+/* ---- The tables --------------------------------------------------------------------------------------------- */
+
+const octree_query_member_traits *octree_query_member_at(size_t index)
+{
+#define MEMBER(member, field, type, key)                                                                               \
+    {OCTREE_QUERY_HAS_##member, OCTREE_MEMBER_##type, key, offsetof(octree_query, field),                              \
+     offsetof(octree_answer, field)},
+    static const octree_query_member_traits table[] = {OCTREE_QUERY_MEMBER_MAP(MEMBER)};
+#undef MEMBER
+    return index < OCTREE_QUERY_MEMBERS ? &table[index] : NULL;
+}
+
+const octree_query_traits *octree_query_about(octree_query_kind kind)
+{
+#define RESULT_POINTS false
+#define RESULT_NEIGHBORS true
+#define TRAITS(kind, name, members, named_by, result, words, region)                                                   \
+    {#name, members, named_by, RESULT_##result, words, region},
+    static const octree_query_traits table[] = {OCTREE_QUERY_MAP(TRAITS)};
+#undef TRAITS
+    return (unsigned)kind < OCTREE_QUERY_KINDS ? &table[kind] : NULL;
+}
+
+const char *octree_query_name(octree_query_kind kind)
+{
+    const octree_query_traits *about = octree_query_about(kind);
+    return about ? about->name : NULL;
+}
+
+const query_rules *query_rules_of(octree_query_kind kind)
+{
+#define RULES_POINTS(name) {ask_##name, contains_##name, bound_##name},
+#define RULES_NEIGHBORS(name) {ask_##name, NULL, NULL},
+#define RULES(kind, name, members, named_by, result, ...) RULES_##result(name)
+    static const query_rules table[] = {OCTREE_QUERY_MAP(RULES)};
+#undef RULES
+    return &table[kind];
+}
+
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
+
+static octree_status check_member(const octree_query *query, const octree_query_member_traits *member)
+{
+    const void *value = (const char *)query + member->in_query;
+    switch (member->type) {
+    case OCTREE_MEMBER_BOX:
+        return check_box(value);
+    case OCTREE_MEMBER_POSITION:
+        return member->bit == OCTREE_QUERY_HAS_TARGET && query->at_player ? OCTREE_OK : check_finite(value);
+    case OCTREE_MEMBER_LENGTH:
+        return check_length(*(const double *)value);
+    case OCTREE_MEMBER_COUNT:
+        break;
+    }
+    return OCTREE_OK;
+}
+
+static octree_status check_answer(const octree_query *query)
+{
+    if (query->answered && !query->answer && query->answer_count)
+        return OCTREE_NULL_ARGUMENT;
+    return (unsigned)query->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
+}
+
+static octree_status check_met(const octree_ids *met)
+{
+    if (met->count && !met->ids)
+        return OCTREE_NULL_ARGUMENT;
+    for (size_t i = 0; i < met->count; i++)
+        if (met->ids[i] >= OCTREE_NODE_ID_LIMIT)
+            return OCTREE_BAD_SIZE;
+    return OCTREE_OK;
+}
+
+octree_status octree_query_check(const octree_query *query)
+{
+    if (!query)
+        return OCTREE_NULL_ARGUMENT;
+    const octree_query_traits *about = octree_query_about(query->kind);
+    if (!about)
+        return OCTREE_BAD_OPTION;
+    if (query->skip == OCTREE_SKIP_COINCIDENT && !(about->members & OCTREE_QUERY_HAS_TARGET))
+        return OCTREE_BAD_OPTION;
+    octree_status status = check_search(&(octree_search){.skip = query->skip, .epsilon = query->epsilon});
+    for (size_t i = OCTREE_QUERY_MEMBERS; status == OCTREE_OK && i-- > 0;)
+        if (about->members & octree_query_member_at(i)->bit)
+            status = check_member(query, octree_query_member_at(i));
+    if (status == OCTREE_OK && query_is_judged(query))
+        status = check_answer(query);
+    for (int met = 0; status == OCTREE_OK && met < OCTREE_MET_KINDS; met++)
+        status = check_met(&query->met[met]);
+    return status;
+}
+
+/* ---- Asking ------------------------------------------------------------------------------------------------- */
+
+bool collect_point(const octree_point *point, void *context)
+{
+    point_collector *c = context;
+    c->failed = !list_push(c->memory, c->points, point, sizeof *point);
+    return !c->failed;
+}
+
+void sort_points(list *points, size_t first)
+{
+    if (points->count > first)
+        qsort((octree_point *)points->items + first, points->count - first, sizeof(octree_point),
+              octree_compare_points);
+}
+
+bool keep_point(const octree_point *point, void *context)
+{
+    asking *a = context;
+    const octree_answer *asked = a->asked;
+    const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
+                         (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target));
+    return skipped || collect_point(point, &a->points);
+}
+
+static size_t size_of(octree_member_type type)
+{
+    static const size_t sizes[] = {[OCTREE_MEMBER_BOX] = sizeof(octree_box),
+                                   [OCTREE_MEMBER_POSITION] = sizeof(double[3]),
+                                   [OCTREE_MEMBER_COUNT] = sizeof(size_t),
+                                   [OCTREE_MEMBER_LENGTH] = sizeof(double)};
+    return sizes[type];
+}
+
+octree_answer query_to_answer(const octree_query *query, const double player[3])
+{
+    octree_answer answer = {.kind = query->kind,
+                            .skip = query->skip,
+                            .skip_id = query->skip_id,
+                            .epsilon = query->epsilon,
+                            .precision = query_is_judged(query) ? query->precision : OCTREE_DOUBLES};
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+        const octree_query_member_traits *member = octree_query_member_at(i);
+        memcpy((char *)&answer + member->in_answer, (const char *)query + member->in_query, size_of(member->type));
+    }
+    if (!query->at_player)
+        return answer;
+    memcpy(answer.target, player, sizeof answer.target);
+    for (int i = 0; i < 3; i++) {
+        answer.box.min[i] += player[i];
+        answer.box.max[i] += player[i];
+    }
+    return answer;
+}
+
+void round_answer(octree_answer *answer)
+{
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+        const octree_query_member_traits *member = octree_query_member_at(i);
+        double *numbers = (double *)((char *)answer + member->in_answer);
+        const size_t count = member->type == OCTREE_MEMBER_COUNT ? 0 : size_of(member->type) / sizeof *numbers;
+        for (size_t j = 0; j < count; j++)
+            numbers[j] = round_to_float(numbers[j]);
+    }
+}
+
+octree_status ask(asking *a, const octree_query *query, const double player[3], octree_answer *answer)
+{
+    const bool neighbors = octree_query_about(query->kind)->neighbors;
+    const list *found = neighbors ? a->neighbors : a->points.points;
+    const size_t first = found->count;
+    *answer = query_to_answer(query, player);
+    a->asked = answer;
+    a->how.cost = &answer->cost;
+    if (query->skip != OCTREE_SKIP_NONE) {
+        a->how.skip = query->skip;
+        a->how.skip_id = query->skip_id;
+    }
+    if (query_is_judged(query))
+        a->how.epsilon = 0; /* the exact answer judges; epsilon is what the foreign answer may deviate by */
+    else if (query->epsilon > 0)
+        a->how.epsilon = query->epsilon;
+    octree_status status = query_rules_of(query->kind)->ask(a, answer);
+    if (a->points.failed)
+        status = OCTREE_NO_MEMORY;
+    answer->count = found->count - first;
+    if (status == OCTREE_OK && !neighbors)
+        sort_points(a->points.points, first);
+    return status;
+}
+
+/* ---- Outside a game ----------------------------------------------------------------------------------------- */
+
+/* Copy a list's items to a block of exactly their size and release the list. Null for no items or no memory. */
+static void *move_to_block(arena *memory, list *l, size_t item_size)
+{
+    void *items = l->count ? arena_take(memory, l->count * item_size) : NULL;
+    if (items)
+        memcpy(items, l->items, l->count * item_size);
+    list_release(memory, l, item_size);
+    return items;
+}
+
+octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
+                                  const octree_search *how, octree_answer *answer)
+{
+    if (!answer)
+        return OCTREE_NULL_ARGUMENT;
+    *answer = (octree_answer){0};
+    octree_status status = tree ? octree_query_check(query) : OCTREE_NULL_ARGUMENT;
+    if (status == OCTREE_OK && query->at_player && !player)
+        status = OCTREE_NULL_ARGUMENT;
+    if (status != OCTREE_OK)
+        return status;
+    arena memory = {.allocator = tree->def.allocator};
+    list points = {0}, neighbors = {0};
+    asking a = {tree, search_or_default(how), {&memory, &points, false}, &neighbors, NULL};
+    octree_answer made;
+    status = ask(&a, query, player, &made);
+    made.points = move_to_block(&memory, &points, sizeof(octree_point));
+    made.neighbors = move_to_block(&memory, &neighbors, sizeof(octree_neighbor));
+    if (status == OCTREE_OK && made.count && !made.points && !made.neighbors)
+        status = OCTREE_NO_MEMORY;
+    if (status == OCTREE_OK)
+        *answer = made;
+    else
+        octree_answer_release(tree, &made);
+    return status;
+}
+
+void octree_answer_release(const octree *tree, octree_answer *answer)
+{
+    if (!tree || !answer)
+        return;
+    arena memory = {.allocator = tree->def.allocator};
+    arena_give(&memory, (void *)answer->points, answer->count * sizeof *answer->points);
+    arena_give(&memory, (void *)answer->neighbors, answer->count * sizeof *answer->neighbors);
+    *answer = (octree_answer){0};
+}
+
+bool octree_answer_bound(const octree_answer *answer, octree_box *bound)
+{
+    const query_rules *rules = query_rules_of(answer->kind);
+    if (rules->bound)
+        *bound = rules->bound(answer, 0);
+    return rules->bound != NULL;
+}

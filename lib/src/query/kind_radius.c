@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* kind_radius.c - the kind "radius": the points in a closed ball. */
+#include "exact.h"
+#include "kind.h"
+#include "search.h"
+
+octree_status ask_radius(asking *a, octree_answer *answer)
+{
+    return octree_radius(a->tree, answer->target, answer->radius, &a->how, keep_point, a);
+}
+
+bool contains_radius(const octree_answer *asked, const double position[3], double slack)
+{
+    const double reach = slack > 0 ? exact_add_up(asked->radius, slack) : asked->radius;
+    return isinf(reach) || metric_compare_radius(asked->target, position, reach) <= 0;
+}
+
+octree_box bound_radius(const octree_answer *asked, double slack)
+{
+    const double reach = exact_add_up(asked->radius, slack);
+    octree_box bound;
+    for (int i = 0; i < 3; i++) {
+        bound.min[i] = isinf(reach) ? -INFINITY : exact_add_down(asked->target[i], -reach);
+        bound.max[i] = isinf(reach) ? INFINITY : exact_add_up(asked->target[i], reach);
+    }
+    return bound;
+}
