@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* failure_campaign.c - each allocation and each call of the system of each command failed in turn, of those that are
- * not Mesa's own; a call by each error in turn, among them a full disk, and less than was asked for.
+/* failure_campaign.c - runs octreel's commands and makes one memory allocation or one system call fail in each run.
  *
- * A command that meets trouble ends with status 2 and one sentence, or, where it can do without, as if there had been
- * none. Where frames differ the verdict stands, and why they do may be told in less detail.
- * It is ended by no signal, does not hang, and leaves under their final names only files that were there before or
- * that it writes without trouble. */
+ * Mesa's own allocations and calls are left alone. A call fails with each error in turn: I/O error, full disk, too many
+ * open files, interrupted call; reads and writes may also be short.
+ *
+ * A command must end with status 2 and one sentence; or, if it can work without the failed part, as in a run without a
+ * failure. diff must keep its verdict, but may explain it in less detail. No command may be ended by a signal or hang.
+ * A file with a final name must be the file from before the run or the one that a run without a failure writes. */
 #include <errno.h>
 #include <getopt.h>
 #include <inttypes.h>
@@ -131,23 +132,22 @@ static const struct family {
 
 enum { FAMILIES = sizeof families / sizeof families[0] };
 
-/* Of the command line: of all that can fail, from the first on every so many-th; or of those that come by the same
- * calls the first, by one error. */
+/* The options: of all allocations and calls of a command, number `first` and each `every`-th after it fails. With
+ * `sites` it is the first allocation or call of each call site, by one error; with `quick` a single one for each
+ * command. */
 static struct {
     uint64_t first, every;
     const char *only, *of; /* command and family; null: all */
-    bool sites;
-} asked = {1, 1, NULL, NULL, false};
+    bool sites, quick;
+} asked = {1, 1, NULL, NULL, false, false};
 
 static void read_options(int argc, char **argv)
 {
-    static const struct option known[] = {{"first", required_argument, NULL, 'f'},
-                                          {"every", required_argument, NULL, 'e'},
-                                          {"command", required_argument, NULL, 'c'},
-                                          {"of", required_argument, NULL, 'o'},
-                                          {"sites", no_argument, NULL, 's'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {0}};
+    static const struct option known[] = {
+        {"first", required_argument, NULL, 'f'},   {"every", required_argument, NULL, 'e'},
+        {"command", required_argument, NULL, 'c'}, {"of", required_argument, NULL, 'o'},
+        {"sites", no_argument, NULL, 's'},         {"quick", no_argument, NULL, 'q'},
+        {"help", no_argument, NULL, 'h'},          {0}};
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 'f':
@@ -165,12 +165,22 @@ static void read_options(int argc, char **argv)
         case 's':
             asked.sites = true;
             break;
+        case 'q':
+            asked.quick = true;
+            break;
         case 'h':
-            puts("usage: octreel-failure-campaign [--of memory|calls] [--first N] [--every N | --sites] [--command "
-                 "NAME]\n"
-                 "Fail the first, or N-th, allocation and call of the system of octreel's commands in turn, and of\n"
-                 "those behind it each, or each N-th; or of those that come by the same calls one. Exit status: 0 no "
-                 "findings, 1 findings, 2 trouble.");
+            puts("usage: octreel-failure-campaign [--of memory|calls] [--first N] [--every N | --sites | --quick]\n"
+                 "                                [--command NAME]\n"
+                 "Runs octreel's commands and makes one memory allocation or system call fail in each run: a command "
+                 "must\n"
+                 "report the failure or work without, and must leave no damaged file.\n"
+                 "  --of FAMILY     fail only allocations (memory) or only system calls (calls)\n"
+                 "  --first N       begin with the N-th allocation or call; default 1\n"
+                 "  --every N       then fail each N-th; default 1\n"
+                 "  --sites         fail each call site once\n"
+                 "  --quick         fail one allocation or one call of each command\n"
+                 "  --command NAME  run only this command\n"
+                 "Exit status: 0 no findings, 1 findings, 2 trouble. The commands:");
             for (size_t i = 0; i < COMMANDS; i++)
                 printf("  %-18s octreel %s\n", commands[i].name, commands[i].line);
             finish(EXIT_DONE);
@@ -333,6 +343,11 @@ static bool fail_one(const char *folder, size_t command, const struct family *fa
     return there;
 }
 
+static int error_by_turns(const struct family *family, size_t turn)
+{
+    return family->errors[turn % (size_t)family->error_count];
+}
+
 /* Each site once, by one error after the other. Returns how many runs there were. */
 static size_t fail_sites(const char *folder, size_t command, const struct family *family, const command_result *without,
                          size_t *findings)
@@ -345,8 +360,7 @@ static size_t fail_sites(const char *folder, size_t command, const struct family
     command_release(&counted);
     char *sites = file_read(path, NULL), *end = sites;
     for (uint64_t n; (n = strtoull(end, &end, 10)) > 0; runs++)
-        fail_one(folder, command, family, n, family->errors[(runs + command) % (size_t)family->error_count], without,
-                 findings);
+        fail_one(folder, command, family, n, error_by_turns(family, runs + command), without, findings);
     free(sites);
     return runs;
 }
@@ -359,9 +373,12 @@ static size_t fail_each(const char *folder, size_t command, const struct family 
     const command_result kept = run_script("cd %s && rm -rf whole && mv run whole", folder);
     assert_int_equal(kept.status, 0);
     assert_true(without.status <= 1);
-    bool there = !asked.sites;
+    bool there = !asked.sites && !asked.quick;
     if (asked.sites)
         runs = fail_sites(folder, command, family, &without, &findings);
+    if (asked.quick)
+        runs = fail_one(folder, command, family, asked.first + command % 8, error_by_turns(family, command / FAMILIES),
+                        &without, &findings);
     for (uint64_t n = asked.first; n <= MOST && there; n += asked.every)
         for (int i = 0; i < family->error_count && there; i++, runs += there)
             there = fail_one(folder, command, family, n, family->errors[i], &without, &findings);
@@ -383,10 +400,11 @@ static void prepare(const temp_folder *own)
     command_release(&made);
 }
 
-/* Without WebAssembly no page can be made. */
+/* Without WebAssembly no page can be made. A quick campaign takes the families by turns. */
 static bool is_asked(size_t command, const struct family *family)
 {
-    return (!asked.only || strcmp(asked.only, commands[command].name) == 0) &&
+    return (!asked.quick || family == &families[command % FAMILIES]) &&
+           (!asked.only || strcmp(asked.only, commands[command].name) == 0) &&
            (!asked.of || strcmp(asked.of, family->name) == 0) &&
            (page_plays() || strncmp(commands[command].line, "play", 4) != 0);
 }
