@@ -1,58 +1,62 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.c - one table of the options that are queries; their numbers are read by what each kind of query takes.
+/* query_options.c - the options that ask a query, one for each row of query_looks.h that has one. Their numbers are the
+ * members of the kind, in the order of OCTREE_QUERY_MEMBER_MAP.
  */
 #include "query_options.h"
 #include "number.h"
+#include "query_looks.h"
 
 #include <math.h>
 #include <string.h>
 
 #define MOST_NUMBERS 16
 
-/* The numbers of an option are the members of its kind of query: a box, a target, a radius, a count. */
 static const struct {
     octree_query_kind kind;
-    octree_query_kind with_count; /* the kind where a count follows; the same: none may */
-    const char *value, *help;     /* in --help */
-    const char *takes;            /* in the sentence about what does not fit */
+    const char *value;           /* in --help; null: no option */
+    octree_query_kind with_more; /* the kind that is asked if one more number is given */
+    const char *help;            /* in --help */
+    const char *takes;           /* in error messages */
 } rows[] = {
-    {OCTREE_QUERY_NEAREST, OCTREE_QUERY_KNEAREST, "X,Y,Z[,K]",
-     "print and draw the point nearest to a place, or the K nearest",
-     "a place, and how many neighbours, where that is not 1, as in 1,2,3 or 1,2,3,8"},
-    {OCTREE_QUERY_RADIUS, OCTREE_QUERY_RADIUS, "X,Y,Z,R", "print and draw the points within R of a place",
-     "a centre and a radius as in 1,2,3,10"},
-    {OCTREE_QUERY_RANGE, OCTREE_QUERY_RANGE, "X0,Y0,Z0,X1,Y1,Z1",
-     "print and draw the points in a box; queries can be given several times",
-     "two corners as in -10,-10,-10,10,10,10"},
+#define QUERY_OPTION(X, kind, name, words, layer_help, r, g, b, value, with_more, help, takes)                         \
+    {OCTREE_QUERY_##kind, value, OCTREE_QUERY_##with_more, help, takes},
+    QUERY_LOOKS(QUERY_OPTION, )
+#undef QUERY_OPTION
 };
+
+static size_t numbers_in(octree_member_type type)
+{
+    static const size_t numbers[] = {
+        [OCTREE_MEMBER_BOX] = 6, [OCTREE_MEMBER_POSITION] = 3, [OCTREE_MEMBER_COUNT] = 1, [OCTREE_MEMBER_LENGTH] = 1};
+    return numbers[type];
+}
 
 static size_t numbers_of(octree_query_kind kind)
 {
-    const unsigned members = octree_query_about(kind)->members;
-    return (members & OCTREE_QUERY_HAS_BOX ? 6u : 0u) + (members & OCTREE_QUERY_HAS_TARGET ? 3u : 0u) +
-           (members & OCTREE_QUERY_HAS_RADIUS ? 1u : 0u) + (members & OCTREE_QUERY_HAS_K ? 1u : 0u);
+    size_t count = 0;
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++)
+        if (octree_query_about(kind)->members & octree_query_member_at(i)->bit)
+            count += numbers_in(octree_query_member_at(i)->type);
+    return count;
 }
 
-/* Fill the members that the query's kind reads; false where k is not a count. */
-static bool set_members(octree_query *query, const double *at)
+/* Set the members that the query's kind reads. False where a count is not a whole number in range. */
+static bool set_members(octree_query *query, const double *numbers)
 {
-    const unsigned members = octree_query_about(query->kind)->members;
-    if (members & OCTREE_QUERY_HAS_BOX) {
-        memcpy(query->box.min, at, sizeof query->box.min);
-        memcpy(query->box.max, at + 3, sizeof query->box.max);
-        at += 6;
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+        const octree_query_member_traits *member = octree_query_member_at(i);
+        char *value = (char *)query + member->in_query;
+        if (!(octree_query_about(query->kind)->members & member->bit))
+            continue;
+        if (member->type != OCTREE_MEMBER_COUNT)
+            memcpy(value, numbers, numbers_in(member->type) * sizeof *numbers);
+        else if (*numbers >= 1 && *numbers < 0x1p53 && *numbers == floor(*numbers))
+            *(size_t *)value = (size_t)*numbers;
+        else
+            return false;
+        numbers += numbers_in(member->type);
     }
-    if (members & OCTREE_QUERY_HAS_TARGET) {
-        memcpy(query->target, at, sizeof query->target);
-        at += 3;
-    }
-    if (members & OCTREE_QUERY_HAS_RADIUS)
-        query->radius = *at++;
-    if (!(members & OCTREE_QUERY_HAS_K))
-        return true;
-    const bool fits = *at >= 1 && *at < 0x1p53 && *at == floor(*at);
-    query->k = fits ? (size_t)*at : 0;
-    return fits;
+    return true;
 }
 
 static bool read_query(const command_option *option, const char *text, void *into)
@@ -65,7 +69,7 @@ static bool read_query(const command_option *option, const char *text, void *int
     if (queries->count == MOST_QUERIES)
         return refuse("at most %d queries can be given", MOST_QUERIES);
     if (!numbers_parse(text, values, numbers_of(query.kind))) {
-        query.kind = rows[row].with_count;
+        query.kind = rows[row].with_more;
         if (!numbers_parse(text, values, numbers_of(query.kind)))
             return refuse("--%s takes %s, not \"%s\"", name, rows[row].takes, text);
     }
@@ -79,11 +83,15 @@ static bool read_query(const command_option *option, const char *text, void *int
     return true;
 }
 
+/* The n-th option: the last row comes first. */
 bool query_option_row(size_t n, command_option *option)
 {
-    if (n >= sizeof rows / sizeof rows[0])
-        return false;
-    *option =
-        (command_option){octree_query_name(rows[n].kind), rows[n].value, rows[n].help, .read = read_query, .min = n};
-    return true;
+    for (size_t i = sizeof rows / sizeof rows[0]; i-- > 0;) {
+        if (!rows[i].value || n-- > 0)
+            continue;
+        *option = (command_option){octree_query_name(rows[i].kind), rows[i].value, rows[i].help, .read = read_query,
+                                   .min = i};
+        return true;
+    }
+    return false;
 }

@@ -53,19 +53,13 @@ static double reach_of(const octree_box *box)
 
 /* ---- What there is to be seen ------------------------------------------------------------------------------- */
 
-/* What is asked, and what neighbours are found. */
+/* The region of a query; of a query for neighbours its target and the neighbours found. */
 static octree_box box_of_answer(const octree_answer *answer)
 {
     octree_box box = nothing;
-    double from[3], to[3];
-    if (answer->kind == OCTREE_QUERY_RANGE)
-        return answer->box;
-    for (int i = 0; i < 3; i++) {
-        const double radius = answer->kind == OCTREE_QUERY_RADIUS ? answer->radius : 0;
-        from[i] = answer->target[i] - radius;
-        to[i] = answer->target[i] + radius;
-    }
-    widen(&box, from, to);
+    if (octree_answer_bound(answer, &box))
+        return box;
+    widen(&box, answer->target, answer->target);
     for (size_t i = 0; answer->neighbors && i < answer->count; i++)
         widen(&box, answer->neighbors[i].point.position, answer->neighbors[i].point.position);
     return box;

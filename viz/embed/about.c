@@ -11,7 +11,8 @@ static const char *fault_of(const octree_query *query, octree_player_kind player
 {
     const octree_input one = {.queries = query, .query_count = 1};
     octree_status status = octree_input_check(&one);
-    for (int i = 0; status == OCTREE_OK && query->kind == OCTREE_QUERY_RANGE && i < 3; i++)
+    const octree_query_traits *kind = octree_query_about(query->kind);
+    for (int i = 0; status == OCTREE_OK && kind->members & OCTREE_QUERY_HAS_BOX && i < 3; i++)
         if (!isfinite(query->box.min[i]) || !isfinite(query->box.max[i]))
             status = OCTREE_NOT_FINITE;
     if (status == OCTREE_OK && query->skip == OCTREE_SKIP_ID && query->skip_id >= SESSION_ID_LIMIT)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_OF_A_KIND 12
+#define MOST_OF_A_KIND (12 + OCTREE_QUERY_MEMBERS)
 
 /* What a list is of. */
 struct session_items {
@@ -97,7 +97,8 @@ static bool read_skip(json_reader *r, json_t *value, const json_place *at, void 
     const bool has_target = octree_query_about(query->kind)->members & OCTREE_QUERY_HAS_TARGET;
     query->skip = by_place ? OCTREE_SKIP_COINCIDENT : OCTREE_SKIP_ID;
     if (by_place)
-        return has_target || json_fail(r, at, "a box has no place to be coincident with; \"skip\" takes an id");
+        return has_target || json_fail(r, at, "a %s has no place to be coincident with; \"skip\" takes an id",
+                                       octree_query_about(query->kind)->region);
     if (json_is_string(value))
         return json_expected(r, value, at, has_target ? "an id or \"coincident\"" : "an id");
     return json_read_uint64(r, value, at, &query->skip_id);
@@ -216,15 +217,21 @@ static const char *query_name(int n)
     return octree_query_name((octree_query_kind)n);
 }
 
-static const struct {
-    octree_query_member bit;
-    json_member member;
-} query_members[] = {
-    {OCTREE_QUERY_HAS_BOX, {"box", &json_box, offsetof(octree_query, box), .required = true}},
-    {OCTREE_QUERY_HAS_K, {"k", &json_size, offsetof(octree_query, k), .required = true, .max = UINT32_MAX}},
-    {OCTREE_QUERY_HAS_RADIUS, {"radius", &json_positive, offsetof(octree_query, radius), .required = true}},
-    {OCTREE_QUERY_HAS_TARGET, {"at", JSON_CODEC(read_target, write_target, NULL), .required = true}},
-};
+/* How a member of a kind is read and written. The target may also be the player. */
+static json_member query_member(const octree_query_member_traits *member)
+{
+    static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_box,
+                                               [OCTREE_MEMBER_POSITION] = &json_vector,
+                                               [OCTREE_MEMBER_COUNT] = &json_size,
+                                               [OCTREE_MEMBER_LENGTH] = &json_positive};
+    static const json_codec target = {read_target, write_target, NULL};
+    json_member row = {member->key, codecs[member->type], member->in_query, .required = true, .max = UINT32_MAX};
+    if (member->bit == OCTREE_QUERY_HAS_TARGET) {
+        row.codec = &target;
+        row.offset = 0;
+    }
+    return row;
+}
 
 static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target, is_at_player), .offset = 0};
 
@@ -247,12 +254,13 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
 {
     const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
     size_t count = 1;
-    for (size_t i = 0; i < sizeof query_members / sizeof query_members[0]; i++) {
-        if (query_members[i].bit == about->named_by) {
-            table[0] = query_members[i].member;
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+        const octree_query_member_traits *member = octree_query_member_at(i);
+        if (member->bit == about->named_by) {
+            table[0] = query_member(member);
             table[0].name = about->name;
-        } else if (about->members & query_members[i].bit) {
-            table[count++] = query_members[i].member;
+        } else if (about->members & member->bit) {
+            table[count++] = query_member(member);
         }
     }
     if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))

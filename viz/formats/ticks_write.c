@@ -202,27 +202,43 @@ static void write_judgement(json_writer *w, const octree_answer *answer, const o
     json_write_end_object(w);
 }
 
-/* What was asked, by the members that the kind reads; and what was found. */
+void tick_write_asked(json_writer *w, const octree_answer *answer)
+{
+    const octree_query_traits *about = octree_query_about(answer->kind);
+    for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+        const octree_query_member_traits *member = octree_query_member_at(i);
+        const char *value = (const char *)answer + member->in_answer, *key = member->key;
+        if (!(about->members & member->bit))
+            continue;
+        if (member->bit == OCTREE_QUERY_HAS_TARGET)
+            key = about->neighbors ? "target" : "center";
+        switch (member->type) {
+        case OCTREE_MEMBER_BOX:
+            json_member_vector(w, "min", ((const octree_box *)value)->min);
+            json_member_vector(w, "max", ((const octree_box *)value)->max);
+            break;
+        case OCTREE_MEMBER_POSITION:
+            json_member_vector(w, key, (const double *)value);
+            break;
+        case OCTREE_MEMBER_COUNT:
+            json_member_integer(w, key, *(const size_t *)value);
+            break;
+        case OCTREE_MEMBER_LENGTH:
+            json_member_number(w, key, *(const double *)value);
+            break;
+        }
+    }
+}
+
 static void write_answer(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
-    if (about->members & OCTREE_QUERY_HAS_BOX) {
-        json_member_vector(w, "min", answer->box.min);
-        json_member_vector(w, "max", answer->box.max);
-    }
-    if (about->members & OCTREE_QUERY_HAS_TARGET)
-        json_member_vector(w, about->members & OCTREE_QUERY_HAS_RADIUS ? "center" : "target", answer->target);
-    if (about->members & OCTREE_QUERY_HAS_K)
-        json_member_integer(w, "k", answer->k);
-    if (about->members & OCTREE_QUERY_HAS_RADIUS) {
-        json_member_number(w, "radius", answer->radius);
-    }
+    tick_write_asked(w, answer);
     if (answer->skip == OCTREE_SKIP_ID)
         json_member_integer(w, "skip", answer->skip_id);
     if (answer->skip == OCTREE_SKIP_COINCIDENT)
         json_member_text(w, "skip", "coincident");
-    if (answer->epsilon > 0) {
+    if (answer->epsilon > 0)
         json_member_number(w, "epsilon", answer->epsilon);
-    }
     if (about->neighbors) {
         write_neighbors(w, answer, about->members & OCTREE_QUERY_HAS_K);
     } else {

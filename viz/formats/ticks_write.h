@@ -24,6 +24,9 @@ typedef struct tick_extras {
  * says the tick and why, and nothing else. Errors stay with the stream. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
 
+/* Write the members of a query that its kind reads, from its answer. */
+void tick_write_asked(json_writer *w, const octree_answer *answer);
+
 /* An answer as a line has it: an object with one member, by the name of its kind. */
 void tick_write_answer(json_writer *w, const octree_answer *answer);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* answer_layers.c - the layers of a tick's queries: what was asked, and what was found. */
-#include "layer_type.h"
+/* answer_layers.c - the layers of a tick's queries: the regions and targets that are asked, and the points found. */
+#include "answer_layers.h"
 #include "number.h"
 #include "text.h"
 
@@ -15,17 +15,14 @@
 #define BALL_CHORDS 96   /* and the chords that each is drawn by */
 #define NUMBERED_RANKS 9 /* neighbours are numbered up to this rank */
 
-/* ---- What all have ------------------------------------------------------------------------------------------ */
+/* ---- All kinds ---------------------------------------------------------------------------------------------- */
 
-/* Ids of an answer's parts: its index among the tick's answers, and a neighbour's rank or a chord of a ball. Markers
- * have their point's id. */
-static uint64_t part_id(size_t place, size_t part)
+uint64_t answer_part_id(size_t place, size_t part)
 {
     return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-/* Marks are smaller when there are many, so that they hide less. `half` is half their size. */
-static void mark_points(scene *s, const octree_answer *answer, view_layer own, scene_shape shape, unsigned half)
+void mark_answer_points(scene *s, const octree_answer *answer, view_layer own, scene_shape shape, unsigned half)
 {
     const unsigned size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
     const scene_style style = layer_style(own, STROKE_SOLID, size);
@@ -33,8 +30,7 @@ static void mark_points(scene *s, const octree_answer *answer, view_layer own, s
         scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
 
-/* Describe the answer that an element belongs to, such as "query (answer 2 of 3)". */
-static const octree_answer *say_query(description *d, const char *what, uint64_t place)
+const octree_answer *say_query(description *d, const char *what, uint64_t place)
 {
     const octree_answer *answer = &d->tick->answers[place];
     say(d, "the %s of the %s query", what, octree_query_name(answer->kind));
@@ -43,7 +39,7 @@ static const octree_answer *say_query(description *d, const char *what, uint64_t
     return answer;
 }
 
-static void say_found(description *d, const octree_answer *answer)
+void say_found(description *d, const octree_answer *answer)
 {
     say(d, ", %zu point%s found", answer->count, plural(answer->count));
 }
@@ -64,7 +60,7 @@ static void add_range(scene *s, const octree_answer *answer, size_t place, view_
 {
     const scene_style style = layer_style(own, STROKE_DASHED, 1);
     scene_add_box(s, (scene_box){.id = place, .box = answer->box, .style = style});
-    mark_points(s, answer, own, SHAPE_FRAME, 5);
+    mark_answer_points(s, answer, own, SHAPE_FRAME, 5);
 }
 
 static void write_range(pen *p, const octree_answer *answer)
@@ -106,7 +102,7 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     point_on_circle(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
         point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
-        scene_add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
+        scene_add_line(s, answer_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
         memcpy(from, to, sizeof from);
     }
 }
@@ -116,7 +112,7 @@ static void add_ball(scene *s, const octree_answer *answer, size_t place, view_l
     const scene_style style = layer_style(own, STROKE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, style);
-    mark_points(s, answer, own, SHAPE_LOZENGE, 8);
+    mark_answer_points(s, answer, own, SHAPE_LOZENGE, 8);
 }
 
 static void write_radius(pen *p, const octree_answer *answer)
@@ -163,7 +159,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     double pixels[NUMBERED_RANKS][2];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        scene_label rank = {.id = part_id(place, i), .in_world = true, .style = style};
+        scene_label rank = {.id = answer_part_id(place, i), .in_world = true, .style = style};
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
         if (!camera_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
             continue;
@@ -177,7 +173,7 @@ static void add_knearest(scene *s, const octree_answer *answer, size_t place, vi
 {
     const scene_style style = layer_style(own, STROKE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
-        scene_add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
+        scene_add_line(s, answer_part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
     add_ranks(s, answer, place, style);
 }
 

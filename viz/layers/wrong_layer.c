@@ -45,16 +45,18 @@ static bool in_session(const octree_session *session)
     return session->foreign_count > 0;
 }
 
-/* Where nothing is missed or extra: the middle of what was asked. */
+/* The position of the first wrong point; where no point is missing or extra, the middle of the region. */
 static void place_of(const octree_answer *answer, double place[3])
 {
     const octree_point *point = judgement_point(&answer->judgement);
+    octree_box bound;
     if (point)
         memcpy(place, point->position, sizeof point->position);
-    else if (octree_query_about(answer->kind)->members & OCTREE_QUERY_HAS_TARGET)
+    else if (octree_query_about(answer->kind)->members & OCTREE_QUERY_HAS_TARGET ||
+             !octree_answer_bound(answer, &bound))
         memcpy(place, answer->target, sizeof answer->target);
     else
-        scene_box_middle(&answer->box, place);
+        scene_box_middle(&bound, place);
 }
 
 static void mark_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style,

@@ -1,16 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect_answers.c - queries the tree of a cloud, and prints the answers by the traits of each kind of query. */
+/* inspect_answers.c - queries the tree of a cloud and prints the answers, by the tables of octree/query.h. */
 #include "inspect_answers.h"
 #include "inspect.h"
 #include "json_write.h"
 #include "text.h"
+#include "ticks_write.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
+
+#define NOTE_TEXT 80
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
-/* The points of a ball with their distances: they are the nearest points to its centre, as many as it holds. */
+/* A target and a radius alone are a ball. */
+static bool is_ball(octree_query_kind kind)
+{
+    return octree_query_about(kind)->members == (OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS);
+}
+
+/* Find the distances of the points of a ball: they are the nearest points to its center, as many as it contains. */
 static octree_status find_distances(const octree *tree, const octree_query *query, size_t count, octree_answer *nearest)
 {
     octree_query by_distance = *query;
@@ -24,7 +34,7 @@ static octree_status ask(const octree *tree, const octree_query *query, inspect_
     octree_answer *answer = &result->answers[result->count], *nearest = &result->nearest[result->count];
     result->count++; /* released with the result from here on */
     octree_status status = octree_query_answer(tree, query, NULL, NULL, answer);
-    if (status == OCTREE_OK && octree_query_about(query->kind)->members & OCTREE_QUERY_HAS_RADIUS)
+    if (status == OCTREE_OK && is_ball(query->kind))
         status = find_distances(tree, query, answer->count, nearest);
     return status;
 }
@@ -85,8 +95,8 @@ static const double *distance_at(const shown_answer *shown, size_t i)
     return shown->neighbors ? &shown->neighbors[i].distance : NULL;
 }
 
-/* Whether the world and a box have nothing in common. */
-static bool is_box_outside(const octree_box *world, const octree_box *box)
+/* Whether a box and the world have no point in common. */
+static bool is_outside(const octree_box *world, const octree_box *box)
 {
     for (int i = 0; i < 3; i++)
         if (box->max[i] < world->min[i] || box->min[i] > world->max[i])
@@ -94,65 +104,70 @@ static bool is_box_outside(const octree_box *world, const octree_box *box)
     return false;
 }
 
-/* The same of the box about a place. Sums may be infinite. */
-static bool is_outside(const octree_box *world, const double center[3], double radius)
-{
-    octree_box about;
-    for (int i = 0; i < 3; i++) {
-        about.min[i] = center[i] - radius;
-        about.max[i] = center[i] + radius;
-    }
-    return is_box_outside(world, &about);
-}
-
-/* Why less may be found than was expected; null where there is no reason. */
-static const char *note_of(const shown_answer *shown)
+/* Store why fewer points may be found than expected. False where there is no reason. */
+static bool find_note(const shown_answer *shown, char note[NOTE_TEXT])
 {
     const octree_answer *answer = shown->answer;
-    const unsigned members = shown->about->members;
+    octree_box bound, target;
+    memcpy(target.min, answer->target, sizeof target.min);
+    memcpy(target.max, answer->target, sizeof target.max);
+    *note = 0;
     if (shown->about->neighbors && answer->count < answer->k)
-        return answer->count == 0 ? "the tree holds no points" : "the tree holds no more points";
-    if (members & OCTREE_QUERY_HAS_BOX && is_box_outside(&shown->world, &answer->box))
-        return "the box lies outside the world";
-    if (members & OCTREE_QUERY_HAS_RADIUS && is_outside(&shown->world, answer->target, answer->radius))
-        return "the ball lies outside the world";
-    if (members & OCTREE_QUERY_HAS_TARGET && is_outside(&shown->world, answer->target, 0))
-        return members & OCTREE_QUERY_HAS_RADIUS ? "the centre lies outside the world"
-                                                 : "the place lies outside the world";
-    return NULL;
+        snprintf(note, NOTE_TEXT, "the tree holds no %spoints", answer->count == 0 ? "" : "more ");
+    else if (octree_answer_bound(answer, &bound) && is_outside(&shown->world, &bound))
+        snprintf(note, NOTE_TEXT, "the %s lies outside the world", shown->about->region);
+    else if (shown->about->members & OCTREE_QUERY_HAS_TARGET && is_outside(&shown->world, &target))
+        snprintf(note, NOTE_TEXT, "the %s lies outside the world", shown->about->neighbors ? "place" : "centre");
+    return *note != 0;
 }
 
 /* ---- For people --------------------------------------------------------------------------------------------- */
 
-/* "range MIN to MAX", "radius R about PLACE", "nearest to PLACE", "8 nearest to PLACE". */
+static void print_member(const shown_answer *shown, const octree_query_member_traits *member, FILE *out)
+{
+    const char *value = (const char *)shown->answer + member->in_answer;
+    switch (member->type) {
+    case OCTREE_MEMBER_BOX:
+        inspect_print_numbers(((const octree_box *)value)->min, 3, out);
+        fputs("  to ", out);
+        inspect_print_numbers(((const octree_box *)value)->max, 3, out);
+        break;
+    case OCTREE_MEMBER_POSITION:
+        fputs(shown->about->neighbors ? " to" : " about", out);
+        inspect_print_numbers((const double *)value, 3, out);
+        break;
+    case OCTREE_MEMBER_LENGTH:
+        inspect_print_numbers((const double *)value, 1, out);
+        break;
+    case OCTREE_MEMBER_COUNT: /* stands before the name */
+        break;
+    }
+}
+
+/* "range MIN to MAX", "radius R about PLACE", "nearest to PLACE", "8 nearest to PLACE": the member that bears the
+ * kind's name comes first. */
 static void print_question(const shown_answer *shown, FILE *out)
 {
-    const octree_answer *answer = shown->answer;
-    const unsigned members = shown->about->members;
-    if (members & OCTREE_QUERY_HAS_K)
-        fprintf(out, "%zu nearest", answer->k);
+    const octree_query_traits *about = shown->about;
+    if (about->members & OCTREE_QUERY_HAS_K)
+        fprintf(out, "%zu nearest", shown->answer->k);
     else
-        fputs(shown->about->name, out);
-    if (members & OCTREE_QUERY_HAS_BOX) {
-        inspect_print_numbers(answer->box.min, 3, out);
-        fputs("  to ", out);
-        inspect_print_numbers(answer->box.max, 3, out);
-    }
-    if (members & OCTREE_QUERY_HAS_RADIUS)
-        inspect_print_numbers(&answer->radius, 1, out);
-    if (members & OCTREE_QUERY_HAS_TARGET) {
-        fputs(members & OCTREE_QUERY_HAS_RADIUS ? " about" : " to", out);
-        inspect_print_numbers(answer->target, 3, out);
-    }
+        fputs(about->name, out);
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+            const octree_query_member_traits *member = octree_query_member_at(i);
+            if (about->members & member->bit && (member->bit != about->named_by) == pass)
+                print_member(shown, member, out);
+        }
 }
 
 static void print_answer(const shown_answer *shown, FILE *out)
 {
-    const char *note = note_of(shown);
+    char note[NOTE_TEXT];
     const octree_cost *cost = &shown->answer->cost;
     print_question(shown, out);
     fprintf(out, ": %zu found\n", shown->answer->count);
-    if (note)
+    if (find_note(shown, note))
         fprintf(out, "  note: %s\n", note);
     for (size_t i = 0; i < shown->answer->count && i < LIST_LINES; i++)
         inspect_print_point(point_at(shown, i), distance_at(shown, i), out);
@@ -166,24 +181,6 @@ static void print_answer(const shown_answer *shown, FILE *out)
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
 
-static void write_question(json_writer *w, const shown_answer *shown)
-{
-    const octree_answer *answer = shown->answer;
-    const unsigned members = shown->about->members;
-    json_member_text(w, "query", shown->about->name);
-    if (members & OCTREE_QUERY_HAS_BOX) {
-        json_member_vector(w, "min", answer->box.min);
-        json_member_vector(w, "max", answer->box.max);
-    }
-    if (members & OCTREE_QUERY_HAS_TARGET)
-        json_member_vector(w, members & OCTREE_QUERY_HAS_RADIUS ? "center" : "target", answer->target);
-    if (members & OCTREE_QUERY_HAS_RADIUS) {
-        json_member_number(w, "radius", answer->radius);
-    }
-    if (shown->about->neighbors)
-        json_member_integer(w, "k", answer->k);
-}
-
 static void write_points(json_writer *w, const shown_answer *shown)
 {
     json_member_integer(w, "found", shown->answer->count);
@@ -195,11 +192,14 @@ static void write_points(json_writer *w, const shown_answer *shown)
 
 static void write_answer(json_writer *w, const shown_answer *shown)
 {
-    const char *note = note_of(shown);
+    char note[NOTE_TEXT];
     json_write_begin_object(w);
-    write_question(w, shown);
+    json_member_text(w, "query", shown->about->name);
+    tick_write_asked(w, shown->answer);
+    if (shown->about->neighbors && !(shown->about->members & OCTREE_QUERY_HAS_K))
+        json_member_integer(w, "k", shown->answer->k);
     write_points(w, shown);
-    if (note)
+    if (find_note(shown, note))
         json_member_text(w, "note", note);
     json_member_begin_object(w, "cost");
     json_member_integer(w, "nodes", shown->answer->cost.nodes);

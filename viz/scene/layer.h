@@ -8,6 +8,7 @@
 #ifndef SCENE_LAYER_H
 #define SCENE_LAYER_H
 
+#include "query_looks.h"
 #include "scene.h"
 
 /* Each layer: its name, what it shows in sentences and in --help, its colour (theme.h), whether it fades with distance
@@ -30,11 +31,7 @@
     X(POINTS, "points", "points", "the points in the tree", ROLE_POINT, true, true)                                    \
     X(VELOCITIES, "velocities", "velocities", "arrows to where moving points go next", ROLE_FAINT, true, true)         \
     X(ASKED, "asked", "the node asked for", "the node that inspect --node names", ROLE_PLAYER, false, true)            \
-    X(RANGE, "range", "range queries", "boxes that are asked for, and the points found", ROLE_RANGE, false, true)      \
-    X(RADIUS, "radius", "radius queries", "balls that are asked for, and the points found", ROLE_RADIUS, false, true)  \
-    X(KNEAREST, "knearest", "k-nearest queries", "lines to the k nearest points, with their ranks", ROLE_KNEAREST,     \
-      false, true)                                                                                                     \
-    X(NEAREST, "nearest", "nearest queries", "a line to the nearest point", ROLE_NEAREST, false, true)                 \
+    QUERY_LOOKS(QUERY_LAYER, X)                                                                                        \
     X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
     X(BOX, "box", "the collision box", "the player's collision box, and what is in it", ROLE_COLLISION, false, true)   \
     X(SHAPES, "shapes", "shapes", "what the session shows in addition to its points", ROLE_SHAPE, false, true)         \

@@ -22,28 +22,36 @@ static void write_color(json_writer *w, theme_role role)
     json_member_text(w, "color", text);
 }
 
-/* Of the members that a kind reads, the one that bears its name in a session comes first. */
+/* Write the members that a kind reads, the one that bears its name first. */
+static void write_query_members(json_writer *w, const octree_query_traits *about)
+{
+    static const char *const types[] = {[OCTREE_MEMBER_BOX] = "box",
+                                        [OCTREE_MEMBER_POSITION] = "position",
+                                        [OCTREE_MEMBER_COUNT] = "number",
+                                        [OCTREE_MEMBER_LENGTH] = "number"};
+    json_member_begin_array(w, "members");
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
+            const octree_query_member_traits *member = octree_query_member_at(i);
+            if (!(about->members & member->bit) || (about->named_by == member->bit) == pass)
+                continue;
+            json_write_begin_object(w);
+            json_member_text(w, "name", member->key);
+            json_member_text(w, "type", types[member->type]);
+            json_write_end_object(w);
+        }
+    json_write_end_array(w);
+}
+
 static void write_query_kinds(json_writer *w)
 {
-    static const struct {
-        octree_query_member bit;
-        const char *name;
-    } members[] = {{OCTREE_QUERY_HAS_BOX, "box"},
-                   {OCTREE_QUERY_HAS_K, "k"},
-                   {OCTREE_QUERY_HAS_RADIUS, "radius"},
-                   {OCTREE_QUERY_HAS_TARGET, "at"}};
     json_member_begin_array(w, "queries");
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
         json_write_begin_object(w);
         json_member_text(w, "name", about->name);
         json_member_text(w, "words", about->words);
-        json_member_begin_array(w, "members");
-        for (int pass = 0; pass < 2; pass++)
-            for (size_t i = 0; i < sizeof members / sizeof members[0]; i++)
-                if (about->members & members[i].bit && (about->named_by == members[i].bit) == !pass)
-                    json_write_string(w, members[i].name);
-        json_write_end_array(w);
+        write_query_members(w, about);
         json_write_end_object(w);
     }
     json_write_end_array(w);

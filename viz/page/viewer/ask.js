@@ -3,6 +3,15 @@
  * each of them reads. */
 "use strict";
 
+/* The label and the first value of an input: by the member's name, else by its type. */
+const QUERY_INPUTS = {
+    k: ["how many", "8"],
+    radius: ["within", "100"],
+    at: ["of the place", "0,0,0"],
+    box: ["box (two corners)", "-100,-100,-100,100,100,100"],
+};
+const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};
+
 class AskForm {
     /* `ask(query)` is called with a query as a session file has it; `forget()` when there is to be none. */
     constructor(root, kinds, {ask, forget})
@@ -11,12 +20,9 @@ class AskForm {
         this.kind = element("select", "", {"aria-label": "What is asked"});
         for (const {name, words} of kinds)
             this.kind.append(new Option(words, name));
-        this.inputs = {
-            k: this.input("how many", "8"),
-            radius: this.input("within", "100"),
-            at: this.input("of the place", "0,0,0"),
-            box: this.input("box (two corners)", "-100,-100,-100,100,100,100"),
-        };
+        this.inputs = {};
+        for (const {name, type} of kinds.flatMap(({members}) => members))
+            this.inputs[name] ??= this.input(...(QUERY_INPUTS[name] ?? [name, INPUT_VALUES[type]]));
         const button = element("button", "Ask", {type: "submit"});
         const reset = element("button", "Ask nothing", {type: "button"});
         root.append(this.kind, ...Object.values(this.inputs).map(({label}) => label), button, reset);
@@ -45,7 +51,7 @@ class AskForm {
     showInputs()
     {
         for (const [member, {label}] of Object.entries(this.inputs))
-            label.hidden = !this.members.includes(member);
+            label.hidden = !this.members.some(({name}) => name === member);
     }
 
     /* The place that is asked about, and a box of a tenth of the world around it. */
@@ -57,12 +63,12 @@ class AskForm {
         this.inputs.radius.input.value = rounded(extent / 20);
     }
 
-    value(member)
+    value({name, type})
     {
-        const numbers = numbersOf(this.inputs[member].input.value);
-        if (member === "box")
+        const numbers = numbersOf(this.inputs[name].input.value);
+        if (type === "box")
             return {min: numbers.slice(0, 3), max: numbers.slice(3)};
-        return member === "at" ? numbers : numbers[0];
+        return type === "position" ? numbers : numbers[0];
     }
 
     /* The member that bears the kind's name comes first. */
@@ -70,6 +76,6 @@ class AskForm {
     {
         const [named, ...others] = this.members;
         return {[this.kind.value]: this.value(named),
-                ...Object.fromEntries(others.map(member => [member, this.value(member)]))};
+                ...Object.fromEntries(others.map(member => [member.name, this.value(member)]))};
     }
 }
