@@ -7,7 +7,7 @@
 #include "accept.h"
 #include "audit_print.h"
 #include "contact_sheet.h"
-#include "digest_file.h"
+#include "baseline.h"
 #include "explain.h"
 #include "film.h"
 #include "folder_files.h"
@@ -104,15 +104,15 @@ static void film(const filmed *what, const char *folder)
     session_release(&file);
 }
 
-/* A file of digests lies among the files, so that it is edited with them. */
-static void add_digests(const char *folder)
+/* Write a baseline among the files of the recording, so that the fuzzer edits it with them. */
+static void add_baseline(const char *folder)
 {
     char path[FOLDER + 48];
     octreel_error error;
-    const acceptance_words words = {"2026-11-22", "first"};
-    const accept_options options = {.reference = path, .frames = folder, .names = &(frame_list){0}, .words = words};
+    const acceptance_note note = {"2026-11-22", "first"};
+    const accept_options options = {.reference = path, .frames = folder, .names = &(frame_list){0}, .note = note};
     snprintf(path, sizeof path, "%s/digests.txt", folder);
-    accept_frames(&options, NULL, &error); /* of a recording without frames there are none */
+    accept_frames(&options, NULL, &error); /* fails for a recording without frames */
 }
 
 static void remove_home(void)
@@ -134,7 +134,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     for (int i = 0; i < FILMS; i++) {
         snprintf(filmed_as[i], sizeof filmed_as[i], "%s/film%d", home, i);
         film(&films[i], filmed_as[i]);
-        add_digests(filmed_as[i]);
+        add_baseline(filmed_as[i]);
         edited_files_read(&originals[i], filmed_as[i]);
         remove_folder(filmed_as[i]);
         edited_files_write(&originals[i], filmed_as[i]);
@@ -231,7 +231,7 @@ static void accept_into(const char *path, const char *reason, bool variant)
     const accept_options options = {.reference = path,
                                     .frames = edited,
                                     .names = &(frame_list){0},
-                                    .words = {"2026-11-23", reason},
+                                    .note = {"2026-11-23", reason},
                                     .variant = variant,
                                     .json = variant};
     octreel_error error = {""};

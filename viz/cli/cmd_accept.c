@@ -65,7 +65,7 @@ static int accept_listed(const arguments *a, char **paths, int count)
     const accept_options all = {.reference = paths[0],
                                 .frames = paths[1],
                                 .names = &names,
-                                .words = {a->date ? a->date : today(date), a->reason},
+                                .note = {a->date ? a->date : today(date), a->reason},
                                 .store = a->store,
                                 .variant = a->variant,
                                 .json = a->json};
@@ -119,5 +119,5 @@ const command command_accept = {
     .least = 2,
     .most = INT_MAX,
     .takes = "a reference and what is new",
-    .inputs = {FILE_KIND(MISSING) | FILE_KIND(DIGESTS) | SIDE, FILE_KIND(DIGESTS) | SIDE},
+    .inputs = {FILE_KIND(MISSING) | FILE_KIND(BASELINE) | SIDE, FILE_KIND(BASELINE) | SIDE},
 };

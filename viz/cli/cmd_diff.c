@@ -268,7 +268,7 @@ static int compare(const arguments *a, const char *paths[2])
     return status;
 }
 
-#define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING) | FILE_KIND(DIGESTS)
+#define SIDE FILE_KIND(PNG) | FILE_KIND(FOLDER) | FILE_KIND(RECORDING) | FILE_KIND(BASELINE)
 
 static int run(int argc, char **argv)
 {
@@ -299,7 +299,6 @@ const command command_diff = {
     .examples = "octreel diff before.png after.png\n"
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
-                "octreel digest frames -o frames.digests && octreel diff frames.digests frames\n"
                 "octreel diff baseline.txt frames --store pictures -o evidence\n",
     .environment = "  GITHUB_ACTIONS  when it is set, GitHub's commands are printed, as by --annotate\n",
     .files = "  DIR/report.html  the page, which holds all that it shows\n"

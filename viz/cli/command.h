@@ -33,7 +33,7 @@ typedef struct command {
 } command;
 
 extern const command command_record, command_play, command_join, command_verify, command_audit, command_pick,
-    command_inspect, command_diff, command_digest, command_accept;
+    command_inspect, command_diff, command_accept;
 
 /* octreel itself: what is said about all of it. */
 extern const command command_octreel;

@@ -201,7 +201,7 @@ static bool refuse_part(const command *c, const char *path, file_kind kind)
 /* Folders are no stream, nor is what may be made. */
 static bool check_standard_input(const command *c, file_kinds taken)
 {
-    const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(DIGESTS);
+    const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);
     return (taken & files && !(taken & FILE_KIND(MISSING)) && !c->no_standard_input) ||
            refuse("\"-\" is standard input, and %s takes %s; ./- is a file or folder of that name", c->name, c->takes);
 }

@@ -25,7 +25,7 @@ static const struct {
 } kind_endings[] = {
     {FILE_KIND(SESSION), "json"},
     {FILE_KIND(PNG), "png"},
-    {FILE_KIND(DIGESTS), "digests txt"},
+    {FILE_KIND(BASELINE), "txt"},
     {FILE_KIND(CLOUD), "xyz txt csv ply pcd las laz"},
 };
 

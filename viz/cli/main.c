@@ -16,7 +16,7 @@
 
 static const command *const commands[] = {
     &command_record, &command_play,    &command_join, &command_verify, &command_audit,
-    &command_pick,   &command_inspect, &command_diff, &command_digest, &command_accept,
+    &command_pick,   &command_inspect, &command_diff, &command_accept,
 };
 
 const command *command_at(size_t n)
@@ -145,6 +145,8 @@ static int run(int argc, char **argv)
         return help(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0)
         return version_print();
+    if (strcmp(argv[1], "digest") == 0)
+        return print_error("octreel digest was removed; use octreel accept BASELINE FRAMES");
     const command *found = find_command(argv[1]);
     return found ? found->run(argc - 1, argv + 1) : report_unknown_word(argv[1], false);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* accept.c - references are compared with new frames, and replaced by them. */
 #include "accepting.h"
-#include "digest_file.h"
 #include "file_kind.h"
 #include "png_read.h"
 #include "json_write.h"
@@ -20,18 +19,19 @@
 static bool check_new(const accept_options *o, diff_kind kind, octreel_error *error)
 {
     const name_kind name = name_kind_of(o->reference);
-    if (kind == DIFF_DIGESTS)
+    if (kind == DIFF_BASELINE)
         return name == NAME_OPEN || name == NAME_FILE ||
-               error_set(error, "%s: there is no such reference, and a file of digests has no name of a picture",
+               error_set(error, "%s: cannot create a baseline under the name of a picture or film; use NAME.txt",
                          o->reference);
     if (kind == DIFF_PICTURE)
-        return name == NAME_PNG ||
-               error_set(error, "%s: there is no such reference, and %s becomes one as NAME.png alone", o->reference,
-                         o->frames);
+        return name == NAME_PNG || error_set(error,
+                                             "%s: cannot create a reference picture from %s under this name; "
+                                             "use NAME.png",
+                                             o->reference, o->frames);
     return name == NAME_OPEN ||
            error_set(error,
-                     "%s: there is no such reference, and frames become one in a folder; with --reason TEXT their "
-                     "digests become one in a file",
+                     "%s: cannot create a folder of references under the name of a file; use another name, or add "
+                     "--reason TEXT to create a baseline",
                      o->reference);
 }
 
@@ -41,19 +41,18 @@ static bool open_sides(accepting *a, octreel_error *error)
     const accept_options *o = a->options;
     if (!diff_side_open(&a->frames, o->frames, error))
         return false;
-    if (a->frames.kind == DIFF_DIGESTS)
-        return error_set(error, "%s: pictures are accepted, not digests of them", o->frames);
+    if (a->frames.kind == DIFF_BASELINE)
+        return error_set(error, "%s: cannot accept a baseline; give the pictures themselves", o->frames);
     if (a->frames.count == 0 && !a->frames.no_frames)
-        return error_set(error, "%s: there is no PNG in it", o->frames);
+        return error_set(error, "%s: contains no PNG files", o->frames);
     a->is_new = access(o->reference, F_OK) != 0 && errno == ENOENT;
     if (a->is_new) {
-        const bool digests = o->words.reason || o->store || o->variant;
+        const bool baseline = o->note.reason || o->store || o->variant;
         a->reference = (diff_side){.path = o->reference,
                                    .source = o->reference,
-                                   .kind = digests ? DIFF_DIGESTS : a->frames.kind,
-                                   .baseline = digests,
+                                   .kind = baseline ? DIFF_BASELINE : a->frames.kind,
                                    .background = IMAGE_WHITE,
-                                   .no_frames = a->frames.no_frames && !digests};
+                                   .no_frames = a->frames.no_frames && !baseline};
         return check_new(o, a->reference.kind, error);
     }
     if (!diff_side_open(&a->reference, o->reference, error))
@@ -109,8 +108,8 @@ static action action_for(const diff_pair *pair)
 /* A frame that cannot be read becomes no reference; a reference that cannot be read may be replaced. */
 static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
-    pair->about[1].kind = a->reference.baseline ? IMAGE_DIGEST_NEWEST : IMAGE_DIGEST_RUNS; /* of version 1 */
-    return digest_frame(pair->b->path, a->reference.background, &pair->about[1], error);
+    pair->about[1].kind = IMAGE_DIGEST_NEWEST;
+    return digest_picture(pair->b->path, a->reference.background, &pair->about[1], error);
 }
 
 static bool decide(accepting *a, octreel_error *error)
@@ -142,7 +141,7 @@ static bool check_overlap(const accepting *a, octreel_error *error)
 static bool compare(accepting *a, octreel_error *error)
 {
     diff_options exact = diff_options_default();
-    if (a->reference.kind == DIFF_DIGESTS)
+    if (a->reference.kind == DIFF_BASELINE)
         exact.background = a->reference.background;
     else
         a->reference.background = exact.background;
@@ -223,7 +222,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
     const int lock = file_lock_parent_folder(options->reference);
     const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && accept_check_whole(&a.frames, error) &&
                     (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
-                    (a.reference.kind == DIFF_DIGESTS ? accept_digests : accept_pictures)(&a, error);
+                    (a.reference.kind == DIFF_BASELINE ? accept_digests : accept_pictures)(&a, error);
     if (ok && out)
         (options->json ? tell_as_json : tell)(&a);
     free(a.actions);

@@ -9,17 +9,16 @@
 #include <stdio.h>
 
 typedef struct accept_options {
-    const char *reference; /* a PNG, a folder, a recording or a file of digests; made where there is nothing */
+    const char *reference; /* a PNG, a folder, a recording or a baseline; created if it does not exist */
     const char *frames;    /* a PNG, a folder or a recording */
     const frame_list
         *names; /* the frames to take over; none: all of them, and references without a frame are removed */
 
-    /* Of a file of digests alone; with a reason, one is made where there is nothing, and one of version 1 becomes a
-     * baseline. */
-    acceptance_words words; /* reason null: it is not said */
-    const char *store;      /* where pictures are put; null: nowhere */
-    bool variant;           /* digests of before stay accepted, too */
-    bool json;              /* what was done is said as one JSON object, which lists all frames that it was done to */
+    /* For baselines only; with a reason, a reference that does not exist becomes a baseline. */
+    acceptance_note note; /* reason null: none was given */
+    const char *store;    /* the folder where pictures are stored; null: they are not stored */
+    bool variant;         /* keep the digests that were accepted before, too */
+    bool json;            /* print the changes as one JSON object that lists all changed frames */
 } accept_options;
 
 /* Compare, then write what differs. A reference with the same pixels stays as it is; but of a recording that is

@@ -24,11 +24,10 @@ typedef struct accepting {
 bool accept_check_ended(const diff_side *side, octreel_error *error);
 bool accept_check_whole(const diff_side *side, octreel_error *error);
 
-/* Whether what is asked for fits the reference: a baseline wants a reason, and nothing else takes one. One of version 1
- * becomes a baseline where there is a reason. */
-bool accept_check_words(accepting *a, octreel_error *error);
+/* Check that the options fit the reference: a baseline needs a reason, and other references take none. */
+bool accept_check_words(const accepting *a, octreel_error *error);
 
-/* Put the pictures into the store, where there is one, and write the file of digests. */
+/* Put the pictures into the store, if there is one, and write the baseline. */
 bool accept_digests(accepting *a, octreel_error *error);
 
 /* Put the pictures, and of a recording that is accepted whole its other files, in place of those of the reference. */

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* baseline.c - baselines, read and written. */
+/* baseline.c - reads, merges and writes baselines; baseline.h describes the format. */
 #include "baseline.h"
 #include "array.h"
-#include "digest_file.h"
+#include "file.h"
+#include "file_kind.h"
 #include "octree/digest.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -14,7 +16,7 @@ static const char id_letters[] = "0123456789abcdefghijklmnopqrstuvwxyz";
 #define ID_LETTERS (sizeof id_letters - 1)
 #define IDS (ID_LETTERS * ID_LETTERS)
 
-/* ---- Words --------------------------------------------------------------------------------------------------- */
+/* ---- Dates, reasons and names -------------------------------------------------------------------------------- */
 
 static int digits_at(const char *text, int count)
 {
@@ -37,13 +39,23 @@ bool baseline_is_date(const char *text)
            (month != 2 || day < 29 || leap);
 }
 
+/* A name or a reason with a control character would not stay on its line. */
+static bool has_control_character(const char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 127)
+            return true;
+    return false;
+}
+
 bool baseline_is_reason(const char *text)
 {
     const size_t length = strlen(text);
-    return length > 0 && text[0] != ' ' && text[length - 1] != ' ' && !digest_file_holds_control(text);
+    return length > 0 && text[0] != ' ' && text[length - 1] != ' ' && !has_control_character(text);
 }
 
-/* ".png" goes without saying where that leaves no doubt. */
+/* The length of a name without its ".png". The ending stays where read_name() could not restore it: after a blank or
+ * after another ".png". */
 static size_t written_length(const char *name)
 {
     const size_t length = strlen(name), stem = length > 4 ? length - 4 : 0;
@@ -52,6 +64,7 @@ static size_t written_length(const char *name)
     return plain ? stem : length;
 }
 
+/* The name of a frame from its written form; null when there is no memory. The caller frees it. */
 static char *read_name(const char *written)
 {
     const size_t length = strlen(written);
@@ -77,14 +90,14 @@ static const acceptance *find_id(const diff_side *side, const char *id)
     return NULL;
 }
 
-static bool same_acceptance(const acceptance *a, const acceptance *b)
+static bool is_same_acceptance(const acceptance *a, const acceptance *b)
 {
     return strcmp(a->date, b->date) == 0 && a->width == b->width && a->height == b->height && a->kind == b->kind &&
            strcmp(a->reason, b->reason) == 0;
 }
 
-/* A copy with its own reason. */
-static bool add_acceptance(diff_side *side, const acceptance *from, octreel_error *error)
+/* Append a copy that owns its reason. */
+static bool append_acceptance(diff_side *side, const acceptance *from, octreel_error *error)
 {
     acceptance *grown =
         array_reserve(side->acceptances, side->acceptance_count + 1, &side->acceptance_room, sizeof *grown);
@@ -99,7 +112,7 @@ static bool add_acceptance(diff_side *side, const acceptance *from, octreel_erro
     return true;
 }
 
-/* The first free id from that on which the acceptance's own words make. */
+/* Set a->id to the first free id, starting at the hash of the acceptance. False when all ids are in use. */
 static bool choose_id(const diff_side *side, acceptance *a)
 {
     uint64_t digest = octree_digest_bytes(OCTREE_DIGEST_START, a->date, strlen(a->date));
@@ -114,73 +127,93 @@ static bool choose_id(const diff_side *side, acceptance *a)
     return false;
 }
 
-bool baseline_accept(diff_side *side, const acceptance_words *words, frame_digest *digest, octreel_error *error)
+bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame_digest *digest, octreel_error *error)
 {
     acceptance wanted = {.width = digest->width, .height = digest->height, .kind = digest->kind};
-    snprintf(wanted.date, sizeof wanted.date, "%s", words->date);
-    wanted.reason = (char *)words->reason;
+    snprintf(wanted.date, sizeof wanted.date, "%s", note->date);
+    wanted.reason = (char *)note->reason;
     for (size_t i = side->acceptance_count; i > 0; i--)
-        if (same_acceptance(&side->acceptances[i - 1], &wanted)) {
+        if (is_same_acceptance(&side->acceptances[i - 1], &wanted)) {
             digest->acceptance = i - 1;
             return true;
         }
     if (!choose_id(side, &wanted))
-        return error_set(error, "%s: there are %zu reasons in it, and no name for another", side->path, IDS);
+        return error_set(error, "%s: the baseline is full: all %zu ids of acceptances are in use; start a new baseline",
+                         side->path, IDS);
     digest->acceptance = side->acceptance_count;
-    return add_acceptance(side, &wanted, error);
+    return append_acceptance(side, &wanted, error);
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------- */
 
+/* Read lowercase hexadecimal digits, exactly as many as given, and the character after them. */
+static bool read_hexadecimal(const char **at, size_t digits, char end, uint64_t *value)
+{
+    if (strspn(*at, "0123456789abcdef") != digits || (*at)[digits] != end)
+        return false;
+    *value = strtoull(*at, NULL, 16);
+    *at += digits + 1;
+    return true;
+}
+
+static bool read_side_length(const char **at, char end, int *value)
+{
+    char *end_of_number;
+    if (**at < '1' || **at > '9')
+        return false;
+    const long length = strtol(*at, &end_of_number, 10);
+    *value = (int)length;
+    *at = end_of_number + 1;
+    return *end_of_number == end && length <= IMAGE_MAX_SIDE;
+}
+
 static bool fail_line(const diff_side *side, size_t number, octreel_error *error)
 {
     return error_set(error,
-                     "%s:%zu: expected \"accepted 7f 2026-11-22 1280x720 runs the reason\", or one such name, a digest "
-                     "and a frame, as in \"7f %016d frame_000000\"",
+                     "%s:%zu: expected an acceptance, as in \"accepted 7f 2026-11-22 1280x720 runs the reason\", or "
+                     "its id, a digest and a frame, as in \"7f %016d frame_000000\"",
                      side->path, number, 0);
 }
 
-/* What follows "accepted ". */
-static bool take_acceptance(diff_side *side, char *line, size_t number, octreel_error *error)
+/* Read the part of a line after "accepted ". */
+static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_error *error)
 {
     acceptance a = {{line[0], line[0] ? line[1] : 0, 0}, "", 0, 0, IMAGE_DIGEST_KINDS, NULL};
-    frame_digest size;
     if (!is_id(line) || line[2] != ' ' || strlen(line) < 14 || line[13] != ' ')
         return fail_line(side, number, error);
     memcpy(a.date, line + 3, 10);
     const char *at = line + 14;
-    if (!baseline_is_date(a.date) || !digest_file_take_size(&at, ' ', &size))
+    if (!baseline_is_date(a.date) || !read_side_length(&at, 'x', &a.width) || !read_side_length(&at, ' ', &a.height))
         return fail_line(side, number, error);
     const size_t kind = strcspn(at, " ");
-    a.width = size.width;
-    a.height = size.height;
     a.kind = image_digest_kind_find(at, kind);
     if (a.kind == IMAGE_DIGEST_KINDS)
-        return error_set(error, "%s:%zu: this version knows no digests of the kind \"%.*s\"", side->path, number,
-                         kind < 40 ? (int)kind : 40, at);
+        return error_set(error, "%s:%zu: unknown kind of digest \"%.*s\"; a newer octreel may have written it",
+                         side->path, number, kind < 40 ? (int)kind : 40, at);
     a.reason = line + (at - line) + kind + (at[kind] == ' ');
     if (!baseline_is_reason(a.reason))
         return fail_line(side, number, error);
     const acceptance *other = find_id(side, a.id);
     if (!other)
-        return add_acceptance(side, &a, error);
-    return same_acceptance(other, &a) ||
+        return append_acceptance(side, &a, error);
+    return is_same_acceptance(other, &a) ||
            error_set(error,
-                     "%s:%zu: %s stands for another reason already: give one of both, and its digests, a new name",
+                     "%s:%zu: the id %s is already used by another acceptance; give one of the two, and its digests, a "
+                     "new id",
                      side->path, number, a.id);
 }
 
-static bool take_digest(diff_side *side, const char *line, size_t number, octreel_error *error)
+static bool read_digest(diff_side *side, const char *line, size_t number, octreel_error *error)
 {
     const char *at = line + 3;
     frame_digest digest = {0};
-    if (!is_id(line) || line[2] != ' ' || !digest_file_take_hexadecimal(&at, 16, ' ', &digest.pixels) || !*at ||
-        strchr(at, '/') || digest_file_holds_control(at))
+    if (!is_id(line) || line[2] != ' ' || !read_hexadecimal(&at, 16, ' ', &digest.pixels) || !*at || strchr(at, '/') ||
+        has_control_character(at))
         return fail_line(side, number, error);
     const acceptance *by = find_id(side, line);
     if (!by)
         return error_set(error,
-                         "%s:%zu: no line before says what %.2s stands for, as in \"accepted %.2s 2026-11-22 ...\"",
+                         "%s:%zu: no line before this one defines the id %.2s, as in \"accepted %.2s 2026-11-22 ...\"",
                          side->path, number, line, line);
     digest.width = by->width;
     digest.height = by->height;
@@ -192,12 +225,80 @@ static bool take_digest(diff_side *side, const char *line, size_t number, octree
     return ok;
 }
 
-bool baseline_take_line(diff_side *side, char *line, size_t number, octreel_error *error)
+static bool read_version(const diff_side *side, const char *line, octreel_error *error)
+{
+    return strcmp(line, DIGEST_FILE_BEGINNING "2") == 0 ||
+           error_set(error,
+                     "%s:1: expected \"%s2\"; version 1, which octreel digest wrote, is no longer read: use octreel "
+                     "accept BASELINE FRAMES --reason TEXT",
+                     side->path, DIGEST_FILE_BEGINNING);
+}
+
+static bool read_background(diff_side *side, const char *line, octreel_error *error)
+{
+    static const char word[] = "background ";
+    const char *at = line + sizeof word - 1;
+    uint64_t value = 0;
+    if (strncmp(line, word, sizeof word - 1) != 0 || !read_hexadecimal(&at, 6, 0, &value))
+        return error_set(error, "%s:2: expected a background, as in \"background ffffff\"", side->path);
+    side->background = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
+    return true;
+}
+
+/* A marker that git leaves around a conflict: seven equal characters, as in "<<<<<<< ours". */
+static bool is_conflict_marker(const char *line)
+{
+    return strlen(line) >= 7 && strchr("<=>|", line[0]) && strspn(line, (char[]){line[0], 0}) == 7 &&
+           (line[7] == 0 || line[7] == ' ');
+}
+
+static bool read_line(diff_side *side, char *line, size_t number, octreel_error *error)
 {
     static const char accepted[] = "accepted ";
+    if (is_conflict_marker(line))
+        return error_set(error,
+                         "%s:%zu: unresolved merge conflict; keep the lines that are right and delete git's markers",
+                         side->path, number);
+    if (number == 1)
+        return read_version(side, line, error);
+    if (number == 2)
+        return read_background(side, line, error);
     if (strncmp(line, accepted, sizeof accepted - 1) == 0)
-        return take_acceptance(side, line + sizeof accepted - 1, number, error);
-    return take_digest(side, line, number, error);
+        return read_acceptance(side, line + sizeof accepted - 1, number, error);
+    return read_digest(side, line, number, error);
+}
+
+bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *error)
+{
+    char *const limit = text + size;
+    size_t number = 0;
+    side->kind = DIFF_BASELINE;
+    if (memchr(text, 0, size))
+        return error_set(error, "%s: contains a zero byte, so it is not a text file", side->path);
+    for (char *line = text, *next; line < limit; line = next) {
+        char *end = line + strcspn(line, "\n");
+        next = end + 1;
+        if (end > line && end[-1] == '\r')
+            end[-1] = 0;
+        *end = 0;
+        if (!read_line(side, line, ++number, error))
+            return false;
+    }
+    if (number < 2)
+        return error_set(error, "%s: the file ends before its second line", side->path);
+    return baseline_merge_frames(side, error);
+}
+
+bool baseline_read(diff_side *side, octreel_error *error)
+{
+    char *bytes, reason[FILE_REASON];
+    size_t size;
+    if (!file_read_whole(side->source, &bytes, &size, reason))
+        return error_set(error, "%s: %s", side->path, reason);
+    bytes[size] = 0;
+    const bool ok = baseline_parse(side, bytes, size, error);
+    free(bytes);
+    return ok;
 }
 
 /* ---- Frames and their variants ------------------------------------------------------------------------------- */
@@ -207,7 +308,7 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
 }
 
-/* Two that say the same twice, as after a merge, are one. */
+/* Append a variant unless the frame has it already, as after a union merge. */
 static bool add_variant(diff_frame *frame, const frame_digest *digest)
 {
     for (size_t i = 0; i < frame->variant_count; i++)
@@ -221,7 +322,7 @@ static bool add_variant(diff_frame *frame, const frame_digest *digest)
     return true;
 }
 
-/* The one that was accepted last stands for all, where one must. */
+/* Set frame->digest to the variant that was accepted last. */
 static void choose_newest(const diff_side *side, diff_frame *frame)
 {
     frame->digest = frame->variants[0];
@@ -231,8 +332,7 @@ static void choose_newest(const diff_side *side, diff_frame *frame)
             frame->digest = frame->variants[i];
 }
 
-/* Frames of one name become one; what they held is freed. */
-bool baseline_collect(diff_side *side, octreel_error *error)
+bool baseline_merge_frames(diff_side *side, octreel_error *error)
 {
     size_t kept = 0;
     bool ok = true;
@@ -254,11 +354,12 @@ bool baseline_collect(diff_side *side, octreel_error *error)
     return ok || error_no_memory(error);
 }
 
-bool baseline_add(diff_side *side, const char *name, const frame_digest *digests, size_t count, octreel_error *error)
+bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *variants, size_t count,
+                        octreel_error *error)
 {
-    bool ok = diff_side_add(side, name, digests[0], error);
+    bool ok = diff_side_add(side, name, variants[0], error);
     for (size_t i = 0; ok && i < count; i++)
-        ok = add_variant(&side->frames[side->count - 1], &digests[i]) || error_no_memory(error);
+        ok = add_variant(&side->frames[side->count - 1], &variants[i]) || error_no_memory(error);
     return ok;
 }
 
@@ -295,7 +396,7 @@ static bool write_acceptances(FILE *out, const diff_side *side)
     return true;
 }
 
-/* The next of a frame's variants in the order of their lines; null after the last. */
+/* The variant after `last` in the order of ids, then digests; the first one for null. Null after the last. */
 static const frame_digest *next_variant(const diff_side *side, const diff_frame *frame, const frame_digest *last)
 {
     const frame_digest *next = NULL;
@@ -311,12 +412,22 @@ static const frame_digest *next_variant(const diff_side *side, const diff_frame 
     return next;
 }
 
+static bool fail_name(const diff_side *side, const char *name, octreel_error *error)
+{
+    char *shown = strdup(name);
+    error_set(error, "%s: the frame name \"%s\" contains a control character; rename the file", side->path,
+              shown ? make_printable(shown) : "");
+    free(shown);
+    return false;
+}
+
 bool baseline_write(FILE *out, const diff_side *side, octreel_error *error)
 {
+    const image_color ground = side->background;
     for (size_t i = 0; i < side->count; i++)
-        if (digest_file_holds_control(side->frames[i].name))
-            return digest_file_fail_name(side, side->frames[i].name, error);
-    digest_file_write_head(out, 2, side->background);
+        if (has_control_character(side->frames[i].name))
+            return fail_name(side, side->frames[i].name, error);
+    fprintf(out, "%s2\nbackground %02x%02x%02x\n", DIGEST_FILE_BEGINNING, ground.r, ground.g, ground.b);
     if (!write_acceptances(out, side))
         return error_no_memory(error);
     for (size_t i = 0; i < side->count; i++) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* diff.c - frames are paired by name, and the pairs compared on all cores. */
 #include "diff.h"
-#include "digest_file.h"
 #include "file.h"
 #include "parallel.h"
 #include "png_chunks.h"
@@ -86,10 +85,10 @@ static bool same_color(image_color a, image_color b)
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-/* One picture, or the digest of one: its name does not matter. */
+/* Whether a side is one picture, or a baseline of at most one: a new baseline is empty. */
 static bool is_one(const diff_side *side)
 {
-    return side->kind == DIFF_PICTURE || (side->kind == DIFF_DIGESTS && side->count == 1);
+    return side->kind == DIFF_PICTURE || (side->kind == DIFF_BASELINE && side->count <= 1);
 }
 
 /* One picture is compared with one picture. */
@@ -103,22 +102,26 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     const diff_side *const sides[2] = {a, b};
     if (a->no_frames != b->no_frames)
         return error_set(error,
-                         "%s was recorded without frames, and is compared with such a recording alone: %s is none",
+                         "%s was recorded without frames and can be compared only with another recording without "
+                         "frames, which %s is not",
                          a->no_frames ? a->path : b->path, a->no_frames ? b->path : a->path);
     if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
-        return error_set(error, "a picture is compared with a picture, or the digest of one: %s is one, %s is not",
-                         a->kind == DIFF_PICTURE ? a->path : b->path, a->kind == DIFF_PICTURE ? b->path : a->path);
+        return error_set(error, "cannot compare a picture with a %s of several: %s and %s",
+                         diff_kind_name(a->kind == DIFF_PICTURE ? b->kind : a->kind), a->path, b->path);
     if (a->count + b->count == 0 && !a->no_frames)
-        return error_set(error, "there is nothing to compare: neither %s nor %s has a PNG in it", a->path, b->path);
+        return error_set(error, "nothing to compare: no PNG files in %s or %s", a->path, b->path);
     for (int i = 0; i < 2; i++) {
-        if (sides[i]->kind != DIFF_DIGESTS)
+        if (sides[i]->kind != DIFF_BASELINE)
             continue;
         if (!is_exact(&options->tolerance) || options->mask)
-            return error_set(error, "%s: digests tell same from different and no more: nothing can be forgiven",
-                             sides[i]->path);
+            return error_set(
+                error,
+                "%s: a baseline holds digests, which allow no tolerance; remove --max-pixels, --max-delta, "
+                "--antialias, --ignore and --ignore-layer",
+                sides[i]->path);
         if (!same_color(sides[i]->background, options->background))
-            return error_set(error, "%s: these digests are of another background: give --background %02x%02x%02x",
-                             sides[i]->path, sides[i]->background.r, sides[i]->background.g, sides[i]->background.b);
+            return error_set(error, "%s: made over another background; add --background %02x%02x%02x", sides[i]->path,
+                             sides[i]->background.r, sides[i]->background.g, sides[i]->background.b);
     }
     return true;
 }
@@ -274,9 +277,10 @@ static bool know_digests(const diff_frame *frame, image_digest_kind kind, image_
     if (frame->path) {
         k->list = &k->own;
         k->count = 1;
-        return digest_frame(frame->path, background, &k->own, error);
+        return digest_picture(frame->path, background, &k->own, error);
     }
-    k->count = diff_frame_digests(frame, &k->list);
+    k->list = frame->variants;
+    k->count = frame->variant_count;
     k->own = frame->digest;
     for (size_t i = k->count; i > 0 && k->own.kind != kind; i--)
         k->own = k->list[i - 1];

@@ -9,7 +9,7 @@
 
 /* Each finding, its name in reports, and what it means for the whole. */
 #define DIFF_FINDING_MAP(X)                                                                                            \
-    X(SAME_BYTES, "have_same_bytes", DIFF_SAME)     /* found without decoding */                                       \
+    X(SAME_BYTES, "same_bytes", DIFF_SAME)          /* found without decoding */                                       \
     X(SAME_PIXELS, "same_pixels", DIFF_SAME)        /* encoded differently */                                          \
     X(WITHIN, "within_tolerance", DIFF_SAME)        /* different, all within the tolerance */                          \
     X(PIXELS, "pixels", DIFF_DIFFERENT)             /* different beyond the tolerance */                               \

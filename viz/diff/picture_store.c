@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* picture_store.c - pictures by their digests: put, and fetched again. */
 #include "picture_store.h"
-#include "digest_file.h"
 #include "file.h"
 #include "folder.h"
 #include "parallel.h"
@@ -34,7 +33,7 @@ static char *path_of(const char *folder, const frame_digest *digest)
 static bool is_picture(const char *path, const frame_digest *digest, image_color background, octreel_error *error)
 {
     frame_digest found = {.kind = digest->kind};
-    if (!digest_frame(path, background, &found, error))
+    if (!digest_picture(path, background, &found, error))
         return false;
     return found.pixels == digest->pixels ||
            error_set(error, "%s: it was changed or swapped: its pixels have the digest %016" PRIx64, path,
@@ -75,13 +74,11 @@ typedef struct fetching {
 /* The variant that was accepted last, or else any whose picture is there. The sentence is about the first. */
 static char *fetch_any(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
 {
-    const frame_digest *variants;
-    const size_t count = diff_frame_digests(frame, &variants);
     octreel_error ignored;
     *found = frame->digest;
     char *path = picture_store_get(f->store, found, f->reference->background, why);
-    for (size_t i = count; !path && i > 0; i--) {
-        *found = variants[i - 1];
+    for (size_t i = frame->variant_count; !path && i > 0; i--) {
+        *found = frame->variants[i - 1];
         path = picture_store_get(f->store, found, f->reference->background, &ignored);
     }
     return path;
@@ -116,8 +113,9 @@ static void fetch_one(size_t i, void *context)
 bool picture_store_fetch(const char *store, diff_side *reference, diff_result *result, octreel_error *error)
 {
     fetching f = {store, reference, result};
-    if (reference->kind != DIFF_DIGESTS)
-        return error_set(error, "--store is for a file of digests, and %s is none", reference->path);
+    if (reference->kind != DIFF_BASELINE)
+        return error_set(error, "--store works with a baseline only, and %s is a %s", reference->path,
+                         diff_kind_name(reference->kind));
     parallel_for(result->count, fetch_one, &f);
     diff_count(result);
     return true;

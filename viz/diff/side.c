@@ -2,7 +2,7 @@
 /* side.c - what a path stands for, and its frames. */
 #include "side.h"
 #include "array.h"
-#include "digest_file.h"
+#include "baseline.h"
 #include "file_kind.h"
 #include "frame_file.h"
 #include "recording_file.h"
@@ -22,7 +22,7 @@ const char *diff_kind_name(diff_kind kind)
         [DIFF_PICTURE] = "picture",
         [DIFF_FOLDER] = "folder",
         [DIFF_RECORDING] = "recording",
-        [DIFF_DIGESTS] = "digests",
+        [DIFF_BASELINE] = "baseline",
     };
     return names[kind];
 }
@@ -38,7 +38,7 @@ static const char *base_name(const char *path)
 
 bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
 {
-    const bool has_path = side->kind != DIFF_DIGESTS;
+    const bool has_path = side->kind != DIFF_BASELINE;
     diff_frame *grown = array_reserve(side->frames, side->count + 1, &side->room, sizeof *grown);
     diff_frame frame = {.name = grown ? strdup(name) : NULL, .digest = digest};
     side->frames = grown ? grown : side->frames;
@@ -52,10 +52,14 @@ bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octre
     return error_no_memory(error);
 }
 
-size_t diff_frame_digests(const diff_frame *frame, const frame_digest **digests)
+bool digest_picture(const char *path, image_color background, frame_digest *digest, octreel_error *error)
 {
-    *digests = frame->variants ? frame->variants : &frame->digest;
-    return frame->variants ? frame->variant_count : 1;
+    image about;
+    uint64_t pixels;
+    if (!image_digest_png_by(digest->kind, path, background, &about, &pixels, error))
+        return false;
+    *digest = (frame_digest){pixels, about.width, about.height, digest->kind, 0};
+    return true;
 }
 
 static bool is_png_name(const char *name)
@@ -110,13 +114,12 @@ static bool read_file(diff_side *side, octreel_error *error)
     case KIND_PNG:
         side->kind = DIFF_PICTURE;
         return diff_side_add(side, base_name(side->source), (frame_digest){0}, error);
-    case KIND_DIGESTS:
-        side->kind = DIFF_DIGESTS;
-        return digest_file_read(side, error);
+    case KIND_BASELINE:
+        return baseline_read(side, error);
     default:
         if (!file_is_standard(side->source) && access(side->path, R_OK) != 0)
             return error_set(error, "%s: %s", side->path, strerror(errno));
-        return error_set(error, "%s: it is no PNG, no folder and no file of digests", side->path);
+        return error_set(error, "%s: not a PNG file, a folder, or a baseline", side->path);
     }
 }
 
@@ -134,7 +137,7 @@ bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
     else if (S_ISREG(status.st_mode))
         ok = read_file(side, error);
     else
-        ok = error_set(error, "%s: it is neither a file nor a folder", path);
+        ok = error_set(error, "%s: neither a file nor a folder", path);
     if (!ok)
         diff_side_release(side);
     return ok;
@@ -168,7 +171,7 @@ bool diff_side_spared(const diff_side *side, const output_file *output, octreel_
     struct stat status;
     if (!output->path || stat(output->path, &status) != 0)
         return true;
-    bool ok = side->kind != DIFF_DIGESTS || check_output_is_not_input(output, side->source, error);
+    bool ok = side->kind != DIFF_BASELINE || check_output_is_not_input(output, side->source, error);
     for (size_t i = 0; ok && i < side->count; i++)
         ok = !side->frames[i].path || check_output_is_not_input(output, side->frames[i].path, error);
     for (size_t i = 0; ok && side->kind == DIFF_RECORDING && folder_fact_name(i); i++)

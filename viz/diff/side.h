@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef enum diff_kind { DIFF_PICTURE, DIFF_FOLDER, DIFF_RECORDING, DIFF_DIGESTS } diff_kind;
+typedef enum diff_kind { DIFF_PICTURE, DIFF_FOLDER, DIFF_RECORDING, DIFF_BASELINE } diff_kind;
 
 /* What a file of digests knows of a frame. */
 typedef struct frame_digest {
@@ -47,7 +47,6 @@ typedef struct diff_side {
     image_color background;  /* of a file of digests: what transparent pixels were laid over */
     acceptance *acceptances; /* of a baseline; owned */
     size_t acceptance_count, acceptance_room;
-    bool baseline; /* a file of digests that says when and why */
 } diff_side;
 
 /* Open what a path names; "-" is a PNG or digests from standard input. A folder has the PNG files directly in it whose
@@ -60,13 +59,14 @@ void diff_side_release(diff_side *side);
  * a recording's files beside its frames. */
 bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error);
 
-/* "picture", "folder", "recording", "digests". */
+/* "picture", "folder", "recording", "baseline". */
 const char *diff_kind_name(diff_kind kind);
 
 /* Append a frame: a copy of its name, its path where the side's kind has paths, and its digest. */
 bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
 
-/* The digests of a frame of such a file: its variants, or the one that it has. */
-size_t diff_frame_digests(const diff_frame *frame, const frame_digest **digests);
+/* Set *digest to the size and the digest of a picture; digest->kind selects the kind. Return false with an error when
+ * the picture cannot be read. */
+bool digest_picture(const char *path, image_color background, frame_digest *digest, octreel_error *error);
 
 #endif

@@ -20,7 +20,7 @@ static const struct {
     file_kind kind;
 } beginnings[] = {
     {MAGIC("\x89PNG"), KIND_PNG},
-    {MAGIC(DIGEST_FILE_BEGINNING), KIND_DIGESTS},
+    {MAGIC(DIGEST_FILE_BEGINNING), KIND_BASELINE},
     {MAGIC("\xff\xd8\xff"), KIND_OTHER_PICTURE},
     {MAGIC("GIF8"), KIND_OTHER_PICTURE},
     {MAGIC("II*\0"), KIND_OTHER_PICTURE},

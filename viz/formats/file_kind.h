@@ -14,7 +14,7 @@
     X(FOLDER, "a folder without a recording", "diff", "compares folders of PNGs")                                      \
     X(SESSION, "a session", "record", "films it")                                                                      \
     X(PNG, "a PNG", "diff", "compares pictures, and pick tells what a recorded frame shows")                           \
-    X(DIGESTS, "a file of digests", "diff", "compares frames with it")                                                 \
+    X(BASELINE, "a baseline", "diff", "compares frames with it")                                                       \
     X(CLOUD, "a point cloud", "inspect", "draws it")                                                                   \
     X(PAGE, "a page of octreel's", NULL, "a browser opens it")                                                         \
     X(PART, "a part of a recording", NULL, "the recording is the folder that it is in")                                \
@@ -48,7 +48,7 @@ extern const file_kind_row file_kind_rows[];
 typedef enum name_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } name_kind;
 name_kind name_kind_of(const char *path);
 
-/* How a file of digests begins. */
+/* The beginning of every baseline. */
 #define DIGEST_FILE_BEGINNING "octreel-digests "
 
 #endif

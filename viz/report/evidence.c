@@ -98,7 +98,7 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 static bool check_apart(const char *folder, const diff_side *side, octreel_error *error)
 {
     struct stat own, other;
-    if (side->kind == DIFF_DIGESTS || file_is_standard(side->source) || stat(folder, &own) != 0)
+    if (side->kind == DIFF_BASELINE || file_is_standard(side->source) || stat(folder, &own) != 0)
         return true;
     const bool found = side->kind == DIFF_PICTURE ? stat_parent(side->path, &other) : stat(side->path, &other) == 0;
     return !found || !is_same_file(&own, &other) ||

@@ -12,7 +12,7 @@
 #include "view_options.h"
 
 static const char *const commands[] = {"record", "play",    "join", "verify", "audit",
-                                       "pick",   "inspect", "diff", "digest", "accept"};
+                                       "pick",   "inspect", "diff", "accept"};
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 

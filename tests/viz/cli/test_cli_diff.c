@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_diff.c - octreel diff and digest: exit statuses, what is said, JSON, and what is refused. */
+/* test_cli_diff.c - octreel diff: exit statuses, what is said, JSON, and what is refused. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,9 +99,9 @@ static void trouble_is_said_and_is_status_2(void **state)
     command_result result = run_octreel(NULL, "diff %s", p.a.path);
     assert_trouble(&result, "diff takes two sides");
     result = run_octreel(NULL, "diff %s %s", p.a.path, folder.path);
-    assert_trouble(&result, "a picture is compared with a picture");
+    assert_trouble(&result, "cannot compare a picture with a folder");
     result = run_octreel(NULL, "diff %s %s", p.a.path, text.path);
-    assert_trouble(&result, "it is no PNG, no folder and no file of digests");
+    assert_trouble(&result, "not a PNG file, a folder, or a baseline");
     assert_int_equal(truncate(p.b.path, 120), 0);
     result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
     assert_trouble(&result, "b.png: the file is cut short");
@@ -217,36 +217,21 @@ static void long_lists_are_cut_for_people_and_not_for_programs(void **state)
     command_release(&result);
 }
 
-static void digest_writes_what_diff_takes(void **state)
+static void digest_names_the_command_that_replaced_it(void **state)
 {
-    const place folder = gallery_make(*state, "a", "1.png 2.png"), file = place_in(*state, "a.digests");
-    command_result result = run_octreel(NULL, "digest %s", folder.path);
-    assert_done(&result);
-    file_write_text(file.path, result.out);
-    command_release(&result);
-    result = run_octreel(NULL, "diff %s %s", file.path, folder.path);
-    assert_ends(&result, 0, "same: 2 frames, 2 the same by their pixels\n");
-    gallery_write(place_below(folder.path, "2.png").path, 1, 1);
-    result = run_octreel(NULL, "diff %s %s", file.path, folder.path);
-    assert_ends(&result, 1, "2.png: pixels differ: digest ");
-    result = run_octreel(NULL, "digest %s", file.path);
-    assert_trouble(&result, "is a file of digests, and digest takes one folder");
-    result = run_octreel(NULL, "digest");
-    assert_trouble(&result, "digest takes one folder");
-    result = run_octreel(NULL, "digest %s -o %s/missing/x", folder.path, folder.path);
-    assert_trouble(&result, "cannot be written");
-    assert_int_equal(truncate(place_below(folder.path, "2.png").path, 50), 0);
-    result = run_octreel(NULL, "digest %s -o %s", folder.path, file.path);
-    assert_trouble(&result, "2.png: ");
+    (void)state;
+    command_result result = run_octreel(NULL, "digest frames -o frames.digests");
+    assert_trouble(&result, "octreel digest was removed; use octreel accept BASELINE FRAMES");
 }
 
-/* A digest of one picture is compared with one picture, whatever this is called. */
-static void digest_of_a_picture_is_compared_with_a_picture(void **state)
+/* A baseline of one picture is compared with one picture, whatever their names. */
+static void a_baseline_of_a_picture_is_compared_with_a_picture(void **state)
 {
     const twins p = make_pair(state);
-    const place one = place_in(*state, "one.digest"), two = place_in(*state, "two.digest");
+    const place one = place_in(*state, "one.txt"), two = place_in(*state, "two.txt");
     const place folder = gallery_make(*state, "folder", "a.png c.png");
-    command_result result = run_octreel(NULL, "digest %s -o %s", p.a.path, one.path);
+    unsetenv("CI");
+    command_result result = run_octreel(NULL, "accept %s %s --reason x", one.path, p.a.path);
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s", one.path, p.a.path);
@@ -255,19 +240,18 @@ static void digest_of_a_picture_is_compared_with_a_picture(void **state)
     assert_ends(&result, 1, "different: 1 of 1 frame\n  b.png: pixels differ: digest ");
     result = run_octreel(NULL, "diff %s %s", p.a.path, one.path);
     assert_ends(&result, 0, "same: 1 frame, 1 the same by its pixels\n");
-    result = run_octreel(NULL, "digest %s -o %s", folder.path, two.path);
+    result = run_octreel(NULL, "accept %s %s --reason x", two.path, folder.path);
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s", two.path, p.a.path);
-    assert_trouble(&result, "a picture is compared with a picture, or the digest of one: ");
+    assert_trouble(&result, "cannot compare a picture with a baseline");
 }
 
 static void help_teaches(void **state)
 {
     (void)state;
-    static const char *const commands[][2] = {
-        {"diff", "Exit status: 0 the same"}, {"digest", "octreel-digests 1"}, {"accept", "CI"}};
-    for (size_t i = 0; i < 3; i++) {
+    static const char *const commands[][2] = {{"diff", "Exit status: 0 the same"}, {"accept", "CI"}};
+    for (size_t i = 0; i < 2; i++) {
         command_result result = run_octreel(NULL, "%s --help", commands[i][0]);
         assert_ends(&result, 0, commands[i][1]);
     }
@@ -302,8 +286,8 @@ int main(void)
         WITH_FOLDER(json_tells_all_of_it),
         WITH_FOLDER(json_is_said_in_trouble_too),
         WITH_FOLDER(long_lists_are_cut_for_people_and_not_for_programs),
-        WITH_FOLDER(digest_writes_what_diff_takes),
-        WITH_FOLDER(digest_of_a_picture_is_compared_with_a_picture),
+        cmocka_unit_test(digest_names_the_command_that_replaced_it),
+        WITH_FOLDER(a_baseline_of_a_picture_is_compared_with_a_picture),
         cmocka_unit_test(help_teaches),
         WITH_FOLDER(imagemagick_counts_the_same_pixels),
     };

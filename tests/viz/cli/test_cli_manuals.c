@@ -93,7 +93,6 @@ static void a_manual_refers_to_the_commands_that_it_names(void **state)
         const char *page, *commands;
     } rows[] = {
         {"record", ".BR octreel (1),\n.BR octreel\\-join (1),\n.BR octreel\\-verify (1),\n.BR octreel\\-session (5)"},
-        {"digest", ".BR octreel (1),\n.BR octreel\\-diff (1),\n.BR octreel\\-session (5)"},
         {"octreel", ".BR octreel\\-record (1),\n.BR octreel\\-play (1),\n.BR octreel\\-join (1)"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

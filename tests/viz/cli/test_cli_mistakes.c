@@ -29,7 +29,7 @@ static int make_kinds(void **state)
     const temp_folder *own = *state;
     command_result made =
         run_script("cd %s && ln -s %s octreel && ./octreel record my.json --size 32x32 -o rec >/dev/null "
-                   "&& ./octreel digest rec -o a.digests",
+                   "&& env -u CI ./octreel accept a.digests rec --reason x >/dev/null",
                    own->name, octreel_program());
     assert_done(&made);
     command_release(&made);
@@ -123,8 +123,8 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
         {"pick rec 1 1", "rec is a recording, and pick takes a frame"},
         {"diff rec cloud.txt", "octreel inspect draws it"},
         {"diff a.jpg a.png", "a.jpg is a picture, but no PNG, and diff takes two sides"},
-        {"digest my.json", "my.json is a session, and digest takes one folder of frames; "},
-        {"digest a.digests", "a.digests is a file of digests, and digest takes"},
+        {"verify a.digests", "a.digests is a baseline, and verify takes"},
+        {"digest rec", "octreel digest was removed; use octreel accept BASELINE FRAMES"},
         {"accept pictures cloud.txt", "cloud.txt is a point cloud, and accept takes"},
         {"record --camera-from my.json -o x", "my.json is a session, and --camera-from takes the folder"},
         {"record --camera-from absent -o x", "absent: there is no such file or folder"},
@@ -137,9 +137,9 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
 static void a_number_or_colour_that_is_none_is_refused(void **state)
 {
     static const mistake rows[] = {
-        {"digest rec --background ff80", "--background takes a colour as in ff8000, not \"ff80\""},
-        {"digest rec --background ff80zz", "not \"ff80zz\""},
-        {"digest rec --background '#'", "not \"#\""},
+        {"diff rec rec --background ff80", "--background takes a colour as in ff8000, not \"ff80\""},
+        {"diff rec rec --background ff80zz", "not \"ff80zz\""},
+        {"diff rec rec --background '#'", "not \"#\""},
         {"diff a.png a.png --max-delta 2", "--max-delta takes a number from 0 to 1, not \"2\""},
         {"diff a.png a.png --max-delta -0.1", "not \"-0.1\""},
         {"diff a.png a.png --ignore 1,2,0,4", "--ignore takes left, top, width and height"},
@@ -153,10 +153,11 @@ static void a_number_or_colour_that_is_none_is_refused(void **state)
 /* As style sheets have it. */
 static void a_colour_may_begin_with_a_hash(void **state)
 {
-    command_result with = run_octreel(NULL, "digest %s --background #aBcdef", place_in(*state, "a.png").path);
-    command_result without = run_octreel(NULL, "digest %s --background abcdef", place_in(*state, "a.png").path);
+    const char *picture = place_in(*state, "a.png").path;
+    command_result with = run_octreel(NULL, "diff %s %s --json --background #aBcdef", picture, picture);
+    command_result without = run_octreel(NULL, "diff %s %s --json --background abcdef", picture, picture);
     assert_done(&with);
-    assert_non_null(strstr(with.out, "\nbackground abcdef\n"));
+    assert_non_null(strstr(with.out, "\"background\": \"#abcdef\""));
     assert_string_equal(with.out, without.out);
     command_release(&with);
     command_release(&without);
@@ -183,7 +184,6 @@ static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
         {"inspect cloud.txt tree.png", "did you mean -o tree.png?"},
         {"inspect cloud.txt cloud.txt", "for several: for f in *.pcd; do "},
         {"diff a.png a.png evidence", "did you mean -o evidence?"},
-        {"digest rec x.digests", "did you mean -o x.digests?"},
         {"record my.json -o x.jpg", "-o takes the name of a folder, and \"x.jpg\" is that of a picture"},
         {"record my.json -o x.PNG", "-o takes the name of a folder, and \"x.PNG\" is that of a picture"},
         {"record my.json -o x.mp4", "is that of a film: ffmpeg makes films of the frames in it"},
@@ -194,7 +194,7 @@ static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
         {"inspect cloud.txt -o .", "-o takes the name of a file, and \".\" is a folder"},
         {"inspect cloud.txt --nodes x.png", "--nodes writes text, and \"x.png\" is the name of a picture"},
         {"diff a.png a.png -o x.html", "-o takes the name of a folder"},
-        {"digest rec -o x.png", "-o writes text"},
+        {"diff a.png a.png --junit x.png", "--junit writes text"},
     };
     ASSERT_MISTAKES(state, rows);
 }

@@ -92,14 +92,14 @@ static void junit_has_a_case_of_the_ticks(void **state)
 static void what_has_frames_is_not_compared_with_what_has_none(void **state)
 {
     static const char *const rows[][2] = {
-        {"diff a film", "such a recording alone: film is none"},
-        {"diff film a", "such a recording alone: film is none"},
+        {"diff a film", "without frames, which film is not"},
+        {"diff film a", "without frames, which film is not"},
         {"diff a film/frame_000000.png", "a was recorded without frames"},
         {"accept film a", "a was recorded without frames"},
         {"accept a film", "a was recorded without frames"},
         {"accept a b frame_000000.png", "there is no frame frame_000000.png"},
-        {"diff a .", "such a recording alone: . is none"},
-        {"digest a", "a was recorded without frames"},
+        {"diff a .", "without frames, which . is not"},
+        {"accept new.txt a --reason x", "a was recorded without frames"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         command_result result = run_in(*state, rows[i][0]);

@@ -63,7 +63,6 @@ static void what_is_asked_for_is_said(void **state)
         {"record " SMALL " -q --json -o %s/film", "\"ticks\": 3"},
         {"verify -q %s/film", "identical"},
         {"pick -q %s/film/frame_000000.png 1 1", "pixel"},
-        {"digest -q %s/film", "octreel-digests"},
         {"inspect -q %s/cloud.txt", "points"},
         {"inspect -q %s/cloud.txt --nearest 1,2,3", "found"},
         {"inspect -q %s/cloud.txt --size 32x32 -o %s/tree.png --nodes %s/nodes.csv", "points"},

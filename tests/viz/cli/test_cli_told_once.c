@@ -213,7 +213,8 @@ static void json_is_as_its_schema_says(void **state)
     snprintf(more, sizeof more, "-o %s --max-pixels 4 --ignore 1,2,3,4 --ignore-layer text", t.out.path);
     assert_json_fits(state, t.a.path, t.b.path, "--max-pixels 50 --ignore 1,2,3,4 --ignore-layer text --antialias");
     assert_json_fits(state, a.path, b.path, "--max-pixels 9");
-    command_result result = run_octreel(NULL, "digest %s -o %s", a.path, digests.path);
+    unsetenv("CI");
+    command_result result = run_octreel(NULL, "accept %s %s --reason x", digests.path, a.path);
     assert_done(&result);
     command_release(&result);
     snprintf(more, sizeof more, "--store %s", place_in(*state, "store").path);

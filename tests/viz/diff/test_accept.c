@@ -134,7 +134,7 @@ static void before_anything_is_written_all_is_checked(void **state)
     command_result result = run_octreel(NULL, "accept %s %s 2.png nix.png", c.before.path, c.after.path);
     assert_trouble(&result, "there is no frame nix.png");
     result = run_octreel(NULL, "accept %s %s", c.before.path, empty.path);
-    assert_trouble(&result, "there is no PNG in it");
+    assert_trouble(&result, "contains no PNG files");
     assert_int_equal(truncate(place_below(c.after.path, "4.png").path, 200), 0);
     result = run_octreel(NULL, "accept %s %s", c.before.path, c.after.path);
     assert_trouble(&result, "4.png: the file is cut short");
@@ -190,12 +190,12 @@ static void a_name_of_a_file_becomes_no_folder_and_no_other_picture(void **state
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const place reference = place_in(*state, names[i]);
         command_result result = run_octreel(NULL, "accept %s %s", reference.path, frames.path);
-        assert_trouble(&result, "there is no such reference, and frames become one in a folder; with --reason TEXT ");
+        assert_trouble(&result, "cannot create a folder of references under the name of a file; ");
         assert_false(file_exists(reference.path));
     }
     const place golden = place_in(*state, "golden");
     command_result result = run_octreel(NULL, "accept %s %s", golden.path, one.path);
-    assert_trouble(&result, "becomes one as NAME.png alone");
+    assert_trouble(&result, "use NAME.png");
     assert_false(file_exists(golden.path));
 }
 
@@ -211,14 +211,16 @@ static void a_reference_that_cannot_be_looked_up_is_trouble(void **state)
     assert_true(S_ISLNK(status.st_mode));
 }
 
-static void digests_are_accepted_line_by_line(void **state)
+#define BECAUSE " --reason why --date 2026-11-22"
+
+static void a_baseline_is_accepted_line_by_line(void **state)
 {
     const change c = make_change(state);
     const place digests = place_in(*state, "golden.digests"), fresh = place_in(*state, "fresh.digests");
-    command_result result = run_octreel(NULL, "digest %s -o %s", c.before.path, digests.path);
+    command_result result = run_octreel(NULL, "accept %s %s" BECAUSE, digests.path, c.before.path);
     assert_done(&result);
     command_release(&result);
-    result = run_octreel(NULL, "accept %s %s 2.png", digests.path, c.after.path);
+    result = run_octreel(NULL, "accept %s %s 2.png" BECAUSE, digests.path, c.after.path);
     assert_done(&result);
     assert_says(&result, "3 before, 3 after: 1 changed, 0 new, 0 removed");
     command_release(&result);
@@ -227,9 +229,9 @@ static void digests_are_accepted_line_by_line(void **state)
     assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_FRAME);
     assert_int_equal(finding_of(&made, "4.png"), FOUND_NO_REFERENCE);
     comparison_release(&made);
-    result = accept_all(&digests, &c.after);
+    result = run_octreel(NULL, "accept %s %s" BECAUSE, digests.path, c.after.path);
     command_release(&result);
-    result = run_octreel(NULL, "digest %s -o %s", c.after.path, fresh.path);
+    result = run_octreel(NULL, "accept %s %s" BECAUSE, fresh.path, c.after.path);
     command_release(&result);
     char *accepted = file_read(digests.path, NULL), *expected = file_read(fresh.path, NULL);
     assert_string_equal(accepted, expected);
@@ -294,14 +296,14 @@ static void many_frames_are_listed_in_part(void **state)
     assert_same_folders(golden.path, after.path, NULL);
 }
 
-static void digests_are_no_pictures_to_accept(void **state)
+static void a_baseline_is_no_picture_to_accept(void **state)
 {
     const place golden = gallery_make(*state, "golden", "1.png"), digests = place_in(*state, "new.digests");
-    command_result result = run_octreel(NULL, "digest %s -o %s", golden.path, digests.path);
+    command_result result = run_octreel(NULL, "accept %s %s" BECAUSE, digests.path, golden.path);
     assert_done(&result);
     command_release(&result);
     result = run_octreel(NULL, "accept %s %s", golden.path, digests.path);
-    assert_trouble(&result, "pictures are accepted, not digests of them");
+    assert_trouble(&result, "cannot accept a baseline; give the pictures themselves");
 }
 
 static void a_recording_is_no_reference_for_plain_pictures(void **state)
@@ -356,11 +358,11 @@ int main(void)
         WITH_FOLDER(a_reference_is_made_where_there_is_none),
         WITH_FOLDER(a_name_of_a_file_becomes_no_folder_and_no_other_picture),
         WITH_FOLDER(a_reference_that_cannot_be_looked_up_is_trouble),
-        WITH_FOLDER(digests_are_accepted_line_by_line),
+        WITH_FOLDER(a_baseline_is_accepted_line_by_line),
         WITH_FOLDER(a_recording_is_taken_over_with_its_ticks),
         WITH_FOLDER(an_empty_folder_becomes_a_recording),
         WITH_FOLDER(many_frames_are_listed_in_part),
-        WITH_FOLDER(digests_are_no_pictures_to_accept),
+        WITH_FOLDER(a_baseline_is_no_picture_to_accept),
         WITH_FOLDER(a_recording_is_no_reference_for_plain_pictures),
         WITH_FOLDER(an_unwritable_reference_is_trouble),
     };

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* test_baseline.c - files of digests that say why: read in any order, written in one, refused with a line. */
+/* test_baseline.c - baselines: read in any order, written in one order, compared with pictures, and refused with the
+ * number of the line that is wrong. */
 #include "baseline.h"
-#include "digest_file.h"
 #include "fixture.h"
 #include "galleries.h"
+#include "ignored_layers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +21,7 @@ static bool parse(const char *text, diff_side *side, octreel_error *error)
     char *copy = strdup(text);
     assert_non_null(copy);
     *side = (diff_side){.path = "file"};
-    const bool ok = digest_file_parse(side, copy, strlen(text), error);
+    const bool ok = baseline_parse(side, copy, strlen(text), error);
     free(copy);
     return ok;
 }
@@ -86,12 +87,12 @@ static void each_name_is_read_back_as_it_was(void **state)
     static const char *const names[] = {"a.png", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f.png", "p"};
     static const char *const lines[] = {"a", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f", "p"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true, .background = {255, 255, 255}};
+        diff_side side = {.path = "file", .kind = DIFF_BASELINE, .background = {255, 255, 255}};
         octreel_error error;
         frame_digest digest = {7, 24, 16, IMAGE_DIGEST_RUNS, 0};
         char line[64];
-        assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "why"}, &digest, &error));
-        assert_true(baseline_add(&side, names[i], &digest, 1, &error));
+        assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", "why"}, &digest, &error));
+        assert_true(baseline_add_frame(&side, names[i], &digest, 1, &error));
         char *text = written(&side);
         snprintf(line, sizeof line, "\n%s 0000000000000007 %s\n", side.acceptances[0].id, lines[i]);
         assert_non_null(strstr(text, line));
@@ -113,17 +114,16 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
     static const struct {
         const char *text, *part;
     } cases[] = {
-        {HEAD FIRST "<<<<<<< HEAD\n" A7 "=======\n" AK ">>>>>>> theirs\n", "file:4: a conflict that git has left"},
-        {HEAD FIRST A7 "=======\n", "file:5: a conflict"},
-        {HEAD "||||||| 0123456\n", "file:3: a conflict"},
-        {"<<<<<<< HEAD\n", "file:1: a conflict"},
-        {HEAD "accepted 7f 2026-11-22 24x16 lanes9 why\n" A7,
-         "file:3: this version knows no digests of the kind \"lanes9\""},
-        {HEAD A7, "file:3: no line before says what 7f stands for"},
-        {HEAD FIRST "accepted 7f 2026-11-23 24x16 runs another\n", "file:4: 7f stands for another reason already"},
+        {HEAD FIRST "<<<<<<< HEAD\n" A7 "=======\n" AK ">>>>>>> theirs\n", "file:4: unresolved merge conflict"},
+        {HEAD FIRST A7 "=======\n", "file:5: unresolved merge conflict"},
+        {HEAD "||||||| 0123456\n", "file:3: unresolved merge conflict"},
+        {"<<<<<<< HEAD\n", "file:1: unresolved merge conflict"},
+        {HEAD "accepted 7f 2026-11-22 24x16 lanes9 why\n" A7, "file:3: unknown kind of digest \"lanes9\""},
+        {HEAD A7, "file:3: no line before this one defines the id 7f"},
+        {HEAD FIRST "accepted 7f 2026-11-23 24x16 runs another\n", "file:4: the id 7f is already used"},
         {HEAD "accepted 7f 2026-02-30 24x16 runs why\n", "file:3: expected"},
-        {HEAD FIRST "accepted 7f 2026-11-22 25x16 runs the first\n", "file:4: 7f stands for another reason"},
-        {HEAD FIRST "accepted 7f 2026-11-22 24x17 runs the first\n", "file:4: 7f stands for another reason"},
+        {HEAD FIRST "accepted 7f 2026-11-22 25x16 runs the first\n", "file:4: the id 7f is already used"},
+        {HEAD FIRST "accepted 7f 2026-11-22 24x17 runs the first\n", "file:4: the id 7f is already used"},
         {HEAD "accepted 7f 2026-13-01 24x16 runs why\n", "file:3: expected"},
         {HEAD "accepted 7f-2026-11-22 24x16 runs why\n", "file:3: expected"},
         {HEAD "accepted 7f 2026-11-22x24x16 runs why\n", "file:3: expected"},
@@ -138,7 +138,7 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
         {HEAD "accepted F7 2026-11-22 24x16 runs why\n", "file:3: expected"},
         {HEAD "accepted 7f 2026-11-22\n", "file:3: expected"},
         {HEAD "accepted 7f 2026-11-22 24x16 0123456789012345678901234567890123456789x why\n",
-         "file:3: this version knows no digests of the kind \"0123456789012345678901234567890123456789\""},
+         "file:3: unknown kind of digest \"0123456789012345678901234567890123456789\""},
         {HEAD "accepted\n", "file:3: expected"},
         {HEAD "accepted \n", "file:3: expected"},
         {HEAD "\n", "file:3: expected"},
@@ -150,7 +150,25 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
         {HEAD FIRST "7f 0123456789abcdef a\tb\n", "file:4: expected"},
         {HEAD FIRST "7f\n", "file:4: expected"},
         {HEAD FIRST "7\n", "file:4: expected"},
-        {"octreel-digests 3\nbackground ffffff\n", "file:1: "},
+        {"octreel-digests 3\nbackground ffffff\n", "file:1: expected \"octreel-digests 2\""},
+        {"octreel-digests 1\nbackground ffffff\n", "file:1: expected \"octreel-digests 2\"; version 1"},
+        {"octreel-digests 2 \nbackground ffffff\n", "file:1: "},
+        {"digests\nbackground ffffff\n", "file:1: "},
+        {"octreel-digests 2\n", "second line"},
+        {"octreel-digests 2", "second line"},
+        {"octreel-digests 2\nbackground fffff\n", "file:2: "},
+        {"octreel-digests 2\nbackground fffffff\n", "file:2: "},
+        {"octreel-digests 2\nbackground FFFFFF\n", "file:2: "},
+        {"octreel-digests 2\n" FIRST, "file:2: "},
+        {HEAD "accepted 7f 2026-11-22 16385x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 99999999999999999999x16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 24x runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 ax16 runs why\n", "file:3: expected"},
+        {HEAD "accepted 7f 2026-11-22 -1x16 runs why\n", "file:3: expected"},
+        {HEAD FIRST "7f 0123456789abcdeg a\n", "file:4: expected"},
+        {HEAD FIRST "7f 0123456789abcdef a\x7f\n", "file:4: expected"},
+        {HEAD "<<<<<<<HEAD\n", "file:3: expected"},
+        {HEAD "<<<<==== a\n", "file:3: expected"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         diff_side side;
@@ -159,6 +177,17 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
             fail_msg("case %zu: \"%s\" does not say \"%s\"", i, error.text, cases[i].part);
         diff_side_release(&side);
     }
+}
+
+static void a_zero_byte_is_refused(void **state)
+{
+    (void)state;
+    char text[] = HEAD "\0" FIRST;
+    diff_side side = {.path = "file"};
+    octreel_error error = {""};
+    assert_false(baseline_parse(&side, text, sizeof text - 1, &error));
+    assert_non_null(strstr(error.text, "zero byte"));
+    diff_side_release(&side);
 }
 
 static void dates_are_those_of_the_calendar(void **state)
@@ -198,18 +227,18 @@ static void a_reason_is_named_by_what_it_says(void **state)
 {
     (void)state;
     static const char *const reasons[] = {"one", "two", "one"};
-    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    diff_side side = {.path = "file", .kind = DIFF_BASELINE};
     frame_digest digests[3];
     octreel_error error;
     for (size_t i = 0; i < 3; i++) {
         digests[i] = (frame_digest){i, 24, 16, IMAGE_DIGEST_RUNS, 0};
-        assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", reasons[i]}, &digests[i], &error));
+        assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", reasons[i]}, &digests[i], &error));
     }
     assert_int_equal(side.acceptance_count, 2);
     assert_int_equal(digests[0].acceptance, digests[2].acceptance);
     assert_string_not_equal(side.acceptances[0].id, side.acceptances[1].id);
     frame_digest other = {9, 48, 32, IMAGE_DIGEST_RUNS, 0};
-    assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "one"}, &other, &error));
+    assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", "one"}, &other, &error));
     assert_int_equal(other.acceptance, 2);
     diff_side_release(&side);
 }
@@ -217,16 +246,16 @@ static void a_reason_is_named_by_what_it_says(void **state)
 static void a_thousand_reasons_have_names_and_too_many_are_refused(void **state)
 {
     (void)state;
-    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    diff_side side = {.path = "file", .kind = DIFF_BASELINE};
     octreel_error error;
     char reason[16];
     for (int i = 0; i <= 36 * 36; i++) {
         frame_digest digest = {1, 24, 16, IMAGE_DIGEST_RUNS, 0};
         snprintf(reason, sizeof reason, "%d", i);
-        assert_int_equal(baseline_accept(&side, &(acceptance_words){"2026-11-22", reason}, &digest, &error),
+        assert_int_equal(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", reason}, &digest, &error),
                          i < 36 * 36);
     }
-    assert_non_null(strstr(error.text, "no name for another"));
+    assert_non_null(strstr(error.text, "ids of acceptances are in use"));
     diff_side_release(&side);
 }
 
@@ -235,7 +264,7 @@ static void a_large_baseline_is_small(void **state)
 {
     (void)state;
     static const char *const reasons[] = {"as recorded first, with Mesa 25", "Mesa 26", "without SIMD"};
-    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    diff_side side = {.path = "file", .kind = DIFF_BASELINE};
     octreel_error error;
     for (int i = 0; i < 1000; i++) {
         frame_digest variants[3];
@@ -244,9 +273,10 @@ static void a_large_baseline_is_small(void **state)
         for (int v = 0; v < 3; v++) {
             variants[v] = (frame_digest){UINT64_C(0x9e3779b97f4a7c15) * (uint64_t)(3 * i + v + 1), 1280, 720,
                                          IMAGE_DIGEST_NEWEST, 0};
-            assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", reasons[v]}, &variants[v], &error));
+            assert_true(
+                baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", reasons[v]}, &variants[v], &error));
         }
-        assert_true(baseline_add(&side, name, variants, 3, &error));
+        assert_true(baseline_add_frame(&side, name, variants, 3, &error));
     }
     char *text = written(&side);
     assert_true(strlen(text) < 100000);
@@ -262,14 +292,14 @@ static void a_large_baseline_is_small(void **state)
  * makes that of the next one. */
 static void write_by_kinds(const char *folder, const char *path, int shift)
 {
-    diff_side frames = assert_side(folder), side = {.path = path, .kind = DIFF_DIGESTS, .baseline = true};
+    diff_side frames = assert_side(folder), side = {.path = path, .kind = DIFF_BASELINE};
     octreel_error error;
     side.background = (image_color){255, 255, 255};
     for (size_t i = 0; i < frames.count; i++) {
         frame_digest digest = {.kind = (image_digest_kind)((i + (size_t)shift) % IMAGE_DIGEST_KINDS)};
-        assert_true(digest_frame(frames.frames[i].path, side.background, &digest, &error));
-        assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "why"}, &digest, &error));
-        assert_true(baseline_add(&side, frames.frames[i].name, &digest, 1, &error));
+        assert_true(digest_picture(frames.frames[i].path, side.background, &digest, &error));
+        assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", "why"}, &digest, &error));
+        assert_true(baseline_add_frame(&side, frames.frames[i].name, &digest, 1, &error));
     }
     char *text = written(&side);
     file_write_text(path, text);
@@ -329,16 +359,65 @@ static void two_files_agree_in_any_of_their_variants(void **state)
     comparison_release(&made);
 }
 
+static void a_baseline_stands_for_pictures_on_either_side(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 4.png"),
+                file = place_in(*state, "a.txt");
+    write_by_kinds(a.path, file.path, 0);
+    gallery_write(place_below(b.path, "2.png").path, 1, 1);
+    comparison_of made = assert_compared(file.path, b.path, NULL);
+    assert_int_equal(finding_of(&made, "1.png"), FOUND_SAME_PIXELS);
+    assert_int_equal(finding_of(&made, "2.png"), FOUND_DIGEST);
+    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_FRAME);
+    assert_int_equal(finding_of(&made, "4.png"), FOUND_NO_REFERENCE);
+    comparison_release(&made);
+    made = assert_compared(b.path, file.path, NULL);
+    assert_int_equal(finding_of(&made, "2.png"), FOUND_DIGEST);
+    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_REFERENCE);
+    comparison_release(&made);
+    made = assert_compared(file.path, file.path, NULL);
+    assert_int_equal(made.result.verdict, DIFF_SAME);
+    comparison_release(&made);
+}
+
+static void an_unreadable_picture_is_trouble_beside_a_baseline_too(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "a.txt");
+    write_by_kinds(a.path, file.path, 0);
+    file_write_text(place_below(a.path, "1.png").path, "");
+    comparison_of made = assert_compared(file.path, a.path, NULL);
+    assert_int_equal(made.result.verdict, DIFF_TROUBLE);
+    comparison_release(&made);
+}
+
+static void a_baseline_allows_no_tolerance(void **state)
+{
+    const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "a.txt");
+    static const image_rectangle corner = {0, 0, 1, 1};
+    const diff_options asked[] = {
+        {.tolerance = {.max_pixels = 1}, .background = {255, 255, 255}},
+        {.tolerance = {.max_delta = 0.1}, .background = {255, 255, 255}},
+        {.tolerance = {.antialias = true}, .background = {255, 255, 255}},
+        {.tolerance = {.ignored = &corner, .ignored_count = 1}, .background = {255, 255, 255}},
+        {.mask = ignore_layers, .background = {255, 255, 255}},
+    };
+    write_by_kinds(a.path, file.path, 0);
+    for (size_t i = 0; i < sizeof asked / sizeof asked[0]; i++)
+        assert_not_compared(file.path, a.path, &asked[i], "a baseline holds digests, which allow no tolerance");
+    const diff_options black = {.background = {0, 0, 0}};
+    assert_not_compared(a.path, file.path, &black, "--background ffffff");
+}
+
 static void a_name_that_no_line_holds_is_refused(void **state)
 {
     (void)state;
-    diff_side side = {.path = "file", .kind = DIFF_DIGESTS, .baseline = true};
+    diff_side side = {.path = "file", .kind = DIFF_BASELINE};
     octreel_error error = {""};
     frame_digest digest = {1, 24, 16, IMAGE_DIGEST_RUNS, 0};
-    assert_true(baseline_accept(&side, &(acceptance_words){"2026-11-22", "why"}, &digest, &error));
-    assert_true(baseline_add(&side, "a\nb.png", &digest, 1, &error));
+    assert_true(baseline_add_acceptance(&side, &(acceptance_note){"2026-11-22", "why"}, &digest, &error));
+    assert_true(baseline_add_frame(&side, "a\nb.png", &digest, 1, &error));
     assert_false(baseline_write(stderr, &side, &error));
-    assert_non_null(strstr(error.text, "a line cannot hold"));
+    assert_non_null(strstr(error.text, "contains a control character"));
     diff_side_release(&side);
 }
 
@@ -349,11 +428,17 @@ int main(void)
         cmocka_unit_test(a_frame_has_all_its_variants_and_the_newest_stands_for_them),
         cmocka_unit_test(each_name_is_read_back_as_it_was),
         cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
+        cmocka_unit_test(a_zero_byte_is_refused),
         cmocka_unit_test(dates_are_those_of_the_calendar),
         cmocka_unit_test(two_digests_of_one_reason_are_both_written),
         cmocka_unit_test(a_reason_is_named_by_what_it_says),
         cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
         cmocka_unit_test(a_large_baseline_is_small),
+        cmocka_unit_test_setup_teardown(a_baseline_stands_for_pictures_on_either_side, temp_folder_make,
+                                        nested_folder_remove),
+        cmocka_unit_test_setup_teardown(an_unreadable_picture_is_trouble_beside_a_baseline_too, temp_folder_make,
+                                        nested_folder_remove),
+        cmocka_unit_test_setup_teardown(a_baseline_allows_no_tolerance, temp_folder_make, nested_folder_remove),
         cmocka_unit_test_setup_teardown(each_digest_is_judged_by_its_own_kind, temp_folder_make, nested_folder_remove),
         cmocka_unit_test_setup_teardown(two_files_agree_in_any_of_their_variants, temp_folder_make,
                                         nested_folder_remove),

@@ -53,7 +53,7 @@ static void what_is_no_side_is_refused(void **state)
     const place text = place_in(*state, "text.png"), fifo = place_in(*state, "pipe");
     file_write_text(text.path, "no picture, whatever its name");
     assert_int_equal(mkfifo(fifo.path, 0600), 0);
-    assert_no_side(text.path, "no PNG, no folder and no file of digests");
+    assert_no_side(text.path, "not a PNG file, a folder, or a baseline");
     assert_no_side(fifo.path, "neither a file nor a folder");
     assert_no_side(place_in(*state, "missing").path, "missing: No such file");
 }
@@ -115,7 +115,7 @@ static void what_cannot_be_compared_is_refused(void **state)
     const place folder = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
     const place picture = place_below(folder.path, "1.png");
     diff_options options = diff_options_default();
-    assert_not_compared(folder.path, picture.path, NULL, "a picture is compared with a picture");
+    assert_not_compared(folder.path, picture.path, NULL, "cannot compare a picture with a folder");
     assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
     options.mask = ignore_layers;
     options.mask_context = &(unsigned){1u << LAYER_TEXT};

@@ -77,7 +77,8 @@ static void digests_leave_the_frame_alone(void **state)
 {
     const place b = gallery_make(*state, "b", "1.png"), folder = place_in(*state, "out"),
                 digests = place_in(*state, "digests");
-    file_write_text(digests.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 1.png\n");
+    file_write_text(digests.path, "octreel-digests 2\nbackground ffffff\naccepted 7f 2026-11-22 24x16 runs x\n"
+                                  "7f 0123456789abcdef 1\n");
     leave_and_forget(digests.path, b.path, folder.path);
     assert_holds(folder.path, "1.actual.png evidence.txt");
 }

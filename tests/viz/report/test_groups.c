@@ -62,9 +62,10 @@ static void without_an_explanation_nothing_is_lumped_together(void **state)
 static void what_cannot_be_compared_is_not_lumped_together(void **state)
 {
     const place a = place_in(*state, "a.digests"), b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 5.png 6.png");
-    file_write_text(a.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 1.png\n"
-                            "0123456789abcdef 24x16 2.png\n0123456789abcdef 9x9 3.png\n0123456789abcdef 9x9 4.png\n"
-                            "0123456789abcdef 9x9 7.png\n0123456789abcdef 9x9 8.png\n");
+    file_write_text(a.path, "octreel-digests 2\nbackground ffffff\naccepted 7f 2026-11-22 24x16 runs x\n"
+                            "accepted k3 2026-11-22 9x9 runs x\n7f 0123456789abcdef 1\n7f 0123456789abcdef 2\n"
+                            "k3 0123456789abcdef 3\nk3 0123456789abcdef 4\nk3 0123456789abcdef 7\n"
+                            "k3 0123456789abcdef 8\n");
     comparison_of made = compare(a.path, b.path, 10);
     assert_groups(&made, false, "1.png\n2.png\n3.png, 4.png\n5.png\n6.png\n7.png\n8.png\n");
     comparison_release(&made);

@@ -328,8 +328,8 @@ static void names_of_files_are_neither_changed_nor_cut(void **state)
     const place a = place_in(d->folder, "a.digests"), b = gallery_make(d->folder, "listed", "shown.png title.png"),
                 folder = place_in(d->folder, "names"), script = place_in(d->folder, "look.js");
     need_browser();
-    file_write_text(a.path, "octreel-digests 1\nbackground ffffff\n0123456789abcdef 24x16 shown.png\n"
-                            "0123456789abcdef 24x16 title.png\n");
+    file_write_text(a.path, "octreel-digests 2\nbackground ffffff\naccepted 7f 2026-11-22 24x16 runs x\n"
+                            "7f 0123456789abcdef shown\n7f 0123456789abcdef title\n");
     file_write_text(script.path, look);
     write_page(a.path, b.path, folder.path, NULL, NULL);
     char *said = browser_drive(d->folder, place_below(folder.path, "report.html").path, script.path);

@@ -57,7 +57,7 @@ class Ticks {
     show()
     {
         const names = this.names().length, {compared, reference} = this.findings.whole;
-        const reason = reference.kind === "digests" ? " --reason \"...\"" : "";
+        const reason = reference.kind === "baseline" ? " --reason \"...\"" : "";
         this.boxes.forEach((box, i) => box.checked = this.ticked.has(i));
         document.getElementById("ticked").textContent =
             `${grouped(this.ticked.size)} ticked, ${grouped(names)} ${names === 1 ? "frame" : "frames"}`;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_digests.c - libFuzzer entry of the reader of digest files: what is read is written, and reads back the same.
+/* fuzz_baseline.c - libFuzzer entry for baselines: whatever the reader accepts is written and read back unchanged.
  * Build with clang -fsanitize=fuzzer,address,undefined.
  */
 #include "baseline.h"
-#include "digest_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +18,7 @@ static bool parse(const void *data, size_t size, diff_side *side)
     memcpy(text, data, size);
     text[size] = 0;
     *side = (diff_side){.path = "fuzz"};
-    const bool ok = digest_file_parse(side, text, size, &error);
+    const bool ok = baseline_parse(side, text, size, &error);
     if (!ok && error.text[0] == 0)
         abort();
     free(text);
@@ -31,7 +30,7 @@ static char *write_side(const diff_side *side, size_t *size)
     octreel_error error;
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
-    if (!out || !(side->baseline ? baseline_write : digest_file_write)(out, side, &error) || fclose(out) != 0)
+    if (!out || !baseline_write(out, side, &error) || fclose(out) != 0)
         abort();
     return text;
 }
