@@ -1,49 +1,91 @@
 /* SPDX-License-Identifier: MIT */
-/* json_values.c - jansson's functions for the values that json_subset.c reads. */
-#include "json_values.h"
-
+/* json_values.c - the functions of jansson that reading sessions and views needs, for WebAssembly: the page parses a
+ * text with JSON.parse() and writes the value into one block of memory as the structures below.
+ *
+ * Debian has no jansson for WebAssembly, and the browser has a JSON parser already. The headers are jansson's own, so
+ * the code that reads sessions compiles unchanged. viewer/json_values.js is the other half of this file. */
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-void json_free_arena(chunk *first)
+typedef struct value {
+    json_t json;
+    union {
+        double number;
+        struct {
+            size_t count; /* of items, members or bytes */
+            void *first;  /* an array's first value, an object's first entry, or a string's text */
+        };
+    };
+} value;
+
+typedef struct entry {
+    value member;
+    struct entry *next;
+    char key[];
+} entry;
+
+_Static_assert(sizeof(value) == 16 && offsetof(entry, next) == 16 && offsetof(entry, key) == 20 &&
+                   offsetof(json_error_t, position) == 8 && offsetof(json_error_t, text) == 92,
+               "json_values.js writes these structures");
+
+/* ---- Given by the page -------------------------------------------------------------------------------------- */
+
+#define FROM_PAGE(name) __attribute__((import_module("page"), import_name(name)))
+
+/* Parse a text; `alone` refuses bytes after its first value. Returns the bytes that the value takes in memory, and sets
+ * error->position to the end of the value; 0 with the line and the reason in *error. */
+FROM_PAGE("parse_json") size_t page_parse_json(const char *text, size_t size, bool alone, json_error_t *error);
+
+/* Write the value that was parsed last. */
+FROM_PAGE("write_json") void page_write_json(value *to);
+
+/* ---- jansson's functions ------------------------------------------------------------------------------------ */
+
+/* Numbers are always JSON_REAL, and a name that occurs twice in an object is always refused. */
+json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *error)
 {
-    while (first) {
-        chunk *next = first->next;
-        free(first);
-        first = next;
-    }
+    const size_t bytes = page_parse_json(text, size, !(flags & JSON_DISABLE_EOF_CHECK), error);
+    value *v = bytes ? malloc(bytes) : NULL;
+    if (v)
+        page_write_json(v);
+    else if (bytes)
+        error->line = -1; /* out of memory, as jansson reports it */
+    return (json_t *)v;
 }
 
-/* Of values that json_loadb() has returned, and of these alone. */
+/* Only for values that json_loadb() returned. */
 void json_delete(json_t *json)
 {
-    json_free_arena((chunk *)((char *)json - offsetof(chunk, aligned)));
+    free(json);
 }
 
 size_t json_array_size(const json_t *json)
 {
-    return json_is_array(json) ? ((const array *)json)->count : 0;
+    return json_is_array(json) ? ((const value *)json)->count : 0;
 }
 
 json_t *json_array_get(const json_t *json, size_t index)
 {
-    return index < json_array_size(json) ? ((const array *)json)->items[index] : NULL;
+    return index < json_array_size(json) ? (json_t *)((value *)((const value *)json)->first + index) : NULL;
 }
 
 size_t json_object_size(const json_t *json)
 {
-    return json_is_object(json) ? ((const object *)json)->count : 0;
+    return json_is_object(json) ? ((const value *)json)->count : 0;
 }
 
 void *json_object_iter(json_t *json)
 {
-    return json_is_object(json) ? ((object *)json)->first : NULL;
+    return json_object_size(json) > 0 ? ((value *)json)->first : NULL;
 }
 
 void *json_object_iter_next(json_t *json, void *iter)
 {
     (void)json;
-    return iter ? ((entry *)iter)->next : NULL;
+    return ((entry *)iter)->next;
 }
 
 const char *json_object_iter_key(void *iter)
@@ -53,7 +95,7 @@ const char *json_object_iter_key(void *iter)
 
 json_t *json_object_iter_value(void *iter)
 {
-    return iter ? ((entry *)iter)->value : NULL;
+    return iter;
 }
 
 void *json_object_key_to_iter(const char *key)
@@ -63,25 +105,25 @@ void *json_object_key_to_iter(const char *key)
 
 json_t *json_object_get(const json_t *json, const char *key)
 {
-    for (entry *e = json_object_iter((json_t *)json); e; e = e->next)
-        if (strcmp(e->key, key) == 0)
-            return e->value;
-    return NULL;
+    entry *e = json_object_iter((json_t *)json);
+    while (e && strcmp(e->key, key) != 0)
+        e = e->next;
+    return (json_t *)e;
 }
 
 const char *json_string_value(const json_t *json)
 {
-    return json_is_string(json) ? ((const string *)json)->text : NULL;
+    return json_is_string(json) ? ((const value *)json)->first : NULL;
 }
 
 size_t json_string_length(const json_t *json)
 {
-    return json_is_string(json) ? strlen(json_string_value(json)) : 0;
+    return json_is_string(json) ? ((const value *)json)->count : 0;
 }
 
 double json_real_value(const json_t *json)
 {
-    return json_is_real(json) ? ((const real *)json)->value : 0;
+    return json_is_real(json) ? ((const value *)json)->number : 0;
 }
 
 double json_number_value(const json_t *json)

@@ -45,6 +45,8 @@ class Engine {
         const imports = {};
         for (const {module: from, name} of WebAssembly.Module.imports(module))
             (imports[from] ??= {})[name] = () => NO_FILE;
+        const json = new JsonValues(() => this.wasm.memory);
+        imports.page = {parse_json: (...text) => json.parse(...text), write_json: at => json.write(at)};
         this.wasm = new WebAssembly.Instance(module, imports).exports;
         this.wasm._initialize?.();
         this.tick = -1; /* none is played */

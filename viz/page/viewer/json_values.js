@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: MIT */
+/* json_values.js - JSON for the WebAssembly module: JSON.parse() reads a text, and the value is written into the
+ * module's memory as the structures of module/json_values.c. JavaScript's numbers are the same doubles, to the last
+ * bit. JSON.parse() accepts some texts that octreel's own reader refuses; those are refused here. */
+"use strict";
+
+const VALUE_SIZE = 16, ENTRY_SIZE = 20;
+const JSON_TYPES = {object: 0, array: 1, string: 2, number: 4, true: 5, false: 6, null: 7}; /* jansson's json_type */
+const ERROR_POSITION = 8, ERROR_TEXT = 92, ERROR_TEXT_SIZE = 160; /* in jansson's json_error_t */
+const MOST_NESTED = 200;
+
+const codesOf = text => new Set([...text].map(char => char.charCodeAt(0)));
+const [QUOTE] = codesOf('"'), [BACKSLASH] = codesOf("\\"), [COLON] = codesOf(":");
+const OPENING = codesOf("[{"), CLOSING = codesOf("]}"), ENDING = codesOf("]}, \t\r\n");
+
+const sizeOfText = text => 3 * text.length + 1; /* UTF-8 takes up to three bytes for each UTF-16 unit */
+const aligned = size => (size + 7) & ~7;
+
+/* The end of the JSON value that bytes begin with, found by brackets and quotes alone, and the count of members in it:
+ * of its colons outside strings. */
+function findJsonEnd(bytes)
+{
+    let depth = 0, members = 0;
+    for (let at = 0; at < bytes.length; at++) {
+        const byte = bytes[at];
+        if (depth === 0 && ENDING.has(byte))
+            return {end: at, members};
+        if (OPENING.has(byte) && ++depth > MOST_NESTED)
+            throw new SyntaxError(`lists and objects nest more than ${MOST_NESTED} deep`);
+        if (byte === QUOTE)
+            for (at++; at < bytes.length && bytes[at] !== QUOTE; at++)
+                at += bytes[at] === BACKSLASH;
+        members += byte === COLON;
+        depth -= CLOSING.has(byte);
+        if (depth === 0 && (byte === QUOTE || CLOSING.has(byte)))
+            return {end: at + 1, members};
+    }
+    return {end: bytes.length, members};
+}
+
+/* Refuse a value that octreel's reader refuses. Returns the bytes that it takes beside its own structure, and counts
+ * its members. */
+function checkJson(value, counts)
+{
+    const sum = (items, sizeOf) => items.reduce((size, item) => size + sizeOf(item), 0);
+    if (value === Infinity || value === -Infinity)
+        throw new SyntaxError("a number is too large for a double");
+    if (typeof value === "string" && /\0|\p{Surrogate}/u.test(value))
+        throw new SyntaxError("a text holds \\u0000 or half of a surrogate pair");
+    if (typeof value === "string")
+        return aligned(sizeOfText(value));
+    if (Array.isArray(value))
+        return sum(value, item => VALUE_SIZE + checkJson(item, counts));
+    if (value === null || typeof value !== "object")
+        return 0;
+    counts.members += Object.keys(value).length;
+    return sum(Object.entries(value), ([key, member]) =>
+        ENTRY_SIZE + 4 + checkJson(key, counts) + checkJson(member, counts));
+}
+
+/* The line of a syntax error. Browsers say it, or quote ten characters on each side of the place; else the text ended
+ * early. */
+function findErrorLine(source, message)
+{
+    const [, line] = /line (\d+)/.exec(message) ?? [], [, near] = /"(.*)"[.]* is not valid JSON/s.exec(message) ?? [];
+    return line ?? source.slice(0, near === undefined ? source.length : source.indexOf(near) + 10).split("\n").length;
+}
+
+class JsonValues {
+    /* `memory()`: the module's, which may grow between calls. */
+    constructor(memory)
+    {
+        this.memory = memory;
+    }
+
+    /* page_parse_json() of json_values.c. */
+    parse(text, size, alone, error)
+    {
+        const {buffer} = this.memory(), bytes = new Uint8Array(buffer, text, size), counts = {members: 0};
+        let source = "";
+        try {
+            const {end, members} = findJsonEnd(bytes);
+            source = new TextDecoder().decode(bytes.subarray(0, alone ? size : end));
+            this.value = JSON.parse(source);
+            const room = VALUE_SIZE + checkJson(this.value, counts);
+            if (counts.members < members)
+                throw new SyntaxError("a name occurs twice in an object");
+            new DataView(buffer).setUint32(error + ERROR_POSITION, end, true);
+            return room;
+        } catch ({message}) {
+            new DataView(buffer).setUint32(error, findErrorLine(source, message), true);
+            this.writeText(error + ERROR_TEXT, message.replace(/^JSON\.parse: |( in JSON)? at (line|position) .*$/g, ""),
+                           ERROR_TEXT_SIZE);
+            return 0;
+        }
+    }
+
+    /* page_write_json() of json_values.c. */
+    write(at)
+    {
+        this.out = new DataView(this.memory().buffer);
+        this.next = at + VALUE_SIZE;
+        this.writeValue(at, this.value);
+        this.value = this.out = null;
+    }
+
+    /* Returns the size of the text without its closing zero. */
+    writeText(at, text, size = sizeOfText(text))
+    {
+        const bytes = new Uint8Array(this.memory().buffer, at, size);
+        const {written} = new TextEncoder().encodeInto(text, bytes.subarray(0, size - 1));
+        bytes[written] = 0;
+        return written;
+    }
+
+    writeValue(at, value)
+    {
+        const type = value === null ? "null" : Array.isArray(value) ? "array" : typeof value;
+        this.out.setUint32(at, JSON_TYPES[type] ?? JSON_TYPES[value], true);
+        this.out.setUint32(at + 4, 1, true); /* a reference */
+        if (type === "number")
+            this.out.setFloat64(at + 8, value, true);
+        else if (type === "string")
+            this.out.setUint32(at + 8, this.writeText(this.point(at + 12, sizeOfText(value)), value), true);
+        else if (type === "array")
+            this.writeArray(at, value);
+        else if (type === "object")
+            this.writeObject(at, Object.entries(value));
+    }
+
+    /* Take room, and let the pointer at `link` point there. */
+    point(link, size)
+    {
+        const at = this.next;
+        this.next += aligned(size);
+        this.out.setUint32(link, at, true);
+        return at;
+    }
+
+    writeArray(at, items)
+    {
+        const first = this.point(at + 12, VALUE_SIZE * items.length);
+        this.out.setUint32(at + 8, items.length, true);
+        items.forEach((item, i) => this.writeValue(first + VALUE_SIZE * i, item));
+    }
+
+    writeObject(at, entries)
+    {
+        this.out.setUint32(at + 8, entries.length, true);
+        let link = at + 12;
+        for (const [key, member] of entries) {
+            const entry = this.point(link, ENTRY_SIZE + sizeOfText(key));
+            link = entry + VALUE_SIZE;
+            this.out.setUint32(link, 0, true);
+            this.writeText(entry + ENTRY_SIZE, key);
+            this.writeValue(entry, member);
+        }
+    }
+}
