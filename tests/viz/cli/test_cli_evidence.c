@@ -68,8 +68,8 @@ static void all_is_written_where_nothing_differs(void **state)
     assert_done(&result);
     command_release(&result);
     char *xml = file_read(t.xml.path, NULL);
-    assert_int_equal(xml_count(xml, "testcase"), 2);
-    assert_int_equal(xml_count(xml, "failure"), 0);
+    assert_xml_count(xml, "testcase", 2);
+    assert_xml_count(xml, "failure", 0);
     free(xml);
     assert_file_says(t.markdown.path, "### octreel diff: same: 2 frames");
     assert_file_says(place_below(t.out.path, "report.html").path, "\"verdict\": \"same\"");
@@ -86,8 +86,8 @@ static void all_is_written_where_a_frame_cannot_be_read(void **state)
     assert_says(result.err, "1.png: the file is cut short");
     command_release(&result);
     char *xml = file_read(t.xml.path, NULL);
-    assert_int_equal(xml_count(xml, "error"), 1);
-    assert_int_equal(xml_count(xml, "failure"), 1);
+    assert_xml_count(xml, "error", 1);
+    assert_xml_count(xml, "failure", 1);
     free(xml);
     assert_true(file_exists(place_below(t.out.path, "2.difference.png").path));
     assert_true(file_exists(place_below(t.out.path, "1.expected.png").path));
@@ -156,7 +156,7 @@ static void dash_is_standard_output(void **state)
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s --junit - --markdown %s", t.a.path, t.b.path, t.markdown.path);
     assert_int_equal(result.status, 1);
-    assert_int_equal(xml_count(result.out, "failure"), 1);
+    assert_xml_count(result.out, "failure", 1);
     command_release(&result);
     assert_file_says(t.markdown.path, "### octreel diff");
     static const char *const clashes[] = {"--markdown - --json", "--junit - --json", "--junit - --markdown -"};

@@ -5,7 +5,6 @@
 #include "files.h"
 #include "fixture.h"
 #include "galleries.h"
-#include "json_schema.h"
 #include "tick_lines.h"
 #include "xml_check.h"
 
@@ -88,14 +87,10 @@ static void junit_has_each_frame_and_names_the_first(void **state)
 {
     const twins t = film_twins(state);
     command_result result = run_octreel(NULL, "diff %s %s --junit -", t.a.path, t.b.path);
-    assert_int_equal(xml_count(result.out, "testcase"), 10);
-    assert_int_equal(xml_count(result.out, "failure"), 10);
-    char *first = xml_attribute(result.out, "failure", 0, "message"),
-         *last = xml_attribute(result.out, "failure", 9, "message");
-    assert_says(first, ". Alike: ticks 1 to 9");
-    assert_string_equal(last, "different: like frame_000000.png");
-    free(first);
-    free(last);
+    assert_xml_count(result.out, "testcase", 10);
+    assert_xml_count(result.out, "failure", 10);
+    assert_xml_attribute_contains(result.out, "failure", 0, "message", ". Alike: ticks 1 to 9");
+    assert_xml_attribute(result.out, "failure", 9, "message", "different: like frame_000000.png");
     command_release(&result);
 }
 
@@ -153,14 +148,6 @@ static void github_is_told_of_the_first_ten(void **state)
 
 /* ---- JSON ---------------------------------------------------------------------------------------------------- */
 
-static json_t *read_schema(void)
-{
-    char *text = file_read(OCTREEL_DIFF_SCHEMA, NULL);
-    json_t *schema = json_read(text);
-    free(text);
-    return schema;
-}
-
 static bool have_python_validator(void)
 {
     command_result result = run_script("python3 -c 'import jsonschema' 2>&1");
@@ -169,15 +156,8 @@ static bool have_python_validator(void)
     return there;
 }
 
-/* By a validator of others, too, where one is installed (Debian: python3-jsonschema). */
 static void assert_fits(const temp_folder *folder, const char *text)
 {
-    json_t *value = json_read(text), *schema = read_schema();
-    assert_fits_schema(value, schema);
-    json_decref(value);
-    json_decref(schema);
-    if (!have_python_validator())
-        return;
     const place file = place_in(folder, "value.json");
     file_write_text(file.path, text);
     command_result result = run_script("python3 -c 'import json, sys, jsonschema\n"
@@ -201,6 +181,10 @@ static void assert_json_fits(void **state, const char *a, const char *b, const c
 
 static void json_is_as_its_schema_says(void **state)
 {
+    if (!have_python_validator()) {
+        puts("skipped: Python's jsonschema is missing (Debian: python3-jsonschema)");
+        skip();
+    }
     const twins t = film_twins(state);
     const place a = gallery_make(*state, "old", "1.png 2.png 3.png 4.png"),
                 b = gallery_make(*state, "new", "1.png 2.png 3.png 5.png"), digests = place_in(*state, "old.digests");

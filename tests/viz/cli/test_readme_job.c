@@ -10,7 +10,6 @@
 #include "files.h"
 #include "fixture.h"
 #include "workflow.h"
-#include "yaml.h"
 
 /* A checkout of somebody's repository as the job finds it, and the job. */
 typedef struct job {
@@ -122,7 +121,7 @@ static void job_passes_where_nothing_differs(void **state)
 {
     job *j = *state;
     assert_int_equal(run_job(j), 0);
-    assert_string_equal(j->run.complained, "");
+    assert_string_equal(j->run.err, "");
     assert_summary_says(j, "### octreel diff: same: 8 frames");
     assert_int_equal(json_array_size(j->run.used), 1); /* the checkout: there is nothing to upload */
 }
@@ -134,10 +133,10 @@ static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
     change_game(j);
     file_write_text(place_in(j->folder, "summary").path, "Of an earlier step.\n");
     assert_int_equal(run_job(j), 1);
-    assert_string_equal(j->run.complained, "");
+    assert_string_equal(j->run.err, "");
     assert_summary_says(j, "Of an earlier step.\n### octreel diff: different: ");
     assert_summary_says(j, "<code>frame_000005.png</code> and 6 more: ticks 10 to 35");
-    assert_says(j->run.said, "\n::error file=frames/frame_000005.png,title=octreel diff%3A ");
+    assert_says(j->run.out, "\n::error file=frames/frame_000005.png,title=octreel diff%3A ");
     assert_uploads(j, "report.html");
     assert_uploads(j, "frame_000005.difference.png");
 }
@@ -188,13 +187,13 @@ static void action_takes_any_name_of_a_folder(void **state)
         snprintf(line, sizeof line, "cp -R golden ./%s", shell_quote(hostile[i]).text);
         in_folder(j, line);
         if (run_action(j, action_inputs(hostile[i], "frames", evidence, "")) != 1)
-            fail_msg("%s: %s", hostile[i], j->run.complained);
+            fail_msg("%s: %s", hostile[i], j->run.err);
         assert_string_equal(output_of(j, "status"), "1");
         assert_string_equal(uploaded(j), evidence);
         assert_uploads(j, "report.html");
         assert_false(file_exists(place_in(j->folder, "owned").path));
     }
-    assert_string_equal(j->run.complained, "");
+    assert_string_equal(j->run.err, "");
 }
 
 /* Nothing in them is run or stands for names of files, octreel says what is wrong with them, and what does not compare
@@ -230,7 +229,7 @@ static void action_tells_trouble(void **state)
     assert_int_equal(run_action(j, action_inputs("golden", "no\nframes", "why", "")), 2);
     assert_string_equal(output_of(j, "status"), "2");
     assert_says(output_of(j, "summary"), "there is no such file or folder");
-    assert_says(j->run.said, "\n::error title=octreel diff::octreel: ");
+    assert_says(j->run.out, "\n::error title=octreel diff::octreel: ");
     assert_summary_says(j, "### octreel diff: trouble\n");
     assert_int_equal(json_array_size(j->run.used), 0);
 }
@@ -242,11 +241,11 @@ static void action_keeps_names_from_being_commands(void **state)
     in_folder(j, "rm golden/*.json* && cp -R golden frames && cp golden/frame_000005.png \"$(printf "
                  "'golden/x\\n::add-mask::a.png')\"");
     assert_int_equal(run_action(j, action_inputs("golden", "frames", "why", "")), 1);
-    const char *off = strstr(j->run.said, "::stop-commands::"), *name = strstr(j->run.said, "\n::add-mask::");
+    const char *off = strstr(j->run.out, "::stop-commands::"), *name = strstr(j->run.out, "\n::add-mask::");
     char on[64] = "\n::";
     assert_non_null(off);
     strncat(on, off + sizeof "::stop-commands::" - 1, 32);
-    assert_true(name == NULL || (name > off && name < strstr(j->run.said, on)));
+    assert_true(name == NULL || (name > off && name < strstr(j->run.out, on)));
 }
 
 /* Where there is no octreel, what the action came with builds one: here a setup that takes one from beside it. */
@@ -275,6 +274,7 @@ static void action_builds_its_own_program(void **state)
 
 int main(void)
 {
+    skip_without_yaml();
     const struct CMUnitTest tests[] = {
         JOB(job_passes_where_nothing_differs),       JOB(job_fails_where_a_frame_differs_and_keeps_the_evidence),
         JOB(action_takes_any_name_of_a_folder),      JOB(action_reads_options_as_words),
