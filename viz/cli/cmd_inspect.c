@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
+#include "cloud.h"
 #include "command.h"
 #include "file.h"
 #include "film.h"
@@ -320,7 +321,7 @@ const command command_inspect = {
     .options = options,
     .line = "build a tree from a point cloud, draw its subdivision, print its statistics",
     .usage = "CLOUD [-o PICTURE.png] [OPTION ...]",
-    .about = "Build an octree from a point cloud (x y z text, PLY, PCD, LAS or LAZ), print its statistics, and draw "
+    .about = "Build an octree from a point cloud (" CLOUD_NAMES "), print its statistics, and draw "
              "its subdivision. CLOUD may be -, standard input: what it is is told by what it holds, as of a file.\n",
     .more = "Text may begin with the names of its columns or, as .pts does, with the number of its points. "
             "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite "

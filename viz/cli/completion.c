@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "completion.h"
+#include "cloud.h"
 #include "command.h"
 
 #include <string.h>
@@ -23,10 +24,10 @@ static const struct {
     file_kinds kind;
     const char *endings;
 } kind_endings[] = {
-    {FILE_KIND(SESSION), "json"},
-    {FILE_KIND(PNG), "png"},
-    {FILE_KIND(BASELINE), "txt"},
-    {FILE_KIND(CLOUD), "xyz txt csv ply pcd las laz"},
+    {FILE_KIND(SESSION), ".json"},
+    {FILE_KIND(PNG), ".png"},
+    {FILE_KIND(BASELINE), ".txt"},
+    {FILE_KIND(CLOUD), CLOUD_ENDINGS},
 };
 
 enum { KINDS = sizeof kind_endings / sizeof kind_endings[0] };
@@ -37,8 +38,8 @@ static void put_endings(FILE *out, const command *c, const char *before)
     const file_kinds kinds = c->inputs[0] | c->inputs[1];
     const char *blank = "";
     for (int i = 0; i < KINDS; i++)
-        for (const char *at = kind_endings[i].endings; kinds & kind_endings[i].kind && *at; at += strspn(at, " ")) {
-            const int length = (int)strcspn(at, " ");
+        for (const char *at = kind_endings[i].endings; kinds & kind_endings[i].kind && *at;) {
+            const int length = (int)strcspn(++at, ".");
             fprintf(out, "%s%s%.*s", blank, before, length, at);
             blank = " ";
             at += length;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* cloud.c - loads a cloud file, chooses its format, and has that format parse it. */
 #include "cloud_format.h"
 #include "file.h"
 
@@ -9,51 +10,52 @@
 
 /* ---- Formats ------------------------------------------------------------------------------------------------ */
 
-static const cloud_format *const formats[] = {
-#define CLOUD_FORMAT_ROW(name) &cloud_##name,
+static const struct {
+    const cloud_format *format;
+    const char *endings;
+} rows[] = {
+#define CLOUD_FORMAT_ROW(id, names, endings) {&cloud_##id, endings},
     CLOUD_FORMAT_MAP(CLOUD_FORMAT_ROW)
 #undef CLOUD_FORMAT_ROW
 };
 
-enum { FORMATS = sizeof formats / sizeof formats[0] };
+enum { FORMATS = sizeof rows / sizeof rows[0] };
 
-char *cloud_format_names(char text[CLOUD_FORMAT_NAMES])
+/* Whether a file name ends in one of the endings, as in ".las.laz". */
+static bool has_ending(const char *name, const char *endings)
 {
-    size_t length = 0;
-    for (int i = FORMATS - 1; i >= 0 && length < CLOUD_FORMAT_NAMES; i--)
-        length += (size_t)snprintf(text + length, CLOUD_FORMAT_NAMES - length, "%s%s", formats[i]->name,
-                                   i > 1    ? ", "
-                                   : i == 1 ? " and "
-                                            : "");
-    return text;
+    const char *dot = strrchr(name, '.');
+    const size_t length = dot ? strlen(dot) : 0;
+    for (const char *at = endings; length > 1 && *at; at += 1 + strcspn(at + 1, "."))
+        if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
+            return true;
+    return false;
 }
 
-static bool has_ending(const char *name, const char *ending)
+/* The format that recognises the contents; null for none. */
+static const cloud_format *recognise_format(const cloud_file *file)
 {
-    const size_t length = strlen(name), tail = strlen(ending);
-    return length >= tail && strcasecmp(name + (length - tail), ending) == 0;
+    for (int i = 0; i < FORMATS; i++)
+        if (rows[i].format->recognise && rows[i].format->recognise(file))
+            return rows[i].format;
+    return NULL;
 }
 
-/* By the contents, else by the ending; else it is the last, which is text. */
+/* Choose by the contents, else by the ending, else text. */
 static const cloud_format *choose_format(const cloud_file *file)
 {
-    for (int i = 0; i < FORMATS; i++)
-        if (formats[i]->recognise && formats[i]->recognise(file))
-            return formats[i];
-    for (int i = 0; i < FORMATS; i++)
-        if (formats[i]->ending && has_ending(file->name, formats[i]->ending))
-            return formats[i];
-    return formats[FORMATS - 1];
+    const cloud_format *found = recognise_format(file);
+    for (int i = 0; !found && i < FORMATS; i++)
+        if (has_ending(file->name, rows[i].endings))
+            found = rows[i].format;
+    return found ? found : &cloud_text;
 }
 
-bool cloud_begins(const unsigned char *bytes, size_t size)
+bool cloud_recognise(const unsigned char *bytes, size_t size)
 {
     octreel_error ignored;
     const cloud_file file = {.name = "", .bytes = bytes, .size = size, .error = &ignored};
-    for (int i = 0; size > 0 && i < FORMATS; i++)
-        if (formats[i]->recognise && formats[i]->recognise(&file))
-            return true;
-    return size > 0 && cloud_text_begins(&file);
+    return size > 0 && (recognise_format(&file) || cloud_text_recognise(&file));
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
@@ -62,7 +64,7 @@ static bool parse_filled(cloud_file *file)
 {
     if (file->size > 0 && !choose_format(file)->parse(file))
         return false;
-    cloud_end_values(file);
+    cloud_finish_values(file);
     if (file->out->count > 0)
         return true;
     if (file->out->skipped > 0)

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* cloud_format.c - the tools that all cloud readers share; see cloud_format.h. */
 #include "cloud_format.h"
 #include "array.h"
 #include "number.h"
@@ -11,7 +12,7 @@
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Keep which row the next point is. Where nothing was skipped that need not be said. */
+/* Record the row of the next point. Called from the first skipped point on: before, rows and points coincide. */
 static bool add_row(cloud_file *file)
 {
     cloud *points = file->out;
@@ -31,18 +32,18 @@ void cloud_skip(const cloud_file *file, const char *why)
     file->out->why_skipped = why;
 }
 
-/* Points without values have no rows, until one that has some follows. */
+/* Store the values of a row, and missing values for skipped rows before it. */
 static bool add_values(cloud_file *file, size_t row, const double *numbers)
 {
     point_values *values = &file->out->values;
-    const point_value value = cloud_value_of(file, numbers);
+    const point_value value = cloud_convert_values(file, numbers);
     while (values->count < row)
         if (!point_values_append(values, &(point_value){0}))
             return false;
     return point_values_append(values, &value);
 }
 
-bool cloud_expect(cloud_file *file, uint64_t count)
+bool cloud_reserve(cloud_file *file, uint64_t count)
 {
     cloud *points = file->out;
     if (count <= file->room)
@@ -57,13 +58,13 @@ bool cloud_expect(cloud_file *file, uint64_t count)
     return true;
 }
 
-bool cloud_expect_rows(cloud_file *file, uint64_t count, uint64_t columns)
+bool cloud_reserve_rows(cloud_file *file, uint64_t count, uint64_t columns)
 {
     const uint64_t most = file->size / columns;
-    return cloud_expect(file, count < most ? count : most);
+    return cloud_reserve(file, count < most ? count : most);
 }
 
-bool cloud_skips(const cloud_file *file, const double *position)
+bool cloud_skip_nonfinite(const cloud_file *file, const double *position)
 {
     const bool finite = isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]);
     if (!finite)
@@ -74,7 +75,7 @@ bool cloud_skips(const cloud_file *file, const double *position)
 bool cloud_add(cloud_file *file, const double *position)
 {
     cloud *points = file->out;
-    if (cloud_skips(file, position))
+    if (cloud_skip_nonfinite(file, position))
         return true;
     void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
     if (grown)
@@ -86,7 +87,7 @@ bool cloud_add(cloud_file *file, const double *position)
     return true;
 }
 
-void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total)
+void cloud_report_progress(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total)
 {
     if (file->watch && times % 65536 == 0)
         file->watch->step((double)done / (double)total, file->watch->context);
@@ -130,7 +131,7 @@ bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, 
     return false;
 }
 
-bool cloud_forgive(const cloud_file *file)
+bool cloud_move_error_to_note(const cloud_file *file)
 {
     char *note = file->out->note;
     if (!*note)
@@ -141,7 +142,7 @@ bool cloud_forgive(const cloud_file *file)
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Lines that end in \r alone have no other end: in binary data a \n may follow the header's last one. */
+/* Lines end in \r alone only if the first line does: in binary data, a \n may follow the header's last \r. */
 static char find_terminator(const char *at, const char *limit)
 {
     while (at < limit && *at != '\n' && *at != '\r')
@@ -150,7 +151,7 @@ static char find_terminator(const char *at, const char *limit)
     return alone ? '\r' : '\n';
 }
 
-cloud_lines cloud_lines_of(const cloud_file *file)
+cloud_lines cloud_begin_lines(const cloud_file *file)
 {
     const char *begin = (const char *)file->bytes;
     const char *limit = begin + file->size;
@@ -251,39 +252,38 @@ bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const
 bool cloud_check_text(const cloud_file *file)
 {
     const char *nul = memchr(file->bytes, '\0', file->size);
-    cloud_lines lines = cloud_lines_of(file);
+    cloud_lines lines = cloud_begin_lines(file);
     cloud_span line;
-    char names[CLOUD_FORMAT_NAMES];
     if (!nul)
         return true;
     while (lines.at <= nul)
         cloud_next_line(&lines, &line);
-    return cloud_fail_line(file, lines.number, "holds a NUL byte, so it is no text; known are %s",
-                           cloud_format_names(names));
+    return cloud_fail_line(file, lines.number, "holds a NUL byte and is not text; supported formats are %s",
+                           CLOUD_NAMES);
 }
 
-void cloud_note_lines(const cloud_file *file, cloud_lines *lines)
+void cloud_note_trailing_lines(const cloud_file *file, cloud_lines *lines)
 {
     cloud_span line;
     if (cloud_next_filled_line(lines, &line)) {
-        cloud_fail_line(file, lines->number, "more lines follow than the header counts");
-        cloud_forgive(file);
+        cloud_fail_line(file, lines->number, "more lines follow than the header announces");
+        cloud_move_error_to_note(file);
     }
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-uint64_t cloud_bits_read(unsigned size, bool big_endian, const unsigned char *bytes)
+uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes)
 {
     uint64_t bits = 0;
-    if (size == 4 && !big_endian) /* most of them: one load */
+    if (size == 4 && !big_endian) /* the common case: compilers turn it into one load */
         return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
     for (unsigned i = 0; i < size; i++)
         bits = bits << 8 | bytes[big_endian ? i : size - 1 - i];
     return bits;
 }
 
-static double float_of_bits(unsigned size, uint64_t bits)
+static double float_from_bits(unsigned size, uint64_t bits)
 {
     if (size == 8) {
         double wide;
@@ -296,34 +296,34 @@ static double float_of_bits(unsigned size, uint64_t bits)
     return (double)narrow;
 }
 
-/* Two's complement: the sign bit counts as minus its value. */
-static double signed_of_bits(unsigned size, uint64_t bits)
+/* Decode two's complement: the sign bit counts as minus its value. */
+static double signed_from_bits(unsigned size, uint64_t bits)
 {
     uint64_t sign = UINT64_C(1) << (8 * size - 1);
     uint64_t low = bits & (sign - 1);
     return bits & sign ? -(double)(sign - low) : (double)low;
 }
 
-double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes)
+double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char *bytes)
 {
-    uint64_t bits = cloud_bits_read(type.size, big_endian, bytes);
+    uint64_t bits = cloud_read_bits(type.size, big_endian, bytes);
     switch (type.kind) {
     case CLOUD_FLOAT:
-        return float_of_bits(type.size, bits);
+        return float_from_bits(type.size, bits);
     case CLOUD_SIGNED:
-        return signed_of_bits(type.size, bits);
+        return signed_from_bits(type.size, bits);
     case CLOUD_UNSIGNED:
         break;
     }
     return (double)bits;
 }
 
-void cloud_note_bytes(const cloud_file *file, size_t offset)
+void cloud_note_trailing_bytes(const cloud_file *file, size_t offset)
 {
     while (offset < file->size && file->bytes[offset] == 0)
         offset++;
     if (offset < file->size) {
-        cloud_fail_byte(file, offset, "more data follows than the header counts");
-        cloud_forgive(file);
+        cloud_fail_byte(file, offset, "more data follows than the header announces");
+        cloud_move_error_to_note(file);
     }
 }

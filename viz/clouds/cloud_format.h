@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_format.h - the formats of point clouds, and what their readers share: the file in memory, its lines and words,
- * its binary numbers, the growing result and the sentence of an error. Private to cloud*.c.
+/* cloud_format.h - the interface of a cloud format, and the tools that all readers share: the file in memory, its lines
+ * and words, its binary numbers, the growing result, and errors. Private to cloud*.c.
  *
- * To add a format: a row of CLOUD_FORMAT_MAP, a file cloud_NAME.c that defines `const cloud_format cloud_NAME`, and its
- * test.
+ * cloud.h says how to add a format.
  */
 #ifndef CLOUDS_CLOUD_FORMAT_H
 #define CLOUDS_CLOUD_FORMAT_H
@@ -12,7 +11,7 @@
 
 #include <stdint.h>
 
-/* What a number of a point is: a column, field or property of a file. */
+/* The meaning of one number of a point: of a column, field or property of the file. */
 typedef enum cloud_channel {
     CLOUD_X,
     CLOUD_Y,
@@ -20,13 +19,13 @@ typedef enum cloud_channel {
     CLOUD_RED,
     CLOUD_GREEN,
     CLOUD_BLUE,
-    CLOUD_PACKED, /* a colour in one whole number: 0xRRGGBB, above it what is passed over */
+    CLOUD_PACKED, /* a colour as one integer, 0xRRGGBB; higher bits are ignored */
     CLOUD_INTENSITY,
     CLOUD_CLASS,
     CLOUD_CHANNELS
 } cloud_channel;
 
-/* A file being read, where its points go and where its error goes. */
+/* A file that is being read, with the destinations of its points and of its error. */
 typedef struct cloud_file {
     const char *name;
     const unsigned char *bytes;
@@ -34,77 +33,71 @@ typedef struct cloud_file {
     cloud *out;
     octreel_error *error;
     const cloud_watch *watch; /* may be null */
-    size_t room, row_room;    /* of out->positions and out->rows */
-    unsigned channels;        /* bits 1 << cloud_channel: what the points have beside x, y and z */
-    bool zero_is_none;        /* values that are zero in every point are none */
+    size_t room, row_room;    /* capacities of out->positions and out->rows */
+    unsigned channels;        /* bits 1 << cloud_channel: the values of each point beside x, y and z */
+    bool zero_is_missing;     /* a value that is zero in every point is missing */
 } cloud_file;
 
-/* Each format, in the order in which they are tried; the last takes what no other recognises. */
-#define CLOUD_FORMAT_MAP(X)                                                                                            \
-    X(las)                                                                                                             \
-    X(pcd)                                                                                                             \
-    X(ply)                                                                                                             \
-    X(text)
-
 typedef struct cloud_format {
-    const char *name, *ending;                 /* "PLY", ".ply"; the ending may be null */
-    bool (*recognise)(const cloud_file *file); /* whether the contents say that it is this format; may be null */
-    bool (*parse)(cloud_file *file);           /* read the whole file into file->out; false with the error written */
+    bool (*recognise)(const cloud_file *file); /* whether the contents are certainly of this format; may be null */
+    bool (*parse)(cloud_file *file);           /* read the whole file into file->out; on false the error is set */
 } cloud_format;
 
-#define CLOUD_FORMAT_EXTERN(name) extern const cloud_format cloud_##name;
+#define CLOUD_FORMAT_EXTERN(id, names, endings) extern const cloud_format cloud_##id;
 CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
 #undef CLOUD_FORMAT_EXTERN
+extern const cloud_format cloud_text; /* recognises nothing, and reads any text */
 
-/* Whether the first line of a text that is no comment or header holds a point. */
-bool cloud_text_begins(const cloud_file *file);
+/* Whether the first line that is neither a comment nor a header holds a point. */
+bool cloud_text_recognise(const cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Say which channels the points have, before the first: bits. Colours of three channels begin with a full channel of
- * `full`, 1 or 255; it grows with what the file turns out to hold, and the colours before are then what they should be.
- */
-void cloud_begin_values(cloud_file *file, unsigned channels, unsigned full);
+/* Call before the first point: `channels` (bits) are the values of each point. `full` (1 or 255) is the assumed full
+ * scale of colour channels; a larger channel in the file raises it, and colours read before are rescaled. */
+void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full);
 
-/* The values that numbers[CLOUD_CHANNELS] are. */
-point_value cloud_value_of(cloud_file *file, const double *numbers);
+/* Convert numbers[CLOUD_CHANNELS] to the values of a point. */
+point_value cloud_convert_values(cloud_file *file, const double *numbers);
 
-/* Forget the values that were read; none follow. */
+/* Discard the values read so far; points that follow have none. */
 void cloud_drop_values(cloud_file *file);
 
-/* After the last point. */
-void cloud_end_values(cloud_file *file);
+/* Call after the last point. */
+void cloud_finish_values(cloud_file *file);
 
-/* Make room for so many points, of which the caller knows that they are there; or for as many as may be, where each has
- * so many columns or properties, of a byte at least. False when there is no memory. */
-bool cloud_expect(cloud_file *file, uint64_t count);
-bool cloud_expect_rows(cloud_file *file, uint64_t count, uint64_t columns);
+/* Reserve room for `count` points, which the caller has found to be in the file. Returns false if memory runs out. */
+bool cloud_reserve(cloud_file *file, uint64_t count);
 
-/* Append a point, numbers[CLOUD_CHANNELS], of which x, y, z and the file's channels are read; one whose position is not
- * finite is skipped instead. False when there is no memory. */
+/* The same for a count that the file merely announces, of points with `columns` numbers of at least one byte: no more
+ * than the file can hold. */
+bool cloud_reserve_rows(cloud_file *file, uint64_t count, uint64_t columns);
+
+/* Append a point from numbers[CLOUD_CHANNELS]: x, y, z and the file's channels are read. A point whose position is not
+ * finite is skipped instead. Returns false if memory runs out. */
 bool cloud_add(cloud_file *file, const double *numbers);
 
-/* Pass over a point of the file; `why` is a constant, the same for all of a file. */
+/* Count a skipped point. `why` has static storage and is the same for all points of a file. */
 void cloud_skip(const cloud_file *file, const char *why);
 
-/* Pass over a point whose position is not finite: whether it is one. */
-bool cloud_skips(const cloud_file *file, const double *position);
+/* Skip a point if its position is not finite; returns whether it was skipped. */
+bool cloud_skip_nonfinite(const cloud_file *file, const double *position);
 
-/* Report at each 65536th call that `done` of `total` have been read. `times` counts the calls. */
-void cloud_tell(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total);
+/* Report the progress `done` of `total` if `calls`, the number of calls so far, is a multiple of 65536. */
+void cloud_report_progress(const cloud_file *file, uint64_t calls, uint64_t done, uint64_t total);
 
-/* Write the error's sentence, a printf format, and return false: for the file, a line from 1 on, a byte from 0 on. */
+/* Set the error from a printf format and return false: for the file, for a line (from 1 on), for a byte (from 0 on). */
 bool cloud_fail(const cloud_file *file, const char *format, ...);
 bool cloud_fail_line(const cloud_file *file, size_t line, const char *format, ...);
 bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...);
 
-/* Turn the error that was written, of something that comes after the last point, into the cloud's note, unless it has
- * one. Returns true. */
-bool cloud_forgive(const cloud_file *file);
+/* Move the error, which concerns data after the last point, to the cloud's note, unless there is one already. Returns
+ * true. */
+bool cloud_move_error_to_note(const cloud_file *file);
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Characters of the file, from begin up to limit. */
+/* Characters of the file from `begin` to the exclusive `limit`. */
 typedef struct cloud_span {
     const char *begin, *limit;
 } cloud_span;
@@ -113,68 +106,69 @@ typedef struct cloud_span {
 typedef struct cloud_lines {
     const char *at, *limit;
     char terminator;
-    size_t number; /* of the line given last, from 1 on */
+    size_t number; /* the number of the last line read, from 1 on */
 } cloud_lines;
 
-cloud_lines cloud_lines_of(const cloud_file *file);
+cloud_lines cloud_begin_lines(const cloud_file *file);
 
-/* The next line without its end. False at the end of the file. */
+/* Read the next line without its terminator. Returns false at the end of the file. */
 bool cloud_next_line(cloud_lines *lines, cloud_span *line);
 
-/* The next line with a word in it. */
+/* Read the next line that is not blank. */
 bool cloud_next_filled_line(cloud_lines *lines, cloud_span *line);
 
 bool cloud_is_blank(char c);
 
-/* Cut the next word, between blanks and tabs, off the front of a line. False when there is none. */
+/* Remove the next word from the front of a line; words are separated by blanks and tabs. Returns false if there is
+ * none. */
 bool cloud_next_word(cloud_span *line, cloud_span *word);
 
 bool cloud_word_is(cloud_span word, const char *text);
 
-/* The channel that a word names, x y z as they are and others in any case; -1 for none. */
+/* The channel with this name; -1 for none. x, y and z must be lower case; others may have any case. */
 int cloud_word_channel(cloud_span word);
 
-/* Read a whole word as a count, 0 to 2^64 - 1. */
+/* Parse a whole word as an integer from 0 to 2^64 - 1. */
 bool cloud_word_count(cloud_span word, uint64_t *count);
 
-/* Read a whole word as a coordinate; "nan" and "inf" give NaN. False with an error for the line. */
+/* Parse a whole word as a coordinate; "nan" and "inf" give NaN. On false, the error names the line. */
 bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word, double *coordinate);
 
-/* The same for any channel; a packed colour may be a whole number or the float of the same bits. */
+/* The same for any channel. A packed colour may be written as an integer, or as the float with the same bits. */
 bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int channel, double *number);
 
-/* Room for a quoted word. */
+/* Size of a quoted word. */
 #define CLOUD_QUOTE 48
 
-/* A word fit for an error's sentence: printable, in quotes, and cut when it is long. Returns `text`. */
+/* Quote a word for an error: printable, and shortened if it is long. Returns `text`. */
 const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE]);
 
-/* Write the error "'word' reason" for a line, and return false. */
+/* Set the error "'word' reason" for a line and return false. */
 bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const char *reason);
 
-/* False with an error when the file holds a NUL byte: it is then no text. */
+/* Return false and set the error if the file holds a NUL byte and thus is not text. */
 bool cloud_check_text(const cloud_file *file);
 
-/* Note it when a line with words follows. */
-void cloud_note_lines(const cloud_file *file, cloud_lines *lines);
+/* Add a note if a line that is not blank follows. */
+void cloud_note_trailing_lines(const cloud_file *file, cloud_lines *lines);
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
 typedef enum cloud_scalar_kind { CLOUD_SIGNED, CLOUD_UNSIGNED, CLOUD_FLOAT } cloud_scalar_kind;
 
-/* A type of binary numbers. */
+/* The type of a binary number. */
 typedef struct cloud_scalar {
     cloud_scalar_kind kind;
-    unsigned size; /* 1, 2, 4 or 8 bytes; floats are of 4 or 8 */
+    unsigned size; /* bytes: 1, 2, 4 or 8; of a float 4 or 8 */
 } cloud_scalar;
 
-/* The whole number of 1 to 8 bytes at `bytes`. */
-uint64_t cloud_bits_read(unsigned size, bool big_endian, const unsigned char *bytes);
+/* Read an unsigned integer of `size` (1 to 8) bytes. */
+uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *bytes);
 
-/* The number at `bytes`; integers beyond 2^53 are rounded. */
-double cloud_scalar_read(cloud_scalar type, bool big_endian, const unsigned char *bytes);
+/* Read a number; integers beyond 2^53 are rounded. */
+double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char *bytes);
 
-/* Note it when anything but zero bytes follows from `offset` on: some writers pad to a whole page. */
-void cloud_note_bytes(const cloud_file *file, size_t offset);
+/* Add a note if a non-zero byte follows from `offset` on. Zeros are accepted: some writers pad to a whole page. */
+void cloud_note_trailing_bytes(const cloud_file *file, size_t offset);
 
 #endif

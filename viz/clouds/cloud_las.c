@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud_las.c - the points of a LAS file, version 1.0 to 1.5, the format of laser surveys by the ASPRS.
  *
- * A record begins with three integers. Each makes a coordinate by the scale and the offset of its axis, record * scale
- * + offset in doubles: a product and a sum, each rounded once, which is what the specification writes and others
- * compute.
+ * A binary header gives the place, number, format and length of the point records, and a scale and an offset for each
+ * axis. A record begins with three integers; a coordinate is integer * scale + offset in doubles, a product and a sum
+ * that are rounded once each, as the specification says and other readers compute. Intensity, class and colour have
+ * fixed places that depend on the point format. Of LAZ files, which are LAS files with compressed records, the header
+ * is read here and the records by cloud_laz.c.
  */
 #include "cloud_format.h"
 #include "cloud_laz.h"
@@ -14,7 +16,7 @@
 
 static const char signature[] = {'L', 'A', 'S', 'F'};
 
-/* Where the header has what is read of it. */
+/* Byte offsets in the header. */
 enum {
     AT_VERSION = 24, /* major, minor */
     AT_HEADER_SIZE = 94,
@@ -24,30 +26,30 @@ enum {
     AT_COUNT = 107,
     AT_SCALES = 131,
     AT_OFFSETS = 155,
-    AT_WAVEFORMS = 227,    /* from 1.3 on */
-    AT_RECORDS = 235,      /* from 1.4 on: extended variable length records */
-    AT_RECORD_COUNT = 243, /* the same */
-    AT_WIDE_COUNT = 247,   /* the same */
+    AT_WAVEFORMS = 227,    /* from version 1.3 on */
+    AT_RECORDS = 235,      /* from version 1.4 on: extended variable length records */
+    AT_RECORD_COUNT = 243, /* from version 1.4 on */
+    AT_WIDE_COUNT = 247,   /* from version 1.4 on: the number of points with 64 bits */
 };
 
-/* The size of the header by the minor version. */
+/* The size of the header, by minor version. */
 static const unsigned header_sizes[] = {227, 227, 227, 235, 375, 393};
 enum { VERSIONS = sizeof header_sizes / sizeof header_sizes[0] };
 
-/* The bytes of a record by the point format; a file may have more in each. X, Y and Z are in the same place in all. */
+/* The minimal size of a record, by point format; a file may use more. X, Y and Z have the same place in all formats. */
 static const unsigned record_sizes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 enum {
     FORMATS = sizeof record_sizes / sizeof record_sizes[0],
-    COMPRESSED = 0xc0, /* what LAZ adds to the format */
+    COMPRESSED = 0xc0, /* bits that LAZ sets in the format */
     AT_INTENSITY = LAS_AT_INTENSITY,
     AT_FLAGS = LAS_AT_FLAGS,
     AT_CLASS = LAS_AT_CLASS,
 };
 
-/* Where a record has its colour, three times 16 bits; 0: nowhere. */
+/* The byte offset of the colour (3 * 16 bits) in a record, by point format; 0: the format has no colour. */
 static const unsigned colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
 
-unsigned las_color_at(unsigned format)
+unsigned las_color_offset(unsigned format)
 {
     return colors_at[format];
 }
@@ -56,7 +58,7 @@ typedef struct las_reader {
     cloud_file *file;
     unsigned minor, format, header_size;
     bool compressed;
-    unsigned withheld; /* the bit of a record's flags */
+    unsigned withheld; /* the bit of a record's flags that marks it as withheld */
     uint64_t first, length, count;
     double scale[3], offset[3];
 } las_reader;
@@ -70,7 +72,7 @@ static bool is_las(const cloud_file *file)
 
 static uint64_t read_whole(const las_reader *reader, size_t at, unsigned size)
 {
-    return cloud_bits_read(size, false, reader->file->bytes + at);
+    return cloud_read_bits(size, false, reader->file->bytes + at);
 }
 
 static bool read_version(las_reader *reader)
@@ -81,11 +83,12 @@ static bool read_version(las_reader *reader)
     const unsigned major = file->bytes[AT_VERSION];
     reader->minor = file->bytes[AT_VERSION + 1];
     if (major != 1 || reader->minor >= VERSIONS)
-        return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not a known version: 1.0 to 1.%d", major, reader->minor,
-                               VERSIONS - 1);
+        return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not a supported version: 1.0 to 1.%d", major,
+                               reader->minor, VERSIONS - 1);
     reader->header_size = (unsigned)read_whole(reader, AT_HEADER_SIZE, 2);
     if (reader->header_size < header_sizes[reader->minor])
-        return cloud_fail_byte(file, AT_HEADER_SIZE, "a header of %u bytes is announced, and that of LAS 1.%u has %u",
+        return cloud_fail_byte(file, AT_HEADER_SIZE,
+                               "a header of %u bytes is announced, but that of LAS 1.%u has at least %u",
                                reader->header_size, reader->minor, header_sizes[reader->minor]);
     return file->size >= header_sizes[reader->minor] ||
            cloud_fail_byte(file, file->size, "the file ends in its header");
@@ -97,25 +100,26 @@ static bool read_format(las_reader *reader)
     reader->format = file->bytes[AT_FORMAT];
     reader->length = read_whole(reader, AT_LENGTH, 2);
     reader->compressed = reader->format & COMPRESSED;
-    if (reader->compressed && !laz_is_read())
+    if (reader->compressed && !laz_is_supported())
         return cloud_fail(file,
-                          "is compressed LAS (LAZ or COPC), and this octreel was built without liblaszip; install "
-                          "that (Debian 13: liblaszip-dev) and build again, or decompress it, as in: pdal "
-                          "translate in.laz out.las");
+                          "is compressed LAS (LAZ or COPC), but this octreel was built without liblaszip; install "
+                          "liblaszip-dev (Debian 13) and build again, or decompress the file: pdal translate in.laz "
+                          "out.las");
     reader->format &= ~(unsigned)COMPRESSED;
     if (reader->format >= FORMATS)
-        return cloud_fail_byte(file, AT_FORMAT, "%u is not a known point format: 0 to %d", reader->format, FORMATS - 1);
+        return cloud_fail_byte(file, AT_FORMAT, "%u is not a supported point format: 0 to %d", reader->format,
+                               FORMATS - 1);
     if (reader->length < record_sizes[reader->format])
         return cloud_fail_byte(file, AT_LENGTH,
-                               "points of %" PRIu64 " bytes are announced, and those of format %u have at least %u",
+                               "points of %" PRIu64 " bytes are announced, but those of format %u have at least %u",
                                reader->length, reader->format, record_sizes[reader->format]);
-    if (reader->minor > 0) /* the class is the whole byte in 1.0 */
+    if (reader->minor > 0) /* in LAS 1.0 the class takes the whole byte, without flags */
         reader->withheld = reader->format < 6 ? 0x80 : 0x04;
     return true;
 }
 
-/* From 1.4 on there are two counts, one of which may be 0. Which one is right where they differ has been answered both
- * ways, by the specification and by the readers in use. */
+/* From LAS 1.4 on there are two counts, one of which may be 0. A file in which they contradict each other is refused:
+ * the specification and common readers disagree on which one is right. */
 static bool read_count(las_reader *reader)
 {
     const uint64_t narrow = read_whole(reader, AT_COUNT, 4);
@@ -123,16 +127,16 @@ static bool read_count(las_reader *reader)
     reader->count = wide ? wide : narrow;
     return !narrow || reader->count == narrow ||
            cloud_fail_byte(reader->file, AT_WIDE_COUNT,
-                           "the count of points is %" PRIu64 ", and %" PRIu64 " at byte %d: correct the header", wide,
-                           narrow, AT_COUNT);
+                           "the count of points is %" PRIu64 " here but %" PRIu64 " at byte %d; correct the header",
+                           wide, narrow, AT_COUNT);
 }
 
 static bool read_factor(const las_reader *reader, unsigned at, const char *what, bool may_be_zero, double *factor)
 {
     static const cloud_scalar real = {CLOUD_FLOAT, 8};
-    *factor = cloud_scalar_read(real, false, reader->file->bytes + at);
+    *factor = cloud_read_scalar(real, false, reader->file->bytes + at);
     return (isfinite(*factor) && (may_be_zero || *factor != 0)) ||
-           cloud_fail_byte(reader->file, at, "%s is %g, which makes no coordinates", what, *factor);
+           cloud_fail_byte(reader->file, at, "%s is %g, which gives no valid coordinates", what, *factor);
 }
 
 static bool read_factors(las_reader *reader)
@@ -146,10 +150,10 @@ static bool read_factors(las_reader *reader)
     return true;
 }
 
-/* ---- Where the points are ----------------------------------------------------------------------------------- */
+/* ---- Place of the points ------------------------------------------------------------------------------------ */
 
-/* LAS 1.0 has two bytes before the points, and some writers let the header point at them. */
-static void pass_signature(las_reader *reader, uint64_t left)
+/* LAS 1.0 has two signature bytes before the points, and some writers let the header point at these bytes. */
+static void skip_signature(las_reader *reader, uint64_t left)
 {
     static const unsigned char start[] = {0xdd, 0xcc};
     if (reader->minor == 0 && left >= sizeof start && (left - sizeof start) / reader->length >= reader->count &&
@@ -163,21 +167,22 @@ static bool find_points(las_reader *reader)
     reader->first = read_whole(reader, AT_POINTS, 4);
     if (reader->first < reader->header_size)
         return cloud_fail_byte(file, AT_HEADER_SIZE,
-                               "a header of %u bytes is announced, and points from byte %" PRIu64 " on",
+                               "a header of %u bytes is announced, but points begin at byte %" PRIu64,
                                reader->header_size, reader->first);
     if (reader->first > file->size)
         return cloud_fail_byte(file, AT_POINTS,
-                               "points are announced from byte %" PRIu64 " on, and the file has %zu bytes",
+                               "points are announced from byte %" PRIu64 " on, but the file has only %zu bytes",
                                reader->first, file->size);
-    pass_signature(reader, file->size - reader->first);
+    skip_signature(reader, file->size - reader->first);
     const uint64_t left = file->size - reader->first;
     return reader->count <= left / reader->length ||
            cloud_fail_byte(file, (size_t)reader->first,
-                           "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %" PRIu64 " bytes follow",
+                           "%" PRIu64 " points of %" PRIu64 " bytes are announced, but only %" PRIu64 " bytes follow",
                            reader->count, reader->length, left);
 }
 
-/* Keep in *next where something begins behind the points: at a place that the header has, 0 for nothing. */
+/* Lower *next to the start of a part that follows the points, which the header holds at `at`; a start of 0 means that
+ * the part is missing. */
 static bool find_follower(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
     const uint64_t end = reader->first + reader->count * reader->length, start = read_whole(reader, at, 8);
@@ -185,15 +190,15 @@ static bool find_follower(const las_reader *reader, size_t at, const char *what,
         return true;
     if (start < end || start > reader->file->size)
         return cloud_fail_byte(reader->file, at,
-                               "%s begin at byte %" PRIu64 ", and not between %" PRIu64
-                               ", the end of the points, and %zu, that of the file",
+                               "%s begin at byte %" PRIu64 ", outside of %" PRIu64 " (the end of the points) to %zu "
+                               "(the end of the file)",
                                what, start, end, reader->file->size);
     if (start < *next)
         *next = start;
     return true;
 }
 
-/* Waveforms and extended variable length records may follow the points. What follows and is neither is noted. */
+/* Add a note if anything but waveforms and extended variable length records follows the points. */
 static bool check_end(const las_reader *reader)
 {
     static const bool has_waveforms[FORMATS] = {[4] = true, [5] = true, [9] = true, [10] = true};
@@ -206,7 +211,7 @@ static bool check_end(const las_reader *reader)
         !find_follower(reader, AT_RECORDS, "the extended records", &next))
         return false;
     before.size = (size_t)next;
-    cloud_note_bytes(&before, (size_t)(reader->first + reader->count * reader->length));
+    cloud_note_trailing_bytes(&before, (size_t)(reader->first + reader->count * reader->length));
     return true;
 }
 
@@ -216,14 +221,14 @@ static void read_values(const las_reader *reader, const unsigned char *record, d
 {
     const unsigned color = colors_at[reader->format];
     for (unsigned i = 0; color && i < 3; i++)
-        numbers[CLOUD_RED + i] = (double)cloud_bits_read(2, false, record + color + 2 * i);
-    numbers[CLOUD_INTENSITY] = (double)cloud_bits_read(2, false, record + AT_INTENSITY);
+        numbers[CLOUD_RED + i] = (double)cloud_read_bits(2, false, record + color + 2 * i);
+    numbers[CLOUD_INTENSITY] = (double)cloud_read_bits(2, false, record + AT_INTENSITY);
     numbers[CLOUD_CLASS] = reader->format >= 6  ? record[AT_CLASS]
                            : reader->minor == 0 ? record[AT_FLAGS]
                                                 : record[AT_FLAGS] & 0x1f;
 }
 
-/* Add a point by its record; `at` is where in the file that is, for an error. */
+/* Add the point of a record; `at` is the record's place in the file, for errors. */
 static bool add_record(const las_reader *reader, const unsigned char *record, size_t at)
 {
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
@@ -233,7 +238,7 @@ static bool add_record(const las_reader *reader, const unsigned char *record, si
         return true;
     }
     for (int axis = 0; axis < 3; axis++) {
-        numbers[axis] = cloud_scalar_read(integer, false, record + 4 * axis) * reader->scale[axis];
+        numbers[axis] = cloud_read_scalar(integer, false, record + 4 * axis) * reader->scale[axis];
         numbers[axis] += reader->offset[axis];
         if (!isfinite(numbers[axis]))
             return cloud_fail_byte(reader->file, at, "%c is beyond the largest double", "xyz"[axis]);
@@ -248,7 +253,8 @@ static bool add_unpacked(void *context, const unsigned char *record)
     return add_record(reader, record, (size_t)reader->first);
 }
 
-/* The decompressor finds the points itself. Ten million equal points are 68 kB, 147 a byte. */
+/* Read LAZ; the decompressor finds the points itself. The limit refuses counts that no file of this size can hold: ten
+ * million equal points take 68 kB, 147 a byte. */
 static bool read_compressed(las_reader *reader)
 {
     enum { MOST_A_BYTE = 256 };
@@ -256,31 +262,31 @@ static bool read_compressed(las_reader *reader)
     reader->first = read_whole(reader, AT_POINTS, 4);
     if (reader->count / MOST_A_BYTE > file->size)
         return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
-                               "%" PRIu64 " compressed points are announced, and %zu bytes hold at most %d each",
+                               "%" PRIu64 " compressed points are announced, but %zu bytes hold at most %d each",
                                reader->count, file->size, MOST_A_BYTE);
     return laz_read(reader->file, reader->format, reader->count, add_unpacked, reader);
 }
 
-static bool read_plain(las_reader *reader)
+static bool read_uncompressed(las_reader *reader)
 {
-    if (!find_points(reader) || !check_end(reader) || !cloud_expect(reader->file, reader->count))
+    if (!find_points(reader) || !check_end(reader) || !cloud_reserve(reader->file, reader->count))
         return false;
     for (uint64_t i = 0; i < reader->count; i++) {
         const size_t at = (size_t)(reader->first + i * reader->length);
-        cloud_tell(reader->file, i, i, reader->count);
+        cloud_report_progress(reader->file, i, i, reader->count);
         if (!add_record(reader, reader->file->bytes + at, at))
             return false;
     }
     return true;
 }
 
-/* Values have their place in each record, whether the file has them or not. */
-static void begin_values(const las_reader *reader)
+/* Announce the channels. Every record has room for them, so values that are zero throughout count as missing. */
+static void set_channels(const las_reader *reader)
 {
     const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
-    cloud_begin_values(reader->file,
+    cloud_set_channels(reader->file,
                        1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (colors_at[reader->format] ? color : 0), 255);
-    reader->file->zero_is_none = true;
+    reader->file->zero_is_missing = true;
 }
 
 static bool parse_las(cloud_file *file)
@@ -290,8 +296,8 @@ static bool parse_las(cloud_file *file)
         return cloud_fail_byte(file, 0, "is not a LAS file: its first bytes are not LASF");
     if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader))
         return false;
-    begin_values(&reader);
-    return (reader.compressed ? read_compressed : read_plain)(&reader);
+    set_channels(&reader);
+    return (reader.compressed ? read_compressed : read_uncompressed)(&reader);
 }
 
-const cloud_format cloud_las = {"LAS", ".las", is_las, parse_las};
+const cloud_format cloud_las = {is_las, parse_las};

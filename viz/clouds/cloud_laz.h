@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_laz.h - the points of compressed LAS files, by liblaszip; cloud_las.c reads everything else of them. Private to
- * cloud*.c.
+/* cloud_laz.h - reads the records of compressed LAS files through liblaszip; cloud_las.c reads their headers. Private
+ * to cloud*.c.
  */
 #ifndef CLOUDS_CLOUD_LAZ_H
 #define CLOUDS_CLOUD_LAZ_H
 
 #include "laz_child.h"
 
-/* Where a point format has its colour, three times 16 bits; 0: nowhere. */
-unsigned las_color_at(unsigned format);
+/* The byte offset of the colour (3 * 16 bits) in a record of this point format; 0: none. Defined in cloud_las.c. */
+unsigned las_color_offset(unsigned format);
 
 /* Whether this was built with liblaszip. */
-bool laz_is_read(void);
+bool laz_is_supported(void);
 
-/* Give each point of a compressed file. False with an error where the data is damaged, and where `add` is. The library
- * opens files by name, so the bytes are copied to a temporary one. */
+/* Pass each record of a compressed file to `add`. Returns false and sets the error if the data is damaged, and false if
+ * `add` returns false. liblaszip opens files by name, so the bytes are copied to a temporary file. */
 bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *add, void *context);
 
 #endif

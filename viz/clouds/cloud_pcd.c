@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_pcd.c - the points of a PCD file, version 0.5 to 0.7, the format of the Point Cloud Library. */
+/* cloud_pcd.c - the points of a PCD file, version 0.5 to 0.7, the format of the Point Cloud Library (PCL).
+ *
+ * A text header lists the fields of a point, with a size, a type and a count for each. The data follow as text lines,
+ * as packed points, or compressed by LZF with all values of one field together. Packed and compressed data are read by
+ * the same loop, add_points(), with other offsets and strides.
+ */
 #include "cloud_format.h"
 #include "number.h"
 
@@ -9,7 +14,7 @@
 
 enum {
     MAX_FIELDS = 1024,
-    LZF_RATIO = 88, /* the longest match of LZF makes 264 bytes of 3 */
+    LZF_RATIO = 88, /* highest compression of LZF: its longest match expands 3 bytes to 264 */
 };
 
 typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding;
@@ -20,25 +25,25 @@ typedef struct pcd_field {
     int channel;    /* a cloud_channel; -1: none */
 } pcd_field;
 
-/* Where a number is in a point. */
+/* The position of a channel within a point. */
 typedef struct pcd_place {
     int channel;
     cloud_scalar type;
-    uint64_t column; /* values before it */
-    uint64_t offset; /* bytes before it */
+    uint64_t column; /* number of values before it */
+    uint64_t offset; /* number of bytes before it */
 } pcd_place;
 
 typedef struct pcd_reader {
     cloud_file *file;
     cloud_lines lines;
-    unsigned seen; /* bit i is set when keyword i was read */
+    unsigned seen; /* bit i is set after keyword i was read */
     size_t field_count;
     pcd_field fields[MAX_FIELDS];
     uint64_t width, height, points;
     pcd_encoding encoding;
-    pcd_place places[CLOUD_CHANNELS]; /* of what is read, in the order of the fields */
+    pcd_place places[CLOUD_CHANNELS]; /* the channels to read, in the order of the fields */
     unsigned place_count;
-    uint64_t columns, stride; /* values and bytes of a point */
+    uint64_t columns, stride; /* values and bytes per point */
 } pcd_reader;
 
 /* ---- Header lines ------------------------------------------------------------------------------------------- */
@@ -56,7 +61,7 @@ static bool read_version(pcd_reader *reader, cloud_span rest)
     cloud_next_word(&rest, &word);
     bool known =
         number_parse(word.begin, word.limit, &end, &version) && end == word.limit && version >= 0.5 && version <= 0.7;
-    return known || fail_header(reader, "is not a known version of PCD: 0.5 to 0.7", word);
+    return known || fail_header(reader, "is not a supported version of PCD: 0.5 to 0.7", word);
 }
 
 static bool read_fields(pcd_reader *reader, cloud_span rest)
@@ -69,14 +74,14 @@ static bool read_fields(pcd_reader *reader, cloud_span rest)
             return cloud_fail_line(reader->file, reader->lines.number, "more than %d fields", MAX_FIELDS);
         const bool again = channel >= 0 && channels >> channel & 1;
         if (again && channel <= CLOUD_Z)
-            return fail_header(reader, "is a second field of this name", word);
+            return fail_header(reader, "is a second field with this name", word);
         if (channel >= 0)
             channels |= 1U << channel;
         reader->fields[reader->field_count++] = (pcd_field){.channel = again ? -1 : channel, .count = 1};
     }
     for (int axis = 0; axis < 3; axis++)
         if (!(channels >> axis & 1))
-            return cloud_fail_line(reader->file, reader->lines.number, "there is no field %c", "xyz"[axis]);
+            return cloud_fail_line(reader->file, reader->lines.number, "FIELDS has no field \"%c\"", "xyz"[axis]);
     return true;
 }
 
@@ -101,31 +106,31 @@ static bool set_type(pcd_field *field, cloud_span word)
     return false;
 }
 
-/* A point of so many values is absurd; and sums of MAX_FIELDS times 8 times this do not overflow. */
+/* The limit keeps the sum over MAX_FIELDS fields of 8 bytes from overflowing. */
 static bool set_count(pcd_field *field, cloud_span word)
 {
     return cloud_word_count(word, &field->count) && field->count > 0 && field->count <= UINT32_MAX;
 }
 
-/* Read a line that says something of each field. */
+/* Read a line with one word for each field. */
 static bool read_each(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span), const char *reason)
 {
     cloud_span word;
     for (size_t i = 0; i < reader->field_count; i++) {
         if (!cloud_next_word(&rest, &word))
-            return cloud_fail_line(reader->file, reader->lines.number, "%zu words for %zu fields", i,
+            return cloud_fail_line(reader->file, reader->lines.number, "has %zu words for %zu fields", i,
                                    reader->field_count);
         if (!set(&reader->fields[i], word))
             return fail_header(reader, reason, word);
     }
-    return !cloud_next_word(&rest, &word) || fail_header(reader, "is more than there are fields before it", word);
+    return !cloud_next_word(&rest, &word) || fail_header(reader, "is one word more than there are fields", word);
 }
 
 static bool read_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
 {
     cloud_span word;
     cloud_next_word(&rest, &word);
-    return cloud_word_count(word, number) || fail_header(reader, "is not a number of points", word);
+    return cloud_word_count(word, number) || fail_header(reader, "is not a count of points", word);
 }
 
 static bool read_encoding(pcd_reader *reader, cloud_span rest)
@@ -140,7 +145,7 @@ static bool read_encoding(pcd_reader *reader, cloud_span rest)
         reader->encoding = (pcd_encoding)i;
         return true;
     }
-    return fail_header(reader, "is not how PCD keeps data: ascii, binary or binary_compressed", word);
+    return fail_header(reader, "is not a kind of PCD data: ascii, binary or binary_compressed", word);
 }
 
 typedef enum pcd_key {
@@ -157,14 +162,14 @@ typedef enum pcd_key {
     KEYS
 } pcd_key;
 
-/* A line of the header, read by one of three ways; one with none of them is skipped. */
+/* A line of the header. At most one of `read`, `set` and `number` is given; a line with none of them is skipped. */
 typedef struct pcd_keyword {
     const char *name;
     bool required;
     bool (*read)(pcd_reader *reader, cloud_span rest);
-    bool (*set)(pcd_field *field, cloud_span word); /* a word for each field */
-    const char *reason;                             /* why a word is none */
-    size_t number;                                  /* of points: where it is in the reader */
+    bool (*set)(pcd_field *field, cloud_span word); /* the line has one word for each field */
+    const char *reason;                             /* the error if `set` refuses a word */
+    size_t number;                                  /* the line holds one integer; its offset in pcd_reader */
 } pcd_keyword;
 
 static const pcd_keyword keywords[KEYS] = {
@@ -191,9 +196,9 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
         if (!cloud_word_is(word, keywords[i].name))
             continue;
         if (has_seen(reader, (pcd_key)i))
-            return fail_header(reader, "is there twice", word);
+            return fail_header(reader, "occurs twice", word);
         if (keywords[i].set && !has_seen(reader, KEY_FIELDS))
-            return fail_header(reader, "stands before FIELDS, of which it tells", word);
+            return fail_header(reader, "stands before FIELDS; FIELDS must come first", word);
         reader->seen |= 1U << i;
         if (keywords[i].read)
             return keywords[i].read(reader, rest);
@@ -204,7 +209,7 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
     return fail_header(reader, "does not belong in a PCD header", word);
 }
 
-/* The next line of the header that is no comment, without its first word. */
+/* Read the next line of the header that is not a comment: its first word, and the rest. */
 static bool next_header_line(cloud_lines *lines, cloud_span *word, cloud_span *rest)
 {
     while (cloud_next_filled_line(lines, rest))
@@ -215,15 +220,16 @@ static bool next_header_line(cloud_lines *lines, cloud_span *word, cloud_span *r
 
 static bool is_pcd(const cloud_file *file)
 {
-    cloud_lines lines = cloud_lines_of(file);
+    cloud_lines lines = cloud_begin_lines(file);
     cloud_span word, rest;
     return next_header_line(&lines, &word, &rest) && (cloud_word_is(word, "VERSION") || cloud_word_is(word, "FIELDS"));
 }
 
 /* ---- The header as a whole ---------------------------------------------------------------------------------- */
 
-/* WIDTH times HEIGHT and POINTS are the same number; either may be missing, and HEIGHT is then 1. */
-static bool agree_on_points(pcd_reader *reader)
+/* Find the number of points: WIDTH times HEIGHT, or POINTS; both must agree if both are given. HEIGHT is 1 if missing.
+ */
+static bool find_point_count(pcd_reader *reader)
 {
     size_t line = reader->lines.number;
     if (!has_seen(reader, KEY_WIDTH) && !has_seen(reader, KEY_POINTS))
@@ -241,8 +247,8 @@ static bool agree_on_points(pcd_reader *reader)
     return true;
 }
 
-/* A coordinate is one number. What is meant to be a value and is none is passed over; a packed colour is four bytes,
- * which many files call a float. */
+/* Add a field's channel to those that are read. A coordinate must be a single number; a value that is not is ignored. A
+ * packed colour has four bytes, which many files declare as a float. */
 static bool add_place(pcd_reader *reader, const pcd_field *field)
 {
     pcd_place place = {field->channel, field->type, reader->columns, reader->stride};
@@ -257,7 +263,7 @@ static bool add_place(pcd_reader *reader, const pcd_field *field)
     return true;
 }
 
-static bool lay_out(pcd_reader *reader)
+static bool lay_out_fields(pcd_reader *reader)
 {
     for (size_t i = 0; i < reader->field_count; i++) {
         const pcd_field *field = &reader->fields[i];
@@ -272,8 +278,8 @@ static bool lay_out(pcd_reader *reader)
     return true;
 }
 
-/* Floats may go from 0 to 1. */
-static void begin_values(const pcd_reader *reader)
+/* Announce the channels. Colours that are floats are assumed to range from 0 to 1. */
+static void set_channels(const pcd_reader *reader)
 {
     unsigned channels = 0, full = 255;
     for (unsigned i = 0; i < reader->place_count; i++) {
@@ -281,7 +287,7 @@ static void begin_values(const pcd_reader *reader)
         if (reader->places[i].channel == CLOUD_RED && reader->places[i].type.kind == CLOUD_FLOAT)
             full = 1;
     }
-    cloud_begin_values(reader->file, channels, full);
+    cloud_set_channels(reader->file, channels, full);
 }
 
 static bool check_header(pcd_reader *reader)
@@ -289,7 +295,7 @@ static bool check_header(pcd_reader *reader)
     for (int i = 0; i < KEYS; i++)
         if (keywords[i].required && !has_seen(reader, (pcd_key)i))
             return cloud_fail_line(reader->file, reader->lines.number, "the header has no %s", keywords[i].name);
-    return agree_on_points(reader) && lay_out(reader);
+    return find_point_count(reader) && lay_out_fields(reader);
 }
 
 static bool read_header(pcd_reader *reader)
@@ -324,59 +330,59 @@ static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[
 
 static bool read_ascii(pcd_reader *reader)
 {
-    if (!cloud_check_text(reader->file) || !cloud_expect_rows(reader->file, reader->points, reader->columns))
+    if (!cloud_check_text(reader->file) || !cloud_reserve_rows(reader->file, reader->points, reader->columns))
         return false;
     for (uint64_t i = 0; i < reader->points; i++) {
         cloud_span line;
         double numbers[CLOUD_CHANNELS];
-        cloud_tell(reader->file, i, i, reader->points);
+        cloud_report_progress(reader->file, i, i, reader->points);
         if (!cloud_next_filled_line(&reader->lines, &line))
             return cloud_fail_line(reader->file, reader->lines.number,
                                    "the file ends after %" PRIu64 " of %" PRIu64 " points", i, reader->points);
         if (!read_line(reader, line, numbers) || !cloud_add(reader->file, numbers))
             return false;
     }
-    cloud_note_lines(reader->file, &reader->lines);
+    cloud_note_trailing_lines(reader->file, &reader->lines);
     return true;
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Read the points from packed bytes: the number at place k of point i is at first[k] + i * step[k]. */
+/* Read the points from binary data: the number of place k of point i begins at first[k] + i * step[k]. */
 static bool add_points(const pcd_reader *reader, const unsigned char *bytes, const size_t *first, const size_t *step)
 {
-    if (!cloud_expect(reader->file, reader->points))
+    if (!cloud_reserve(reader->file, reader->points))
         return false;
     for (size_t i = 0; i < reader->points; i++) {
         double numbers[CLOUD_CHANNELS];
-        cloud_tell(reader->file, i, i, reader->points);
+        cloud_report_progress(reader->file, i, i, reader->points);
         for (unsigned k = 0; k < reader->place_count; k++)
             numbers[reader->places[k].channel] =
-                cloud_scalar_read(reader->places[k].type, false, bytes + first[k] + i * step[k]);
+                cloud_read_scalar(reader->places[k].type, false, bytes + first[k] + i * step[k]);
         if (!cloud_add(reader->file, numbers))
             return false;
     }
     return true;
 }
 
-/* Point after point. */
+/* Read packed points, one after another. */
 static bool read_binary(pcd_reader *reader, size_t offset)
 {
     size_t left = reader->file->size - offset;
     size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
     if (reader->points > left / reader->stride)
         return cloud_fail_byte(reader->file, offset,
-                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %zu bytes follow",
+                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, but only %zu bytes follow",
                                reader->points, reader->stride, left);
     for (unsigned k = 0; k < reader->place_count; k++) {
         first[k] = (size_t)reader->places[k].offset;
         step[k] = (size_t)reader->stride;
     }
-    cloud_note_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
+    cloud_note_trailing_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
     return add_points(reader, reader->file->bytes + offset, first, step);
 }
 
-/* Field after field. */
+/* Read decompressed points: all values of the first field, then all of the second, and so on. */
 static bool add_unpacked(const pcd_reader *reader, const unsigned char *bytes)
 {
     size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
@@ -406,30 +412,31 @@ static bool read_compressed(pcd_reader *reader, size_t offset)
     const cloud_file *file = reader->file;
     if (file->size - offset < SIZES)
         return cloud_fail_byte(file, file->size, "the file ends before its compressed data");
-    uint32_t packed = (uint32_t)cloud_scalar_read(size_type, false, file->bytes + offset);
-    uint32_t size = (uint32_t)cloud_scalar_read(size_type, false, file->bytes + offset + 4);
+    uint32_t packed = (uint32_t)cloud_read_scalar(size_type, false, file->bytes + offset);
+    uint32_t size = (uint32_t)cloud_read_scalar(size_type, false, file->bytes + offset + 4);
     if (reader->points > UINT32_MAX / reader->stride || reader->points * reader->stride != size)
         return cloud_fail_byte(file, offset,
-                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, and %" PRIu32 " bytes follow",
+                               "%" PRIu64 " points of %" PRIu64 " bytes are announced, but %" PRIu32
+                               " bytes of compressed data",
                                reader->points, reader->stride, size);
     offset += SIZES;
     if (packed > file->size - offset)
-        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes are announced, and %zu follow", packed,
+        return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes are announced, but only %zu follow", packed,
                                file->size - offset);
     if (size > (uint64_t)packed * LZF_RATIO)
         return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes cannot hold %" PRIu32 " bytes", packed,
                                size);
-    cloud_note_bytes(file, offset + packed);
+    cloud_note_trailing_bytes(file, offset + packed);
     return size == 0 || unpack(reader, offset, packed, size);
 }
 
 static bool parse_pcd(cloud_file *file)
 {
-    pcd_reader reader = {.file = file, .lines = cloud_lines_of(file)};
+    pcd_reader reader = {.file = file, .lines = cloud_begin_lines(file)};
     if (!read_header(&reader))
         return false;
     size_t offset = (size_t)(reader.lines.at - (const char *)file->bytes);
-    begin_values(&reader);
+    set_channels(&reader);
     switch (reader.encoding) {
     case PCD_ASCII:
         return read_ascii(&reader);
@@ -441,4 +448,4 @@ static bool parse_pcd(cloud_file *file)
     return read_compressed(&reader, offset);
 }
 
-const cloud_format cloud_pcd = {"PCD", ".pcd", is_pcd, parse_pcd};
+const cloud_format cloud_pcd = {is_pcd, parse_pcd};

@@ -13,34 +13,34 @@ typedef enum ply_encoding { PLY_NO_ENCODING, PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_B
 
 typedef struct ply_property {
     cloud_scalar type;   /* of the value, or of each item of a list */
-    cloud_scalar length; /* of a list's length; size 0 when the property is no list */
-    int channel;         /* of a vertex: a cloud_channel; -1: none */
+    cloud_scalar length; /* the type of a list's length; its size is 0 if the property is not a list */
+    int channel;         /* a vertex's cloud_channel; -1: none */
 } ply_property;
 
 typedef struct ply_element {
     cloud_span name;
     uint64_t count;
     size_t first_property, property_count;
-    unsigned channels; /* of the points: bits 1 << cloud_channel */
+    unsigned channels; /* bits 1 << cloud_channel of its properties */
 } ply_element;
 
 typedef struct ply_reader {
     cloud_file *file;
     cloud_lines lines;
-    size_t offset; /* of the next byte, in binary data */
+    size_t offset; /* the next byte of binary data */
     ply_encoding encoding;
     ply_element elements[MAX_ELEMENTS];
     size_t element_count;
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
-    unsigned full_color; /* 1 where colours are floats */
-    bool complete;       /* all points were read: what follows is not needed */
-    bool ended;          /* the file ends too early */
+    unsigned full_color; /* full scale of colours: 1 for floats, else 255 */
+    bool complete;       /* all points were read; damage in data that follows is only noted */
+    bool ended;          /* the file is truncated */
 } ply_reader;
 
 static bool is_ply(const cloud_file *file)
 {
-    cloud_lines lines = cloud_lines_of(file);
+    cloud_lines lines = cloud_begin_lines(file);
     cloud_span line, word, more;
     return cloud_next_line(&lines, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
            !cloud_next_word(&line, &more);
@@ -83,7 +83,7 @@ static bool read_format(ply_reader *reader, cloud_span rest)
     cloud_next_word(&rest, &name);
     cloud_next_word(&rest, &version);
     if (reader->encoding != PLY_NO_ENCODING)
-        return fail_header(reader, "is a second format", name);
+        return fail_header(reader, "is a second format; a PLY header has one", name);
     for (int i = PLY_ASCII; i <= PLY_BIG_ENDIAN; i++)
         if (cloud_word_is(name, names[i]))
             reader->encoding = (ply_encoding)i;
@@ -107,15 +107,15 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     cloud_next_word(&rest, &name);
     cloud_next_word(&rest, &number);
     if (!cloud_word_count(number, &count))
-        return fail_header(reader, "is not a number of elements", number);
+        return fail_header(reader, "is not a count of elements", number);
     for (size_t i = 0; i < reader->element_count; i++)
         if (cloud_word_is(name, "vertex") && cloud_word_is(reader->elements[i].name, "vertex"))
-            return fail_header(reader, "is a second element of this name", name);
+            return fail_header(reader, "is a second element with this name", name);
     reader->elements[reader->element_count++] = (ply_element){name, count, reader->property_count, 0, 0};
     return true;
 }
 
-/* Read a property's type, of a value or of a list. */
+/* Read the type of a property: of a single value or of a list. */
 static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *property)
 {
     cloud_span word;
@@ -129,15 +129,16 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
     return find_type(word, &property->type) || fail_header(reader, "is not a PLY type", word);
 }
 
-/* A coordinate is one number. What is meant to be a value and is none is passed over. */
+/* Assign a property to its channel. A coordinate must be a single number and occur once; a value that is a list or
+ * occurs again is ignored. */
 static bool add_channel(ply_reader *reader, ply_element *element, ply_property *property, cloud_span name)
 {
     const unsigned bit = 1U << property->channel;
     const bool again = element->channels & bit, list = property->length.size > 0;
     if (property->channel <= CLOUD_Z && again)
-        return fail_header(reader, "is a second property of this name", name);
+        return fail_header(reader, "is a second property with this name", name);
     if (property->channel <= CLOUD_Z && list)
-        return fail_header(reader, "is a list, where a coordinate must be a number", name);
+        return fail_header(reader, "is a list; a coordinate must be a single number", name);
     if (again || list) {
         property->channel = -1;
         return true;
@@ -153,14 +154,14 @@ static bool read_property(ply_reader *reader, cloud_span rest)
     ply_property property = {.channel = -1};
     cloud_span name;
     if (reader->element_count == 0)
-        return cloud_fail_line(reader->file, reader->lines.number, "a property before any element");
+        return cloud_fail_line(reader->file, reader->lines.number, "a property stands before any element");
     if (reader->property_count == MAX_PROPERTIES)
         return cloud_fail_line(reader->file, reader->lines.number, "more than %d properties", MAX_PROPERTIES);
     ply_element *element = &reader->elements[reader->element_count - 1];
     if (!read_type(reader, &rest, &property))
         return false;
     if (!cloud_next_word(&rest, &name))
-        return cloud_fail_line(reader->file, reader->lines.number, "a property without a name");
+        return cloud_fail_line(reader->file, reader->lines.number, "a property has no name");
     if (cloud_word_is(element->name, "vertex"))
         property.channel = cloud_word_channel(name);
     if (property.channel >= 0 && !add_channel(reader, element, &property, name))
@@ -188,7 +189,7 @@ static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span 
     return fail_header(reader, "does not belong in a PLY header", keyword);
 }
 
-/* What the header as a whole must have. */
+/* Check what the header as a whole must contain. */
 static bool check_header(const ply_reader *reader)
 {
     unsigned channels = 0;
@@ -200,11 +201,12 @@ static bool check_header(const ply_reader *reader)
         has_vertex = has_vertex || cloud_word_is(reader->elements[i].name, "vertex");
     }
     if (!has_vertex)
-        return cloud_fail_line(reader->file, reader->lines.number, "the header has no element vertex");
+        return cloud_fail_line(reader->file, reader->lines.number, "the header has no element \"vertex\"");
     for (int axis = 0; axis < 3; axis++)
         if (!(channels >> axis & 1))
-            return cloud_fail_line(reader->file, reader->lines.number, "vertex has no property %c", "xyz"[axis]);
-    cloud_begin_values(reader->file, channels, reader->full_color);
+            return cloud_fail_line(reader->file, reader->lines.number, "element \"vertex\" has no property \"%c\"",
+                                   "xyz"[axis]);
+    cloud_set_channels(reader->file, channels, reader->full_color);
     return true;
 }
 
@@ -225,7 +227,7 @@ static bool read_header(ply_reader *reader)
 
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
 
-/* Take the words of one property off a line. */
+/* Read the words of one property and remove them from the line. */
 static bool read_words(ply_reader *reader, const ply_property *property, cloud_span *line,
                        double numbers[CLOUD_CHANNELS])
 {
@@ -237,11 +239,11 @@ static bool read_words(ply_reader *reader, const ply_property *property, cloud_s
         return cloud_word_number(reader->file, number, word, property->channel, &numbers[property->channel]);
     if (enough && property->length.size > 0) {
         if (!cloud_word_count(word, &count))
-            return fail_header(reader, "is not the length of a list", word);
+            return fail_header(reader, "is not a valid length of a list", word);
         for (uint64_t i = 0; enough && i < count; i++)
             enough = cloud_next_word(line, &word);
     }
-    return enough || cloud_fail_line(reader->file, number, "the line ends before the last of its properties");
+    return enough || cloud_fail_line(reader->file, number, "the line has too few values");
 }
 
 static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
@@ -256,13 +258,13 @@ static bool read_line(ply_reader *reader, const ply_element *element, uint64_t r
     for (size_t i = 0; i < element->property_count; i++)
         if (!read_words(reader, &reader->properties[element->first_property + i], &line, numbers))
             return false;
-    return !cloud_next_word(&line, &word) || fail_header(reader, "is more than the properties of the line", word);
+    return !cloud_next_word(&line, &word) || fail_header(reader, "follows the last property of the line", word);
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Take `count` items of a type; returns where they are, or null when the file ends before. */
-static const unsigned char *take(ply_reader *reader, cloud_scalar type, uint64_t count)
+/* Advance over `count` items of a type. Returns their address; null if the file ends before. */
+static const unsigned char *advance(ply_reader *reader, cloud_scalar type, uint64_t count)
 {
     const unsigned char *at = reader->file->bytes + reader->offset;
     if (count > (reader->file->size - reader->offset) / type.size)
@@ -286,29 +288,29 @@ static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t 
         const ply_property *property = &reader->properties[element->first_property + i];
         double count = 1;
         if (property->length.size > 0) {
-            const unsigned char *length = take(reader, property->length, 1);
+            const unsigned char *length = advance(reader, property->length, 1);
             if (!length)
                 return fail_end(reader, element, row);
-            count = cloud_scalar_read(property->length, big_endian, length);
+            count = cloud_read_scalar(property->length, big_endian, length);
         }
         if (count < 0)
-            return cloud_fail_byte(reader->file, reader->offset - property->length.size, "a list of negative length");
-        const unsigned char *value = take(reader, property->type, (uint64_t)count);
+            return cloud_fail_byte(reader->file, reader->offset - property->length.size,
+                                   "a list has a negative length");
+        const unsigned char *value = advance(reader, property->type, (uint64_t)count);
         if (!value)
             return fail_end(reader, element, row);
         if (property->channel >= 0)
-            numbers[property->channel] = cloud_scalar_read(property->type, big_endian, value);
+            numbers[property->channel] = cloud_read_scalar(property->type, big_endian, value);
     }
     return true;
 }
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* What comes after the last point and does not fit its header is noted. But a file that ends too early is cut off,
- * whatever is missing. */
-static bool forgive(const ply_reader *reader)
+/* Turn damage after the last point into a note. A truncated file stays an error, whatever is missing. */
+static bool note_damage(const ply_reader *reader)
 {
-    return reader->complete && !reader->ended && cloud_forgive(reader->file);
+    return reader->complete && !reader->ended && cloud_move_error_to_note(reader->file);
 }
 
 static bool read_rows(ply_reader *reader, const ply_element *element)
@@ -319,11 +321,11 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
     double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
-    if (has_points && !cloud_expect_rows(reader->file, element->count, element->property_count))
+    if (has_points && !cloud_reserve_rows(reader->file, element->count, element->property_count))
         return false;
     for (uint64_t row = 0; row < element->count; row++) {
-        cloud_tell(reader->file, row, row, element->count);
-        if (!read_row(reader, element, row, numbers) && !(reader->encoding == PLY_ASCII && forgive(reader)))
+        cloud_report_progress(reader->file, row, row, element->count);
+        if (!read_row(reader, element, row, numbers) && !(reader->encoding == PLY_ASCII && note_damage(reader)))
             return false;
         if (has_points && !cloud_add(reader->file, numbers))
             return false;
@@ -334,7 +336,7 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
 
 static bool parse_ply(cloud_file *file)
 {
-    ply_reader reader = {.file = file, .lines = cloud_lines_of(file), .full_color = 255};
+    ply_reader reader = {.file = file, .lines = cloud_begin_lines(file), .full_color = 255};
     if (!is_ply(file))
         return cloud_fail_line(file, 1, "is not a PLY file: its first line is not \"ply\"");
     if (!read_header(&reader))
@@ -345,12 +347,12 @@ static bool parse_ply(cloud_file *file)
     reader.offset = (size_t)(reader.lines.at - (const char *)file->bytes);
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
-            return forgive(&reader); /* of a binary file, of which no more can be read then */
+            return note_damage(&reader); /* a binary file cannot be read further after an error */
     if (ascii)
-        cloud_note_lines(file, &reader.lines);
+        cloud_note_trailing_lines(file, &reader.lines);
     else
-        cloud_note_bytes(file, reader.offset);
+        cloud_note_trailing_bytes(file, reader.offset);
     return true;
 }
 
-const cloud_format cloud_ply = {"PLY", ".ply", is_ply, parse_ply};
+const cloud_format cloud_ply = {is_ply, parse_ply};

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_text.c - points as text: a line each, its first three columns x y z. */
+/* cloud_text.c - points as text: one per line, with the coordinates in the first three columns.
+ *
+ * Text files come without a specification, so the rules here refuse what could silently become another picture: column
+ * names that place x, y, z elsewhere than first, decimal commas, mixed separators, and a first line that announces more
+ * points than follow. Columns from the fourth on have the meaning of their names. Without names, three or four more
+ * columns are guessed to be colours, perhaps after an intensity; every line must confirm the guess (end_guess() gives
+ * the rules), else the columns are ignored. Either way cloud.column_note says so.
+ */
 #include "array.h"
 #include "cloud_format.h"
 #include "number.h"
@@ -9,14 +16,14 @@
 
 /* The columns of a file. */
 typedef struct text_columns {
-    signed char *channels; /* of each column from the fourth on a cloud_channel; -1: none */
+    signed char *channels; /* the cloud_channel of each column from the fourth on; -1: none */
     size_t count, room;
-    bool unnamed;     /* there are such columns, and no names */
-    bool guessed;     /* from the first line of numbers, for want of names; then: */
-    bool ranges[2];   /* the channels of each line so far are in one_range */
-    bool shifted[2];  /* and so is the column before them */
-    bool no_normals;  /* and some are not of length 1 */
-    double brightest; /* of all channels */
+    bool unnamed;     /* the file has such columns without names */
+    bool guessed;     /* the channels are a guess; the members below record what the lines so far say about it: */
+    bool ranges[2];   /* by range: all colour channels were within it */
+    bool shifted[2];  /* by range: the column before the colour was always within it, too */
+    bool no_normals;  /* some colour is not a vector of length 1 */
+    double brightest; /* the largest channel of all colours */
 } text_columns;
 
 static const char *skip_blanks(cloud_span line)
@@ -26,25 +33,25 @@ static const char *skip_blanks(cloud_span line)
     return line.begin;
 }
 
-/* True where nothing but a comment is left of a line. */
-static bool is_over(cloud_span line)
+/* Whether nothing but a comment is left of a line. */
+static bool is_at_end(cloud_span line)
 {
     size_t left = (size_t)(line.limit - line.begin);
     return left == 0 || *line.begin == '#' || (left > 1 && line.begin[0] == '/' && line.begin[1] == '/');
 }
 
-static bool is_mark(char c)
+static bool is_separator(char c)
 {
     return c == ',' || c == ';';
 }
 
-/* Cut the next column off a line for reading names and quoting: a word that commas and semicolons end too. */
+/* Remove the next column from the front of a line, for names and quotes: blanks, commas or semicolons end it. */
 static bool next_column(cloud_span *line, cloud_span *column)
 {
-    while (line->begin < line->limit && (cloud_is_blank(*line->begin) || is_mark(*line->begin)))
+    while (line->begin < line->limit && (cloud_is_blank(*line->begin) || is_separator(*line->begin)))
         line->begin++;
     column->begin = line->begin;
-    while (line->begin < line->limit && !cloud_is_blank(*line->begin) && !is_mark(*line->begin))
+    while (line->begin < line->limit && !cloud_is_blank(*line->begin) && !is_separator(*line->begin))
         line->begin++;
     column->limit = line->begin;
     return column->begin < column->limit;
@@ -59,7 +66,7 @@ static cloud_span strip_quotes(cloud_span column)
     return column;
 }
 
-/* A name is what does not start like a number. */
+/* Whether a column is a name: it does not begin like a number. */
 static bool is_name(cloud_span column)
 {
     const char *end;
@@ -67,7 +74,7 @@ static bool is_name(cloud_span column)
     return !number_like && !number_parse_nonfinite(column.begin, column.limit, &end);
 }
 
-/* A line of three names or more, and nothing else. */
+/* Whether a line consists of three or more names. */
 static bool is_header(cloud_span line)
 {
     cloud_span column;
@@ -78,7 +85,7 @@ static bool is_header(cloud_span line)
     return count >= 3;
 }
 
-static int channel_of(cloud_span name)
+static int find_channel(cloud_span name)
 {
     const char lower = (char)(name.limit - name.begin == 1 ? *name.begin | ('a' ^ 'A') : 0);
     return cloud_word_channel(lower ? (cloud_span){&lower, &lower + 1} : name);
@@ -94,8 +101,8 @@ static bool add_column(text_columns *columns, int channel)
     return true;
 }
 
-/* Names are taken at their word: a file whose columns are "id,x,y,z" would make a wrong picture. A unit, as in
- * "x [m], y [m]", belongs to the name before it. */
+/* Read the names of the columns. A file with the columns "id,x,y,z" is refused, because its first three columns are not
+ * the coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. */
 static bool read_header(cloud_file *file, size_t number, cloud_span line, text_columns *columns)
 {
     cloud_span column;
@@ -103,40 +110,40 @@ static bool read_header(cloud_file *file, size_t number, cloud_span line, text_c
     for (int index = 0; next_column(&line, &column);) {
         if (*column.begin == '[' || *column.begin == '(')
             continue;
-        int channel = channel_of(strip_quotes(column));
+        int channel = find_channel(strip_quotes(column));
         if (channel >= CLOUD_X && channel <= CLOUD_Z && channel != index)
-            return cloud_fail_line(file, number, "names column %d %c: the first three must be x y z", index + 1,
+            return cloud_fail_line(file, number, "names column %d %c; the first three columns must be x y z", index + 1,
                                    "xyz"[channel]);
         if (channel >= 0 && channels >> channel & 1)
             channel = -1;
         if (channel >= 0)
             channels |= 1U << channel;
         if (index++ >= 3 && !add_column(columns, channel))
-            return cloud_fail_line(file, number, "out of memory for its names");
+            return cloud_fail_line(file, number, "out of memory for column names");
     }
     while (columns->count > 0 && columns->channels[columns->count - 1] < 0)
         columns->count--;
-    cloud_begin_values(file, channels, 1);
+    cloud_set_channels(file, channels, 1);
     return true;
 }
 
-/* Say why there is no coordinate at the front of a line. */
+/* Report why the front of a line is not a coordinate. */
 static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span line, int axis)
 {
     const char *end;
     double ignored;
     cloud_span column = line;
-    if (is_over(line))
+    if (is_at_end(line))
         return cloud_fail_line(file, number, "has %d of the three coordinates x y z", axis);
-    if (is_mark(*line.begin))
-        return cloud_fail_line(file, number, "has nothing in column %d", axis + 1);
+    if (is_separator(*line.begin))
+        return cloud_fail_line(file, number, "column %d is empty", axis + 1);
     next_column(&line, &column);
     if (!number_parse(column.begin, column.limit, &end, &ignored) && end == column.limit)
         return cloud_fail_word(file, number, column, "is beyond the largest double");
     return cloud_fail_word(file, number, column, "is not a number");
 }
 
-/* Read the number at the front of a line, NaN for one that is not finite. *end is what follows it. */
+/* Read the number at the front of a line; "nan" and "inf" give NaN. *end receives the position behind it. */
 static bool parse_coordinate(cloud_span line, const char **end, double *coordinate)
 {
     if (number_parse(line.begin, line.limit, end, coordinate))
@@ -145,8 +152,8 @@ static bool parse_coordinate(cloud_span line, const char **end, double *coordina
     return *end == line.begin && number_parse_nonfinite(line.begin, line.limit, end);
 }
 
-/* Read the coordinates of a point and cut them off the line. The separator after each must be like the first: decimal
- * commas, as in "1,5;2,5;3,5" or "1,5 2,5 3,5", would pass for other points. */
+/* Read the coordinates of a point and remove them from the line. The separators must be the same throughout: with mixed
+ * ones, decimal commas as in "1,5;2,5;3,5" or "1,5 2,5 3,5" would be read as other points. */
 static bool parse_position(const cloud_file *file, size_t number, cloud_span *rest, char *mark, double position[3])
 {
     char separator = 0;
@@ -158,11 +165,11 @@ static bool parse_position(const cloud_file *file, size_t number, cloud_span *re
             return fail_coordinate(file, number, line, axis);
         line.begin = end;
         line.begin = skip_blanks(line);
-        if (is_over(line)) {
+        if (is_at_end(line)) {
             *rest = line;
             return axis == 2 || fail_coordinate(file, number, line, axis + 1);
         }
-        *mark = is_mark(*line.begin) ? *line.begin : ' ';
+        *mark = is_separator(*line.begin) ? *line.begin : ' ';
         if (*mark == ' ' && line.begin == end)
             return fail_coordinate(file, number, column, axis);
         if (separator && *mark != separator)
@@ -175,25 +182,25 @@ static bool parse_position(const cloud_file *file, size_t number, cloud_span *re
     return true;
 }
 
-/* Cut the next column off, which ends at such a mark, or, where that is ' ', at a blank. False at the end. */
+/* Remove the next column from the front of a line. It ends at `mark`; ' ' stands for any blank. False at the end. */
 static bool next_field(cloud_span *line, char mark, cloud_span *field)
 {
     line->begin = skip_blanks(*line);
-    if (is_over(*line))
+    if (is_at_end(*line))
         return false;
     field->begin = line->begin;
-    while (!is_over(*line) && (mark == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != mark))
+    while (!is_at_end(*line) && (mark == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != mark))
         line->begin++;
     field->limit = line->begin;
-    if (!is_over(*line))
+    if (!is_at_end(*line))
         line->begin++;
     while (field->limit > field->begin && cloud_is_blank(field->limit[-1]))
         field->limit--;
     return true;
 }
 
-/* NaN where a field is no number. */
-static double number_of(cloud_span field)
+/* The number in a field; NaN if it is not a number. */
+static double parse_field(cloud_span field)
 {
     double number = NAN;
     const char *end;
@@ -201,8 +208,8 @@ static double number_of(cloud_span field)
     return number_parse(field.begin, field.limit, &end, &number) && end == field.limit ? number : NAN;
 }
 
-/* What the columns after the coordinates hold; what is missing is NaN. Returns how many columns there are, of those
- * that count and one more. */
+/* Read the columns after the coordinates; missing ones become NaN. Returns the number of columns, at most one more than
+ * columns->count. */
 static size_t parse_values(cloud_span line, char mark, const text_columns *columns, double numbers[CLOUD_CHANNELS])
 {
     cloud_span field;
@@ -211,13 +218,13 @@ static size_t parse_values(cloud_span line, char mark, const text_columns *colum
         numbers[channel] = NAN;
     for (; i < columns->count && next_field(&line, mark, &field); i++)
         if (columns->channels[i] >= 0)
-            numbers[columns->channels[i]] = number_of(field);
+            numbers[columns->channels[i]] = parse_field(field);
     return i + next_field(&line, mark, &field);
 }
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
-/* By the first line of numbers: three more columns may be r g b, four intensity r g b. */
+/* Guess from the first line of numbers: three more columns may be r g b, four may be intensity r g b. */
 static bool guess_columns(cloud_file *file, cloud_span rest, char mark, text_columns *columns)
 {
     static const signed char channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
@@ -237,11 +244,11 @@ static bool guess_columns(cloud_file *file, cloud_span rest, char mark, text_col
         columns->ranges[range] = true;
         columns->shifted[range] = count == 4;
     }
-    cloud_begin_values(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 1);
+    cloud_set_channels(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 1);
     return true;
 }
 
-/* The ranges that channels may have: bytes, and fractions. */
+/* The two ranges of colour channels: integers from 0 to 255, and numbers from 0 to 1. */
 enum { BYTES, FRACTIONS };
 
 static bool is_in_range(double number, int range)
@@ -249,15 +256,15 @@ static bool is_in_range(double number, int range)
     return range == BYTES ? number >= 0 && number <= 255 && number == floor(number) : number >= 0 && number <= 1;
 }
 
-static void forget(cloud_file *file, text_columns *columns)
+static void discard_guess(cloud_file *file, text_columns *columns)
 {
     cloud_drop_values(file);
-    memset(file->out->beyond, 0, sizeof file->out->beyond);
+    memset(file->out->out_of_range, 0, sizeof file->out->out_of_range);
     columns->count = 0;
     columns->guessed = false;
 }
 
-/* Each line must bear it out. */
+/* Hold the guess against a line's numbers, and discard it if they contradict it. */
 static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     bool fits = false;
@@ -274,44 +281,46 @@ static void check_guess(cloud_file *file, text_columns *columns, size_t count, c
     }
     columns->no_normals |= fabs(square - 1) > 0.01;
     if (!fits || count != columns->count || (count == 4 && isnan(numbers[CLOUD_INTENSITY])))
-        forget(file, columns);
+        discard_guess(file, columns);
 }
 
-/* What was decided is said. */
+/* Decide after the last line. The columns are colours if some channel is bright, if fractions are not all normals, and
+ * if with four columns the first cannot be a colour channel as well. */
 static void end_guess(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
     const bool four = columns->count == 4, read = columns->guessed && bright && !columns->shifted[range];
     if (read && range == BYTES)
-        file->out->decided = four ? "columns 4 to 7, which have no names, are read as intensity r g b"
-                                  : "columns 4 to 6, which have no names, are read as r g b";
+        file->out->column_note = four ? "columns 4 to 7 have no names and are read as intensity r g b"
+                                      : "columns 4 to 6 have no names and are read as r g b";
     else if (read)
-        file->out->decided = four ? "columns 4 to 7, which have no names, are read as intensity r g b, from 0 to 1"
-                                  : "columns 4 to 6, which have no names, are read as r g b, from 0 to 1";
+        file->out->column_note = four ? "columns 4 to 7 have no names and are read as intensity r g b, from 0 to 1"
+                                      : "columns 4 to 6 have no names and are read as r g b, from 0 to 1";
     else if (columns->guessed && bright)
-        file->out->decided = "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first "
-                             "line with their names, as in x y z intensity r g b, says what they are";
+        file->out->column_note =
+            "columns 4 to 7 have no names and are ignored: they may be r g b and another value, or "
+            "intensity r g b; add a first line with names, such as x y z intensity r g b";
     else
-        file->out->decided = "the columns from the fourth on have no names and are not read: a first line with the "
-                             "names of all, as in x y z r g b, says what they are";
+        file->out->column_note = "the columns from the fourth on have no names and are ignored; add a first line with "
+                                 "the names of all columns, such as x y z r g b";
     if (!read)
-        forget(file, columns);
+        discard_guess(file, columns);
 }
 
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
-/* The lines, without the mark that some editors put before UTF-8. */
-static cloud_lines lines_of(const cloud_file *file)
+/* Begin reading lines, after the byte order mark that some editors write before UTF-8. */
+static cloud_lines begin_lines(const cloud_file *file)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
-    cloud_lines lines = cloud_lines_of(file);
+    cloud_lines lines = cloud_begin_lines(file);
     if (file->size >= 3 && memcmp(lines.at, byte_order_mark, 3) == 0)
         lines.at += 3;
     return lines;
 }
 
-/* The number of points, which is the first line of a .pts file: digits, and nothing else. */
+/* Whether a line holds a single integer: .pts files begin with the number of their points. */
 static bool is_count(cloud_span line, double *count)
 {
     const char *end;
@@ -320,18 +329,18 @@ static bool is_count(cloud_span line, double *count)
         rest.begin++;
     const char *limit = rest.begin;
     rest.begin = skip_blanks(rest);
-    return limit > line.begin && is_over(rest) && number_parse(line.begin, limit, &end, count);
+    return limit > line.begin && is_at_end(rest) && number_parse(line.begin, limit, &end, count);
 }
 
-bool cloud_text_begins(const cloud_file *file)
+bool cloud_text_recognise(const cloud_file *file)
 {
-    cloud_lines lines = lines_of(file);
+    cloud_lines lines = begin_lines(file);
     cloud_span line;
     double position[3], count;
     char mark = ' ';
     for (bool first = true; cloud_next_line(&lines, &line);) {
         line.begin = skip_blanks(line);
-        if (is_over(line))
+        if (is_at_end(line))
             continue;
         if (!first || (!is_header(line) && !is_count(line, &count)))
             return parse_position(file, lines.number, &line, &mark, position);
@@ -340,14 +349,14 @@ bool cloud_text_begins(const cloud_file *file)
     return false;
 }
 
-/* Of a point that is skipped the other columns say nothing. */
+/* Read a line with a point. The values of a skipped point are not read, and say nothing about a guess. */
 static bool parse_point(cloud_file *file, size_t number, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
     char mark = ' ';
     if (!parse_position(file, number, &line, &mark, numbers))
         return false;
-    if (cloud_skips(file, numbers))
+    if (cloud_skip_nonfinite(file, numbers))
         return true;
     if (file->out->count == 0 && !named && !guess_columns(file, line, mark, columns))
         return false;
@@ -359,7 +368,7 @@ static bool parse_point(cloud_file *file, size_t number, cloud_span line, bool n
     return cloud_add(file, numbers);
 }
 
-/* The names of columns in a comment, as CloudCompare writes them. */
+/* Whether a comment holds the names of the columns, as CloudCompare writes them; *line then becomes the names. */
 static bool is_named_comment(cloud_span *line)
 {
     cloud_span rest = *line, column;
@@ -367,25 +376,25 @@ static bool is_named_comment(cloud_span *line)
         rest.begin++;
     const cloud_span names = rest;
     for (int i = 0; i < 3; i++)
-        if (!next_column(&rest, &column) || channel_of(strip_quotes(column)) != i)
+        if (!next_column(&rest, &column) || find_channel(strip_quotes(column)) != i)
             return false;
     *line = names;
     return is_header(names);
 }
 
-/* A line of names or a count of points comes before the first point; a comment that names columns may come before it.
- * Points beyond the count are read as well. */
+/* Read all lines. A line of names or a count of points may stand before the first point, and a comment with names
+ * before these. More points than the count are read; fewer are an error. */
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
-    cloud_lines lines = lines_of(file);
+    cloud_lines lines = begin_lines(file);
     cloud_span line;
     bool first = true, named = false, has_header = false;
     double count = 0, points = 0;
-    size_t counted = 0; /* the line of the count */
+    size_t count_line = 0; /* the number of the line with the count; 0: none */
     while (cloud_next_line(&lines, &line)) {
-        cloud_tell(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);
+        cloud_report_progress(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);
         line.begin = skip_blanks(line);
-        const bool comment = is_over(line);
+        const bool comment = is_at_end(line);
         if (comment && !(first && !named && is_named_comment(&line)))
             continue;
         if (first && !has_header && (comment || is_header(line))) {
@@ -394,8 +403,8 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
             columns->count = 0;
             if (!read_header(file, lines.number, line, columns))
                 return false;
-        } else if (first && !has_header && !counted && is_count(line, &count)) {
-            counted = lines.number;
+        } else if (first && !has_header && !count_line && is_count(line, &count)) {
+            count_line = lines.number;
         } else {
             if (!parse_point(file, lines.number, line, named, columns))
                 return false;
@@ -404,7 +413,7 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
         }
     }
     return points >= count ||
-           cloud_fail_line(file, counted, "counts %.0f points, and there are %.0f: the file is cut short", count,
+           cloud_fail_line(file, count_line, "announces %.0f points, but %.0f follow: the file is truncated", count,
                            points);
 }
 
@@ -418,4 +427,4 @@ static bool parse_text(cloud_file *file)
     return done;
 }
 
-const cloud_format cloud_text = {"x y z text", NULL, NULL, parse_text};
+const cloud_format cloud_text = {NULL, parse_text};

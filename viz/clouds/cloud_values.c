@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_values.c - colours, intensities and classes of a cloud: their names, and how they are kept. */
+/* cloud_values.c - colours, intensities and classes of a cloud: finding them by name, and converting them. */
 #include "cloud_format.h"
 #include "number.h"
 
@@ -69,8 +69,8 @@ enum { UNIT = 1, BYTE = 255, WORD = 65535 };
 
 #define THREE (1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE)
 
-/* A channel alone is no colour. */
-void cloud_begin_values(cloud_file *file, unsigned channels, unsigned full)
+/* A colour needs all three channels. */
+void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full)
 {
     if ((channels & THREE) != THREE)
         channels &= ~THREE;
@@ -84,8 +84,9 @@ void cloud_drop_values(cloud_file *file)
     point_values_release(&file->out->values);
 }
 
-/* A channel is more than a full one was taken for. All before it were not: nothing is lost. */
-static void widen(cloud *points)
+/* Raise the full scale of colours after a channel exceeded it. All channels before were within the old scale, so their
+ * 8-bit values can be rescaled: 1 was full and becomes 1 of 255; 255 becomes less than 1 of 256. */
+static void raise_full_scale(cloud *points)
 {
     const bool unit = points->color_full == UNIT;
     unsigned char *at = points->values.colors ? points->values.colors[0] : NULL;
@@ -94,23 +95,23 @@ static void widen(cloud *points)
     points->color_full = unit ? BYTE : WORD;
 }
 
-static unsigned char channel_of(double number, unsigned full)
+static unsigned char convert_channel(double number, unsigned full)
 {
     if (full == WORD)
         return (unsigned char)((unsigned)number >> 8);
     return (unsigned char)(number * (full == UNIT ? BYTE : 1) + 0.5);
 }
 
-static bool take_color(cloud *points, const double *channels, unsigned char color[3])
+static bool convert_color(cloud *points, const double *channels, unsigned char color[3])
 {
     for (int i = 0; i < 3; i++)
         if (!(channels[i] >= 0 && channels[i] <= WORD))
             return false;
     for (int i = 0; i < 3; i++)
         while (channels[i] > points->color_full)
-            widen(points);
+            raise_full_scale(points);
     for (int i = 0; i < 3; i++)
-        color[i] = channel_of(channels[i], points->color_full);
+        color[i] = convert_channel(channels[i], points->color_full);
     return true;
 }
 
@@ -124,13 +125,13 @@ static bool unpack_color(double number, unsigned char color[3])
     return true;
 }
 
-static bool has(const cloud_file *file, cloud_channel channel)
+static bool has_channel(const cloud_file *file, cloud_channel channel)
 {
     return file->channels >> channel & 1;
 }
 
-/* What is not finite stands for none in many files. */
-static bool is_said(const double *numbers, size_t count)
+/* Many files mark missing values by NaN or infinity: only finite numbers can be out of range. */
+static bool all_finite(const double *numbers, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(numbers[i]))
@@ -138,58 +139,58 @@ static bool is_said(const double *numbers, size_t count)
     return true;
 }
 
-static void note_beyond(const cloud_file *file, const double *numbers, const point_value *value)
+static void count_out_of_range(const cloud_file *file, const double *numbers, const point_value *value)
 {
-    size_t *beyond = file->out->beyond;
-    const double *color = numbers + (has(file, CLOUD_RED) ? CLOUD_RED : CLOUD_PACKED);
-    if (has(file, CLOUD_RED) || has(file, CLOUD_PACKED))
-        beyond[POINT_COLOR] += !value->has[POINT_COLOR] && is_said(color, has(file, CLOUD_RED) ? 3 : 1);
-    if (has(file, CLOUD_INTENSITY))
-        beyond[POINT_INTENSITY] += !value->has[POINT_INTENSITY] && is_said(numbers + CLOUD_INTENSITY, 1);
-    if (has(file, CLOUD_CLASS))
-        beyond[POINT_CLASS] += !value->has[POINT_CLASS] && is_said(numbers + CLOUD_CLASS, 1);
+    size_t *count = file->out->out_of_range;
+    const bool red = has_channel(file, CLOUD_RED);
+    if (red || has_channel(file, CLOUD_PACKED))
+        count[POINT_COLOR] +=
+            !value->has[POINT_COLOR] && all_finite(numbers + (red ? CLOUD_RED : CLOUD_PACKED), red ? 3 : 1);
+    if (has_channel(file, CLOUD_INTENSITY))
+        count[POINT_INTENSITY] += !value->has[POINT_INTENSITY] && all_finite(numbers + CLOUD_INTENSITY, 1);
+    if (has_channel(file, CLOUD_CLASS))
+        count[POINT_CLASS] += !value->has[POINT_CLASS] && all_finite(numbers + CLOUD_CLASS, 1);
 }
 
-const char *cloud_beyond_text(const size_t beyond[POINT_VALUE_KINDS], char text[CLOUD_BEYOND])
+const char *cloud_describe_out_of_range(const size_t count[POINT_VALUE_KINDS], char text[CLOUD_OUT_OF_RANGE_TEXT])
 {
     static const struct {
-        const char *one, *many, *range;
-    } rows[POINT_VALUE_KINDS] = {[POINT_COLOR] = {"colour", "colours", "beyond 0 to 65535"},
-                                 [POINT_INTENSITY] = {"intensity", "intensities", "beyond a float"},
-                                 [POINT_CLASS] = {"class", "classes", "that are no whole number to 65535"}};
+        const char *one, *many;
+    } words[POINT_VALUE_KINDS] = {[POINT_COLOR] = {"colour beyond 0 to 65535", "colours beyond 0 to 65535"},
+                                  [POINT_INTENSITY] = {"intensity beyond a float", "intensities beyond a float"},
+                                  [POINT_CLASS] = {"class that is not an integer from 0 to 65535",
+                                                   "classes that are not integers from 0 to 65535"}};
     size_t length = 0, sum = 0;
     *text = 0;
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
-        if (beyond[kind] == 0)
+        if (count[kind] == 0)
             continue;
-        length += (size_t)snprintf(text + length, CLOUD_BEYOND - length, "%s%zu %s %s", length ? ", " : "",
-                                   beyond[kind], beyond[kind] == 1 ? rows[kind].one : rows[kind].many,
-                                   beyond[kind] == 1 && kind == POINT_CLASS ? "that is no whole number to 65535"
-                                                                            : rows[kind].range);
-        sum += beyond[kind];
+        length += (size_t)snprintf(text + length, CLOUD_OUT_OF_RANGE_TEXT - length, "%s%zu %s", length ? ", " : "",
+                                   count[kind], count[kind] == 1 ? words[kind].one : words[kind].many);
+        sum += count[kind];
     }
     if (sum)
-        snprintf(text + length, CLOUD_BEYOND - length, " %s left out", sum == 1 ? "is" : "are");
+        snprintf(text + length, CLOUD_OUT_OF_RANGE_TEXT - length, " %s left out", sum == 1 ? "is" : "are");
     return text;
 }
 
-point_value cloud_value_of(cloud_file *file, const double *numbers)
+point_value cloud_convert_values(cloud_file *file, const double *numbers)
 {
     point_value value = {0};
-    if (has(file, CLOUD_RED))
-        value.has[POINT_COLOR] = take_color(file->out, numbers + CLOUD_RED, value.color);
-    else if (has(file, CLOUD_PACKED))
+    if (has_channel(file, CLOUD_RED))
+        value.has[POINT_COLOR] = convert_color(file->out, numbers + CLOUD_RED, value.color);
+    else if (has_channel(file, CLOUD_PACKED))
         value.has[POINT_COLOR] = unpack_color(numbers[CLOUD_PACKED], value.color);
-    if (has(file, CLOUD_INTENSITY) && fabs(numbers[CLOUD_INTENSITY]) <= FLT_MAX) {
+    if (has_channel(file, CLOUD_INTENSITY) && fabs(numbers[CLOUD_INTENSITY]) <= FLT_MAX) {
         value.has[POINT_INTENSITY] = true;
         value.intensity = (float)numbers[CLOUD_INTENSITY];
     }
-    const double class = has(file, CLOUD_CLASS) ? numbers[CLOUD_CLASS] : -1;
+    const double class = has_channel(file, CLOUD_CLASS) ? numbers[CLOUD_CLASS] : -1;
     if (class >= 0 && class <= UINT16_MAX && class == floor(class)) {
         value.has[POINT_CLASS] = true;
         value.class = (uint16_t) class;
     }
-    note_beyond(file, numbers, &value);
+    count_out_of_range(file, numbers, &value);
     return value;
 }
 
@@ -202,10 +203,10 @@ static bool all_zero(const void *items, size_t size)
     return true;
 }
 
-void cloud_end_values(cloud_file *file)
+void cloud_finish_values(cloud_file *file)
 {
     point_values *v = &file->out->values;
-    if (file->zero_is_none) {
+    if (file->zero_is_missing) {
         if (v->colors && all_zero(v->colors, v->count * sizeof *v->colors))
             point_values_drop(v, POINT_COLOR);
         if (v->intensities && all_zero(v->intensities, v->count * sizeof *v->intensities))

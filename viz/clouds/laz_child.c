@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* laz_child.c - a child process that writes records to a pipe, and the parent's side of it. */
 #include "laz_child.h"
 
 #include <errno.h>
@@ -9,15 +10,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Two pipes: what is read of each and what is written. */
+/* Two pipes, each with its reading and its writing end. */
 typedef struct channels {
     int records[2], why[2];
 } channels;
 
-/* ---- The other process -------------------------------------------------------------------------------------- */
+/* ---- The child ---------------------------------------------------------------------------------------------- */
 
-/* Whatever ends it does so in silence. What does not fit the pipe of reasons is lost: nobody reads it before the
- * records. What is open is closed by the system. */
+/* Run the child and exit. A crash must not print anything or dump core, so signals, core size and standard error are
+ * reset first. The reason is written without blocking, because the parent reads it only after the records. */
 static _Noreturn void run(const laz_child *child, const channels *c)
 {
     static const int ends[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU};
@@ -29,22 +30,22 @@ static _Noreturn void run(const laz_child *child, const channels *c)
     const int nowhere = open("/dev/null", O_WRONLY);
     if (nowhere >= 0)
         dup2(nowhere, STDERR_FILENO);
-    close(c->records[0]); /* so that it ends when who reads does */
+    close(c->records[0]); /* then the child gets SIGPIPE when the parent stops reading */
     FILE *records = fdopen(c->records[1], "wb"), *why = fdopen(c->why[1], "wb");
-    const bool done = records && why && child->put(child->context, records, why) && fflush(records) == 0;
+    const bool done = records && why && child->produce(child->context, records, why) && fflush(records) == 0;
     if (why)
         fflush(why);
     _exit(done ? 0 : 1);
 }
 
-/* ---- This process ------------------------------------------------------------------------------------------- */
+/* ---- The parent --------------------------------------------------------------------------------------------- */
 
-/* Take the records that come. False where they are too few, or where `add` fails, with its error. */
-static bool take_records(const cloud_file *file, FILE *records, uint64_t count, laz_add *add, void *context, bool *few)
+/* Pass records to `add`. Returns false with *few set if too few come, and false if `add` returns false. */
+static bool read_records(const cloud_file *file, FILE *records, uint64_t count, laz_add *add, void *context, bool *few)
 {
     unsigned char record[LAS_RECORD_READ];
     for (uint64_t i = 0; i < count; i++) {
-        cloud_tell(file, i, i, count);
+        cloud_report_progress(file, i, i, count);
         *few = fread(record, 1, sizeof record, records) != sizeof record;
         if (*few || !add(context, record))
             return false;
@@ -52,36 +53,38 @@ static bool take_records(const cloud_file *file, FILE *records, uint64_t count, 
     return true;
 }
 
-static bool fail_few(const laz_child *child, const cloud_file *file, int why, int status)
+/* Set the error for a child that wrote too few records, by its exit status and its own reason. */
+static bool fail_too_few(const laz_child *child, const cloud_file *file, int why, int status)
 {
     char text[256];
     const ssize_t size = read(why, text, sizeof text);
     for (ssize_t i = 0; i < size; i++)
         text[i] = (char)(text[i] >= ' ' && text[i] <= '~' ? text[i] : '?');
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
-        return cloud_fail(file, "cannot be decompressed: it takes more than %u s of processor time", child->seconds);
+        return cloud_fail(file, "cannot be decompressed within %u s of processor time", child->seconds);
     if (WIFSIGNALED(status))
-        return cloud_fail(file, "cannot be decompressed: liblaszip crashed at its data");
+        return cloud_fail(file, "cannot be decompressed: liblaszip crashed; the data is probably damaged");
     if (size > 0)
         return cloud_fail(file, "%.*s", (int)size, text);
-    return cloud_fail(file, "cannot be decompressed: liblaszip broke off at its data");
+    return cloud_fail(file, "cannot be decompressed: liblaszip stopped early; the data is probably damaged");
 }
 
-static bool take_all(const laz_child *child, const cloud_file *file, pid_t process, const channels *c, uint64_t count,
+/* Read all records, close the pipe, and wait for the child. */
+static bool read_all(const laz_child *child, const cloud_file *file, pid_t process, const channels *c, uint64_t count,
                      laz_add *add, void *context)
 {
     FILE *records = fdopen(c->records[0], "rb");
     bool few = false;
     int status = 0;
-    const bool done = records ? take_records(file, records, count, add, context, &few)
-                              : cloud_fail(file, "the decompressed points cannot be read: %s", strerror(errno));
+    const bool done = records ? read_records(file, records, count, add, context, &few)
+                              : cloud_fail(file, "cannot read the decompressed points: %s", strerror(errno));
     if (records)
         fclose(records);
     else
         close(c->records[0]);
     while (waitpid(process, &status, 0) < 0 && errno == EINTR)
         ;
-    return few ? fail_few(child, file, c->why[0], status) : done;
+    return few ? fail_too_few(child, file, c->why[0], status) : done;
 }
 
 static bool open_channels(const cloud_file *file, channels *c)
@@ -89,7 +92,7 @@ static bool open_channels(const cloud_file *file, channels *c)
     const bool first = pipe(c->records) == 0;
     if (first && pipe(c->why) == 0)
         return true;
-    cloud_fail(file, "a pipe for decompression cannot be made: %s", strerror(errno));
+    cloud_fail(file, "cannot create a pipe for decompression: %s", strerror(errno));
     if (first) {
         close(c->records[0]);
         close(c->records[1]);
@@ -97,7 +100,7 @@ static bool open_channels(const cloud_file *file, channels *c)
     return false;
 }
 
-bool laz_child_take(const laz_child *child, const cloud_file *file, uint64_t count, laz_add *add, void *context)
+bool laz_child_read(const laz_child *child, const cloud_file *file, uint64_t count, laz_add *add, void *context)
 {
     channels c;
     if (!open_channels(file, &c))
@@ -109,9 +112,9 @@ bool laz_child_take(const laz_child *child, const cloud_file *file, uint64_t cou
     close(c.why[1]);
     bool done = false;
     if (process > 0) {
-        done = take_all(child, file, process, &c, count, add, context);
+        done = read_all(child, file, process, &c, count, add, context);
     } else {
-        cloud_fail(file, "a process for decompression cannot be started: %s", strerror(errno));
+        cloud_fail(file, "cannot start a process for decompression: %s", strerror(errno));
         close(c.records[0]);
     }
     close(c.why[0]);

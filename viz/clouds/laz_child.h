@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* laz_child.h - the points of a compressed LAS file from a process of its own, which may crash, hang or lie. Private to
- * cloud*.c.
+/* laz_child.h - runs a decompressor in a child process, which may crash, hang or return too little without harm to this
+ * process. Private to cloud*.c.
  */
 #ifndef FORMATS_LAZ_CHILD_H
 #define FORMATS_LAZ_CHILD_H
@@ -9,23 +9,24 @@
 
 #include <stdio.h>
 
-/* Where a record of a LAS file has what is read of it, in all point formats; coordinates come first. The class has a
- * byte of its own from format 6 on; before, it is five bits of the flags. */
+/* Byte offsets in a LAS record, the same in all point formats; the coordinates come first. The class has its own byte
+ * from format 6 on; before, it is the lowest five bits of the flags. LAS_RECORD_READ bytes of a record are read. */
 enum { LAS_AT_INTENSITY = 12, LAS_AT_FLAGS = 15, LAS_AT_CLASS = 16, LAS_RECORD_READ = 36 };
 
-/* Take a point: the first LAS_RECORD_READ bytes of its record as they would be in an uncompressed file. */
+/* Receives the first LAS_RECORD_READ bytes of a record, as in an uncompressed file. Returns false to stop. */
 typedef bool laz_add(void *context, const unsigned char *record);
 
-/* What the process does: put such records, and where it fails say why, in one line. */
-typedef bool laz_put(void *context, FILE *records, FILE *why);
+/* Runs in the child: write such records to `records`; on failure write one line to `why` and return false. */
+typedef bool laz_produce(void *context, FILE *records, FILE *why);
 
 typedef struct laz_child {
-    laz_put *put;
+    laz_produce *produce;
     void *context;
-    unsigned seconds; /* of processor time, after which it is killed */
+    unsigned seconds; /* processor time after which the child is killed */
 } laz_child;
 
-/* Take `count` records, and end the process. False with an error where they are fewer, and where `add` is. */
-bool laz_child_take(const laz_child *child, const cloud_file *file, uint64_t count, laz_add *add, void *context);
+/* Start the child, pass `count` records to `add`, and wait for the child's end. Returns false and sets the error if
+ * fewer records come, and false if `add` returns false. */
+bool laz_child_read(const laz_child *child, const cloud_file *file, uint64_t count, laz_add *add, void *context);
 
 #endif

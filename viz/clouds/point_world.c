@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* point_world.c - the smallest cube around points, as the world of a tree. */
 #include "point_world.h"
 
 #include <float.h>
@@ -6,13 +7,13 @@
 #include <string.h>
 
 /* The distance from |value| to the next double above it. */
-static double ulp_of(double value)
+static double ulp(double value)
 {
     value = fabs(value);
     return value < DBL_MAX ? nextafter(value, INFINITY) - value : 0x1p971;
 }
 
-static octree_box bounds_of(const void *positions, size_t stride, size_t count)
+static octree_box find_bounds(const void *positions, size_t stride, size_t count)
 {
     octree_box box;
     memcpy(box.min, positions, sizeof box.min);
@@ -28,7 +29,7 @@ static octree_box bounds_of(const void *positions, size_t stride, size_t count)
     return box;
 }
 
-/* Half of a finite extent; where the extent overflows, a difference of halves. */
+/* Half of the extent along an axis, also if the extent itself overflows. */
 static double half_extent(const octree_box *bounds, int axis)
 {
     const double extent = bounds->max[axis] - bounds->min[axis];
@@ -44,15 +45,15 @@ static double half_side(const octree_box *bounds)
         half = fmax(half, half_extent(bounds, i));
         largest = fmax(largest, fmax(fabs(bounds->min[i]), fabs(bounds->max[i])));
     }
-    return fmax(flat ? 0.5 : half, 2 * ulp_of(largest));
+    return fmax(flat ? 0.5 : half, 2 * ulp(largest));
 }
 
 octree_box point_world(const void *positions, size_t stride, size_t count)
 {
-    octree_box box = bounds_of(positions, stride, count);
+    octree_box box = find_bounds(positions, stride, count);
     const double half = half_side(&box);
     for (int i = 0; i < 3; i++) {
-        /* The slack is not negative and rounding is monotone, so no face passes a point. */
+        /* The slack is not negative and rounding is monotone: rounding cannot move a face inside a point. */
         const double slack = fmax(half - half_extent(&box, i), 0);
         box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
         box.max[i] = fmin(box.max[i] + slack, DBL_MAX);

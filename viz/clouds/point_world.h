@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* point_world.h - the world of points for which none is named. */
+/* point_world.h - chooses the world of points where the user names none. */
 #ifndef CLOUDS_POINT_WORLD_H
 #define CLOUDS_POINT_WORLD_H
 
 #include "octree/octree.h"
 
-/* The smallest cube, about the points' middle, whose rounded faces contain every point. Its side is the largest extent,
- * but at least 4 ulp of the largest coordinate, and 1 where all points are equal. There are `count` points, at least 1,
- * of three finite doubles each, which begin `stride` bytes after those of the one before. Cost: O(count). */
+/* The smallest cube, centred on the points' bounding box, whose rounded faces contain every point. Its side is the
+ * largest extent of the points, but at least 4 ulp of the largest coordinate, and 1 if all points are equal.
+ * `positions` holds `count` (at least 1) points of three finite doubles; each begins `stride` bytes after the one
+ * before. Cost: O(count). */
 octree_box point_world(const void *positions, size_t stride, size_t count);
 
 #endif

@@ -64,7 +64,7 @@ static file_kind find_kind(const char *bytes, size_t size)
     if (strstr(bytes, "<title>Octreel recording</title>"))
         return KIND_PAGE;
     const file_kind found = find_json_kind(strncmp(bytes, byte_order_mark, 3) == 0 ? bytes + 3 : bytes);
-    return found != KIND_UNKNOWN || !cloud_begins((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
+    return found != KIND_UNKNOWN || !cloud_recognise((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
 }
 
 file_kind file_kind_read(const char *path)
@@ -109,7 +109,7 @@ name_kind name_kind_of(const char *path)
         {".png", NAME_PNG},
         {".jpg.jpeg.gif.bmp.webp.tif.tiff.svg", NAME_PICTURE},
         {".mp4.webm.mkv.avi.mov.apng", NAME_FILM},
-        {".json.jsonl.txt.csv.xml.html.md.pdf.digests.ply.pcd.xyz.las.laz", NAME_FILE},
+        {".json.jsonl.xml.html.md.pdf.digests" CLOUD_ENDINGS, NAME_FILE},
     };
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
     const size_t length = dot ? strlen(dot) : 0;

@@ -135,14 +135,14 @@ static char *path_in_folder(const char *folder, const char *file)
     return path;
 }
 
-/* What was decided about its values. */
+/* Note which columns were guessed or ignored, and which values were out of range. */
 static void note_values(session_loader *s, const char *name)
 {
-    char beyond[CLOUD_BEYOND];
-    const char *decided = s->points.decided ? s->points.decided : "";
-    cloud_beyond_text(s->points.beyond, beyond);
-    if (*decided || *beyond)
-        snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, decided, *decided && *beyond ? "; " : "", beyond);
+    char beyond[CLOUD_OUT_OF_RANGE_TEXT];
+    const char *columns = s->points.column_note ? s->points.column_note : "";
+    cloud_describe_out_of_range(s->points.out_of_range, beyond);
+    if (*columns || *beyond)
+        snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, columns, *columns && *beyond ? "; " : "", beyond);
 }
 
 /* What a recording's text names would be read, or made, by whoever looks at it. */

@@ -19,8 +19,8 @@ typedef struct inspection {
     point_values values;     /* of the cloud, by the ids of the tree */
     size_t *classes;         /* points of each class that there can be; null: none has one */
     unsigned color_full;     /* as in cloud.h */
-    const char *decided;
-    size_t beyond[POINT_VALUE_KINDS];
+    const char *column_note;
+    size_t out_of_range[POINT_VALUE_KINDS];
 } inspection;
 
 /* Insert every point of a cloud into a new tree, and take over the cloud's values; its positions are freed. `progress`,

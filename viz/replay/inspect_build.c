@@ -137,8 +137,8 @@ static void take_values(cloud *c, inspection *result)
     result->values = c->values;
     c->values = (point_values){0};
     result->color_full = c->color_full;
-    result->decided = c->decided;
-    memcpy(result->beyond, c->beyond, sizeof c->beyond);
+    result->column_note = c->column_note;
+    memcpy(result->out_of_range, c->out_of_range, sizeof c->out_of_range);
 }
 
 bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, void *context, inspection *result,

@@ -77,7 +77,7 @@ void inspect_print_values(const inspection *i, FILE *out)
 {
     const value_summary s = sum_up(&i->values);
     const char *before = "  values    ";
-    char beyond[CLOUD_BEYOND];
+    char beyond[CLOUD_OUT_OF_RANGE_TEXT];
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
         if (s.counts[kind] == 0)
             continue;
@@ -87,9 +87,9 @@ void inspect_print_values(const inspection *i, FILE *out)
     }
     if (point_values_kinds(&i->values))
         fputc('\n', out);
-    if (i->decided)
-        fprintf(out, "  columns   %s\n", i->decided);
-    if (*cloud_beyond_text(i->beyond, beyond))
+    if (i->column_note)
+        fprintf(out, "  columns   %s\n", i->column_note);
+    if (*cloud_describe_out_of_range(i->out_of_range, beyond))
         fprintf(out, "  but       %s\n", beyond);
 }
 
@@ -111,8 +111,9 @@ static void write_classes(const size_t *classes, json_writer *w)
 void inspect_write_values(const inspection *i, json_writer *w)
 {
     const value_summary s = sum_up(&i->values);
-    char beyond[CLOUD_BEYOND];
-    if (point_values_kinds(&i->values) == 0 && !i->decided && !*cloud_beyond_text(i->beyond, beyond))
+    char beyond[CLOUD_OUT_OF_RANGE_TEXT];
+    if (point_values_kinds(&i->values) == 0 && !i->column_note &&
+        !*cloud_describe_out_of_range(i->out_of_range, beyond))
         return;
     json_member_begin_object(w, "values");
     if (s.counts[POINT_COLOR]) {
@@ -134,9 +135,9 @@ void inspect_write_values(const inspection *i, json_writer *w)
         write_classes(i->classes, w);
         json_write_end_object(w);
     }
-    if (i->decided)
-        json_member_text(w, "columns", i->decided);
-    if (*cloud_beyond_text(i->beyond, beyond))
+    if (i->column_note)
+        json_member_text(w, "columns", i->column_note);
+    if (*cloud_describe_out_of_range(i->out_of_range, beyond))
         json_member_text(w, "left_out", beyond);
     json_write_end_object(w);
 }

@@ -190,7 +190,7 @@ static void refused_points_are_counted_as_points(void **state)
 static void ids_are_rows_of_the_cloud(void **state)
 {
     const temp_folder *folder = *state;
-    static const char note[] = "more lines follow than the header counts; the points before it were read\n";
+    static const char note[] = "more lines follow than the header announces; the points before it were read\n";
     const place points = place_in(folder, "scan.pcd"), film = place_in(folder, "film");
     const place session = write_session(folder, "\"points\": {\"file\": \"scan.pcd\"}, \"player\": {\"id\": 3}");
     file_write_text(points.path, PCD);

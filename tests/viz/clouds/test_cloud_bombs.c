@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cloud_bombs.c - no cloud takes more memory than cloud.h says for its size, whatever it announces. */
+/* test_cloud_bombs.c - reading a hostile cloud takes no more memory than cloud.h states for its file size. */
 #include "heap_peak.h"
 #include "las_files.h"
 
@@ -94,7 +94,7 @@ static bomb begin(void)
     return b;
 }
 
-static void text_and_plain_data_take_12_bytes_a_byte(void **state)
+static void text_and_uncompressed_data_take_12_bytes_per_byte(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
@@ -108,7 +108,7 @@ static void text_and_plain_data_take_12_bytes_a_byte(void **state)
 }
 
 /* Each second record is withheld, and rows are counted. */
-static void las_takes_12_bytes_a_byte(void **state)
+static void las_takes_12_bytes_per_byte(void **state)
 {
     (void)state;
     for (unsigned format = 0; format < LAS_FORMATS; format++)
@@ -131,7 +131,7 @@ static void las_takes_12_bytes_a_byte(void **state)
 }
 
 /* LZF: three zeros, and then again and again 264 bytes that repeat the byte before. */
-static void compressed_pcd_takes_800_bytes_a_byte(void **state)
+static void compressed_pcd_takes_800_bytes_per_byte(void **state)
 {
     static const unsigned char zeros[] = {2, 0, 0, 0}, run[] = {0xe0, 0xff, 0x00};
     enum { PACKED = 30000, RUNS = PACKED / sizeof run, POINTS = 1 + RUNS * 264 / 3 };
@@ -156,9 +156,9 @@ static void compressed_pcd_takes_800_bytes_a_byte(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_and_plain_data_take_12_bytes_a_byte),
-        cmocka_unit_test(las_takes_12_bytes_a_byte),
-        cmocka_unit_test(compressed_pcd_takes_800_bytes_a_byte),
+        cmocka_unit_test(text_and_uncompressed_data_take_12_bytes_per_byte),
+        cmocka_unit_test(las_takes_12_bytes_per_byte),
+        cmocka_unit_test(compressed_pcd_takes_800_bytes_per_byte),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

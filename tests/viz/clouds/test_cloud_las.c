@@ -27,7 +27,7 @@ static void las_is_read_in_every_version_and_point_format(void **state)
             }
 }
 
-static void las_that_is_cut_off_is_refused(void **state)
+static void truncated_las_is_refused(void **state)
 {
     (void)state;
     for (unsigned minor = 0; minor < LAS_VERSIONS; minor++) {
@@ -97,7 +97,7 @@ static void las_counts_of_either_kind_are_read(void **state)
 }
 
 /* "Withheld" is the specification's word for deleted. In LAS 1.0 the bit is a part of the class. */
-static void las_points_that_are_withheld_are_skipped_and_keep_their_place(void **state)
+static void withheld_las_points_are_skipped_but_count_as_rows(void **state)
 {
     (void)state;
     for (unsigned minor = 0; minor < LAS_VERSIONS; minor++)
@@ -117,7 +117,7 @@ static void las_points_that_are_withheld_are_skipped_and_keep_their_place(void *
         }
 }
 
-static void las_of_nothing_but_withheld_points_is_refused(void **state)
+static void las_with_only_withheld_points_is_refused(void **state)
 {
     const las l = two_of(2, 0);
     bytes file = make(&l);
@@ -140,7 +140,7 @@ static void las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_th
     assert_reads("a.las", file.data, file.size, two_read, 2, 0);
     put_text(&file, "record");
     snprintf(note, sizeof note,
-             "a.las:byte %zu: more data follows than the header counts; the points before it were read", end + 5);
+             "a.las:byte %zu: more data follows than the header announces; the points before it were read", end + 5);
     assert_reads_and_notes("a.las", file.data, file.size, two_read, 2, 0, note);
     set_bits(&file, 235, end + 5, 8);
     set_bits(&file, 243, 1, 4);
@@ -152,32 +152,32 @@ static void las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_th
     assert_reads_and_notes("a.las", file.data, file.size, two_read, 2, 0, note);
 }
 
-static void las_whose_points_run_into_what_follows_is_refused(void **state)
+static void las_points_that_overlap_later_parts_are_refused(void **state)
 {
     las l = two_of(4, 4);
     bytes file = make(&l);
     (void)state;
     set_bits(&file, 227, 488, 8);
     assert_refuses("a.las", file.data, file.size,
-                   "a.las:byte 227: the waveforms begin at byte 488, and not between 489, the end of the points, and "
-                   "489, that of the file");
+                   "a.las:byte 227: the waveforms begin at byte 488, outside of 489 (the end of the points) to 489 "
+                   "(the end of the file)");
     set_bits(&file, 227, 490, 8);
     assert_refuses("a.las", file.data, file.size,
-                   "a.las:byte 227: the waveforms begin at byte 490, and not between 489, the end of the points, and "
-                   "489, that of the file");
+                   "a.las:byte 227: the waveforms begin at byte 490, outside of 489 (the end of the points) to 489 "
+                   "(the end of the file)");
     set_bits(&file, 227, 0, 8);
     set_bits(&file, 235, UINT64_MAX, 8);
     assert_reads("none is counted.las", file.data, file.size, two_read, 2, 0);
     set_bits(&file, 243, 1, 4);
     assert_refuses(
         "a.las", file.data, file.size,
-        "a.las:byte 235: the extended records begin at byte 18446744073709551615, and not between 489, the end of "
-        "the points, and 489, that of the file");
+        "a.las:byte 235: the extended records begin at byte 18446744073709551615, outside of 489 (the end of "
+        "the points) to 489 (the end of the file)");
 }
 
 /* ---- Headers that cannot be followed ------------------------------------------------------------------------ */
 
-static void las_headers_that_cannot_be_followed_are_refused(void **state)
+static void invalid_las_headers_are_refused(void **state)
 {
     static const struct {
         unsigned minor, format;
@@ -187,26 +187,27 @@ static void las_headers_that_cannot_be_followed_are_refused(void **state)
         const char *sentence;
     } rows[] = {
         {2, 3, 0, 1, 'l', ":byte 0: is not a LAS file: its first bytes are not LASF"},
-        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not a known version: 1.0 to 1.5"},
-        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not a known version: 1.0 to 1.5"},
-        {2, 3, 94, 2, 226, ":byte 94: a header of 226 bytes is announced, and that of LAS 1.2 has 227"},
-        {4, 3, 94, 2, 227, ":byte 94: a header of 227 bytes is announced, and that of LAS 1.4 has 375"},
-        {2, 3, 94, 2, 65535, ":byte 94: a header of 65535 bytes is announced, and points from byte 227 on"},
-        {2, 3, 96, 4, 226, ":byte 94: a header of 227 bytes is announced, and points from byte 226 on"},
-        {2, 3, 96, 4, 296, ":byte 96: points are announced from byte 296 on, and the file has 295 bytes"},
-        {2, 3, 96, 4, UINT32_MAX, ":byte 96: points are announced from byte 4294967295 on, and the file has 295 bytes"},
-        {2, 3, 104, 1, 11, ":byte 104: 11 is not a known point format: 0 to 10"},
-        {2, 3, 104, 1, 63, ":byte 104: 63 is not a known point format: 0 to 10"},
-        {2, 3, 105, 2, 33, ":byte 105: points of 33 bytes are announced, and those of format 3 have at least 34"},
-        {2, 0, 105, 2, 0, ":byte 105: points of 0 bytes are announced, and those of format 0 have at least 20"},
+        {2, 3, 24, 1, 2, ":byte 24: LAS 2.2 is not a supported version: 1.0 to 1.5"},
+        {2, 3, 25, 1, 6, ":byte 24: LAS 1.6 is not a supported version: 1.0 to 1.5"},
+        {2, 3, 94, 2, 226, ":byte 94: a header of 226 bytes is announced, but that of LAS 1.2 has at least 227"},
+        {4, 3, 94, 2, 227, ":byte 94: a header of 227 bytes is announced, but that of LAS 1.4 has at least 375"},
+        {2, 3, 94, 2, 65535, ":byte 94: a header of 65535 bytes is announced, but points begin at byte 227"},
+        {2, 3, 96, 4, 226, ":byte 94: a header of 227 bytes is announced, but points begin at byte 226"},
+        {2, 3, 96, 4, 296, ":byte 96: points are announced from byte 296 on, but the file has only 295 bytes"},
+        {2, 3, 96, 4, UINT32_MAX,
+         ":byte 96: points are announced from byte 4294967295 on, but the file has only 295 bytes"},
+        {2, 3, 104, 1, 11, ":byte 104: 11 is not a supported point format: 0 to 10"},
+        {2, 3, 104, 1, 63, ":byte 104: 63 is not a supported point format: 0 to 10"},
+        {2, 3, 105, 2, 33, ":byte 105: points of 33 bytes are announced, but those of format 3 have at least 34"},
+        {2, 0, 105, 2, 0, ":byte 105: points of 0 bytes are announced, but those of format 0 have at least 20"},
         {2, 3, 107, 4, 0, ": holds no points"},
-        {2, 3, 107, 4, 3, ":byte 227: 3 points of 34 bytes are announced, and 68 bytes follow"},
-        {2, 3, 107, 4, UINT32_MAX, ":byte 227: 4294967295 points of 34 bytes are announced, and 68 bytes follow"},
-        {4, 3, 247, 8, 1, ":byte 247: the count of points is 1, and 2 at byte 107: correct the header"},
+        {2, 3, 107, 4, 3, ":byte 227: 3 points of 34 bytes are announced, but only 68 bytes follow"},
+        {2, 3, 107, 4, UINT32_MAX, ":byte 227: 4294967295 points of 34 bytes are announced, but only 68 bytes follow"},
+        {4, 3, 247, 8, 1, ":byte 247: the count of points is 1 here but 2 at byte 107; correct the header"},
         {4, 6, 247, 8, UINT64_MAX,
-         ":byte 375: 18446744073709551615 points of 30 bytes are announced, and 60 bytes follow"},
+         ":byte 375: 18446744073709551615 points of 30 bytes are announced, but only 60 bytes follow"},
         {4, 6, 247, 8, UINT64_C(1) << 63,
-         ":byte 375: 9223372036854775808 points of 30 bytes are announced, and 60 bytes follow"},
+         ":byte 375: 9223372036854775808 points of 30 bytes are announced, but only 60 bytes follow"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -219,19 +220,19 @@ static void las_headers_that_cannot_be_followed_are_refused(void **state)
     }
 }
 
-static void las_scales_that_make_no_coordinates_are_refused(void **state)
+static void las_scales_without_valid_coordinates_are_refused(void **state)
 {
     static const struct {
         size_t at;
         double value;
         const char *sentence;
     } rows[] = {
-        {131, 0, "a.las:byte 131: the scale of x is 0, which makes no coordinates"},
-        {139, -0.0, "a.las:byte 139: the scale of y is -0, which makes no coordinates"},
-        {147, NAN, "a.las:byte 147: the scale of z is nan, which makes no coordinates"},
-        {131, INFINITY, "a.las:byte 131: the scale of x is inf, which makes no coordinates"},
-        {163, NAN, "a.las:byte 163: the offset of y is nan, which makes no coordinates"},
-        {171, -INFINITY, "a.las:byte 171: the offset of z is -inf, which makes no coordinates"},
+        {131, 0, "a.las:byte 131: the scale of x is 0, which gives no valid coordinates"},
+        {139, -0.0, "a.las:byte 139: the scale of y is -0, which gives no valid coordinates"},
+        {147, NAN, "a.las:byte 147: the scale of z is nan, which gives no valid coordinates"},
+        {131, INFINITY, "a.las:byte 131: the scale of x is inf, which gives no valid coordinates"},
+        {163, NAN, "a.las:byte 163: the offset of y is nan, which gives no valid coordinates"},
+        {171, -INFINITY, "a.las:byte 171: the offset of z is -inf, which gives no valid coordinates"},
         {131, 1e308, "a.las:byte 247: x is beyond the largest double"},
         {131, -1.7e308, "a.las:byte 247: x is beyond the largest double"},
     };
@@ -243,7 +244,7 @@ static void las_scales_that_make_no_coordinates_are_refused(void **state)
     }
 }
 
-static void las_that_is_compressed_is_refused_with_the_way_out(void **state)
+static void compressed_las_is_refused_with_advice(void **state)
 {
     static const unsigned flags[] = {0x80, 0x40, 0xc0};
     (void)state;
@@ -255,9 +256,8 @@ static void las_that_is_compressed_is_refused_with_the_way_out(void **state)
         file.data[104] |= flags[i];
         assert_refuses(
             "a.laz", file.data, file.size,
-            "a.laz: is compressed LAS (LAZ or COPC), and this octreel was built without liblaszip; install "
-            "that (Debian 13: liblaszip-dev) and build again, or decompress it, as in: pdal translate in.laz "
-            "out.las");
+            "a.laz: is compressed LAS (LAZ or COPC), but this octreel was built without liblaszip; install "
+            "liblaszip-dev (Debian 13) and build again, or decompress the file: pdal translate in.laz out.las");
     }
 }
 
@@ -265,17 +265,17 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(las_is_read_in_every_version_and_point_format),
-        cmocka_unit_test(las_that_is_cut_off_is_refused),
+        cmocka_unit_test(truncated_las_is_refused),
         cmocka_unit_test(las_coordinate_is_a_product_and_a_sum_of_doubles),
         cmocka_unit_test(las_1_0_may_have_a_signature_before_its_points),
         cmocka_unit_test(las_counts_of_either_kind_are_read),
-        cmocka_unit_test(las_points_that_are_withheld_are_skipped_and_keep_their_place),
-        cmocka_unit_test(las_of_nothing_but_withheld_points_is_refused),
+        cmocka_unit_test(withheld_las_points_are_skipped_but_count_as_rows),
+        cmocka_unit_test(las_with_only_withheld_points_is_refused),
         cmocka_unit_test(las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_them),
-        cmocka_unit_test(las_whose_points_run_into_what_follows_is_refused),
-        cmocka_unit_test(las_headers_that_cannot_be_followed_are_refused),
-        cmocka_unit_test(las_scales_that_make_no_coordinates_are_refused),
-        cmocka_unit_test(las_that_is_compressed_is_refused_with_the_way_out),
+        cmocka_unit_test(las_points_that_overlap_later_parts_are_refused),
+        cmocka_unit_test(invalid_las_headers_are_refused),
+        cmocka_unit_test(las_scales_without_valid_coordinates_are_refused),
+        cmocka_unit_test(compressed_las_is_refused_with_advice),
     };
     return cmocka_run_group_tests_name("cloud_las", tests, NULL, NULL);
 }

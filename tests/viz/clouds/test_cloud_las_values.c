@@ -79,7 +79,7 @@ static void set_colors(bytes *file, unsigned first, unsigned second)
 }
 
 /* Many files have 8-bit colours in the 16 bits. */
-static void las_colours_of_8_bits_in_16_are_known_by_the_largest(void **state)
+static void las_colour_scale_follows_from_the_largest_channel(void **state)
 {
     static const struct {
         unsigned first, second, full, read[2];
@@ -96,7 +96,7 @@ static void las_colours_of_8_bits_in_16_are_known_by_the_largest(void **state)
     }
 }
 
-static void las_values_that_are_zero_in_every_point_are_none(void **state)
+static void las_values_that_are_zero_in_every_point_are_missing(void **state)
 {
     bytes file = make_counting(2, 2);
     (void)state;
@@ -119,8 +119,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(las_has_values_where_the_point_format_has_them),
         cmocka_unit_test(las_classes_have_five_bits_or_eight),
-        cmocka_unit_test(las_colours_of_8_bits_in_16_are_known_by_the_largest),
-        cmocka_unit_test(las_values_that_are_zero_in_every_point_are_none),
+        cmocka_unit_test(las_colour_scale_follows_from_the_largest_channel),
+        cmocka_unit_test(las_values_that_are_zero_in_every_point_are_missing),
     };
     return cmocka_run_group_tests_name("cloud_las values", tests, NULL, NULL);
 }

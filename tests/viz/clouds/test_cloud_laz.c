@@ -95,7 +95,7 @@ static void assert_same_clouds(const cloud *a, const cloud *b)
     }
 }
 
-static void laz_of_every_point_format_is_what_las_is(void **state)
+static void laz_of_every_point_format_equals_las(void **state)
 {
     for (unsigned format = 0; format < LAS_FORMATS; format++) {
         const bytes file = make_some(format < 4 ? 2 : format < 6 ? 3 : 4, format);
@@ -109,7 +109,7 @@ static void laz_of_every_point_format_is_what_las_is(void **state)
 }
 
 /* Each is refused in one sentence, or gives points where what is missing is not needed. */
-static void laz_that_is_cut_off_is_refused(void **state)
+static void truncated_laz_is_refused(void **state)
 {
     const bytes file = make_some(4, 7);
     char las_path[256], laz_path[256];
@@ -129,7 +129,7 @@ static void laz_that_is_cut_off_is_refused(void **state)
 
 /* COPC 1.0: seven nodes, each a chunk of as many points as it has, and the hierarchy behind them; and a LAS file of the
  * same points. */
-static void copc_is_what_las_is(void **state)
+static void copc_equals_las(void **state)
 {
     (void)state;
     cloud plain = read_cloud(OCTREEL_CLOUDS "/small.las"), packed = read_cloud(OCTREEL_CLOUDS "/small.copc.laz");
@@ -139,7 +139,7 @@ static void copc_is_what_las_is(void **state)
     cloud_release(&packed);
 }
 
-static void laz_comes_through_a_pipe(void **state)
+static void laz_is_read_from_a_pipe(void **state)
 {
     (void)state;
     command_result file = run_octreel(NULL, "inspect %s --json", OCTREEL_CLOUDS "/small.copc.laz");
@@ -153,7 +153,7 @@ static void laz_comes_through_a_pipe(void **state)
 }
 
 /* Nothing is decompressed: the file says that it is 1e9 points. */
-static void more_points_than_bytes_can_hold_are_refused(void **state)
+static void more_points_than_the_file_can_hold_are_refused(void **state)
 {
     char path[2][256], sentence[256];
     octreel_error error = {""};
@@ -167,7 +167,7 @@ static void more_points_than_bytes_can_hold_are_refused(void **state)
     assert_int_equal(fclose(stream), 0);
     memcpy(data + 107, (unsigned char[]){0x00, 0xca, 0x9a, 0x3b}, 4);
     snprintf(sentence, sizeof sentence,
-             "a.laz:byte 107: 1000000000 compressed points are announced, and %zu bytes hold at most 256 each", size);
+             "a.laz:byte 107: 1000000000 compressed points are announced, but %zu bytes hold at most 256 each", size);
     assert_false(cloud_parse("a.laz", data, size, &c, &error));
     assert_string_equal(error.text, sentence);
 }
@@ -175,11 +175,11 @@ static void more_points_than_bytes_can_hold_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(laz_of_every_point_format_is_what_las_is, temp_folder_make, temp_folder_remove),
-        cmocka_unit_test_setup_teardown(laz_that_is_cut_off_is_refused, temp_folder_make, temp_folder_remove),
-        cmocka_unit_test(copc_is_what_las_is),
-        cmocka_unit_test(laz_comes_through_a_pipe),
-        cmocka_unit_test_setup_teardown(more_points_than_bytes_can_hold_are_refused, temp_folder_make,
+        cmocka_unit_test_setup_teardown(laz_of_every_point_format_equals_las, temp_folder_make, temp_folder_remove),
+        cmocka_unit_test_setup_teardown(truncated_laz_is_refused, temp_folder_make, temp_folder_remove),
+        cmocka_unit_test(copc_equals_las),
+        cmocka_unit_test(laz_is_read_from_a_pipe),
+        cmocka_unit_test_setup_teardown(more_points_than_the_file_can_hold_are_refused, temp_folder_make,
                                         temp_folder_remove),
     };
     return cmocka_run_group_tests_name("cloud_laz", tests, NULL, NULL);

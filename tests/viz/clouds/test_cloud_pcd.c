@@ -78,7 +78,7 @@ static void pcd_is_read_in_every_encoding(void **state)
     }
 }
 
-static void pcd_binary_that_is_cut_off_is_refused(void **state)
+static void truncated_binary_pcd_is_refused(void **state)
 {
     static void (*const puts[])(bytes *) = {put_pcd_binary, put_pcd_compressed};
     (void)state;
@@ -90,7 +90,7 @@ static void pcd_binary_that_is_cut_off_is_refused(void **state)
 }
 
 /* The Point Cloud Library has filled files up to a page, and other writers end the compressed block with a newline. */
-static void pcd_binary_may_go_on_with_a_note_unless_by_zeros(void **state)
+static void bytes_after_the_last_pcd_point_are_noted_unless_zero(void **state)
 {
     static void (*const puts[])(bytes *) = {put_pcd_binary, put_pcd_compressed};
     (void)state;
@@ -102,7 +102,8 @@ static void pcd_binary_may_go_on_with_a_note_unless_by_zeros(void **state)
         put(&file, zeros, sizeof zeros);
         assert_reads("a.pcd", file.data, file.size, two_points, 2, 1);
         snprintf(sentence, sizeof sentence,
-                 "a.pcd:byte %zu: more data follows than the header counts; the points before it were read", file.size);
+                 "a.pcd:byte %zu: more data follows than the header announces; the points before it were read",
+                 file.size);
         put_text(&file, "\n");
         assert_reads_and_notes("a.pcd", file.data, file.size, two_points, 2, 1, sentence);
     }
@@ -154,34 +155,35 @@ static void pcd_without_points_counts_width_times_height(void **state)
 #define FIELDS "FIELDS x y z\n"
 #define TYPES FIELDS "SIZE 4 4 4\nTYPE F F F\n"
 
-static void pcd_headers_that_cannot_be_followed_are_refused(void **state)
+static void invalid_pcd_headers_are_refused(void **state)
 {
     static const refusal rows[] = {
         {"1 2 3\n", "a.pcd:1: '1' does not belong in a PCD header"},
         {"# only this\n", "a.pcd:1: the file ends in its header"},
-        {"VERSION 0.8\n", "a.pcd:1: '0.8' is not a known version of PCD: 0.5 to 0.7"},
-        {"VERSION 0.4\n", "a.pcd:1: '0.4' is not a known version of PCD: 0.5 to 0.7"},
-        {"VERSION 0.7a\n", "a.pcd:1: '0.7a' is not a known version of PCD: 0.5 to 0.7"},
-        {"VERSION new\n", "a.pcd:1: 'new' is not a known version of PCD: 0.5 to 0.7"},
-        {FIELDS "SIZE 4 4 4 4\n", "a.pcd:2: '4' is more than there are fields before it"},
+        {"VERSION 0.8\n", "a.pcd:1: '0.8' is not a supported version of PCD: 0.5 to 0.7"},
+        {"VERSION 0.4\n", "a.pcd:1: '0.4' is not a supported version of PCD: 0.5 to 0.7"},
+        {"VERSION 0.7a\n", "a.pcd:1: '0.7a' is not a supported version of PCD: 0.5 to 0.7"},
+        {"VERSION new\n", "a.pcd:1: 'new' is not a supported version of PCD: 0.5 to 0.7"},
+        {FIELDS "SIZE 4 4 4 4\n", "a.pcd:2: '4' is one word more than there are fields"},
         {FIELDS "COUNT 1 x 1\n", "a.pcd:2: 'x' is not the count of a field: 1 to 4294967295"},
         {TYPES "WIDTH 4294967296\nHEIGHT 4294967296\nDATA ascii\n",
          "a.pcd:6: WIDTH 4294967296 times HEIGHT 4294967296 is not POINTS 0"},
         {TYPES "WIDTH 3\nHEIGHT 0\nPOINTS 3\nDATA ascii\n", "a.pcd:7: WIDTH 3 times HEIGHT 0 is not POINTS 3"},
-        {"FIELDS x y\n", "a.pcd:1: there is no field z"},
-        {"FIELDS x y z x\n", "a.pcd:1: 'x' is a second field of this name"},
-        {"SIZE 4 4 4\n", "a.pcd:1: 'SIZE' stands before FIELDS, of which it tells"},
-        {FIELDS FIELDS, "a.pcd:2: 'FIELDS' is there twice"},
-        {"SIZE\nTYPE\n" FIELDS "POINTS 1\nDATA binary\n1", "a.pcd:1: 'SIZE' stands before FIELDS, of which it tells"},
-        {FIELDS "SIZE 4 4\n", "a.pcd:2: 2 words for 3 fields"},
+        {"FIELDS x y\n", "a.pcd:1: FIELDS has no field \"z\""},
+        {"FIELDS x y z x\n", "a.pcd:1: 'x' is a second field with this name"},
+        {"SIZE 4 4 4\n", "a.pcd:1: 'SIZE' stands before FIELDS; FIELDS must come first"},
+        {FIELDS FIELDS, "a.pcd:2: 'FIELDS' occurs twice"},
+        {"SIZE\nTYPE\n" FIELDS "POINTS 1\nDATA binary\n1",
+         "a.pcd:1: 'SIZE' stands before FIELDS; FIELDS must come first"},
+        {FIELDS "SIZE 4 4\n", "a.pcd:2: has 2 words for 3 fields"},
         {FIELDS "SIZE 4 4 3\n", "a.pcd:2: '3' is not the size of a field: 1, 2, 4 or 8"},
         {FIELDS "SIZE 4 4 -4\n", "a.pcd:2: '-4' is not the size of a field: 1, 2, 4 or 8"},
         {FIELDS "TYPE F F G\n", "a.pcd:2: 'G' is not the type of a field: I, U or F"},
         {FIELDS "COUNT 1 0 1\n", "a.pcd:2: '0' is not the count of a field: 1 to 4294967295"},
         {FIELDS "COUNT 1 1 4294967296\n", "a.pcd:2: '4294967296' is not the count of a field: 1 to 4294967295"},
-        {FIELDS "POINTS -3\n", "a.pcd:2: '-3' is not a number of points"},
+        {FIELDS "POINTS -3\n", "a.pcd:2: '-3' is not a count of points"},
         {FIELDS "DATA binary_packed\n",
-         "a.pcd:2: 'binary_packed' is not how PCD keeps data: ascii, binary or binary_compressed"},
+         "a.pcd:2: 'binary_packed' is not a kind of PCD data: ascii, binary or binary_compressed"},
         {FIELDS "TYPE F F F\nPOINTS 1\nDATA ascii\n", "a.pcd:4: the header has no SIZE"},
         {TYPES "DATA ascii\n", "a.pcd:4: the header has neither WIDTH nor POINTS"},
         {TYPES "WIDTH 3\nHEIGHT 2\nPOINTS 5\nDATA ascii\n", "a.pcd:7: WIDTH 3 times HEIGHT 2 is not POINTS 5"},
@@ -205,23 +207,23 @@ static void pcd_data_that_does_not_fit_its_header_is_refused(void **state)
         {TYPES "POINTS 1\nDATA ascii\n1 2 3 4\n", "a.pcd:6: has 4 values instead of 3"},
         {TYPES "POINTS 1\nDATA ascii\n1 2 z\n", "a.pcd:6: 'z' is not a number"},
         {TYPES "POINTS 2\nDATA binary\n12345678901234567890123",
-         "a.pcd:byte 56: 2 points of 12 bytes are announced, and 23 bytes follow"},
+         "a.pcd:byte 56: 2 points of 12 bytes are announced, but only 23 bytes follow"},
         {TYPES "POINTS 18446744073709551615\nDATA binary\n123456789012",
-         "a.pcd:byte 75: 18446744073709551615 points of 12 bytes are announced, and 12 bytes follow"},
+         "a.pcd:byte 75: 18446744073709551615 points of 12 bytes are announced, but only 12 bytes follow"},
         {"FIELDS x y z n\nSIZE 1 1 1 8\nTYPE U U U F\nCOUNT 1 1 1 4294967295\nPOINTS 4294967295\nDATA binary\n123",
-         "a.pcd:byte 94: 4294967295 points of 34359738363 bytes are announced, and 3 bytes follow"},
+         "a.pcd:byte 94: 4294967295 points of 34359738363 bytes are announced, but only 3 bytes follow"},
         {TYPES "POINTS 2\nDATA binary_compressed\n1234567", "a.pcd:byte 74: the file ends before its compressed data"},
     };
     (void)state;
     assert_refuses_each("a.pcd", rows, sizeof rows / sizeof *rows);
 }
 
-static void pcd_lines_beyond_the_last_point_are_noted(void **state)
+static void lines_after_the_last_pcd_point_are_noted(void **state)
 {
     static const char text[] = TYPES "POINTS 2\nDATA ascii\n1 2 3\n-4.5 5e10 0.1\n\n4 5 6\n";
     (void)state;
     assert_reads_and_notes("a.pcd", text, strlen(text), two_points, 2, 0,
-                           "a.pcd:9: more lines follow than the header counts; the points before it were read");
+                           "a.pcd:9: more lines follow than the header announces; the points before it were read");
 }
 
 /* A compressed file of single-byte coordinates: the two sizes it announces, then its data. */
@@ -252,16 +254,16 @@ static void pcd_reads_the_tightest_compression(void **state)
     assert_reads("a.pcd", file.data, file.size, (const double(*)[3])expected, 89, 0);
 }
 
-static void pcd_compression_that_cannot_be_is_refused(void **state)
+static void impossible_pcd_compression_is_refused(void **state)
 {
     static const struct {
         uint64_t points, packed, size;
         size_t offset;
         const char *reason;
     } rows[] = {
-        {2, 7, 7, 0, "2 points of 3 bytes are announced, and 7 bytes follow"},
-        {UINT64_MAX, 7, 6, 0, "18446744073709551615 points of 3 bytes are announced, and 6 bytes follow"},
-        {2, 8, 6, 8, "8 compressed bytes are announced, and 7 follow"},
+        {2, 7, 7, 0, "2 points of 3 bytes are announced, but 7 bytes of compressed data"},
+        {UINT64_MAX, 7, 6, 0, "18446744073709551615 points of 3 bytes are announced, but 6 bytes of compressed data"},
+        {2, 8, 6, 8, "8 compressed bytes are announced, but only 7 follow"},
         {1000000000, 7, 3000000000, 8, "7 compressed bytes cannot hold 3000000000 bytes"},
         {2, 0, 6, 8, "0 compressed bytes cannot hold 6 bytes"},
         {3, 7, 9, 8, "the compressed data is damaged"},
@@ -286,15 +288,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pcd_is_read_in_every_encoding),
-        cmocka_unit_test(pcd_binary_that_is_cut_off_is_refused),
-        cmocka_unit_test(pcd_binary_may_go_on_with_a_note_unless_by_zeros),
+        cmocka_unit_test(truncated_binary_pcd_is_refused),
+        cmocka_unit_test(bytes_after_the_last_pcd_point_are_noted_unless_zero),
         cmocka_unit_test(pcd_reads_every_type),
         cmocka_unit_test(pcd_without_points_counts_width_times_height),
-        cmocka_unit_test(pcd_headers_that_cannot_be_followed_are_refused),
+        cmocka_unit_test(invalid_pcd_headers_are_refused),
         cmocka_unit_test(pcd_data_that_does_not_fit_its_header_is_refused),
-        cmocka_unit_test(pcd_lines_beyond_the_last_point_are_noted),
+        cmocka_unit_test(lines_after_the_last_pcd_point_are_noted),
         cmocka_unit_test(pcd_reads_the_tightest_compression),
-        cmocka_unit_test(pcd_compression_that_cannot_be_is_refused),
+        cmocka_unit_test(impossible_pcd_compression_is_refused),
     };
     return cmocka_run_group_tests_name("cloud_pcd", tests, NULL, NULL);
 }

@@ -124,7 +124,7 @@ static void ply_header_may_end_in_carriage_returns_alone(void **state)
 #define XYZ "property float x\nproperty float y\nproperty float z\n"
 #define ASCII "ply\nformat ascii 1.0\n"
 
-static void ply_headers_that_cannot_be_followed_are_refused(void **state)
+static void invalid_ply_headers_are_refused(void **state)
 {
     static const refusal rows[] = {
         {"plyx\n", "a.ply:1: is not a PLY file: its first line is not \"ply\""},
@@ -134,25 +134,25 @@ static void ply_headers_that_cannot_be_followed_are_refused(void **state)
         {"ply\nformat ascii 1.1\n", "a.ply:2: '1.1' is not the PLY version 1.0"},
         {"ply\nformat text 1.0\n",
          "a.ply:2: 'text' is not a PLY format: ascii, binary_little_endian or binary_big_endian"},
-        {ASCII "format ascii 1.0\n", "a.ply:3: 'ascii' is a second format"},
+        {ASCII "format ascii 1.0\n", "a.ply:3: 'ascii' is a second format; a PLY header has one"},
         {ASCII "faces 3\n", "a.ply:3: 'faces' does not belong in a PLY header"},
-        {ASCII "property float x\n", "a.ply:3: a property before any element"},
-        {ASCII "element vertex -1\n", "a.ply:3: '-1' is not a number of elements"},
-        {ASCII "element vertex 18446744073709551616\n", "a.ply:3: '18446744073709551616' is not a number of elements"},
-        {ASCII "element vertex\n", "a.ply:3: '' is not a number of elements"},
-        {ASCII "element vertex 1\nelement vertex 1\n", "a.ply:4: 'vertex' is a second element of this name"},
+        {ASCII "property float x\n", "a.ply:3: a property stands before any element"},
+        {ASCII "element vertex -1\n", "a.ply:3: '-1' is not a count of elements"},
+        {ASCII "element vertex 18446744073709551616\n", "a.ply:3: '18446744073709551616' is not a count of elements"},
+        {ASCII "element vertex\n", "a.ply:3: '' is not a count of elements"},
+        {ASCII "element vertex 1\nelement vertex 1\n", "a.ply:4: 'vertex' is a second element with this name"},
         {ASCII "element vertex 1\nproperty half x\n", "a.ply:4: 'half' is not a PLY type"},
-        {ASCII "element vertex 1\nproperty float\n", "a.ply:4: a property without a name"},
+        {ASCII "element vertex 1\nproperty float\n", "a.ply:4: a property has no name"},
         {ASCII "element vertex 1\nproperty float x\nproperty int x\n",
-         "a.ply:5: 'x' is a second property of this name"},
+         "a.ply:5: 'x' is a second property with this name"},
         {ASCII "element vertex 1\nproperty list uchar float x\n",
-         "a.ply:4: 'x' is a list, where a coordinate must be a number"},
+         "a.ply:4: 'x' is a list; a coordinate must be a single number"},
         {ASCII "element vertex 1\nproperty list float float n\n",
          "a.ply:4: 'float' is not an integer type for a list's length"},
         {"ply\nelement vertex 1\n" XYZ "end_header\n", "a.ply:6: the header has no format"},
-        {ASCII "element face 1\n" XYZ "end_header\n", "a.ply:7: the header has no element vertex"},
+        {ASCII "element face 1\n" XYZ "end_header\n", "a.ply:7: the header has no element \"vertex\""},
         {ASCII "element vertex 1\nproperty float x\nproperty float z\nend_header\n1 2\n",
-         "a.ply:6: vertex has no property y"},
+         "a.ply:6: element \"vertex\" has no property \"y\""},
     };
     (void)state;
     assert_refuses_each("a.ply", rows, sizeof rows / sizeof *rows);
@@ -167,24 +167,22 @@ static void ply_data_that_does_not_fit_its_header_is_refused(void **state)
         {ASCII "element vertex 2\n" XYZ "end_header\n1 2 3\n", "a.ply:8: the file ends after 1 of 2 'vertex'"},
         {ASCII "element vertex 18446744073709551615\n" XYZ "end_header\n1 2 3\n",
          "a.ply:8: the file ends after 1 of 18446744073709551615 'vertex'"},
-        {ASCII "element vertex 1\n" XYZ "end_header\n1 2\n",
-         "a.ply:8: the line ends before the last of its properties"},
-        {ASCII "element vertex 1\n" XYZ "end_header\n1 2 3 4\n",
-         "a.ply:8: '4' is more than the properties of the line"},
+        {ASCII "element vertex 1\n" XYZ "end_header\n1 2\n", "a.ply:8: the line has too few values"},
+        {ASCII "element vertex 1\n" XYZ "end_header\n1 2 3 4\n", "a.ply:8: '4' follows the last property of the line"},
         {ASCII "element vertex 1\n" XYZ "end_header\n1 two 3\n", "a.ply:8: 'two' is not a number"},
         {ASCII "element vertex 1\n" XYZ "end_header\n1 2e400 3\n", "a.ply:8: '2e400' is beyond the largest double"},
         {ASCII "element vertex 1\n" XYZ "property list char int n\nend_header\n1 2 3 -1\n",
-         "a.ply:9: '-1' is not the length of a list"},
+         "a.ply:9: '-1' is not a valid length of a list"},
         {ASCII "element vertex 1\n" XYZ "property list int int n\nend_header\n1 2 3 4000000000 1\n",
-         "a.ply:9: the line ends before the last of its properties"},
+         "a.ply:9: the line has too few values"},
         {ASCII "element face 1\nproperty int a\nelement vertex 1\n" XYZ "end_header\n1 2\n1 2 3\n",
-         "a.ply:10: '2' is more than the properties of the line"},
+         "a.ply:10: '2' follows the last property of the line"},
         {ASCII "element vertex 1\n" XYZ "element face 2\nproperty int a\nend_header\n1 2 3\n7 7\n",
          "a.ply:11: the file ends after 1 of 2 'face'"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 18446744073709551615\n" XYZ "end_header\n123456789012",
          "a.ply:byte 146: the file ends within row 2 of 18446744073709551615 'vertex'"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty list char int n\n" XYZ "end_header\n\xff",
-         "a.ply:byte 140: a list of negative length"},
+         "a.ply:byte 140: a list has a negative length"},
         {"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty list uint double n\n" XYZ
          "end_header\n\xff\xff\xff\xff 1234567",
          "a.ply:byte 147: the file ends within row 1 of 1 'vertex'"},
@@ -195,16 +193,16 @@ static void ply_data_that_does_not_fit_its_header_is_refused(void **state)
 
 /* What follows the last vertex is not needed: faces of other writers have numbers too many. Only what is cut off is
  * refused, whatever is missing. */
-static void ply_rows_after_the_last_vertex_that_do_not_fit_are_noted(void **state)
+static void invalid_ply_rows_after_the_last_vertex_are_noted(void **state)
 {
     static const char head[] = "1 2 3\n-4.5 5e10 0.1\n";
     static const struct {
         const char *faces, *sentence;
     } rows[] = {
-        {"3 0 1 2 255 0 0\n3 0 1 2\n", "12: '255' is more than the properties of the line"},
-        {"3 0 1\n3 0 1 2 4\n", "12: the line ends before the last of its properties"},
-        {"3 0 1 2\n-3 0 1 2\n", "13: '-3' is not the length of a list"},
-        {"3 0 1 2\n3 0 1 2\nso long\n", "14: more lines follow than the header counts"},
+        {"3 0 1 2 255 0 0\n3 0 1 2\n", "12: '255' follows the last property of the line"},
+        {"3 0 1\n3 0 1 2 4\n", "12: the line has too few values"},
+        {"3 0 1 2\n-3 0 1 2\n", "13: '-3' is not a valid length of a list"},
+        {"3 0 1 2\n3 0 1 2\nso long\n", "14: more lines follow than the header announces"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -217,13 +215,14 @@ static void ply_rows_after_the_last_vertex_that_do_not_fit_are_noted(void **stat
     }
 }
 
-static void ply_bytes_after_the_last_vertex_that_do_not_fit_are_noted(void **state)
+static void invalid_ply_bytes_after_the_last_vertex_are_noted(void **state)
 {
     static const char header[] = "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty double x\n"
                                  "property double y\nproperty double z\nelement face 2\nproperty list char int n\n"
                                  "end_header\n";
     static const char *const faces[] = {"\x00\x00 ", "\xff\x01"};
-    static const char *const reasons[] = {"more data follows than the header counts", "a list of negative length"};
+    static const char *const reasons[] = {"more data follows than the header announces",
+                                          "a list has a negative length"};
     (void)state;
     for (int i = 0; i < 2; i++) {
         bytes file = {.size = 0};
@@ -247,10 +246,10 @@ int main(void)
         cmocka_unit_test(ply_binary_is_read_in_both_byte_orders),
         cmocka_unit_test(ply_reads_every_type),
         cmocka_unit_test(ply_header_may_end_in_carriage_returns_alone),
-        cmocka_unit_test(ply_headers_that_cannot_be_followed_are_refused),
+        cmocka_unit_test(invalid_ply_headers_are_refused),
         cmocka_unit_test(ply_data_that_does_not_fit_its_header_is_refused),
-        cmocka_unit_test(ply_rows_after_the_last_vertex_that_do_not_fit_are_noted),
-        cmocka_unit_test(ply_bytes_after_the_last_vertex_that_do_not_fit_are_noted),
+        cmocka_unit_test(invalid_ply_rows_after_the_last_vertex_are_noted),
+        cmocka_unit_test(invalid_ply_bytes_after_the_last_vertex_are_noted),
     };
     return cmocka_run_group_tests_name("cloud_ply", tests, NULL, NULL);
 }

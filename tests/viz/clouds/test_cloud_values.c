@@ -25,7 +25,7 @@ static void say(const cloud *c, char *text, size_t size)
 }
 
 static void assert_values(const char *name, const void *data, size_t size, const char *values, unsigned full,
-                          const char *decided)
+                          const char *note)
 {
     cloud c;
     octreel_error error;
@@ -37,29 +37,29 @@ static void assert_values(const char *name, const void *data, size_t size, const
         print_error("%.*s\n", (int)size, (const char *)data);
     assert_string_equal(said, values);
     assert_int_equal(c.color_full, full);
-    if (decided && !c.decided)
-        fail_msg("nothing was decided: %s", decided);
-    assert_string_equal(c.decided ? c.decided : "", decided ? decided : "");
+    if (note && !c.column_note)
+        fail_msg("there is no note on columns: %s", note);
+    assert_string_equal(c.column_note ? c.column_note : "", note ? note : "");
     cloud_release(&c);
 }
 
 typedef struct reading {
     const char *text, *values;
     unsigned full;
-    const char *decided;
+    const char *note;
 } reading;
 
 static void assert_reads_each(const char *name, const reading *rows, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        assert_values(name, rows[i].text, strlen(rows[i].text), rows[i].values, rows[i].full, rows[i].decided);
+        assert_values(name, rows[i].text, strlen(rows[i].text), rows[i].values, rows[i].full, rows[i].note);
 }
 
 #define ASSERT_READS_EACH(name, rows) assert_reads_each(name, rows, sizeof rows / sizeof rows[0])
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-static void text_has_the_values_that_its_first_line_names(void **state)
+static void text_values_follow_the_names_in_its_first_line(void **state)
 {
     static const reading rows[] = {
         {"x y z r g b\n1 2 3 255 0 16\n", "#ff0010 - -", 255, NULL},
@@ -85,42 +85,42 @@ static void text_has_the_values_that_its_first_line_names(void **state)
     ASSERT_READS_EACH("a.xyz", rows);
 }
 
-#define THREE_READ "columns 4 to 6, which have no names, are read as r g b"
-#define FOUR_READ "columns 4 to 7, which have no names, are read as intensity r g b"
-#define FOUR_LEFT                                                                                                      \
-    "columns 4 to 7 may be r g b and another or intensity r g b, and are not read: a first line with their names, "    \
-    "as in x y z intensity r g b, says what they are"
+#define THREE_READ "columns 4 to 6 have no names and are read as r g b"
+#define FOUR_READ "columns 4 to 7 have no names and are read as intensity r g b"
+#define FOUR_IGNORED                                                                                                   \
+    "columns 4 to 7 have no names and are ignored: they may be r g b and another value, or intensity r g b; add a "    \
+    "first line with names, such as x y z intensity r g b"
 
-#define UNREAD                                                                                                         \
-    "the columns from the fourth on have no names and are not read: a first line with the names of all, as in x y z "  \
-    "r g b, says what they are"
+#define IGNORED                                                                                                        \
+    "the columns from the fourth on have no names and are ignored; add a first line with the names of all columns, "   \
+    "such as x y z r g b"
 
-static void columns_without_names_are_colours_where_every_line_says_so(void **state)
+static void unnamed_columns_are_colours_if_every_line_agrees(void **state)
 {
     static const reading rows[] = {
         {"1 2 3 255 0 16\n4 5 6 0 0 0\n", "#ff0010 - -, #000000 - -", 255, THREE_READ},
         {"1;2;3;255;0;16\n", "#ff0010 - -", 255, THREE_READ},
         {"1 2 3 128 0 16\n", "#800010 - -", 255, THREE_READ},
-        {"1 2 3 127 0 16\n", "- - -", 0, UNREAD}, /* none is bright */
+        {"1 2 3 127 0 16\n", "- - -", 0, IGNORED}, /* none is bright */
         {"1 2 3 0 0.25 0.5\n", "#004080 - -", 1, THREE_READ ", from 0 to 1"},
         {"1 2 3 -1340 49 51 201\n4 5 6 7 1 1 1\n", "#3133c9 -1340 -, #010101 7 -", 255, FOUR_READ},
         {"1 2 3 0.25 49 51 201\n", "#3133c9 0.25 -", 255, FOUR_READ},
-        {"1 2 3 7 49 51 201\n", "- - -", 0, FOUR_LEFT},
-        {"1 2 3 0 0 1\n4 5 6 0 1 0\n", "- - -, - - -", 0, UNREAD},      /* normals */
-        {"1 2 3 255 0 16\n4 5 6 0 0 0.5\n", "- - -, - - -", 0, UNREAD}, /* one line that is not */
-        {"1 2 3 255 0 16\n4 5 6 0 0 256\n", "- - -, - - -", 0, UNREAD},
-        {"1 2 3 255 0 16\n4 5 6 0 0\n", "- - -, - - -", 0, UNREAD},
-        {"1 2 3 255 0 16\n4 5 6 0 0 0 0\n", "- - -, - - -", 0, UNREAD},
-        {"1 2 3 255 0\n", "- - -", 0, UNREAD},
-        {"1 2 3 255 0 16 7 8\n", "- - -", 0, UNREAD},
+        {"1 2 3 7 49 51 201\n", "- - -", 0, FOUR_IGNORED},
+        {"1 2 3 0 0 1\n4 5 6 0 1 0\n", "- - -, - - -", 0, IGNORED},      /* normals */
+        {"1 2 3 255 0 16\n4 5 6 0 0 0.5\n", "- - -, - - -", 0, IGNORED}, /* one line that is not */
+        {"1 2 3 255 0 16\n4 5 6 0 0 256\n", "- - -, - - -", 0, IGNORED},
+        {"1 2 3 255 0 16\n4 5 6 0 0\n", "- - -, - - -", 0, IGNORED},
+        {"1 2 3 255 0 16\n4 5 6 0 0 0 0\n", "- - -, - - -", 0, IGNORED},
+        {"1 2 3 255 0\n", "- - -", 0, IGNORED},
+        {"1 2 3 255 0 16 7 8\n", "- - -", 0, IGNORED},
         {"1 2 3 0 0.5 1\n4 5 6 0.25 0 0\n", "#0080ff - -, #400000 - -", 1, THREE_READ ", from 0 to 1"},
         {"1 2 3 9 0 0.5 1\n4 5 6 9 0 0 0\n", "#0080ff 9 -, #000000 9 -", 1, FOUR_READ ", from 0 to 1"},
-        {"1 2 3 0.5 0 0.5 1\n", "- - -", 0, FOUR_LEFT},
+        {"1 2 3 0.5 0 0.5 1\n", "- - -", 0, FOUR_IGNORED},
         {"1 2 3 1 1 0\n4 5 6 1 0 200\n", "#010100 - -, #0100c8 - -", 255, THREE_READ},
-        {"1 2 3 0.6 0.8 0\n4 5 6 0 0.6 0.8\n", "- - -, - - -", 0, UNREAD}, /* normals */
-        {"1 2 3 0 0.5 1\n4 5 6 0 0.5 1.5\n", "- - -, - - -", 0, UNREAD},
-        {"1 2 3 0 0.25 0.3\n", "- - -", 0, UNREAD},
-        {"1 2 3 255 0 name\n", "- - -", 0, UNREAD},
+        {"1 2 3 0.6 0.8 0\n4 5 6 0 0.6 0.8\n", "- - -, - - -", 0, IGNORED}, /* normals */
+        {"1 2 3 0 0.5 1\n4 5 6 0 0.5 1.5\n", "- - -, - - -", 0, IGNORED},
+        {"1 2 3 0 0.25 0.3\n", "- - -", 0, IGNORED},
+        {"1 2 3 255 0 name\n", "- - -", 0, IGNORED},
         {"nan nan nan\n1 2 3 255 0 16\nnan nan nan 0.5 nan nan\n4 5 6 0 0 0\n", "#ff0010 - -, #000000 - -", 255,
          THREE_READ},
     };
@@ -128,7 +128,7 @@ static void columns_without_names_are_colours_where_every_line_says_so(void **st
     ASSERT_READS_EACH("a.xyz", rows);
 }
 
-static void values_out_of_range_are_counted_and_told(void **state)
+static void values_out_of_range_are_counted_and_described(void **state)
 {
     static const struct {
         const char *text, *told;
@@ -136,17 +136,17 @@ static void values_out_of_range_are_counted_and_told(void **state)
         {"x y z r g b\n1 2 3 -1 0 0\n4 5 6 0 0 65536\n7 8 9 1 2 3\n", "2 colours beyond 0 to 65535 are left out"},
         {"x y z r g b\n1 2 3 1 2\n4 5 6 1 2 3\n", ""}, /* none is said */
         {"x y z intensity label\n1 2 3 1e39 1.5\n4 5 6 1 -1\n7 8 9 nan 4\n",
-         "1 intensity beyond a float, 2 classes that are no whole number to 65535 are left out"},
-        {"x y z label\n1 2 3 70000\n", "1 class that is no whole number to 65535 is left out"},
+         "1 intensity beyond a float, 2 classes that are not integers from 0 to 65535 are left out"},
+        {"x y z label\n1 2 3 70000\n", "1 class that is not an integer from 0 to 65535 is left out"},
         {"1 2 3 255 0 16\n4 5 6 0 0 256\n", ""}, /* not read at all, which is said */
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         cloud c;
         octreel_error error;
-        char told[CLOUD_BEYOND];
+        char told[CLOUD_OUT_OF_RANGE_TEXT];
         assert_true(cloud_parse("a.xyz", (const unsigned char *)rows[i].text, strlen(rows[i].text), &c, &error));
-        assert_string_equal(cloud_beyond_text(c.beyond, told), rows[i].told);
+        assert_string_equal(cloud_describe_out_of_range(c.out_of_range, told), rows[i].told);
         cloud_release(&c);
     }
 }
@@ -246,9 +246,9 @@ static void binary_pcd_has_packed_colours_in_the_bits_of_a_float(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_has_the_values_that_its_first_line_names),
-        cmocka_unit_test(columns_without_names_are_colours_where_every_line_says_so),
-        cmocka_unit_test(values_out_of_range_are_counted_and_told),
+        cmocka_unit_test(text_values_follow_the_names_in_its_first_line),
+        cmocka_unit_test(unnamed_columns_are_colours_if_every_line_agrees),
+        cmocka_unit_test(values_out_of_range_are_counted_and_described),
         cmocka_unit_test(ply_has_colours_of_every_type),
         cmocka_unit_test(binary_ply_has_values_in_both_byte_orders),
         cmocka_unit_test(pcd_has_packed_colours_as_integers_and_floats),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_laz_child.c - a process that should give the points of a file and does something else. */
+/* test_laz_child.c - a child process that misbehaves instead of producing records. */
 #include "clouds.h"
 #include "laz_child.h"
 
@@ -112,25 +112,27 @@ static bool take(void *context, const unsigned char *record)
     return ++t->count <= t->most;
 }
 
-typedef struct misdeed {
-    laz_put *put;
+typedef struct misbehaviour {
+    laz_produce *put;
     uint64_t points;
     const char *sentence; /* null: all are there */
-} misdeed;
+} misbehaviour;
 
-static void misdeeds_end_in_one_sentence(void **state)
+static void each_misbehaviour_of_the_child_gives_one_sentence(void **state)
 {
-    static const misdeed rows[] = {
+    static const misbehaviour rows[] = {
         {put_all, SOME, NULL},
         {put_without_end, SOME, NULL},
         {complain, SOME, NULL},
-        {put_none, 0, "a.laz: cannot be decompressed: liblaszip broke off at its data"},
-        {put_one_less, SOME - 1, "a.laz: cannot be decompressed: liblaszip broke off at its data"},
-        {put_half_a_record, SOME - 1, "a.laz: cannot be decompressed: liblaszip broke off at its data"},
+        {put_none, 0, "a.laz: cannot be decompressed: liblaszip stopped early; the data is probably damaged"},
+        {put_one_less, SOME - 1,
+         "a.laz: cannot be decompressed: liblaszip stopped early; the data is probably damaged"},
+        {put_half_a_record, SOME - 1,
+         "a.laz: cannot be decompressed: liblaszip stopped early; the data is probably damaged"},
         {put_a_reason, 0, "a.laz: point 4 is ?[31mred?"},
-        {crash, 0, "a.laz: cannot be decompressed: liblaszip crashed at its data"},
-        {be_killed, 0, "a.laz: cannot be decompressed: liblaszip crashed at its data"},
-        {hang, 0, "a.laz: cannot be decompressed: it takes more than 1 s of processor time"},
+        {crash, 0, "a.laz: cannot be decompressed: liblaszip crashed; the data is probably damaged"},
+        {be_killed, 0, "a.laz: cannot be decompressed: liblaszip crashed; the data is probably damaged"},
+        {hang, 0, "a.laz: cannot be decompressed within 1 s of processor time"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -139,25 +141,25 @@ static void misdeeds_end_in_one_sentence(void **state)
         cloud none = {0};
         const cloud_file file = {.name = "a.laz", .error = &error, .out = &none};
         taken t = {0, SOME};
-        assert_int_equal(laz_child_take(&child, &file, SOME, take, &t), rows[i].sentence == NULL);
+        assert_int_equal(laz_child_read(&child, &file, SOME, take, &t), rows[i].sentence == NULL);
         assert_string_equal(error.text, rows[i].sentence ? rows[i].sentence : "");
         assert_int_equal(t.count, rows[i].points);
     }
 }
 
-static void reasons_without_end_do_not_hang(void **state)
+static void an_endless_reason_does_not_block(void **state)
 {
     const laz_child child = {put_reasons_without_end, NULL, 1};
     octreel_error error = {""};
     cloud none = {0};
     const cloud_file file = {.name = "a.laz", .error = &error, .out = &none};
     (void)state;
-    assert_false(laz_child_take(&child, &file, SOME, take, &(taken){0, SOME}));
+    assert_false(laz_child_read(&child, &file, SOME, take, &(taken){0, SOME}));
     assert_int_equal(strncmp(error.text, "a.laz: aaaaaaaa", 15), 0);
 }
 
 /* Who takes points refuses one: the process that goes on putting them ends. */
-static void a_refusal_ends_the_process(void **state)
+static void refusing_a_record_ends_the_child(void **state)
 {
     const laz_child child = {put_without_end, NULL, 1};
     octreel_error error = {""};
@@ -165,7 +167,7 @@ static void a_refusal_ends_the_process(void **state)
     const cloud_file file = {.name = "a.laz", .error = &error, .out = &none};
     taken t = {0, 5};
     (void)state;
-    assert_false(laz_child_take(&child, &file, UINT64_MAX, take, &t));
+    assert_false(laz_child_read(&child, &file, UINT64_MAX, take, &t));
     assert_int_equal(t.count, 6);
     assert_string_equal(error.text, "");
 }
@@ -173,9 +175,9 @@ static void a_refusal_ends_the_process(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(misdeeds_end_in_one_sentence),
-        cmocka_unit_test(reasons_without_end_do_not_hang),
-        cmocka_unit_test(a_refusal_ends_the_process),
+        cmocka_unit_test(each_misbehaviour_of_the_child_gives_one_sentence),
+        cmocka_unit_test(an_endless_reason_does_not_block),
+        cmocka_unit_test(refusing_a_record_ends_the_child),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -194,7 +194,7 @@ static void a_file_keeps_its_values(void **state)
                   "\"columns\": [\"class\"],\n\"points\": [\n[1, 2, 3, 1, 7],\n[4, 5, 6, 2, 8],\n[7, 8, 9, 3]\n]}");
     session_release(&file);
     file = read_with_cloud(*state, "1 2 3 255 0 1\n", "");
-    assert_string_equal(file.note, "c.xyz: columns 4 to 6, which have no names, are read as r g b");
+    assert_string_equal(file.note, "c.xyz: columns 4 to 6 have no names and are read as r g b");
     session_release(&file);
 }
 

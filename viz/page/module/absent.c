@@ -41,14 +41,14 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
     return error_set(error, "%s: %s", path, absent);
 }
 
-bool cloud_begins(const unsigned char *bytes, size_t size)
+bool cloud_recognise(const unsigned char *bytes, size_t size)
 {
     (void)bytes;
     (void)size;
     return false;
 }
 
-const char *cloud_beyond_text(const size_t beyond[POINT_VALUE_KINDS], char text[CLOUD_BEYOND])
+const char *cloud_describe_out_of_range(const size_t beyond[POINT_VALUE_KINDS], char text[CLOUD_OUT_OF_RANGE_TEXT])
 {
     (void)beyond;
     *text = 0;
