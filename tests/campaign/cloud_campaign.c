@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_campaign.c - clouds damaged at random, as octreel inspect meets them: in a file or a pipe, LAZ through the
+/* cloud_campaign.c - runs octreel inspect on point clouds damaged at random: in a file or a pipe, LAZ through the
  * process that decompresses it where there is liblaszip.
  *
  * Each is read, with status 0, or refused with status 2 and one sentence of printable characters, within a time and
@@ -46,7 +46,7 @@ static void read_options(int argc, char **argv)
             break;
         case 'h':
             puts("usage: octreel-cloud-campaign [--seed N] [--files N]\n"
-                 "Damage clouds of tests/fuzz/corpus/cloud at random, and inspect each.\n"
+                 "Damages the point clouds of tests/fuzz/corpus/cloud at random and runs octreel inspect on each.\n"
                  "Exit status: 0 no findings, 1 findings, 2 trouble.");
             finish(EXIT_DONE);
         default:
@@ -115,17 +115,19 @@ static void change(damaged *d)
     }
 }
 
-/* The first byte of a file of the corpus says what it is called. */
-static damaged read_seed(const char *path, const char **name)
+enum { NAME_SIZE = 16 };
+
+/* The first line of a file of the corpus is the suffix of the file's name, or empty; the rest is the file. */
+static damaged read_seed(const char *path, char name[NAME_SIZE])
 {
-    static const char *const names[] = {"fuzz", "fuzz.ply", "fuzz.pcd", "fuzz.las"};
     damaged d = {.size = 0};
     size_t size;
     char *bytes = file_read(path, &size);
-    assert_true(size > 1 && size - 1 <= sizeof d.bytes);
-    *name = names[(unsigned char)bytes[0] % 4];
-    d.size = size - 1;
-    memcpy(d.bytes, bytes + 1, d.size);
+    const size_t suffix = strcspn(bytes, "\n");
+    assert_true(suffix + 1 < size && size - suffix - 1 <= sizeof d.bytes);
+    snprintf(name, NAME_SIZE, "fuzz%s%.*s", suffix ? "." : "", (int)suffix, bytes);
+    d.size = size - suffix - 1;
+    memcpy(d.bytes, bytes + suffix + 1, d.size);
     free(bytes);
     return d;
 }
@@ -161,8 +163,8 @@ static void a_damaged_cloud_is_read_or_refused(void **state)
     size_t findings = 0, read = 0;
     random_state = asked.seed;
     for (uint64_t i = 0; i < asked.files && findings < MOST_FINDINGS; i++) {
-        const char *name;
-        damaged d = read_seed(place_below(OCTREEL_CLOUD_CORPUS, seeds.names[i % seeds.count]).path, &name);
+        char name[NAME_SIZE];
+        damaged d = read_seed(place_below(OCTREEL_CLOUD_CORPUS, seeds.names[i % seeds.count]).path, name);
         const place file = place_in(own, name);
         for (uint64_t left = 1 + below(MOST_CHANGES); left > 0; left--)
             change(&d);

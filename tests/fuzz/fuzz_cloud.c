@@ -1,19 +1,33 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_cloud.c - libFuzzer entry of the point-cloud readers: the first byte chooses the file's name, the rest is the
- * file. Build with clang -fsanitize=fuzzer,address,undefined.
- */
+/* fuzz_cloud.c - libFuzzer entry of the point cloud readers. The first line of an input is the suffix of the file's
+ * name, such as "ply", or empty; the rest is the file. So the corpus stays valid when a format is added. */
 #include "cloud.h"
 #include "support/edited_words.h"
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed);
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
 
-/* Headers change by words in seven of eight; LAS and what follows a header by bytes alone. */
+enum { LONGEST_SUFFIX = 8 };
+
+/* Length of the first line with its end; 0 where it is no suffix. LAZ files are read by another process. */
+static size_t measure_head(const uint8_t *data, size_t size)
+{
+    size_t length = 0;
+    while (length < size && length < LONGEST_SUFFIX && data[length] >= 'a' && data[length] <= 'z')
+        length++;
+    const bool is_suffix = length < size && data[length] == '\n' && !(length == 3 && memcmp(data, "laz", 3) == 0);
+    return is_suffix ? length + 1 : 0;
+}
+
+/* Seven of eight inputs change by words, for the headers of text formats; the others, and LAS, change by bytes. The
+ * suffix changes in one of 64. */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed)
 {
     static const char *const words[] = {
@@ -36,13 +50,17 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned
         "//",      "# .PCD v.7", "class",
         "\r",
     };
+    const size_t head = measure_head(data, size);
     size_t made = 0;
-    if (seed % 8 && size > 1 && data[0] % 4 != 3)
-        made = edited_words(data + 1, size - 1, most - 1, seed, words, sizeof words / sizeof *words);
-    return made ? made + 1 : LLVMFuzzerMutate(data, size, most);
+    if (head == 0 || head == size || seed % 64 == 0)
+        return LLVMFuzzerMutate(data, size, most);
+    if (seed % 8 && !(head == 4 && memcmp(data, "las", 3) == 0))
+        made = edited_words(data + head, size - head, most - head, seed, words, sizeof words / sizeof *words);
+    return head + (made ? made : LLVMFuzzerMutate(data + head, size - head, most - head));
 }
 
-/* A cloud holds points, all of them finite, each of a later row than the one before; why some were skipped is known. */
+/* A cloud that was read has points, all of them finite and in the order of their rows. If points were skipped, the
+ * reason is given. */
 static void check_cloud(const cloud *cloud)
 {
     if (cloud->count == 0 || (cloud->skipped > 0) != (cloud->why_skipped != NULL))
@@ -56,8 +74,8 @@ static void check_cloud(const cloud *cloud)
                 abort();
 }
 
-/* Each value is a row of the file; intensities are finite; and what a full channel is is said where there are colours.
- */
+/* There is at most one value a row. Intensities are finite. The largest value of a colour channel is known if and only
+ * if points have colours. */
 static void check_values(const cloud *cloud)
 {
     const point_values *v = &cloud->values;
@@ -74,12 +92,14 @@ static void check_values(const cloud *cloud)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const char *const names[] = {"fuzz", "fuzz.ply", "fuzz.pcd", "fuzz.las"};
     cloud cloud;
     octreel_error error = {""};
-    if (size == 0)
+    char name[8 + LONGEST_SUFFIX];
+    const size_t head = measure_head(data, size);
+    if (head == 0)
         return 0;
-    const bool parsed = cloud_parse(names[data[0] % 4], data + 1, size - 1, &cloud, &error);
+    snprintf(name, sizeof name, "fuzz%s%.*s", head > 1 ? "." : "", (int)head - 1, (const char *)data);
+    const bool parsed = cloud_parse(name, data + head, size - head, &cloud, &error);
     if (parsed) {
         check_cloud(&cloud);
         check_values(&cloud);
