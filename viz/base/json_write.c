@@ -243,7 +243,10 @@ void json_member_begin_array(json_writer *writer, const char *key)
 void json_member_text(json_writer *writer, const char *key, const char *text)
 {
     json_write_key(writer, key);
-    json_write_string(writer, text);
+    if (text)
+        json_write_string(writer, text);
+    else
+        json_write_null(writer);
 }
 
 void json_member_vector(json_writer *writer, const char *key, const double vector[3])

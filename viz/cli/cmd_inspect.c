@@ -136,6 +136,8 @@ static bool draw(const report *r, octreel_error *error)
     progress_end(&bar);
     if (!ok)
         return false;
+    if (*drawn.checks.reason.text)
+        note("%s was not checked: %s", file_output_title(a->picture), drawn.checks.reason.text);
     if (point_scale_lacks(&r->view, &r->made->values))
         note("no point has %s: --color-points %s shows all points alike", point_scale_lacks(&r->view, &r->made->values),
              view_point_color_name(r->view.point_color));
@@ -278,7 +280,7 @@ static int inspect(const arguments *a)
 static bool check_picture(const arguments *a)
 {
     const char *first = first_view_option(&a->view_options);
-    if (!first && a->renderer.fill != DRAW_FILL_INTEGERS)
+    if (!first && a->renderer.fill != DRAW_FILL_CHECKED)
         first = "fill";
     if (!first)
         first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
@@ -303,7 +305,7 @@ static bool check_outputs(const arguments *a)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.def = octree_def_default(), .view = view_default()};
+    arguments a = {.def = octree_def_default(), .view = view_default(), .renderer.fill = DRAW_FILL_CHECKED};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
     const int status = command_read_arguments(&command_inspect, &a, argc, argv);

@@ -44,10 +44,12 @@ static int print_pick(const char *frame, const pick_options *options, bool json)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.pick.radius = 8};
+    arguments a = {.pick = {.radius = 8, .renderer.fill = DRAW_FILL_CHECKED}};
     const int status = command_read_arguments(&command_pick, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
+    if (a.pick.renderer.context != DRAW_AUTO)
+        a.pick.renderer.fill = DRAW_FILL_GL;
     const bool ok = check_renderer(&a.pick.renderer) && read_place("X", argv[optind + 1], &a.pick.x) &&
                     read_place("Y", argv[optind + 2], &a.pick.y);
     return ok ? print_pick(argv[optind], &a.pick, a.json) : EXIT_TROUBLE;

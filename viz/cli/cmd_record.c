@@ -86,10 +86,8 @@ static int film(arguments *a, const octree_session *session)
     a->film.context = &w;
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&w.progress);
-    if (ok && !is_quiet()) {
-        film_report_start(stderr, &summary.start, session);
-        film_report_empty(stderr, &summary, &a->film);
-    }
+    if (ok && !is_quiet())
+        film_report_notes(stderr, &summary, &a->film, session);
     if (!ok)
         print_error("%s", error.text);
     else if (!whole)
@@ -151,10 +149,8 @@ static int film_standard_input(arguments *a)
     if (*session_stream_note(stream))
         note("%s", session_stream_note(stream));
     a->film.values = session_stream_values(stream);
-    if (how == FILM_STREAM_WHOLE && !is_quiet()) {
-        film_report_start(stderr, &summary.start, session_stream_start(stream));
-        film_report_empty(stderr, &summary, &a->film);
-    }
+    if (how == FILM_STREAM_WHOLE && !is_quiet())
+        film_report_notes(stderr, &summary, &a->film, session_stream_start(stream));
     const int status = end_stream(a, how, &summary, &w, &error);
     session_stream_close(stream);
     watch_end(&w);
@@ -238,7 +234,7 @@ static bool is_own_folder(const char *folder)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_default()}};
+    arguments a = {.film = {.view = view_default(), .renderer.fill = DRAW_FILL_CHECKED}};
     const int status = command_read_arguments(&command_record, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
@@ -285,6 +281,8 @@ const command command_record = {
         "  \"ticks\"       that were filmed; of a chunk its own\n"
         "  \"frames\"      that they have, with those that were there\n"
         "  \"gaps\"        ticks of which nothing is known\n"
+        "  \"checked\"     frames that OSMesa drew too, with the same pixels\n"
+        "  \"checked_by\"  \"osmesa\" or \"egl\"; null: no frame was checked\n"
         "  \"left_out\"    elements of all frames that are too far off to be drawn\n"
         "  \"over_budget\", \"below_lod\"  frames that leave out what is beyond --budget, and smaller than --lod\n"
         "  \"refusals\"    of points, edits and steps, but for steps out of the world\n"

@@ -120,7 +120,7 @@ int help_print(FILE *out, const command *c)
 /* Whether a context of this kind can be opened, and its renderer. */
 static bool print_renderer(draw_context kind)
 {
-    const renderer_choice choice = {.context = kind};
+    const renderer_choice choice = {.context = kind, .fill = DRAW_FILL_GL};
     octreel_error error;
     renderer *r = renderer_open(16, 16, &choice, &error);
     if (!r) {
@@ -135,10 +135,13 @@ static bool print_renderer(draw_context kind)
 
 int version_print(void)
 {
-    int found = 0;
+    int built = 0, found = 0;
     printf("octreel %s\n", OCTREEL_VERSION);
-    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++)
-        if (draw_context_built((draw_context)kind))
-            found += print_renderer((draw_context)kind);
-    return found ? EXIT_DONE : EXIT_TROUBLE;
+    for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
+        built += draw_context_built((draw_context)kind);
+        found += draw_context_built((draw_context)kind) && print_renderer((draw_context)kind);
+    }
+    if (!built)
+        puts("built without OpenGL");
+    return found || !built ? EXIT_DONE : EXIT_TROUBLE;
 }

@@ -160,7 +160,7 @@ static void report_context_fallback(const char *name, const char *instead_of, co
 int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);
-    draw_context_tell(report_context_fallback);
+    draw_context_set_report(report_context_fallback);
     json_watch_memory();
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))

@@ -81,8 +81,7 @@ command_option_reader read_quiet;   /* nothing: --quiet */
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
         "fill", "WITH",                                                                                                \
-            "what fills the picture (default integers; with --any-renderer it is gl in any case); the pixels are the " \
-            "same: one of",                                                                                            \
+            "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                             \
             .read = read_fill, OPTION_VALUE(type, member), .names = draw_fill_at, .words = draw_fill_words_at          \
     }
 

@@ -47,18 +47,18 @@ bool draw_context_built(draw_context kind)
     return (unsigned)kind < DRAW_CONTEXTS && kinds[kind].open;
 }
 
-static draw_context_told *tell;
+static draw_context_report *report;
 
-void draw_context_tell(draw_context_told *told)
+void draw_context_set_report(draw_context_report *function)
 {
-    tell = told;
+    report = function;
 }
 
-/* What is not installed is not missed. */
-static void tell_other(int kind, int first, const octreel_error *why)
+/* A preferred library that is not installed is not worth a report. */
+static void report_fallback(int kind, int preferred, const octreel_error *why)
 {
-    if (tell && kind != first && !strstr(why->text, strerror(ENOENT)))
-        tell(kinds[kind].name, kinds[first].name, why->text);
+    if (report && kind != preferred && !strstr(why->text, strerror(ENOENT)))
+        report(kinds[kind].name, kinds[preferred].name, why->text);
 }
 
 /* When none opens, the first one's error is reported. */
@@ -72,7 +72,7 @@ static context *open_any(const renderer_choice *choice, octreel_error *error)
         first = first ? first : i;
         context *c = kinds[i].open(choice, reason);
         if (c) {
-            tell_other(i, first, error);
+            report_fallback(i, first, error);
             return c;
         }
         reason = &later;

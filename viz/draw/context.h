@@ -18,20 +18,25 @@ bool draw_context_parse(const char *name, draw_context *kind);
 /* Whether this program was built with it. */
 bool draw_context_built(draw_context kind);
 
-/* What fills the quads of a frame: the pixels are the same. */
-typedef enum draw_fill { DRAW_FILL_INTEGERS, DRAW_FILL_GL, DRAW_FILLS } draw_fill;
+/* What fills the quads of a frame. Both rasterizers give the same pixels. */
+typedef enum draw_fill {
+    DRAW_FILL_INTEGERS, /* the integer rasterizer; GL is never loaded */
+    DRAW_FILL_CHECKED,  /* the integer rasterizer; GL is loaded at the first renderer_redraw() */
+    DRAW_FILL_GL,
+    DRAW_FILLS
+} draw_fill;
 
-/* Which renderer is wanted; all zero draws the same pixels everywhere. */
+/* How to draw. All zero: with the integer rasterizer alone. */
 typedef struct renderer_choice {
-    draw_context context;
-    draw_fill fill;    /* of another driver than llvmpipe always by GL */
-    bool any_renderer; /* accept drivers other than llvmpipe: a graphics card, say */
+    draw_context context; /* which GL, where GL is loaded */
+    draw_fill fill;
+    bool any_renderer; /* draw with GL, whatever `fill` is, and accept drivers other than llvmpipe: a graphics card */
 } renderer_choice;
 
-/* Called where DRAW_AUTO takes a context in place of one that is installed and does not open: which, instead of which,
- * and why that did not. A process has one such function; null, as at first: nothing is told. */
-typedef void draw_context_told(const char *name, const char *instead_of, const char *why);
-void draw_context_tell(draw_context_told *told);
+/* Called when DRAW_AUTO opens context `name` because `instead_of`, which is installed, cannot be opened; `why` is the
+ * reason. Each process has one such function. Null, the default: no report. */
+typedef void draw_context_report(const char *name, const char *instead_of, const char *why);
+void draw_context_set_report(draw_context_report *report);
 
 /* ---- For this folder ---------------------------------------------------------------------------------------- */
 

@@ -192,7 +192,7 @@ static void close_surface(surface *face)
     free(s);
 }
 
-static surface *open_surface(int width, int height, const renderer_choice *choice, octreel_error *error)
+surface *surface_open(int width, int height, const renderer_choice *choice, octreel_error *error)
 {
     gl_surface *s = calloc(1, sizeof *s);
     if (!s) {
@@ -203,8 +203,7 @@ static surface *open_surface(int width, int height, const renderer_choice *choic
     s->width = width;
     s->height = height;
     s->side = clip_square(width, height);
-    if (choice->fill == DRAW_FILL_GL || choice->any_renderer)
-        context_limit_threads(); /* GL that fills nothing waits for none */
+    context_limit_threads();
     s->context = context_open(choice, error);
     if (!s->context || !gl_load(&s->gl, s->context, error) || !check_driver(s, choice->any_renderer, error) ||
         !make_framebuffer(s, error)) {
@@ -214,16 +213,4 @@ static surface *open_surface(int width, int height, const renderer_choice *choic
     make_indices(s);
     set_state(s);
     return &s->face;
-}
-
-renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error)
-{
-    renderer *r = renderer_open_memory(width, height, error);
-    surface *s = r ? open_surface(width, height, choice, error) : NULL;
-    if (s) {
-        renderer_use_surface(r, s, choice->fill == DRAW_FILL_GL || choice->any_renderer);
-        return r;
-    }
-    renderer_close(r);
-    return NULL;
 }

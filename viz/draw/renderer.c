@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* renderer.c - scenes into indices: painted, clipped and filled. What GL does is in gl_surface.c. */
+/* renderer.c - turns scenes into indices with the integer rasterizer or GL; gl_surface.c makes the GL calls. */
 #include "renderer.h"
 #include "canvas.h"
 #include "fill.h"
@@ -10,15 +10,16 @@
 #include <string.h>
 
 struct renderer {
-    surface *surface; /* null: in memory alone */
-    bool surface_fills;
+    renderer_choice choice;
+    surface *surface; /* null: GL is not loaded */
     int width, height;
     painter painter;
     canvas canvas;
     size_t left_out;
 };
 
-static const char *const fills[DRAW_FILLS] = {[DRAW_FILL_INTEGERS] = "integers", [DRAW_FILL_GL] = "gl"};
+static const char *const fills[DRAW_FILLS] = {
+    [DRAW_FILL_INTEGERS] = "integers", [DRAW_FILL_CHECKED] = "checked", [DRAW_FILL_GL] = "gl"};
 
 const char *draw_fill_name(draw_fill fill)
 {
@@ -44,7 +45,13 @@ static bool check_size(int width, int height, octreel_error *error)
                      VIEW_MAX_SIDE);
 }
 
-renderer *renderer_open_memory(int width, int height, octreel_error *error)
+/* Whether GL draws every scene. */
+static bool fills_by_gl(const renderer *r)
+{
+    return r->choice.fill == DRAW_FILL_GL;
+}
+
+renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error)
 {
     if (!check_size(width, height, error))
         return NULL;
@@ -53,16 +60,15 @@ renderer *renderer_open_memory(int width, int height, octreel_error *error)
         error_no_memory(error);
         return NULL;
     }
-    r->width = width;
-    r->height = height;
-    r->canvas = (canvas){.width = width, .height = height};
+    *r = (renderer){
+        .choice = *choice, .width = width, .height = height, .canvas = {.width = width, .height = height}};
+    if (choice->any_renderer)
+        r->choice.fill = DRAW_FILL_GL;
+    if (fills_by_gl(r) && !(r->surface = surface_open(width, height, choice, error))) {
+        renderer_close(r);
+        return NULL;
+    }
     return r;
-}
-
-void renderer_use_surface(renderer *r, surface *s, bool fills)
-{
-    r->surface = s;
-    r->surface_fills = fills;
 }
 
 void renderer_close(renderer *r)
@@ -78,10 +84,10 @@ void renderer_close(renderer *r)
 
 renderer_info renderer_about(const renderer *r)
 {
-    renderer_info info = {.context = "memory"};
-    if (r->surface)
+    renderer_info info = {0};
+    if (fills_by_gl(r))
         info = r->surface->about(r->surface);
-    info.fill = draw_fill_name(r->surface_fills ? DRAW_FILL_GL : DRAW_FILL_INTEGERS);
+    info.fill = draw_fill_name(r->choice.fill);
     return info;
 }
 
@@ -95,7 +101,7 @@ bool renderer_fits(const renderer *r, const scene *s, octreel_error *error)
 bool renderer_fill(renderer *r, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
                    octreel_error *error)
 {
-    if (r->surface_fills)
+    if (fills_by_gl(r))
         return r->surface->fill(r->surface, quads, count, part, bytes, error);
     memset(bytes, 0, (size_t)part.width * (size_t)part.height);
     fill_quads(quads, count, part, bytes);
@@ -109,11 +115,22 @@ bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error 
     if (!paint(&r->painter, s))
         return error_no_memory(error);
     r->left_out = s->refused + r->painter.overflowed;
-    if (r->surface_fills)
+    if (fills_by_gl(r))
         return renderer_fill(r, r->painter.quads.items, r->painter.quads.count,
                              (renderer_part){0, 0, r->width, r->height}, indices, error);
     canvas_draw(&r->canvas, &r->painter.quads, indices);
     return true;
+}
+
+/* The canvas keeps the quads of the scene drawn last. */
+bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error)
+{
+    const renderer_part all = {0, 0, r->width, r->height};
+    const quad_list *last = &r->canvas.last;
+    if (!r->surface && !(r->surface = surface_open(r->width, r->height, &r->choice, error)))
+        return false;
+    return draw_context_parse(r->surface->about(r->surface).context, by) &&
+           r->surface->fill(r->surface, last->items, last->count, all, indices, error);
 }
 
 const uint8_t *renderer_own_colors(const renderer *r)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* renderer.h - draws scenes.
+/* renderer.h - draws scenes of one size into indices of the theme's colours.
  *
- * A renderer draws scenes of one size into indices of the theme's colours: it fills their quads by integers, or lets
- * the GL of its off-screen context fill them all. The pixels are the same. Under anti-aliasing it draws view_samples()
- * times as many pixels on each axis, which image_shrink() makes colours of: lines, marks and letters are as large in
- * the picture as without. Use it from the thread that opened it.
+ * paint.h turns a scene into flat quads. The integer rasterizer (fill.h) or GL (gl_surface.c) fills them, with the same
+ * pixels. With anti-aliasing a renderer draws view_samples() times as many samples on each axis, and image_shrink()
+ * averages them; lines, markers and letters keep their size in the picture. Use a renderer only from the thread that
+ * opened it.
  */
 #ifndef DRAW_RENDERER_H
 #define DRAW_RENDERER_H
@@ -14,43 +14,43 @@
 
 typedef struct renderer renderer;
 
-/* "integers", "gl"; null from DRAW_FILLS on. And the inverse; false when there is no such name. */
+/* "integers", "checked", "gl"; null from DRAW_FILLS on. The inverse returns false for an unknown name. */
 const char *draw_fill_name(draw_fill fill);
 bool draw_fill_parse(const char *name, draw_fill *fill);
 
-/* Which driver draws; valid while the renderer is open. */
+/* What draws. The strings are valid while the renderer is open. */
 typedef struct renderer_info {
-    const char *context;                     /* "osmesa", "egl"; "memory" is none */
-    const char *vendor, *renderer, *version; /* GL's own strings; null without a context */
-    const char *fill;                        /* draw_fill_name() */
+    const char *context;                     /* "osmesa", "egl" */
+    const char *vendor, *renderer, *version; /* GL's own strings */
+    const char *fill;                        /* draw_fill_name(); unless it is "gl", all others are null */
 } renderer_info;
 
-/* Open a context and a framebuffer of this size, in samples. Null, and a sentence, when there is no such context, when
- * something else than llvmpipe would draw, or when the size is outside 1..VIEW_MAX_SIDE. Cost: some 10 ms and 85 MB. */
+/* Open a renderer of this size in samples. Null with an error: the size is outside 1..VIEW_MAX_SIDE, there is no
+ * memory, or, where GL draws, surface_open() fails. */
 renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error);
 void renderer_close(renderer *r);
-
-/* The same without any context, in memory alone: integers fill. Null, and a sentence, when the size is outside
- * 1..VIEW_MAX_SIDE or there is no memory. */
-renderer *renderer_open_memory(int width, int height, octreel_error *error);
 
 renderer_info renderer_about(const renderer *r);
 
 /* Draw a scene whose picture has the renderer's size in samples into width * height indices, rows from the top. */
 bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error);
 
-/* Of the scene that was drawn last, where its view paints points: r, g, b a sample, the colour where the index is
- * THEME_OWN. Valid until the next one. */
+/* Draw the scene of the last renderer_draw() again, with GL: for DRAW_FILL_CHECKED. The first call loads GL. *by: the
+ * context that draws. False with an error where GL cannot be loaded or fails. */
+bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error);
+
+/* The colours of samples with the index THEME_OWN in the last scene: r, g, b for each sample. Null where the view gives
+ * points no colours of their own. Valid until the next scene. */
 const uint8_t *renderer_own_colors(const renderer *r);
 
-/* Elements of the last scene that are not in its frame: NaN or infinite, or too far off for doubles. */
+/* The number of elements of the last scene that cannot be drawn: not finite, or too far away for doubles. */
 size_t renderer_left_out(const renderer *r);
 
 /* ---- For this folder ---------------------------------------------------------------------------------------- */
 
 struct quad;
 
-/* Whether a scene's picture has the renderer's size in samples; a sentence where it has not. */
+/* Whether a scene's picture has the renderer's size in samples; an error where it does not. */
 bool renderer_fits(const renderer *r, const scene *s, octreel_error *error);
 
 /* A rectangle of samples. */
@@ -58,7 +58,7 @@ typedef struct renderer_part {
     int x, y, width, height;
 } renderer_part;
 
-/* Fill quads in this order on a ground of zeros, and read a part of the result. */
+/* Fill quads in this order on a background of zeros, and read a part of the result. */
 bool renderer_fill(renderer *r, const struct quad *quads, size_t count, renderer_part part, uint8_t *bytes,
                    octreel_error *error);
 

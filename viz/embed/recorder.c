@@ -74,6 +74,7 @@ octreel_recorder_def octreel_recorder_def_default(void)
                                   .budget = v.budget,
                                   .aa = view_samples(&v),
                                   .every = 1,
+                                  .fill = draw_fill_name(DRAW_FILL_INTEGERS),
                                   .context = draw_context_name(DRAW_AUTO),
                                   .queue_ticks = 16,
                                   .queue_bytes = (size_t)64 << 20};
@@ -156,6 +157,9 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     film_options *film = &r->settings.film;
     film->every = def->every;
     film->replace = def->replace;
+    if (!draw_fill_parse(def->fill, &film->renderer.fill))
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION,
+                             "fill: there is no \"%s\"; octreel record --help lists the rasterizers", def->fill);
     if (!draw_context_parse(def->context, &film->renderer.context))
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "context: there is no \"%s\"; octreel record --help lists what there is", def->context);
@@ -176,7 +180,7 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
     r->never_wait = def->never_wait;
     r->ring.most = def->ring;
     if (!def->camera || !def->layers || !def->color_by || !def->show_tree || !def->color_points || !def->shade ||
-        !def->diagram || !def->context)
+        !def->diagram || !def->fill || !def->context)
         return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT,
                              "a name in the definition is null; start from octreel_recorder_def_default()");
     octreel_status status = set_tree(r, &def->tree);

@@ -160,7 +160,7 @@ static void *run(void *context)
     film_queue(f);
     edit_order_release(&f->order);
     const bool whole = f->status == OCTREEL_OK;
-    if (f->live && !live_close(f->live, SESSION_ENDLESS, whole ? &f->error : &late) && whole)
+    if (f->live && !live_close(f->live, SESSION_ENDLESS, NULL, whole ? &f->error : &late) && whole)
         f->status = OCTREEL_BROKEN;
     return NULL;
 }

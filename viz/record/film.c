@@ -2,6 +2,7 @@
 /* film.c - a session, or one tree, becomes pictures in files. */
 #include "film.h"
 #include "cores.h"
+#include "file.h"
 #include "frame_file.h"
 #include "image_digest.h"
 #include "jobs.h"
@@ -11,6 +12,7 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A process takes as long to start as some ten small frames take to be filmed. */
 #define FRAMES_WORTH_A_JOB 16
@@ -53,8 +55,11 @@ static bool keeps_going(void *context)
 
 static bool film_alone(recording *r, playback *p, octreel_error *error)
 {
-    return recording_film(r, p, error) && recording_begin(r, p, error) &&
-           recording_end(r, playback_run(p, &r->share, recording_add, keeps_going, r, error), error);
+    if (!recording_film(r, p, error) || !recording_begin(r, p, error))
+        return false;
+    const bool filmed = playback_run(p, &r->share, recording_add, keeps_going, r, error);
+    r->summary->checks = p->checks;
+    return recording_end(r, filmed, error);
 }
 
 film_start film_count_start(const octree_session *session, const octree_tick *tick)
@@ -121,6 +126,22 @@ bool film_session(const octree_session *session, const film_options *options, fi
 
 /* ---- One tree ----------------------------------------------------------------------------------------------- */
 
+/* Check the picture that is to be written to a path. A picture for standard output is kept in the current folder. */
+static bool check_picture(picture *p, const scene *s, const char *path, frame_checks *checks, octreel_error *error)
+{
+    const char *title = file_output_title(path);
+    const size_t length = strlen(path), suffix = sizeof ".png" - 1;
+    const bool is_png = length > suffix && strcmp(path + length - suffix, ".png") == 0;
+    char *prefix = file_is_standard(path) ? strdup("different_picture") : strdup(path);
+    if (!prefix)
+        return error_no_memory(error);
+    if (is_png)
+        prefix[length - suffix] = 0;
+    const bool same = frame_checks_compare(checks, p, s, title, prefix, error);
+    free(prefix);
+    return same;
+}
+
 static bool write_picture(const picture *p, const scene *s, const char *path, octreel_error *error)
 {
     char scene[DIGEST_TEXT], pixels[IMAGE_DIGEST_TEXT];
@@ -143,9 +164,13 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     tree_subject shown = *about;
     shown.values = options->values;
     bool ok = tree_scene_build(&s, &v, tree, &shown) || error_no_memory(error);
-    ok = ok && picture_draw(&p, &s, error) && write_picture(&p, &s, path, error);
+    frame_checks checks = {0};
+    ok = ok && picture_draw(&p, &s, error) &&
+         (options->renderer.fill != DRAW_FILL_CHECKED || check_picture(&p, &s, path, &checks, error)) &&
+         write_picture(&p, &s, path, error);
     if (ok)
         *summary = (film_summary){.frames = 1,
+                                  .checks = checks,
                                   .left_out = renderer_left_out(p.renderer),
                                   .over_budget = scene_left_out_beyond(&s.tally) != 0,
                                   .below_lod = scene_left_out_small(&s.tally) != 0,

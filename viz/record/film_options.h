@@ -3,7 +3,7 @@
 #ifndef RECORD_FILM_OPTIONS_H
 #define RECORD_FILM_OPTIONS_H
 
-#include "renderer.h"
+#include "frame_checks.h"
 #include "octree/game.h"
 #include "point_values.h"
 #include "view.h"
@@ -47,6 +47,7 @@ typedef struct film_summary {
     uint64_t program_nodes; /* ticks by which a program has said nodes of its own */
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
     uint64_t refusals;                   /* of points, edits and steps in these ticks */
+    frame_checks checks;
     film_start start;                    /* of a session */
     uint64_t total;                      /* ticks that were to be filmed: more than `ticks` where it was stopped */
 } film_summary;

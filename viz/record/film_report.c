@@ -52,6 +52,8 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
 {
     json_writer writer = {.out = out}, *w = &writer;
     begin_json(w, summary, folder);
+    json_member_integer(w, "checked", summary->checks.count);
+    json_member_text(w, "checked_by", summary->checks.count ? draw_context_name(summary->checks.by) : NULL);
     json_member_integer(w, "over_budget", summary->over_budget);
     json_member_integer(w, "below_lod", summary->below_lod);
     json_member_integer(w, "refusals", summary->refusals);
@@ -129,6 +131,10 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     if (summary->frames > summary->kept)
         fprintf(out, ", %.0f frames a second", rate_of(summary, seconds));
     putc('\n', out);
+    if (summary->checks.count)
+        fprintf(out, "%" PRIu64 " of %" PRIu64 " frame%s checked with %s\n", summary->checks.count,
+                summary->frames - summary->kept, plural(summary->frames - summary->kept),
+                frame_checks_title(summary->checks.by));
     report_left_out(out, summary);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
@@ -171,7 +177,7 @@ void film_report_start(FILE *out, const film_start *start, const octree_session 
     }
 }
 
-void film_report_empty(FILE *out, const film_summary *summary, const film_options *options)
+static void report_empty(FILE *out, const film_summary *summary, const film_options *options)
 {
     const view *v = &options->view;
     const char *lacking = point_scale_lacks(v, options->values);
@@ -186,6 +192,16 @@ void film_report_empty(FILE *out, const film_summary *summary, const film_option
         fputs("octreel: no tick has nodes of a program: --tree both shows Octreel's alone\n", out);
     if (v->coloring == COLORING_KIND)
         fputs("octreel: no tick has nodes of a program: --color-by kind shows all nodes alike\n", out);
+}
+
+void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
+                       const octree_session *session)
+{
+    film_report_start(out, &summary->start, session);
+    report_empty(out, summary, options);
+    if (*summary->checks.reason.text)
+        fprintf(out, "octreel: %s frame was checked: %s\n", summary->checks.count ? "not every due" : "no",
+                summary->checks.reason.text);
 }
 
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json)

@@ -14,12 +14,14 @@ const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT]);
 /* A few lines for people, with the commands by which ffmpeg makes films of it, or one JSON object on one line. */
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
 
-/* Where more than half of the session's points were refused at its start: a sentence, with the member of the session
- * that keeps them. */
+/* A note where more than half of the session's points were refused at its start, with the member of the session that
+ * keeps them. */
 void film_report_start(FILE *out, const film_start *start, const octree_session *session);
 
-/* Where the view asks for what no point and no tick has: a sentence for each. */
-void film_report_empty(FILE *out, const film_summary *summary, const film_options *options);
+/* The same, and notes where the view asks for values that no point and no tick has, and where frames could not be
+ * checked. */
+void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
+                       const octree_session *session);
 
 /* The same of a recording that was joined from its chunks, of which less is known. */
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);

@@ -95,8 +95,7 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
         return FILM_STREAM_BROKEN;
     const bool begun = live_begin(s.live, error) && live_first(s.live, error);
     film_stream_end how = begun ? film_ticks(&s) : FILM_STREAM_BROKEN;
-    *summary = *live_summary(s.live);
-    if (!live_close(s.live, session_stream_ticks(from), how == FILM_STREAM_BROKEN ? &late : error))
+    if (!live_close(s.live, session_stream_ticks(from), summary, how == FILM_STREAM_BROKEN ? &late : error))
         how = FILM_STREAM_BROKEN;
     return how;
 }

@@ -158,8 +158,9 @@ char *who_draws(const renderer_info *info, char *text, size_t size)
     enum { LONGEST = 100 }; /* of each of the strings */
     const char *const words[] = {info->context, info->renderer, info->version};
     size_t length = 0;
-    snprintf(text, size, "an unknown renderer");
-    for (size_t i = 0; i < sizeof words / sizeof words[0] && length < size; i++)
+    const bool by_gl = !info->fill || strcmp(info->fill, draw_fill_name(DRAW_FILL_GL)) == 0;
+    snprintf(text, size, by_gl ? "an unknown renderer" : "the integer rasterizer");
+    for (size_t i = 0; by_gl && i < sizeof words / sizeof words[0] && length < size; i++)
         if (words[i])
             length += (size_t)snprintf(text + length, size - length, "%s%.*s", length ? ", " : "", LONGEST, words[i]);
     return make_printable(text);
@@ -179,7 +180,8 @@ char *who_drew(const char *folder, char *text, size_t size)
     json_t *object = file && bytes <= LARGEST ? json_loadf(file, 0, NULL) : NULL;
     const renderer_info info = {.context = text_of(object, "context"),
                                 .renderer = text_of(object, "renderer"),
-                                .version = text_of(object, "version")};
+                                .version = text_of(object, "version"),
+                                .fill = text_of(object, "fill")};
     who_draws(&info, text, size);
     json_decref(object);
     if (file)

@@ -47,8 +47,8 @@ static bool pipe_poll(int pipe, int milliseconds)
     return poll(&asked, 1, milliseconds) > 0;
 }
 
-/* What a job writes: after each tick its step, followed by the bytes of its line. A job that fails writes a step that
- * says so, followed by an octreel_error. */
+/* What a job writes: after each tick its step, followed by the bytes of its line. A job that fails writes `failed`,
+ * followed by an octreel_error. Job 0 ends with the frame_checks of the recording. */
 typedef struct message {
     film_step step;
     bool failed;
@@ -130,12 +130,14 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
 {
     octreel_error error;
     setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
-    draw_context_tell(NULL);          /* the process that started it does */
+    draw_context_set_report(NULL);          /* the process that started it does */
     begin_watch(self);
     p->learn_session = learn_session; /* the first frame is drawn meanwhile */
     p->learn_context = self;
     const bool ok = recording_film(r, p, &error) && playback_run(p, share, write_step, job_keeps_going, self, &error);
-    if (!ok)
+    if (ok && share->index == 0)
+        write_message(self->pipe, (message){.failed = false}, &p->checks, sizeof p->checks);
+    else if (!ok)
         write_message(self->pipe, (message){.failed = true}, &error, sizeof error);
     _exit(ok ? EXIT_SUCCESS : EXIT_FAILURE);
 }
@@ -218,13 +220,16 @@ static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
                      pool->count, WEXITSTATUS(status));
 }
 
-/* Take each tick from the job that films it, until all are there or the recording is stopped. */
+/* Read each tick from the job that films it, until all are there or the recording is stopped. */
 static bool collect(job_pool *pool, octreel_error *error)
 {
     recording *r = pool->recording;
+    film_share share = r->share;
+    message last;
+    share.count = pool->count;
     for (uint64_t tick = r->share.first; tick < r->share.last; tick++) {
         message m;
-        const unsigned i = (unsigned)(tick / r->options->every % pool->count);
+        const unsigned i = (unsigned)share_find_job(&share, tick / r->options->every, r->options->every);
         if (!read_message(pool, &pool->jobs[i], &m))
             return explain_end(pool, i, error);
         if (m.failed) {
@@ -235,6 +240,9 @@ static bool collect(job_pool *pool, octreel_error *error)
         if (!recording_add(r, &m.step, error))
             return false;
     }
+    if (!read_message(pool, &pool->jobs[0], &last))
+        return explain_end(pool, 0, error);
+    memcpy(&r->summary->checks, pool->bytes, sizeof r->summary->checks);
     return true;
 }
 

@@ -293,20 +293,19 @@ bool live_note(live_recording *live, uint64_t tick, const octree_input *input, o
     return !live->broken;
 }
 
-const film_summary *live_summary(const live_recording *live)
-{
-    return &live->summary;
-}
-
-bool live_close(live_recording *live, uint64_t ticks, octreel_error *error)
+bool live_close(live_recording *live, uint64_t ticks, film_summary *summary, octreel_error *error)
 {
     octreel_error late;
     bool ok = true;
     if (live->begun) {
-        const bool whole = end_session(live, ticks, error);
+        const bool same = live->broken || playback_check_last(&live->playback, error);
+        const bool whole = end_session(live, ticks, same ? error : &late) && same;
         live->summary.total = live->summary.ticks;
+        live->summary.checks = live->playback.checks;
         ok = (recording_end(&live->recording, whole && !live->broken, whole ? error : &late) || live->broken) && whole;
     }
+    if (summary)
+        *summary = live->summary;
     release(live);
     return ok;
 }

@@ -73,12 +73,19 @@ void picture_close(picture *p)
     p->renderer = NULL;
 }
 
+image *picture_samples(picture *p)
+{
+    return p->samples.pixels ? &p->samples : &p->frame;
+}
+
+bool picture_finish(picture *p, const scene *s, octreel_error *error)
+{
+    return !p->samples.pixels ||
+           image_shrink(&p->samples, renderer_own_colors(p->renderer), view_samples(&s->view), &p->frame) ||
+           error_set(error, "the scene's anti-aliasing is not the picture's");
+}
+
 bool picture_draw(picture *p, const scene *s, octreel_error *error)
 {
-    image *drawn = p->samples.pixels ? &p->samples : &p->frame;
-    if (!renderer_draw(p->renderer, s, drawn->pixels, error))
-        return false;
-    return drawn == &p->frame ||
-           image_shrink(drawn, renderer_own_colors(p->renderer), view_samples(&s->view), &p->frame) ||
-           error_set(error, "the scene is not of the picture's anti-aliasing");
+    return renderer_draw(p->renderer, s, picture_samples(p)->pixels, error) && picture_finish(p, s, error);
 }

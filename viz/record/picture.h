@@ -24,4 +24,8 @@ void picture_close(picture *p);
 /* Draw a scene into p->frame. */
 bool picture_draw(picture *p, const scene *s, octreel_error *error);
 
+/* What the renderer draws into: one index for each sample. picture_finish() makes p->frame of it. */
+image *picture_samples(picture *p);
+bool picture_finish(picture *p, const scene *s, octreel_error *error);
+
 #endif

@@ -6,6 +6,7 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- Played ------------------------------------------------------------------------------------------------- */
 
@@ -73,6 +74,45 @@ static uint64_t session_of(playback *p)
     return p->session_digest;
 }
 
+/* Whether a frame is checked: the first, every CHECK_EVERY-th and the last of a share. */
+static bool is_checked(const film_share *share, uint64_t frame, uint64_t every)
+{
+    return frame % CHECK_EVERY == 0 || frame == (share->first + every - 1) / every ||
+           (share->last && frame == (share->last - 1) / every);
+}
+
+uint64_t share_find_job(const film_share *share, uint64_t frame, uint64_t every)
+{
+    return is_checked(share, frame, every) ? 0 : frame % share->count;
+}
+
+bool playback_check_last(playback *p, octreel_error *error)
+{
+    char prefix[sizeof "different_" + FRAME_NAME];
+    if (!*p->unchecked)
+        return true;
+    const int length = (int)strcspn(p->unchecked, ".");
+    snprintf(prefix, sizeof prefix, "different_%.*s", length, p->unchecked);
+    char *path = path_join(p->target.folder, prefix);
+    const bool same = path ? frame_checks_compare(&p->checks, &p->picture, &p->scene, p->unchecked, path, error)
+                           : error_no_memory(error);
+    *p->unchecked = 0;
+    free(path);
+    return same;
+}
+
+/* Check the frame that was drawn, where it is due. A process that has checked none yet checks its first. */
+static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
+{
+    const film_share *share = &p->share;
+    const renderer_choice *renderer = &p->target.renderer;
+    if (renderer->fill != DRAW_FILL_CHECKED || renderer->any_renderer || share->index != 0 || *p->checks.reason.text)
+        return true;
+    frame_name(tick, p->unchecked);
+    return (p->checks.count > 0 && !is_checked(share, tick / p->target.every, p->target.every)) ||
+           playback_check_last(p, error);
+}
+
 static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_error *error)
 {
     octreel_error unlike;
@@ -82,6 +122,8 @@ static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_er
     if (*kept)
         return true;
     if (!picture_draw(&p->picture, &p->scene, error))
+        return false;
+    if (!check_frame(p, origin->tick, error))
         return false;
     origin->left_out = renderer_left_out(p->picture.renderer);
     origin->session = session_of(p);
@@ -131,19 +173,21 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
 
 static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
 {
-    return tick >= share->first && (share->count == 0 || tick / every % share->count == share->index);
+    return tick >= share->first &&
+           (share->count == 0 || share_find_job(share, tick / every, every) == share->index);
 }
 
 bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),
                   void *context, octreel_error *error)
 {
+    p->share = *share;
     for (;;) {
         const uint64_t tick = octree_game_tick(p->game)->number;
         film_step step;
         if (has_tick(share, tick, p->target.every) && !(playback_tick(p, &step, error) && sink(context, &step, error)))
             return false;
         if (tick + 1 >= share->last || (keep_going && !keep_going(context)))
-            return true;
+            return playback_check_last(p, error);
         if (!playback_advance(p, error))
             return false;
     }

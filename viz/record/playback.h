@@ -11,7 +11,8 @@
 #ifndef RECORD_PLAYBACK_H
 #define RECORD_PLAYBACK_H
 
-#include "picture.h"
+#include "frame_checks.h"
+#include "frame_file.h"
 #include "point_values.h"
 #include "scene.h"
 #include "tick_scene.h"
@@ -22,6 +23,17 @@ typedef enum playback_frames {
     FRAMES_WRITE, /* and written into the folder */
     FRAMES_KEEP,  /* the same, unless the file is there already, whole and of this tick */
 } playback_frames;
+
+/* The ticks [first, last) of a session. With a count, only the frames that share_has_frame() gives to the job `index`,
+ * each with the ticks up to the next frame. */
+typedef struct film_share {
+    uint64_t first, last;
+    uint64_t index, count;
+} film_share;
+
+/* The number of the job, of share->count, that films a frame; `frame` is its tick divided by `every`. Job 0 films the
+ * frames that are checked, so that one process alone loads GL. */
+uint64_t share_find_job(const film_share *share, uint64_t frame, uint64_t every);
 
 /* What becomes of the ticks that are filmed. */
 typedef struct playback_target {
@@ -38,6 +50,9 @@ typedef struct playback {
     tick_history history;       /* of all ticks that were played, filmed or not */
     scene scene;
     playback_target target;
+    film_share share;    /* where it is known: what playback_run() films */
+    frame_checks checks; /* under DRAW_FILL_CHECKED */
+    char unchecked[FRAME_NAME]; /* the frame that playback.picture shows, until it is checked; "": none */
     uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller, */
     void (*learn_session)(uint64_t *digest, void *context); /* or by this before the first is written; may be null */
     void *learn_context;
@@ -81,12 +96,9 @@ bool playback_scene(playback *p, octreel_error *error);
 /* Film that tick: its scene and its frame, where it has one, and its line. */
 bool playback_tick(playback *p, film_step *step, octreel_error *error);
 
-/* The ticks [first, last) of a session. With a count, of each `count` frames only that of this index, with the ticks
- * up to the next frame. */
-typedef struct film_share {
-    uint64_t first, last;
-    uint64_t index, count;
-} film_share;
+/* Check the last frame that was drawn, unless it is checked already: where filming ends at a tick that nobody could
+ * foresee, this comes after the frame is written. */
+bool playback_check_last(playback *p, octreel_error *error);
 
 /* What is done with each tick of a share, in order. False ends the run. */
 typedef bool film_sink(void *context, const film_step *step, octreel_error *error);

@@ -270,15 +270,27 @@ static void tell_renderer(verifying *v)
     v->report->fill = info.fill;
 }
 
+/* GL is the authority on pixels. Where none can be loaded and none was named, the integer rasterizer draws. */
+static bool open_renderer(verifying *v, octreel_error *error)
+{
+    playback *p = &v->replay.playback;
+    playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, v->options->renderer};
+    target.renderer.fill = DRAW_FILL_GL;
+    if (playback_film(p, &target, error))
+        return true;
+    if (v->options->renderer.context != DRAW_AUTO)
+        return false;
+    v->report->no_gl = *error;
+    target.renderer.fill = DRAW_FILL_INTEGERS;
+    return playback_film(p, &target, error);
+}
+
 static bool play_again(verifying *v, octreel_error *error)
 {
     const film_share all = {.last = v->replay.ticks};
-    renderer_choice renderer = v->options->renderer;
-    renderer.fill = DRAW_FILL_GL; /* the authority on pixels */
-    const playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, renderer};
     if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.session.values, &v->replay.film.view,
                        error) ||
-        !playback_film(&v->replay.playback, &target, error))
+        !open_renderer(v, error))
         return false;
     if (v->replay.playback.picture.renderer)
         tell_renderer(v);

@@ -239,18 +239,17 @@ static void a_renderer_in_memory_draws_the_same(void **state)
     (void)state;
     octreel_error error = {""};
     scene s = busy_scene(320, 180, CAMERA_ORBIT);
-    both b = {renderer_open_memory(320, 180, &error), open_gl_renderer(320, 180)};
-    assert_non_null(b.integers);
+    both b = {open_renderer(320, 180), open_gl_renderer(320, 180)};
     assert_drawn_alike(&b, &s);
     const renderer_info info = renderer_about(b.integers), gl = renderer_about(b.gl);
-    assert_string_equal(info.context, "memory");
+    assert_null(info.context);
     assert_string_equal(info.fill, "integers");
     assert_null(info.renderer);
     assert_string_equal(gl.fill, "gl");
     close_both(&b);
     scene_release(&s);
-    assert_null(renderer_open_memory(0, 180, &error));
-    assert_null(renderer_open_memory(1, VIEW_MAX_SIDE + 1, &error));
+    assert_null(renderer_open(0, 180, &(renderer_choice){0}, &error));
+    assert_null(renderer_open(1, VIEW_MAX_SIDE + 1, &(renderer_choice){0}, &error));
     assert_non_null(strstr(error.text, "16385"));
 }
 

@@ -73,7 +73,7 @@ static void its_elements_are_told(void **state)
     (void)state;
     octreel_error error = {""};
     scene s = close_scene(CAMERA_ISO, 1, 219);
-    renderer *r = renderer_open_memory(s.view.width, s.view.height, &error);
+    renderer *r = renderer_open(s.view.width, s.view.height, &(renderer_choice){0}, &error);
     uint32_t *numbers = calloc(frame_samples(&s), sizeof *numbers);
     assert_true(renderer_pick(r, &s, numbers, &error));
     size_t inside = 0, nodes = 0;
@@ -106,7 +106,7 @@ static void a_mask_has_the_layer_in_the_close_up_too(void **state)
     (void)state;
     octreel_error error = {""};
     scene s = close_scene(CAMERA_ISO, 1, 30);
-    renderer *r = renderer_open_memory(s.view.width, s.view.height, &error);
+    renderer *r = renderer_open(s.view.width, s.view.height, &(renderer_choice){0}, &error);
     uint8_t *mask = malloc(frame_samples(&s));
     const int *at = s.closeup->place;
     const int middle = (at[1] + s.closeup->view.height / 2) * s.view.width + at[0] + s.closeup->view.width / 2;

@@ -45,7 +45,7 @@ static renderer *open_memory(const scene *s)
 {
     octreel_error error;
     const int samples = view_samples(&s->view);
-    renderer *r = renderer_open_memory(s->view.width * samples, s->view.height * samples, &error);
+    renderer *r = renderer_open(s->view.width * samples, s->view.height * samples, &(renderer_choice){0}, &error);
     assert_non_null(r);
     return r;
 }

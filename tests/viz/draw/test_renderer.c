@@ -66,7 +66,7 @@ static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void 
 static void the_renderer_says_who_draws(void **state)
 {
     (void)state;
-    renderer *r = open_renderer(16, 16);
+    renderer *r = open_gl_renderer(16, 16);
     const renderer_info about = renderer_about(r);
     assert_true(strcmp(about.context, "osmesa") == 0 || strcmp(about.context, "egl") == 0);
     assert_non_null(about.vendor);

@@ -63,7 +63,9 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(color_points, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(show_tree, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(diagram, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(fill, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(context, NULL, OCTREEL_NULL_ARGUMENT, "null");
+    REFUSE(fill, "glow", OCTREEL_BAD_OPTION, "fill: there is no \"glow\"");
     REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "no tree \"mine\"");
     REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "no diagram \"above\"");
     REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: there is no \"glx\"");

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, clouds, which are
- * files, and a graphics context. */
+/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, and clouds, which are
+ * files. */
 #include "cloud.h"
 #include "file.h"
-#include "renderer.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -64,10 +63,4 @@ size_t cloud_row(const cloud *c, size_t index)
 void cloud_release(cloud *c)
 {
     (void)c;
-}
-
-renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error)
-{
-    (void)choice;
-    return renderer_open_memory(width, height, error);
 }
