@@ -33,7 +33,7 @@ static int verify(const char *folder, const arguments *a)
     if (!ok)
         return print_error("%s", error.text);
     if (*report.no_gl.text)
-        print_note("the integer rasterizer drew the frames again, because OpenGL cannot be loaded: %s", report.no_gl.text);
+        note("the integer rasterizer drew the frames again, because OpenGL cannot be loaded: %s", report.no_gl.text);
     verify_print(stdout, folder, &report, a->json);
     return report.count ? EXIT_FINDING : EXIT_DONE;
 }
@@ -73,7 +73,8 @@ const command command_verify = {
         "another one or too many) or \"pixels\"; the \"tick\", where it is of one; the \"fact\", the member of the "
         "tick's line; how many \"pixels\" differ; and the sentence as \"text\"\n"
         "  \"drawn_by\", \"drawn_now\"  the renderer of the recording, and that of now; null where nothing was drawn\n"
-        "  \"fill\"        the rasterizer of now: \"gl\", or \"integers\" where OpenGL cannot be loaded; null likewise\n",
+        "  \"fill\"        the rasterizer of now: \"gl\", or \"integers\" where OpenGL cannot be loaded; null "
+        "likewise\n",
     .statuses = {"identical", "differs", "trouble"},
     .examples = "octreel verify frames\n"
                 "octreel verify frames --context egl --json\n",

@@ -80,8 +80,7 @@ command_option_reader read_quiet;   /* nothing: --quiet */
 
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
-        "fill", "WITH",                                                                                                \
-            "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                             \
+        "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \
             .read = read_fill, OPTION_VALUE(type, member), .names = draw_fill_at, .words = draw_fill_words_at          \
     }
 

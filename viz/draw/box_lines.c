@@ -1,11 +1,20 @@
 /* SPDX-License-Identifier: MIT */
+/* box_lines.c - the set of lines on which the edges of a scene's boxes lie.
+ *
+ * The problem: each box has twelve edges, most of them shared by several boxes of a tree, and each needs its line: a
+ * hash look-up, 1.2 million of them for 100,000 boxes in every frame. Between two frames, though, few boxes appear or
+ * vanish, and the others keep their order. So the boxes of the new scene are matched with those of the last one, as
+ * diff matches the lines of two files: both lists are walked side by side, and a box that is not next in the old list
+ * is looked for among the MISSING_AT_MOST boxes that follow. Boxes skipped in the old list were removed; a box that is
+ * not found is new. A wrong guess costs time only: the box is then removed and added again. Only removed and new boxes
+ * look up lines in the hash map. Each line counts its users; lines without users stay until edges.c rebuilds the whole
+ * set. */
 #include "box_lines.h"
 #include "array.h"
 
 #include <string.h>
 
-/* A tree's boxes keep their order from frame to frame, with some inserted and some removed. At most this many in a row
- * are recognized as removed; a box after more than that counts as new. */
+/* The number of boxes in a row that can be recognized as removed. */
 #define MISSING_AT_MOST 64
 
 void box_lines_clear(box_lines *kept)
@@ -26,24 +35,25 @@ void box_lines_release(box_lines *kept)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* A tree's planes have few bits set, all of them high: they are moved down before they are mixed. */
-static uint64_t fold(double value)
+/* Coordinates of tree planes have few bits set, all of them high; the fold moves them down before they are multiplied.
+ */
+static uint64_t fold_bits(double value)
 {
     uint64_t bits;
-    const double canonical = value + 0.0; /* -0 and 0 are equal */
+    const double canonical = value + 0.0; /* turns -0 into 0, which compares equal */
     memcpy(&bits, &canonical, sizeof bits);
     return bits ^ bits >> 32;
 }
 
-static uint64_t hash_key(const void *of)
+static uint64_t hash_key(const void *item)
 {
-    const line_key *key = of;
-    const uint64_t mixed = (fold(key->u) + key->kind) * UINT64_C(0x9e3779b97f4a7c15) ^
-                           (fold(key->v) + key->kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
+    const line_key *key = item;
+    const uint64_t mixed = (fold_bits(key->u) + key->kind) * UINT64_C(0x9e3779b97f4a7c15) ^
+                           (fold_bits(key->v) + key->kind) * UINT64_C(0xc2b2ae3d27d4eb4f);
     return (mixed ^ mixed >> 32) * UINT64_C(0xd6e8feb86659fd93) >> 32;
 }
 
-/* -0 and 0 are equal. */
+/* Compares doubles rather than bytes, since -0 equals 0. */
 static bool same_key(const void *a, const void *b)
 {
     const line_key *p = a, *q = b;
@@ -69,7 +79,7 @@ static uint32_t add_line(box_lines *kept, const line_key *key)
     return (uint32_t)kept->count++;
 }
 
-/* Add a user to a line, which may be new. LINE_NONE when there is no memory. */
+/* Count one more user of a line, which is added if it is new. LINE_NONE when out of memory. */
 static uint32_t ref_line(box_lines *kept, const line_key *key)
 {
     uint32_t place = hash_map_find(&kept->map, &by_key, kept->lines, key);
@@ -97,7 +107,7 @@ static bool ref_edge(box_lines *kept, lined_box *of, unsigned edge)
     return of->lines[edge] != LINE_NONE;
 }
 
-/* Edges along axes of no extent are dots on others, but for a box that is a dot itself. */
+/* A box that is flat along an axis has no edges along it. A box that is a single point has one edge, of length 0. */
 static bool ref_edges(box_lines *kept, lined_box *of)
 {
     const octree_box *box = &of->box.box;
@@ -111,12 +121,12 @@ static bool ref_edges(box_lines *kept, lined_box *of)
     return ok && (!dot || ref_edge(kept, of, 0));
 }
 
-static void unref_edges(box_lines *kept, const lined_box *of, const lined_box *end)
+static void unref_edges(box_lines *kept, const lined_box *box, const lined_box *end)
 {
-    for (; of < end; of++)
+    for (; box < end; box++)
         for (unsigned edge = 0; edge < BOX_EDGES; edge++)
-            if (of->lines[edge] != LINE_NONE)
-                unref_line(kept, of->lines[edge]);
+            if (box->lines[edge] != LINE_NONE)
+                unref_line(kept, box->lines[edge]);
 }
 
 static bool same_box(const scene_box *a, const scene_box *b)
@@ -125,7 +135,7 @@ static bool same_box(const scene_box *a, const scene_box *b)
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 
-/* Find a box among the next MISSING_AT_MOST from `from` on; null when it is not there. */
+/* Find a box among MISSING_AT_MOST old boxes, starting with number `from`. Null: it is not among them. */
 static const lined_box *find_box(const lined_boxes *in, size_t from, const scene_box *box)
 {
     const size_t left = in->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
@@ -135,7 +145,7 @@ static const lined_box *find_box(const lined_boxes *in, size_t from, const scene
     return NULL;
 }
 
-/* Add the next box: one of the last scene from *old on, or a new one. */
+/* Add the next box of the scene: an old box, searched from number *old on, or a new one. */
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* box_lines.h - the lines in the world that the edges of boxes lie on: boxes with equal lines may share edges. Boxes
- * and lines are kept from one scene to the next, and changed lines are marked. For this folder. */
+/* box_lines.h - the set of lines in the world on which the edges of a scene's boxes lie. Boxes with equal lines may
+ * share edges. The set is updated from scene to scene, and lines whose boxes changed are marked. Private to this
+ * folder.
+ */
 #ifndef DRAW_BOX_LINES_H
 #define DRAW_BOX_LINES_H
 
 #include "hash_map.h"
 #include "scene.h"
 
-/* Parallel to an axis at `u` and `v` on the two others. */
+/* A line parallel to an axis; `u` and `v` are its coordinates on the two other axes. */
 typedef struct line_key {
     double u, v;
     uint32_t kind; /* layer, stroke, width and axis */
@@ -23,7 +25,7 @@ static inline line_key line_key_at(scene_style style, unsigned axis, const doubl
     };
 }
 
-/* The line of one of a box's four edges along an axis. */
+/* The line of one of the four edges of a box that are parallel to an axis. */
 static inline line_key line_key_of(const scene_box *box, unsigned axis, unsigned corner)
 {
     double at[3] = {0};
@@ -42,7 +44,7 @@ static inline int compare_doubles(double a, double b)
     return (a > b) - (a < b);
 }
 
-/* The order of painting: by kind, and then by place. */
+/* The painting order: by kind, then by coordinates. */
 static inline int line_key_compare(const line_key *a, const line_key *b)
 {
     if (a->kind != b->kind)
@@ -53,17 +55,17 @@ static inline int line_key_compare(const line_key *a, const line_key *b)
 
 typedef struct line {
     line_key key;
-    uint32_t users;        /* edges of boxes that lie on it */
-    uint32_t first, count; /* its merged edges */
-    /* while it is merged: of how many boxes it has stretches, the last of these, and where their places begin among
-     * those of all lines */
-    uint32_t stretches, last, start;
+    uint32_t users;        /* the number of box edges on this line */
+    uint32_t first, count; /* its merged edges: a range of edge_list.now */
+    /* Used while edges.c merges: the number of intervals collected, the box of the last one, and the index of the first
+     * one in the list for all lines. */
+    uint32_t intervals, last, start;
 } line;
 
 #define LINE_NONE HASH_MAP_NONE
 #define BOX_EDGES 12
 
-/* A box and the lines of its edges, four along each axis; LINE_NONE when the box has no extent along it. */
+/* A box and the lines of its edges, four along each axis. LINE_NONE where the box has no extent along that axis. */
 typedef struct lined_box {
     scene_box box;
     uint32_t lines[BOX_EDGES];
@@ -74,12 +76,12 @@ typedef struct lined_boxes {
     size_t count, room;
 } lined_boxes;
 
-/* Empty when zeroed. */
+/* Zeroed: empty. */
 typedef struct box_lines {
-    lined_boxes now, before;
-    line *lines; /* without duplicates; new lines are appended */
+    lined_boxes now, before; /* of the last two scenes */
+    line *lines;             /* no two are equal; new lines are appended */
     size_t count, room;
-    uint8_t *changed; /* of each line: whether its merged edges are out of date */
+    uint8_t *changed; /* for each line: whether its merged edges are out of date */
     size_t changed_room;
     size_t idle;  /* lines without users */
     hash_map map; /* from keys to lines */
@@ -88,9 +90,9 @@ typedef struct box_lines {
 void box_lines_clear(box_lines *kept);
 void box_lines_release(box_lines *kept);
 
-/* Take over the boxes of a scene in the layers [first, end), in their order. Lines of boxes that were added or removed
- * are marked as changed, and *changed is set if there are any. False when there is no memory: the caller must then
- * clear it. Cost: O(n), and a look-up of a line for each edge of an added box. */
+/* Replace the boxes by those of a scene in the layers [first, end). Marks the lines of boxes that were added or removed
+ * as changed; *changed: whether there are any. False when out of memory; the caller must then call box_lines_clear().
+ * Cost: O(n) for n boxes, plus one hash look-up for each edge of an added box. */
 bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed);
 
 #endif

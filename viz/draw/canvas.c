@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* canvas.c - fills the quads of a frame, and copies the pixels of quads that did not change since the last frame. */
 #include "canvas.h"
 #include "fill.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Copying a picture costs about as much as filling so many quads. */
+/* Copying a picture costs about as much as filling this many quads. */
 #define WORTH_KEEPING 256
 
 void canvas_release(canvas *c)
@@ -29,8 +30,8 @@ static size_t count_same(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* Whether it pays to keep the picture of the first `same` quads, of which `start` are drawn, and there is memory for
- * it. */
+/* Whether to keep a picture of the first `same` quads, the first `start` of which are drawn already. No when it saves
+ * too little, or when out of memory. */
 static bool is_worth_keeping(canvas *c, size_t start, size_t same, size_t pixels)
 {
     if (same - start < WORTH_KEEPING)

@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+/* clip.c - clips quads to a rectangle with the algorithm of Sutherland and Hodgman (1974): the polygon is cut with one
+ * side of the rectangle after the other. Each cut walks around the corners, keeps those inside, and adds a corner where
+ * an edge crosses the side.
+ *
+ * Coordinates are integers of 1/256 pixel and so are new corners. GL would clip too, but in single precision, and
+ * pixels would depend on the CPU. crossing() orders the two ends of an edge before it divides: two quads that share an
+ * edge, each in its own direction, get the same new corner, so no gap opens between them. The result has up to eight
+ * corners. It is split into a fan of quads around the first corner, because rasterizers take quads only. */
 #include "clip.h"
 
-/* A side of the square cuts off at least one corner of a convex polygon, and adds two. */
+/* A cut removes at least one corner of a convex polygon and adds two: 4 corners and 4 cuts give at most 8. */
 #define MOST_CORNERS 8
 
 typedef struct polygon {
@@ -26,7 +34,8 @@ static void add_corner(polygon *p, int32_t x, int32_t y)
     }
 }
 
-/* Where the edge between two corners meets a bound of an axis: the other axis, rounded. The same both ways. */
+/* The coordinate, on the other axis, at which an edge crosses a bound; rounded. The order of the ends does not matter.
+ */
 static int32_t crossing(const int32_t a[2], const int32_t b[2], int axis, int32_t bound)
 {
     const int32_t *low = a[axis] < b[axis] ? a : b, *high = a[axis] < b[axis] ? b : a;
@@ -35,7 +44,7 @@ static int32_t crossing(const int32_t a[2], const int32_t b[2], int axis, int32_
     return low[1 - axis] + (int32_t)(doubled / whole - (doubled % whole < 0));
 }
 
-/* Keep what is at least (side 1) or at most (side -1) a bound on one axis. */
+/* Cut off the part of a polygon that is below (side 1) or above (side -1) a bound on one axis. */
 static void keep_side(polygon *p, int axis, int side, int32_t bound)
 {
     const polygon all = *p;
@@ -53,14 +62,14 @@ static void keep_side(polygon *p, int axis, int side, int32_t bound)
     }
 }
 
-/* A fan of quads around the first corner; the last of them may be a triangle. */
-static int fan(const polygon *p, const quad *of, quad pieces[CLIP_PIECES])
+/* Split a polygon into quads that share its first corner; the last one may be a triangle. */
+static int split_into_quads(const polygon *p, const quad *whole, quad pieces[CLIP_PIECES])
 {
     int count = 0;
     for (int i = 1; i + 1 < p->count; i += 2) {
         const int corners[4] = {0, i, i + 1, i + 2 < p->count ? i + 2 : i + 1};
         quad *piece = &pieces[count++];
-        *piece = *of;
+        *piece = *whole;
         for (int j = 0; j < 4; j++) {
             piece->x[j] = p->at[corners[j]][0];
             piece->y[j] = p->at[corners[j]][1];
@@ -78,5 +87,5 @@ int clip_quad(const quad *q, const int32_t limits[2], quad pieces[CLIP_PIECES])
         keep_side(&p, axis, 1, 0);
         keep_side(&p, axis, -1, limits[axis]);
     }
-    return fan(&p, q, pieces);
+    return split_into_quads(&p, q, pieces);
 }

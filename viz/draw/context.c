@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* context.c - chooses and opens an off-screen GL context, and loads the library of each kind. */
 #include "context.h"
 
 #include "cores.h"
@@ -61,7 +62,7 @@ static void report_fallback(int kind, int preferred, const octreel_error *why)
         report(kinds[kind].name, kinds[preferred].name, why->text);
 }
 
-/* When none opens, the first one's error is reported. */
+/* If none can be opened, the error is that of the first kind. */
 static context *open_any(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;
@@ -116,8 +117,8 @@ static void *wait_for_all(void *lock)
     return NULL;
 }
 
-/* Whether so many run at the same time. */
-static bool threads_start(unsigned wanted)
+/* Whether this process can run this many more threads at the same time. */
+static bool can_start_threads(unsigned wanted)
 {
     enum { MOST = 34 };
     pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -133,9 +134,9 @@ static bool threads_start(unsigned wanted)
     return count == wanted;
 }
 
-/* It starts one a core, up to 32, and Mesa two for what it keeps on disk. */
+/* llvmpipe starts one thread per core, up to 32; Mesa starts two more for its disk cache. */
 void context_limit_threads(void)
 {
-    if (!threads_start(count_cores() + 2))
+    if (!can_start_threads(count_cores() + 2))
         setenv("LP_NUM_THREADS", "0", 0);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* context.h - the kinds of off-screen GL contexts: their names, and the interface that gl_surface.c draws through.
- * context_osmesa.c and context_egl.c are one kind each; CMake chooses which of them are built. */
+/* context.h - off-screen GL contexts: the names of their kinds, and the interface through which gl_surface.c uses them.
+ * context_osmesa.c and context_egl.c implement one kind each; CMake chooses which are built. */
 #ifndef DRAW_CONTEXT_H
 #define DRAW_CONTEXT_H
 
@@ -8,14 +8,14 @@
 
 #include <stddef.h>
 
-/* In the order in which DRAW_AUTO tries those that are built. */
+/* DRAW_AUTO tries the kinds in this order. */
 typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
 
-/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. And the inverse; false when there is no such name. */
+/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. The inverse returns false for an unknown name. */
 const char *draw_context_name(draw_context kind);
 bool draw_context_parse(const char *name, draw_context *kind);
 
-/* Whether this program was built with it. */
+/* Whether this program was built with a kind. */
 bool draw_context_built(draw_context kind);
 
 /* What fills the quads of a frame. Both rasterizers give the same pixels. */
@@ -38,40 +38,41 @@ typedef struct renderer_choice {
 typedef void draw_context_report(const char *name, const char *instead_of, const char *why);
 void draw_context_set_report(draw_context_report *report);
 
-/* ---- For this folder ---------------------------------------------------------------------------------------- */
+/* ---- Private to this folder ---------------------------------------------------------------------------------- */
 
 typedef void (*context_function)(void);
 
-/* The first member of each kind's own struct. */
+/* The first member of the struct of each kind. */
 typedef struct context context;
 struct context {
     const char *name;
 
-    /* Make it current in any case: contexts of different kinds share Mesa's notion of the current one, so a library's
-     * own answer about it may be outdated. */
+    /* Make it current, even if the library says that it is: contexts of different kinds share Mesa's current context,
+     * so a library may not know that another one changed it. */
     bool (*use)(context *c);
 
-    /* A GL function of this context's own library: two GL libraries in one process have the same symbols. Null when
-     * unknown. */
+    /* Look up a GL function in this context's own library, since two GL libraries in one process export the same
+     * symbols. Null: the library does not have it. */
     context_function (*find)(const context *c, const char *name);
 
     void (*close)(context *c);
 };
 
-/* llvmpipe waits for ever for threads that it could not start: where as many as it takes cannot be started, it is told
- * to draw without. The pixels are the same. */
+/* Set LP_NUM_THREADS=0, which makes llvmpipe draw without threads of its own, where this process cannot start as many
+ * threads as llvmpipe uses: it would wait forever for a thread that did not start. The pixels are the same. */
 void context_limit_threads(void);
 
-/* Open a context and make it current. Null, with an error, when that fails. */
+/* Open a context and make it current. Null with an error. */
 typedef context *context_opener(const renderer_choice *choice, octreel_error *error);
 context_opener context_osmesa_open, context_egl_open;
 
-/* The context of a choice; under DRAW_AUTO the first kind that opens. */
+/* Opens the kind that is chosen; under DRAW_AUTO, the first kind that can be opened. */
 context_opener context_open;
 
-/* For the kinds: open a library by either of two names; null, with an error, when neither is found. And look up one of
- * its functions, which is written to *function, a function pointer of `size` bytes. */
+/* Load a library by either of two names. Null with an error, which begins with `sentence`. */
 void *context_load(const char *name, const char *other_name, const char *sentence, octreel_error *error);
+
+/* Look up a function of a library and write it to *function, a function pointer of `size` bytes. */
 bool context_symbol(void *library, const char *name, void *function, size_t size);
 
 #endif

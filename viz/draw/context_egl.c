@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* context_egl.c - EGL without a display, a surface or a configuration, opened at run time: draws off-screen with
- * versions of Mesa that no longer have OSMesa. EGL may choose a graphics card, so the software device is requested when
- * devices can be listed. */
+/* context_egl.c - an EGL context without a display, surface or configuration. It draws off-screen with versions of Mesa
+ * that no longer have OSMesa (25.1 and later). EGL prefers graphics cards, so the software device is requested where
+ * devices can be listed. The library is loaded at run time. */
 #include "context.h"
 
 #include <EGL/egl.h>
@@ -37,13 +37,13 @@ static bool look_up(egl *egl, void *library)
 #undef EGL_FIND
 }
 
-static bool has_word(const char *list, const char *word)
+static bool contains(const char *list, const char *word)
 {
     return list && strstr(list, word);
 }
 
-/* The device that draws with the processor, or null when devices cannot be listed. */
-static EGLDeviceEXT software_device(const egl *egl)
+/* The device that draws with the CPU. Null: devices cannot be listed, or there is none. */
+static EGLDeviceEXT find_software_device(const egl *egl)
 {
     const PFNEGLQUERYDEVICESEXTPROC list = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
     const PFNEGLQUERYDEVICESTRINGEXTPROC describe =
@@ -51,20 +51,20 @@ static EGLDeviceEXT software_device(const egl *egl)
     const char *known = egl->QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     EGLDeviceEXT devices[MOST_DEVICES];
     EGLint count = 0;
-    if (!list || !describe || !has_word(known, "EGL_EXT_platform_device") || !list(MOST_DEVICES, devices, &count))
+    if (!list || !describe || !contains(known, "EGL_EXT_platform_device") || !list(MOST_DEVICES, devices, &count))
         return NULL;
     for (EGLint i = 0; i < count; i++)
-        if (has_word(describe(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software"))
+        if (contains(describe(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software"))
             return devices[i];
     return NULL;
 }
 
-/* The display of the software device, or else the one without a window system, ready for use. */
+/* Initialize the display of the software device, or else the display without a window system. */
 static EGLDisplay open_display(const egl *egl, bool any_renderer)
 {
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->GetProcAddress("eglGetPlatformDisplayEXT");
-    const EGLDeviceEXT device = any_renderer ? NULL : software_device(egl);
+    const EGLDeviceEXT device = any_renderer ? NULL : find_software_device(egl);
     EGLDisplay display = get && device ? get(EGL_PLATFORM_DEVICE_EXT, device, NULL) : EGL_NO_DISPLAY;
     if (display && egl->Initialize(display, NULL, NULL))
         return display;
@@ -72,8 +72,8 @@ static EGLDisplay open_display(const egl *egl, bool any_renderer)
     return display && egl->Initialize(display, NULL, NULL) ? display : EGL_NO_DISPLAY;
 }
 
-/* It is released first: EGL skips a context that it takes for current already, even if another library's was made
- * current since. */
+/* Releases the context first: EGL does nothing for a context that it believes current, even if another library has
+ * made its own context current since. */
 static bool use(context *face)
 {
     const egl_context *c = (const egl_context *)face;
@@ -88,7 +88,7 @@ static context_function find(const context *face, const char *name)
     return ((const egl_context *)face)->egl.GetProcAddress(name);
 }
 
-/* The display stays: it is shared by all contexts of the process. */
+/* Keeps the display, which all contexts of the process share. */
 static void close_context(context *face)
 {
     egl_context *c = (egl_context *)face;

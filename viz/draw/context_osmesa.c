@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* context_osmesa.c - Mesa's off-screen context. The library is opened at run time: without it there is an error
- * message, and the program still starts. */
+/* context_osmesa.c - Mesa's off-screen context. The library is loaded at run time, so that the program starts without
+ * it.
+ */
 #include "context.h"
 
 #include <GL/osmesa.h>
 #include <stdlib.h>
 
-/* Drawing goes to a framebuffer object, but Mesa requires a buffer of its own. */
+/* Octreel draws into a framebuffer object, but OSMesa requires a buffer as well; a tiny one will do. */
 #define OWN_SIDE 4
 
 typedef struct osmesa_context {
@@ -29,7 +30,7 @@ static context_function find(const context *face, const char *name)
     return (context_function)((const osmesa_context *)face)->find(name);
 }
 
-/* The library stays loaded: Mesa's threads and LLVM do not survive being unloaded and loaded again. */
+/* Keeps the library loaded: Mesa's threads and LLVM do not survive an unload followed by a second load. */
 static void close_context(context *face)
 {
     osmesa_context *c = (osmesa_context *)face;
@@ -54,7 +55,7 @@ static bool open_mesa(osmesa_context *c, void *library)
 
 context *context_osmesa_open(const renderer_choice *choice, octreel_error *error)
 {
-    (void)choice; /* it always draws with the processor */
+    (void)choice; /* OSMesa always draws with the CPU */
     void *library = context_load("libOSMesa.so.8", "libOSMesa.so",
                                  "OSMesa, the off-screen renderer, cannot be loaded (Debian: libosmesa6)", error);
     osmesa_context *c = library ? calloc(1, sizeof *c) : NULL;

@@ -1,4 +1,14 @@
 /* SPDX-License-Identifier: MIT */
+/* edge_boxes.c - finds the boxes that share a merged edge at a sample of the picture.
+ *
+ * The problem: edges.c merges the edges of many boxes into one segment, which is drawn as one stroke, but `octreel
+ * pick` must name the boxes at a pixel. Keeping every box of every merged edge would cost memory in every frame, for a
+ * question that is rarely asked. So the question is answered backwards: from the sample to a coordinate on the line,
+ * and from there to the box edges that contain it, which a binary search finds among all box edges sorted by line.
+ *
+ * From sample to line: a column (or row) of the picture is a plane through the eye. The distances of the two ends of
+ * the segment from this plane have a ratio, and the plane cuts the segment in that ratio. This is exact under
+ * perspective, where equal steps on the line are not equal steps in the picture. */
 #include "edge_boxes.h"
 #include "project.h"
 
@@ -42,7 +52,7 @@ bool edge_boxes_make(edge_boxes *all, const scene *s)
         for (unsigned axis = 0; axis < 3; axis++)
             for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
                 all->items[all->count++] = edge_of(box, i, axis, corner);
-        if (all->count == before) /* a dot */
+        if (all->count == before) /* the box is a single point */
             all->items[all->count++] = edge_of(box, i, 0, 0);
     }
     qsort(all->items, all->count, sizeof *all->items, compare_edges);
@@ -60,9 +70,9 @@ typedef struct stroke {
     const edge *edge;
     line_key line;
     double from, to;
-    double seen[2][3]; /* of the ends, in camera coordinates */
-    int across;        /* the picture's axis that the stroke is longer on */
-    bool speck;        /* too small on screen to tell places on the line apart */
+    double seen[2][3]; /* camera coordinates of the ends */
+    int across;        /* the axis of the picture along which the stroke is longer */
+    bool speck;        /* less than a sample long: every sample stands for the whole edge */
 } stroke;
 
 static stroke stroke_of(const scene *s, const edge *e)
@@ -90,12 +100,12 @@ static stroke stroke_of(const scene *s, const edge *e)
     return k;
 }
 
-/* The place on the line that is seen at a coordinate of the picture, within the edge. */
-static double place_at(const scene *s, const stroke *k, double pixel)
+/* The coordinate on the line that is seen at a column or row of the picture, clamped to the edge. */
+static double find_place(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
     const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
-    double off[2]; /* distance of each end from the plane through the eye and this coordinate */
+    double off[2]; /* the distance of each end from the plane through the eye and this column or row */
     for (int end = 0; end < 2; end++)
         off[end] = k->seen[end][k->across] - slope * (c->perspective ? k->seen[end][2] : 1);
     const double part = off[0] / (off[0] - off[1]);
@@ -104,8 +114,8 @@ static double place_at(const scene *s, const stroke *k, double pixel)
     return part < 1 ? k->from * (1 - part) + k->to * part : k->to;
 }
 
-/* The first edge of a box on a line, or where it would be. */
-static size_t first_on(const edge_boxes *all, const line_key *wanted)
+/* The index of the first box edge on a line, or where it would be inserted. */
+static size_t find_first(const edge_boxes *all, const line_key *wanted)
 {
     size_t low = 0, high = all->count;
     while (low < high) {
@@ -123,23 +133,23 @@ static bool is_on(const edge_boxes *all, size_t i, const stroke *k)
     return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
 }
 
-static double distance(const box_edge *of, double at)
+static double distance(const box_edge *edge, double at)
 {
-    return at < of->from ? of->from - at : at > of->to ? at - of->to : 0;
+    return at < edge->from ? edge->from - at : at > edge->to ? at - edge->to : 0;
 }
 
-size_t edge_boxes_owner(const edge_boxes *all, const edge *e, int x, int y)
+size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
 {
     const stroke k = stroke_of(all->scene, e);
-    const double at = k.speck ? k.from : place_at(all->scene, &k, (k.across ? y : x) + 0.5);
+    const double at = k.speck ? k.from : find_place(all->scene, &k, (k.across ? y : x) + 0.5);
     const box_edge *best = NULL;
-    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++) {
+    for (size_t i = find_first(all, &k.line); is_on(all, i, &k); i++) {
         const box_edge *found = &all->items[i];
         const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
         if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
             best = found;
     }
-    return best->box; /* not null: an edge consists of the edges of boxes */
+    return best->box; /* not null: a merged edge consists of edges of boxes */
 }
 
 void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (*visit)(size_t box, void *context),
@@ -149,11 +159,11 @@ void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (
     double low = k.from, high = k.to;
     if (!k.speck) {
         const int pixel = k.across ? y : x;
-        const double ends[2] = {place_at(all->scene, &k, pixel), place_at(all->scene, &k, pixel + 1)};
+        const double ends[2] = {find_place(all->scene, &k, pixel), find_place(all->scene, &k, pixel + 1)};
         low = fmin(ends[0], ends[1]);
         high = fmax(ends[0], ends[1]);
     }
-    for (size_t i = first_on(all, &k.line); is_on(all, i, &k); i++)
+    for (size_t i = find_first(all, &k.line); is_on(all, i, &k); i++)
         if (all->items[i].from <= high && all->items[i].to >= low)
             visit(all->items[i].box, context);
 }

@@ -1,26 +1,34 @@
 /* SPDX-License-Identifier: MIT */
-/* edges.c - a box has twelve edges, and in a tree most are shared. They are grouped by the line that they lie on, whose
- * doubles are compared exactly, and each line is swept once. Most are dropped before: a tree's boxes come from the root
- * down, and an edge on a parent's edge is covered by it. A line keeps its edges from frame to frame unless a box on it
- * was added or removed. */
+/* edges.c - merges the edges of a scene's boxes into segments that do not overlap.
+ *
+ * The problem: in a tree most edges of boxes coincide with edges of the parent, the siblings and the neighbours.
+ * Drawing each box by itself would draw the same line many times, and the last one drawn, not the shallowest, would
+ * give it its colour. Comparing all pairs of edges would cost O(n^2).
+ *
+ * The idea: edges that overlap lie on the same line. box_lines.c groups them by line; coordinates are compared exactly,
+ * since nodes share planes bit for bit. On its line an edge is an interval. The intervals are sorted by their start,
+ * and one sweep emits, from point to point, the shallowest interval that covers it. Most intervals never reach the
+ * sort: a tree's boxes come from the root down, and an edge that lies within a parent's edge is dropped at once.
+ *
+ * A line keeps its merged edges from frame to frame unless one of its boxes was added or removed. */
 #include "edges.h"
 #include "array.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* One edge of one box, or one end of it, on its line. */
-typedef struct stretch {
+/* The edge of a box as an interval of its line. */
+typedef struct interval {
     double from, to;
     uint64_t id;
     scene_style style;
     uint8_t depth;
-} stretch;
+} interval;
 
-typedef struct stretch_list {
-    stretch *items;
+typedef struct interval_list {
+    interval *items;
     size_t count, room;
-} stretch_list;
+} interval_list;
 
 void edges_release(edge_list *list)
 {
@@ -39,7 +47,7 @@ static int compare_lines(const void *a, const void *b)
     return line_key_compare(&(*p)->key, &(*q)->key);
 }
 
-/* Merge the new lines, sorted, into the order of the others, from the end. */
+/* Merge the new lines, which are sorted, into list->order, backwards so that nothing is overwritten too early. */
 static void merge_order(edge_list *list, const line *const *sorted)
 {
     const line *lines = list->boxes.lines;
@@ -69,16 +77,17 @@ static bool order_lines(edge_list *list)
     return order != NULL;
 }
 
-/* ---- The stretches of lines ----------------------------------------------------------------------------------- */
+/* ---- The intervals of lines ------------------------------------------------------------------------------------ */
 
-static stretch stretch_of(const scene_box *box, unsigned axis)
+static interval interval_of(const scene_box *box, unsigned axis)
 {
-    return (stretch){
+    return (interval){
         .from = box->box.min[axis], .to = box->box.max[axis], .id = box->id, .style = box->style, .depth = box->depth};
 }
 
-/* Whether an earlier stretch of the same line hides this one completely, as sweep_line() would find. */
-static bool is_covered(const stretch *it, const stretch *by)
+/* Whether `by`, an earlier interval of the same line, covers this one, so that sweep_line() would emit nothing for it.
+ */
+static bool is_covered(const interval *it, const interval *by)
 {
     if (it->from < by->from || it->to > by->to || it->depth < by->depth)
         return false;
@@ -87,34 +96,34 @@ static bool is_covered(const stretch *it, const stretch *by)
 
 static void collect_edge(uint32_t *places, line *on, const lined_box *boxes, uint32_t place, unsigned axis)
 {
-    if (on->stretches > 0) {
-        const stretch it = stretch_of(&boxes[place].box, axis), last = stretch_of(&boxes[on->last].box, axis);
+    if (on->intervals > 0) {
+        const interval it = interval_of(&boxes[place].box, axis), last = interval_of(&boxes[on->last].box, axis);
         if (is_covered(&it, &last))
             return;
     }
-    places[on->start + on->stretches++] = on->last = place;
+    places[on->start + on->intervals++] = on->last = place;
 }
 
-/* Let each changed line have room for the places of all boxes that lie on it, in the order in which lines are swept.
- * Null when there is no memory. */
-static uint32_t *make_room(edge_list *list)
+/* Allocate one list for all changed lines, with a range for each line that has room for all of its boxes. Null when out
+ * of memory. */
+static uint32_t *allocate_places(edge_list *list)
 {
     box_lines *from = &list->boxes;
     size_t total = 0;
     for (size_t i = 0; i < list->ordered; i++) {
         line *on = &from->lines[list->order[i]];
-        on->stretches = 0;
+        on->intervals = 0;
         on->start = (uint32_t)total;
         total += from->changed[list->order[i]] ? on->users : 0;
     }
     return total < UINT32_MAX ? malloc((total + 1) * sizeof(uint32_t)) : NULL;
 }
 
-/* The places of the boxes on all changed lines. */
-static uint32_t *collect(edge_list *list)
+/* List the boxes of each changed line, as indices into from->now. Null when out of memory. */
+static uint32_t *collect_boxes(edge_list *list)
 {
     box_lines *from = &list->boxes;
-    uint32_t *places = make_room(list);
+    uint32_t *places = allocate_places(list);
     for (size_t i = 0; places && i < from->now.count; i++)
         for (unsigned edge = 0; edge < BOX_EDGES; edge++) {
             const uint32_t on = from->now.items[i].lines[edge];
@@ -124,9 +133,9 @@ static uint32_t *collect(edge_list *list)
     return places;
 }
 
-static int compare_stretches(const void *a, const void *b)
+static int compare_intervals(const void *a, const void *b)
 {
-    const stretch *p = a, *q = b;
+    const interval *p = a, *q = b;
     const int from = compare_doubles(p->from, q->from);
     if (from)
         return from;
@@ -135,43 +144,43 @@ static int compare_stretches(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-/* A tree's boxes come in Morton order: then the stretches of a line, however many, are in order but for those of the
- * cells about one place, and few are moved far. */
-static void sort_stretches(stretch *line, size_t count)
+/* Insertion sort, since a tree's boxes come in Morton order: the intervals of a line are nearly sorted, and few move
+ * far. Falls back to qsort() after 16 moves per interval. */
+static void sort_intervals(interval *line, size_t count)
 {
     enum { MOVES_OF_EACH = 16 };
     size_t left = MOVES_OF_EACH * count;
     for (size_t i = 1; i < count; i++) {
-        const stretch it = line[i];
+        const interval it = line[i];
         size_t at = i;
-        for (; at > 0 && compare_stretches(&line[at - 1], &it) > 0; at--)
+        for (; at > 0 && compare_intervals(&line[at - 1], &it) > 0; at--)
             line[at] = line[at - 1];
         line[at] = it;
         if (i - at > left) {
-            qsort(line, count, sizeof *line, compare_stretches);
+            qsort(line, count, sizeof *line, compare_intervals);
             return;
         }
         left -= i - at;
     }
 }
 
-/* The stretches of one line, sorted. */
-static bool gather(stretch_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
+/* Fill *one with the sorted intervals of a line. */
+static bool gather_line(interval_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
 {
-    stretch *items = array_reserve(one->items, on->stretches + 1, &one->room, sizeof *items);
+    interval *items = array_reserve(one->items, on->intervals + 1, &one->room, sizeof *items);
     if (!items)
         return false;
-    for (size_t i = 0; i < on->stretches; i++)
-        items[i] = stretch_of(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
+    for (size_t i = 0; i < on->intervals; i++)
+        items[i] = interval_of(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
     one->items = items;
-    one->count = on->stretches;
-    sort_stretches(items, one->count);
+    one->count = on->intervals;
+    sort_intervals(items, one->count);
     return true;
 }
 
 /* ---- The sweep of a line -------------------------------------------------------------------------------------- */
 
-/* The line that is being swept, whose edges begin at `first`. */
+/* The line being swept; its merged edges begin at number `first` of *edges. */
 typedef struct sweep {
     edge_array *edges;
     const line_key *on;
@@ -179,8 +188,8 @@ typedef struct sweep {
     size_t first;
 } sweep;
 
-/* The end of the line's last edge, or null. */
-static double *last_end(const sweep *w)
+/* The end of the line's last merged edge. Null: it has none yet. */
+static double *find_last_end(const sweep *w)
 {
     return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
 }
@@ -193,7 +202,7 @@ static bool reserve_edges(edge_array *edges, size_t count)
     return items != NULL;
 }
 
-static bool add_edge(const sweep *w, const stretch *of, double from, double to)
+static bool add_edge(const sweep *w, const interval *of, double from, double to)
 {
     if (!reserve_edges(w->edges, 1))
         return false;
@@ -212,10 +221,10 @@ static bool same_style(scene_style a, scene_style b)
     return a.layer == b.layer && a.role == b.role && a.stroke == b.stroke && a.width == b.width;
 }
 
-/* Add [from, to] with the style of a stretch, as an edge or by extending the last one. */
-static bool emit(const sweep *w, const stretch *of, double from, double to)
+/* Emit [from, to] with the style of an interval: extend the last edge where it fits, else add one. */
+static bool emit(const sweep *w, const interval *of, double from, double to)
 {
-    double *end = last_end(w);
+    double *end = find_last_end(w);
     const edge *last = end ? &w->edges->items[w->edges->count - 1] : NULL;
     if (!last || *end != from || last->depth != of->depth || !same_style(last->style, of->style))
         return add_edge(w, of, from, to);
@@ -223,18 +232,18 @@ static bool emit(const sweep *w, const stretch *of, double from, double to)
     return true;
 }
 
-/* The shallowest of a line's stretches that have begun and not ended at `at`. */
-static const stretch *shallowest(const stretch *line, size_t begun, double at)
+/* The shallowest of the first `begun` intervals that has not ended at `at`. Null: all have ended. */
+static const interval *find_shallowest(const interval *line, size_t begun, double at)
 {
-    const stretch *best = NULL;
+    const interval *best = NULL;
     for (size_t i = 0; i < begun; i++)
         if (line[i].to > at && (!best || line[i].depth < best->depth))
             best = &line[i];
     return best;
 }
 
-/* Where the current stretch ends or a shallower one begins. */
-static double next_change(const stretch *line, size_t count, size_t begun, const stretch *now)
+/* Where interval `now` ends or a shallower one begins, whichever comes first. */
+static double find_next_change(const interval *line, size_t count, size_t begun, const interval *now)
 {
     for (size_t i = begun; i < count && line[i].from < now->to; i++)
         if (line[i].depth < now->depth)
@@ -242,9 +251,9 @@ static double next_change(const stretch *line, size_t count, size_t begun, const
     return now->to;
 }
 
-/* Sweep the stretches of one line, sorted by where they begin. Ended ones are dropped from the front, so that the cost
- * of a line is about its length times the depth of the tree. */
-static bool sweep_line(const sweep *w, const stretch *line, size_t count)
+/* Sweep the intervals of one line, sorted by their start. Intervals that have ended are dropped from the front, so that
+ * the cost is about the number of intervals times the depth of the tree. */
+static bool sweep_line(const sweep *w, const interval *line, size_t count)
 {
     size_t first = 0;
     double at = count ? line[0].from : 0;
@@ -252,16 +261,16 @@ static bool sweep_line(const sweep *w, const stretch *line, size_t count)
         size_t begun = first;
         while (begun < count && line[begun].from <= at)
             begun++;
-        const stretch *now = shallowest(line + first, begun - first, at);
+        const interval *now = find_shallowest(line + first, begun - first, at);
         if (!now) {
-            const double *end = last_end(w);
+            const double *end = find_last_end(w);
             if (!(end && *end == at) && !add_edge(w, &line[first], at, at))
-                return false; /* a box of no extent is a dot */
+                return false; /* adds an edge of length 0 for a box that is a single point */
             first = begun;
             at = begun < count ? line[begun].from : at;
             continue;
         }
-        const double to = next_change(line, count, begun, now);
+        const double to = find_next_change(line, count, begun, now);
         if (!emit(w, now, at, to))
             return false;
         at = to;
@@ -273,7 +282,7 @@ static bool sweep_line(const sweep *w, const stretch *line, size_t count)
 
 /* ---- All lines ------------------------------------------------------------------------------------------------ */
 
-/* Copy the edges of an unchanged line. */
+/* Copy the merged edges of an unchanged line from the last scene. */
 static bool copy_edges(edge_list *list, const line *of)
 {
     edge_array *now = &list->now;
@@ -286,16 +295,16 @@ static bool copy_edges(edge_list *list, const line *of)
     return true;
 }
 
-/* Line by line in order: sweep the changed lines, and copy the edges of the others. */
+/* In painting order, sweep the changed lines and copy the edges of the others. */
 static bool sweep_lines(edge_list *list, const uint32_t *places)
 {
     bool ok = true;
-    stretch_list one = {0};
+    interval_list one = {0};
     for (size_t i = 0; ok && i < list->ordered; i++) {
         line *on = &list->boxes.lines[list->order[i]];
         uint8_t *changed = &list->boxes.changed[list->order[i]];
         const sweep w = {&list->now, &on->key, line_key_axis(&on->key), list->now.count};
-        ok = *changed ? gather(&one, list->boxes.now.items, places, on) && sweep_line(&w, one.items, one.count)
+        ok = *changed ? gather_line(&one, list->boxes.now.items, places, on) && sweep_line(&w, one.items, one.count)
                       : copy_edges(list, on);
         on->first = (uint32_t)w.first;
         on->count = (uint32_t)(list->now.count - w.first);
@@ -311,13 +320,13 @@ static bool merge_lines(edge_list *list)
     list->before = list->now;
     list->now = before;
     list->now.count = 0;
-    uint32_t *places = order_lines(list) ? collect(list) : NULL;
+    uint32_t *places = order_lines(list) ? collect_boxes(list) : NULL;
     const bool merged = places && sweep_lines(list, places);
     free(places);
     return merged;
 }
 
-static void forget(edge_list *list)
+static void clear_lines(edge_list *list)
 {
     box_lines_clear(&list->boxes);
     list->now.count = list->ordered = 0;
@@ -327,9 +336,9 @@ bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned end)
 {
     bool changed;
     if (list->boxes.idle > list->boxes.count / 2)
-        forget(list);
+        clear_lines(list); /* too many lines without users */
     if (box_lines_update(&list->boxes, s, first, end, &changed) && (!changed || merge_lines(list)))
         return true;
-    forget(list);
+    clear_lines(list);
     return false;
 }

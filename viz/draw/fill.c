@@ -1,4 +1,16 @@
 /* SPDX-License-Identifier: MIT */
+/* fill.c - the integer rasterizer: fills quads with exactly the pixels that llvmpipe gives them.
+ *
+ * GL's rule, which llvmpipe follows to the bit: a pixel is drawn if its centre is inside the shape. A centre on an edge
+ * counts as inside if the edge is a left edge or a horizontal top edge, so that shapes that share an edge never share a
+ * pixel. A quad is the triangles 0 1 2 and 0 2 3, of either winding. Corners are multiples of 1/256 pixel, so that
+ * integers decide exactly what GL decides.
+ *
+ * Testing every pixel of a quad's bounding box would be slow, so an edge is walked from row to row (or column to
+ * column) as Bresenham walks a line: the crossing is kept as a whole pixel and a remainder, and a step is two
+ * additions. Three shapes that make up most of a picture have paths of their own, each with the same pixels as the
+ * general one: axis-aligned rectangles, strips of constant width (lines), and convex quads. Other quads are split into
+ * triangles. */
 #include "fill.h"
 
 #include <string.h>
@@ -11,8 +23,8 @@ typedef struct target {
     int width, height;
 } target;
 
-/* The first pixel whose centre is at or after a coordinate: 0 to `size`. */
-static int first_pixel(int32_t at, int size)
+/* The first pixel whose centre is at or after a coordinate, clamped to 0..size. */
+static int find_pixel(int32_t at, int size)
 {
     if (at <= CENTRE)
         return 0;
@@ -20,7 +32,7 @@ static int first_pixel(int32_t at, int size)
     return pixel < size ? pixel : size;
 }
 
-/* ---- Upright rectangles ------------------------------------------------------------------------------------- */
+/* ---- Axis-aligned rectangles -------------------------------------------------------------------------------- */
 
 static bool is_rectangle(const quad *q)
 {
@@ -32,10 +44,10 @@ static bool is_rectangle(const quad *q)
 static void fill_rectangle(const target *t, const quad *q)
 {
     const int32_t *x = q->x, *y = q->y;
-    const int left = first_pixel(x[0] < x[2] ? x[0] : x[2], t->width);
-    const int right = first_pixel(x[0] < x[2] ? x[2] : x[0], t->width);
-    const int top = first_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
-    const int bottom = first_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
+    const int left = find_pixel(x[0] < x[2] ? x[0] : x[2], t->width);
+    const int right = find_pixel(x[0] < x[2] ? x[2] : x[0], t->width);
+    const int top = find_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
+    const int bottom = find_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
     uint8_t *row = t->bytes + (size_t)top * (size_t)t->width + left;
     for (int i = top; i < bottom && left < right; i++, row += t->width)
         memset(row, q->color, (size_t)(right - left));
@@ -43,16 +55,17 @@ static void fill_rectangle(const target *t, const quad *q)
 
 /* ---- Edges -------------------------------------------------------------------------------------------------- */
 
-/* An edge from step to step along one axis: the first pixel across whose centre is not before it, and how far that
- * centre is beyond it, in 1 / whole pixel. */
+/* An edge that is walked pixel by pixel along one axis. Where it crosses the current row (or column), `at` is the first
+ * pixel whose centre is at or after the crossing, and beyond / whole is the distance from the crossing to that centre.
+ */
 typedef struct edge_walk {
     int64_t at, beyond;
-    int64_t turn, rest; /* the way from step to step: whole pixels, and the rest; rounded down */
+    int64_t turn, rest; /* from one row to the next the crossing moves by turn + rest / whole pixels */
     int64_t whole;
 } edge_walk;
 
-/* Quotient and remainder, rounded down; b > 0. */
-static int64_t divide(int64_t a, int64_t b, int64_t *rest)
+/* Divide and round down; *rest: the remainder, from 0 to b - 1. b > 0. */
+static int64_t divide_down(int64_t a, int64_t b, int64_t *rest)
 {
     int64_t quotient = a / b;
     *rest = a % b;
@@ -63,14 +76,14 @@ static int64_t divide(int64_t a, int64_t b, int64_t *rest)
     return quotient;
 }
 
-/* The edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of a pixel along. */
+/* Begin to walk the edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of a pixel of axis a. */
 static edge_walk walk_edge(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int pixel)
 {
     const int64_t length = (int64_t)a1 - a0, rise = (int64_t)b1 - b0;
     const int64_t along = (int64_t)pixel * QUAD_SUBPIXELS + CENTRE - a0;
     edge_walk w = {.whole = QUAD_SUBPIXELS * length};
-    w.at = -divide(-((b0 - CENTRE) * length + rise * along), w.whole, &w.beyond);
-    w.turn = divide(rise, length, &w.rest);
+    w.at = -divide_down(-((b0 - CENTRE) * length + rise * along), w.whole, &w.beyond);
+    w.turn = divide_down(rise, length, &w.rest);
     w.rest *= QUAD_SUBPIXELS;
     return w;
 }
@@ -85,13 +98,13 @@ static void step_on(edge_walk *w)
     }
 }
 
-/* ---- Lines --------------------------------------------------------------------------------------------------
+/* ---- Strips -------------------------------------------------------------------------------------------------
  *
- * As stroke.c makes most of them: parallelograms with two sides along an axis, a whole number of pixels long. One edge
- * tells where the other is.
+ * Most lines of stroke.c are strips: parallelograms with two sides parallel to an axis and a whole number of pixels
+ * long. Every row (or column) then has the same number of pixels, and only one edge needs to be walked.
  */
 
-/* Whether the sides 0-3 and 1-2 are parallel to the axis `across` and of the same whole number of pixels. */
+/* Whether the sides 0-3 and 1-2 are parallel to the axis `across` and equally long: a whole number of pixels. */
 static bool is_strip(const int32_t along[4], const int32_t across[4])
 {
     const int32_t width = across[3] - across[0];
@@ -99,24 +112,24 @@ static bool is_strip(const int32_t along[4], const int32_t across[4])
            width % QUAD_SUBPIXELS == 0;
 }
 
-/* An axis of the picture: its pixels, and the bytes from one to the next. */
+/* An axis of the picture: the number of its pixels, and the distance in bytes from one to the next. */
 typedef struct fill_axis {
     int size;
     ptrdiff_t step;
 } fill_axis;
 
-/* A strip step by step along one axis, from the step `begin` before `end`: `width` pixels of a colour across. */
+/* A strip, walked along its long axis: each step sets `width` pixels across. */
 typedef struct strip_walk {
-    uint8_t *step; /* where the current step has its pixel 0 across */
-    ptrdiff_t next;
+    uint8_t *step;  /* pixel 0 of the current row (or column) */
+    ptrdiff_t next; /* bytes to the next one */
     fill_axis across;
     int steps, width;
-    bool lower_is_out; /* centres on the lower edge do not belong to the strip */
+    bool lower_is_out; /* a centre on the lower edge is outside */
     edge_walk lower;
     uint8_t color;
 } strip_walk;
 
-static int64_t first_across(const strip_walk *w)
+static int64_t find_first_across(const strip_walk *w)
 {
     return w->lower.at + (w->lower_is_out && w->lower.beyond == 0);
 }
@@ -124,7 +137,7 @@ static int64_t first_across(const strip_walk *w)
 static void fill_clipped(strip_walk w)
 {
     for (; w.steps > 0; w.steps--, w.step += w.next, step_on(&w.lower)) {
-        const int64_t first = first_across(&w);
+        const int64_t first = find_first_across(&w);
         for (int64_t j = first < 0 ? 0 : first; j < first + w.width && j < w.across.size; j++)
             w.step[j * w.across.step] = w.color;
     }
@@ -133,27 +146,27 @@ static void fill_clipped(strip_walk w)
 static void fill_inside(strip_walk w)
 {
     for (; w.steps > 0; w.steps--, w.step += w.next, step_on(&w.lower)) {
-        uint8_t *pixel = w.step + (ptrdiff_t)first_across(&w) * w.across.step;
+        uint8_t *pixel = w.step + (ptrdiff_t)find_first_across(&w) * w.across.step;
         for (int j = 0; j < w.width; j++, pixel += w.across.step)
             *pixel = w.color;
     }
 }
 
-/* Whether a strip lies between the picture's edges across. */
+/* Whether a strip stays inside the picture on the axis across. */
 static bool is_inside(const int32_t across[4], int size)
 {
     const int64_t end = (int64_t)size * QUAD_SUBPIXELS;
     return across[0] >= 0 && across[1] >= 0 && across[2] <= end && across[3] <= end;
 }
 
-/* The lower edge includes centres that lie on it if it is a left or top edge; of a flat strip that falls to the right
- * it is not one. */
+/* By GL's rule a centre on the lower edge is inside, except on a flat strip that falls to the right: there this edge is
+ * neither a left nor a top edge. */
 static void fill_strip(const target *t, const quad *q, bool flat)
 {
     const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
     const int from = along[0] > along[1], to = 1 - from;
     const fill_axis x = {t->width, 1}, y = {t->height, t->width}, long_axis = flat ? x : y, other = flat ? y : x;
-    const int begin = first_pixel(along[from], long_axis.size), end = first_pixel(along[to], long_axis.size);
+    const int begin = find_pixel(along[from], long_axis.size), end = find_pixel(along[to], long_axis.size);
     if (begin >= end)
         return;
     const strip_walk w = {.step = t->bytes + begin * long_axis.step,
@@ -172,22 +185,22 @@ static void fill_strip(const target *t, const quad *q, bool flat)
 
 /* ---- Convex quads ------------------------------------------------------------------------------------------- */
 
-/* The left or right side of a quad from row to row, edge by edge. */
+/* The left or right side of a quad: a chain of edges, walked from row to row. */
 typedef struct side {
-    int corner; /* to which the current edge goes */
-    int way;    /* to the next corner: 1 or 3, modulo 4 */
+    int corner; /* where the current edge ends */
+    int way;    /* the step to the next corner, modulo 4: 1 or 3 */
     int end;    /* the row after the edge's last */
     edge_walk edge;
 } side;
 
-/* Go on to the edge that crosses the centres of a row. */
+/* Advance to the edge that crosses the centres of a row. */
 static void begin_edge(side *s, const quad *q, int row, int height)
 {
     int from;
     do {
         from = s->corner;
         s->corner = (from + s->way) & 3;
-        s->end = first_pixel(q->y[s->corner], height);
+        s->end = find_pixel(q->y[s->corner], height);
     } while (s->end <= row);
     s->edge = walk_edge(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
 }
@@ -200,9 +213,9 @@ static void fill_convex(const target *t, const quad *q, int turn)
         top = q->y[i] < q->y[top] ? i : top;
         bottom = q->y[i] > q->y[bottom] ? i : bottom;
     }
-    const int end = first_pixel(q->y[bottom], t->height);
+    const int end = find_pixel(q->y[bottom], t->height);
     side left = {.corner = top, .way = turn > 0 ? 3 : 1}, right = {.corner = top, .way = turn > 0 ? 1 : 3};
-    for (int row = first_pixel(q->y[top], t->height); row < end; row++) {
+    for (int row = find_pixel(q->y[top], t->height); row < end; row++) {
         if (row >= left.end)
             begin_edge(&left, q, row, t->height);
         if (row >= right.end)
@@ -218,18 +231,18 @@ static void fill_convex(const target *t, const quad *q, int turn)
 
 /* ---- Any quad ----------------------------------------------------------------------------------------------- */
 
-/* On which side of the line from corner a to b corner c is: 1 is clockwise on screen, 0 on it. */
-static int turn_at(const quad *q, int a, int b, int c)
+/* The turn at corner b on the way from a to c: 1 clockwise on screen, -1 counterclockwise, 0 straight. */
+static int find_turn(const quad *q, int a, int b, int c)
 {
     const int64_t area = ((int64_t)q->x[b] - q->x[a]) * ((int64_t)q->y[c] - q->y[b]) -
                          ((int64_t)q->y[b] - q->y[a]) * ((int64_t)q->x[c] - q->x[b]);
     return (area > 0) - (area < 0);
 }
 
-/* A triangle is a quad with a corner that counts twice. */
+/* Fill the triangle of corner 0, b and c: a quad with a repeated corner. */
 static void fill_triangle(const target *t, const quad *q, int b, int c)
 {
-    const int turn = turn_at(q, 0, b, c);
+    const int turn = find_turn(q, 0, b, c);
     quad alone = *q;
     alone.x[1] = q->x[b], alone.y[1] = q->y[b];
     alone.x[2] = alone.x[3] = q->x[c], alone.y[2] = alone.y[3] = q->y[c];
@@ -248,8 +261,8 @@ static void fill_quad(const target *t, const quad *q)
         fill_strip(t, q, flat);
         return;
     }
-    const int turn = turn_at(q, 0, 1, 2);
-    if (turn && turn_at(q, 1, 2, 3) == turn && turn_at(q, 2, 3, 0) == turn && turn_at(q, 3, 0, 1) == turn) {
+    const int turn = find_turn(q, 0, 1, 2);
+    if (turn && find_turn(q, 1, 2, 3) == turn && find_turn(q, 2, 3, 0) == turn && find_turn(q, 3, 0, 1) == turn) {
         fill_convex(t, q, turn);
         return;
     }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* gl_surface.c - quads into a framebuffer object, and its pixels back. GL rasterises and decides nothing else.
+/* gl_surface.c - fills quads with GL into a framebuffer object and reads its pixels back. GL only rasterizes.
  *
- * The framebuffer has one channel, which holds the index of a colour: a frame is read back as it is written to a file.
- * The viewport is a square whose side is a power of two, so that every step from a snapped pixel to clip space and
- * back is exact in single precision: no CPU can round it differently, with FMA or without. Quads do not leave it (see
- * clip.h), so that GL has nothing to clip.
+ * The framebuffer has one channel, which holds indices of colours, as PNG files do. The viewport is a square whose side
+ * is a power of two: the way from 1/256 pixel to clip space and back is then exact in single precision, so that no CPU
+ * can round it differently, with FMA or without. Quads lie inside it (clip.h), so that GL has nothing to clip.
  */
 #include "clip.h"
 #include "context.h"
@@ -16,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The GL functions in use: result, name, parameters. */
+/* The GL functions that are used: result, name, parameters. */
 #define GL_FUNCTIONS(X)                                                                                                \
     X(const GLubyte *, GetString, (GLenum name))                                                                       \
     X(void, GetIntegerv, (GLenum name, GLint * value))                                                                 \
@@ -50,7 +49,7 @@ typedef struct gl {
 #undef GL_MEMBER
 } gl;
 
-/* False, with an error that names a missing function, when the context lacks one. */
+/* Look up all functions. False with an error that names a missing one. */
 static bool gl_load(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
@@ -63,7 +62,7 @@ static bool gl_load(gl *functions, const context *c, octreel_error *error)
     return !missing || error_set(error, "the %s context has no %s", c->name, missing);
 }
 
-#define BATCH 8192 /* quads a draw call */
+#define BATCH 8192 /* quads per draw call */
 
 typedef struct vertex {
     GLfloat x, y;
@@ -80,7 +79,7 @@ typedef struct gl_surface {
     GLuint indices[BATCH * 6];
 } gl_surface;
 
-/* Only llvmpipe is known to give the same pixels everywhere. */
+/* Accept llvmpipe only, unless any driver will do: only llvmpipe is known to give the same pixels everywhere. */
 static bool check_driver(gl_surface *s, bool any, octreel_error *error)
 {
     const char *name = (const char *)s->gl.GetString(GL_RENDERER);
@@ -112,7 +111,7 @@ static bool make_framebuffer(gl_surface *s, octreel_error *error)
                      s->height);
 }
 
-/* All state that a frame depends on; nothing changes it later. */
+/* Set all GL state that frames depend on, once. */
 static void set_state(gl_surface *s)
 {
     const gl *gl = &s->gl;
@@ -135,7 +134,7 @@ static void set_state(gl_surface *s)
     gl->ColorPointer(4, GL_UNSIGNED_BYTE, sizeof(vertex), s->vertices[0].color);
 }
 
-/* Each quad is two triangles that share the diagonal from corner 0 to corner 2. */
+/* A quad is two triangles that share the diagonal from corner 0 to corner 2. */
 static void make_indices(gl_surface *s)
 {
     static const GLuint corners[6] = {0, 1, 2, 0, 2, 3};
@@ -143,8 +142,8 @@ static void make_indices(gl_surface *s)
         s->indices[i] = i / 6 * 4 + corners[i % 6];
 }
 
-/* From 1/256 pixel to clip space: exact, since coordinates have at most 23 bits and the side is a power of two. */
-static void put_vertices(gl_surface *s, const quad *quads, size_t count)
+/* Convert 1/256 pixel to clip space: exact, since coordinates have at most 23 bits and the side is a power of two. */
+static void write_vertices(gl_surface *s, const quad *quads, size_t count)
 {
     const float scale = 2.0f / ((float)s->side * QUAD_SUBPIXELS);
     for (size_t i = 0; i < count; i++)
@@ -164,7 +163,7 @@ static bool fill(surface *face, const quad *quads, size_t count, renderer_part p
     gl->Clear(GL_COLOR_BUFFER_BIT);
     for (size_t start = 0; start < count; start += BATCH) {
         const size_t size = count - start < BATCH ? count - start : BATCH;
-        put_vertices(s, quads + start, size);
+        write_vertices(s, quads + start, size);
         gl->DrawElements(GL_TRIANGLES, (GLsizei)(6 * size), GL_UNSIGNED_INT, s->indices);
     }
     gl->ReadPixels(part.x, part.y, part.width, part.height, GL_RED, GL_UNSIGNED_BYTE, bytes);
@@ -175,7 +174,7 @@ static bool fill(surface *face, const quad *quads, size_t count, renderer_part p
 static renderer_info about(surface *face)
 {
     gl_surface *s = (gl_surface *)face;
-    s->context->use(s->context); /* GL answers for the context that is current */
+    s->context->use(s->context); /* GL describes the current context */
     return (renderer_info){
         .context = s->context->name,
         .vendor = (const char *)s->gl.GetString(GL_VENDOR),

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* letters.c - turns text into quads, and lists the boxes around a scene's text. */
 #include "letters.h"
 #include "glyphs.h"
 #include "project.h"
@@ -6,10 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Text that begins so many pixels away does not reach into a picture. */
+/* Text that begins this many pixels away from the origin cannot reach into a picture. */
 #define FARTHEST 1e6
 
-/* From a place to beside it, where words begin. If it is in the picture, they are not cut at its edge. */
+/* Move from a position to where the text beside it begins. Text of a position in the picture is not cut off at its
+ * edge. */
 static void move_beside(const scene *s, const scene_label *label, double pixel[2])
 {
     const int aside[2] = {s->text.width / 2, -(s->text.height / 2)};
@@ -24,9 +26,9 @@ static void move_beside(const scene *s, const scene_label *label, double pixel[2
     }
 }
 
-/* The pixel of the text's top left corner; false when its position is not visible. Text begins at whole pixels under
- * anti-aliasing too, and stays crisp. */
-static bool place(const scene *s, const scene_label *label, int *x, int *y)
+/* Find the top left pixel of a label's text. False: its position is not visible. Text begins at a whole pixel, so that
+ * it stays crisp with anti-aliasing. */
+static bool place_text(const scene *s, const scene_label *label, int *x, int *y)
 {
     double pixel[2] = {label->at[0], label->at[1]};
     unsigned band;
@@ -44,8 +46,8 @@ static bool place(const scene *s, const scene_label *label, int *x, int *y)
     return true;
 }
 
-/* Add the parts of a letter whose cell begins at x and y, in subpixels, each larger by `rim` on all sides; `pixel` is
- * one of the face. What the face does not have is drawn as a question mark. */
+/* Add the rectangles of a letter whose cell begins at (x, y), each enlarged by `rim` on all sides. `pixel` is the size
+ * of a pixel of the face. All in subpixels. A character that the face lacks becomes a question mark. */
 static void add_letter(quad_list *list, quad *q, const glyph_set *set, char letter, int x, int y, int pixel, int rim)
 {
     const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
@@ -59,7 +61,7 @@ static void add_letter(quad_list *list, quad *q, const glyph_set *set, char lett
     }
 }
 
-/* Pixels of the rim about a label's letters. */
+/* The width in pixels of the dark rim around a label's letters. */
 static int rim_of(const scene *s, const scene_label *label)
 {
     return label->style.stroke != STROKE_CUT ? 0 : s->unit > 2 ? s->unit / 2 : 1;
@@ -71,7 +73,7 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
     const int sub = QUAD_SUBPIXELS * view_samples(&s->view);
     quad q = {.order = quad_order_of_text(label->style.layer)};
     int left, top;
-    if (!place(s, label, &left, &top))
+    if (!place_text(s, label, &left, &top))
         return;
     for (int rim = rim_of(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
         q.color = theme_index(rim > 0 ? ROLE_BACKGROUND : label->style.role, 0);
@@ -81,11 +83,11 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
     }
 }
 
-/* The box around a label's letters; false when it is not visible. */
+/* Find the box around a label's text. False: it is not visible. */
 static bool find_box(const scene *s, const scene_label *label, draw_box *box)
 {
     const lettering *letters = scene_lettering(s, label);
-    if (!place(s, label, &box->x, &box->y))
+    if (!place_text(s, label, &box->x, &box->y))
         return false;
     const int rim = rim_of(s, label);
     box->x -= rim;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* letters.h - text as quads; and the boxes around a scene's text. */
+/* letters.h - turns text into quads, and lists the boxes around a scene's text. */
 #ifndef DRAW_LETTERS_H
 #define DRAW_LETTERS_H
 
 #include "quads.h"
 
-/* A rectangle of the picture, in its pixels; it may reach beyond the border. */
+/* A rectangle in pixels; it may extend beyond the picture. */
 typedef struct draw_box {
     int x, y, width, height;
 } draw_box;
 
-/* Visit the boxes of a scene's letters and panels: no text is drawn outside them. Needs no renderer. */
+/* Visit the boxes around a scene's labels and panels: all text is drawn inside them. Needs no renderer. */
 void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
 
-/* For this folder: add the letters of a label, at its pixel or beside the pixel of its position. The scene is in
- * samples. */
+/* Add the letters of a label, at its pixel or beside its projected position. `s` is from project_samples(). Private to
+ * this folder. */
 void letters_add(quad_list *list, const scene *s, const scene_label *label);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* paint.c - turns a scene into quads in painter's order. */
 #include "paint.h"
 #include "clip.h"
 #include "layer.h"
@@ -39,7 +40,7 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     stroke(p, s, pieces, count, style, depth);
 }
 
-/* Paint the segments of the world, or those in picture coordinates. */
+/* Paint the segments in world coordinates, or those in picture coordinates. */
 static void paint_segments(painter *p, const scene *s, bool in_picture)
 {
     for (size_t i = 0; i < s->segments.count; i++) {
@@ -93,7 +94,7 @@ static bool is_point(const scene_marker *marker)
     return marker->style.layer == LAYER_POINTS;
 }
 
-bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band)
+bool paint_find_sample(const scene *s, const scene_marker *marker, size_t *place, unsigned *band)
 {
     double pixel[2];
     if (!is_point(marker) || !project_point(s, marker->at, pixel, band))
@@ -105,8 +106,8 @@ bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place
     return true;
 }
 
-/* Reserve a byte per pixel, zeroed, and a place per marker. */
-static bool make_room_for_points(painter *p, const scene *s)
+/* Reserve a zeroed byte for each sample, and a place for each marker. */
+static bool reserve_points(painter *p, const scene *s)
 {
     const size_t pixels = (size_t)s->view.width * (size_t)s->view.height;
     if (p->pixels != pixels) {
@@ -125,10 +126,10 @@ static bool make_room_for_points(painter *p, const scene *s)
     return true;
 }
 
-/* Points on one pixel become one quad, that of the nearest band, which would cover the others. */
+/* Points at one sample become one quad, that of the nearest band: it would cover the others. */
 static bool paint_points(painter *p, const scene *s)
 {
-    if (!make_room_for_points(p, s))
+    if (!reserve_points(p, s))
         return false;
     project_points(s, s->markers.items, s->markers.count, p->places);
     for (size_t i = 0; i < s->markers.count; i++) {
@@ -152,7 +153,7 @@ static bool paint_points(painter *p, const scene *s)
     return true;
 }
 
-/* A close-up is clipped to its part of the picture. */
+/* Clip a close-up to its part of the picture, and other scenes to clip_square(). */
 static void set_limits(quad_list *list, const scene *s)
 {
     const int square = clip_square(s->view.width, s->view.height);
@@ -169,9 +170,9 @@ static bool paint_closeup(painter *p, const scene *s)
     if (!p->closeup || !paint(p->closeup, s->closeup))
         return false;
     if (view_paints_points(&s->view))
-        splats_put_closeup(&p->splats, s, &p->closeup->splats, &closer);
-    return quads_put_closeup(&p->quads, &p->closeup->quads,
-                             (int32_t[]){closer.place[0] * subpixels, closer.place[1] * subpixels});
+        splats_copy_closeup(&p->splats, s, &p->closeup->splats, &closer);
+    return quads_insert_closeup(&p->quads, &p->closeup->quads,
+                                (int32_t[]){closer.place[0] * subpixels, closer.place[1] * subpixels});
 }
 
 bool paint(painter *p, const scene *picture)
@@ -196,7 +197,7 @@ bool paint(painter *p, const scene *picture)
         if (s->panels.items[i].style.role == ROLE_OWN)
             splats_fill(&p->splats, s, &s->panels.items[i]);
     }
-    paint_segments(p, s, true); /* above the panels of their layer */
+    paint_segments(p, s, true); /* after panels, which they cover */
     for (size_t i = 0; i < s->labels.count; i++) {
         quads_begin(&p->quads, SCENE_LABEL, i);
         letters_add(&p->quads, s, &s->labels.items[i]);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* paint.h - a scene as flat quads in painter's order: the whole picture, before any GL. For this folder. */
+/* paint.h - turns a scene into quads in painter's order, which a rasterizer then fills. Private to this folder. */
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
@@ -8,31 +8,31 @@
 #include "quads.h"
 #include "splats.h"
 
-/* Data that is reused from frame to frame. Empty when zeroed. */
+/* Buffers that are reused from frame to frame. Zeroed: empty. */
 typedef struct painter {
     quad_list quads;
-    edge_list tree,
-        edges;        /* of the world and the nodes, which often stay the same from tick to tick; and of other layers */
-    uint8_t *nearest; /* a byte a sample: 1 + the nearest band of a point there, while points are folded */
+    edge_list tree;   /* edges of the world and the nodes, which often stay the same from tick to tick */
+    edge_list edges;  /* edges of boxes in other layers */
+    uint8_t *nearest; /* while points are painted, for each sample: 1 + the nearest band of its points; 0: none */
     size_t pixels;
-    point_place *places; /* where each point is drawn */
+    point_place *places; /* for each marker */
     size_t place_room;
-    splats splats;           /* points that are painted one by one */
-    size_t overflowed;       /* elements of the last scene that are too far away for doubles, and so not drawn */
-    struct painter *closeup; /* of the scene's close-up; null until there is one */
+    splats splats;
+    size_t overflowed;       /* the number of segments of the last scene that are too far away for doubles */
+    struct painter *closeup; /* paints the scene's close-up; null until there is one */
 } painter;
 
 void painter_release(painter *p);
 
-/* Fill p->quads with a scene. False when there is no memory. */
+/* Fill p->quads with the quads of a scene. False when out of memory. */
 bool paint(painter *p, const scene *picture);
 
-/* The merged edges that are painted: quads of boxes have their indices, from 0 to paint_edge_count() - 1. */
+/* The merged edges of boxes. Quads of boxes have an index from 0 to paint_edge_count() - 1. */
 size_t paint_edge_count(const painter *p);
 const edge *paint_edge_at(const painter *p, size_t index);
 
-/* The index of the sample that a point lies on, and its band; points at one sample share a quad. False for other
- * markers and outside the picture. `s` is in samples. */
-bool paint_point_pixel(const scene *s, const scene_marker *marker, size_t *place, unsigned *band);
+/* Find the sample at which a point is drawn, and its band; points at one sample share a quad. False for markers of
+ * other layers, and outside the picture. `s` is from project_samples(). */
+bool paint_find_sample(const scene *s, const scene_marker *marker, size_t *place, unsigned *band);
 
 #endif

@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* pixel.c - a picture's quads are drawn again with numbers for colours, so that every sample has the same winner as in
- * the picture. For one pixel, the quads that may cover it are drawn one by one. */
+/* pixel.c - finds the elements that are drawn at each sample, at one pixel, and by some layers.
+ *
+ * The idea is an old one, the "item buffer": the quads of the picture are drawn a second time, with the number of their
+ * element in place of their colour. The same rasterizer draws the same quads in the same order, so each sample has the
+ * same topmost element as in the picture; no second implementation of visibility could disagree with it. A framebuffer
+ * has one byte per sample, so large numbers are drawn byte by byte, in up to four passes.
+ *
+ * Numbers name strokes first: a merged edge is one stroke for all boxes that share it (edges.c), and edge_boxes.c then
+ * finds the box that owns it at the sample. To list everything at one pixel, including what is hidden, the quads that
+ * may reach the pixel are drawn one by one into a picture of that pixel alone. */
 #include "pixel.h"
 #include "array.h"
 #include "edge_boxes.h"
@@ -14,21 +22,21 @@
 
 /* ---- The scene and its close-up ------------------------------------------------------------------------------ */
 
-/* A scene that is painted. Its strokes, which are merged edges and all elements but boxes, are numbered from 1 on as
- * its elements are, and those of a close-up after them. */
+/* A painted scene. Its strokes are its merged edges and all of its elements except boxes. They are numbered from 1, in
+ * the order of elements; the strokes of a close-up follow those of the scene around it. */
 typedef struct source {
     const scene *scene;
     const painter *painter;
-    scene fine; /* in samples */
+    scene fine; /* from project_samples() */
     edge_boxes boxes;
-    uint64_t strokes;        /* how many there are */
-    uint64_t strokes_before; /* those of the scene, for its close-up */
-    uint32_t elements_before;
-    int left, top;      /* where it begins, in samples of the picture */
-    bool points_listed; /* the painted points of a probe's pixel */
+    uint64_t strokes;         /* their number */
+    uint64_t strokes_before;  /* of a close-up: the number of strokes of the scene around it */
+    uint32_t elements_before; /* the same of elements */
+    int left, top;            /* its top left sample in the picture */
+    bool points_listed;       /* add_painted_points() is done */
 } source;
 
-/* The second is empty without a close-up. */
+/* The scene, and its close-up; the second is empty if there is none. */
 typedef struct sources {
     source of[2];
 } sources;
@@ -39,7 +47,7 @@ static void sources_release(sources *s)
         edge_boxes_release(&s->of[i].boxes);
 }
 
-/* False when there is no memory. */
+/* False when out of memory. */
 static bool open_source(source *from, const scene *s, const painter *p)
 {
     const int samples = view_samples(&s->view);
@@ -52,7 +60,7 @@ static bool open_source(source *from, const scene *s, const painter *p)
     return edge_boxes_make(&from->boxes, &from->fine);
 }
 
-/* `all` must stay where it is. */
+/* *all must not be moved afterwards. */
 static bool sources_open(sources *all, const scene *s, const painter *p)
 {
     source *close = &all->of[1];
@@ -69,7 +77,7 @@ static source *source_of(sources *all, const quad *q)
     return &all->of[q->kind >= QUAD_IN_CLOSEUP];
 }
 
-/* What a quad is a part of; of a box, where the index is that of an edge, with this index. */
+/* The element of a quad. For boxes q->index is that of a merged edge, so the caller supplies the index of the box. */
 static scene_element element_of(const quad *q, size_t index)
 {
     return (scene_element){(scene_kind)(q->kind % QUAD_IN_CLOSEUP), index, q->kind >= QUAD_IN_CLOSEUP};
@@ -80,7 +88,7 @@ static bool is_edge(const quad *q)
     return q->kind % QUAD_IN_CLOSEUP == SCENE_BOX;
 }
 
-/* ---- The element at each sample ------------------------------------------------------------------------------ */
+/* ---- The topmost element of samples -------------------------------------------------------------------------- */
 
 static size_t count_samples(const scene *s)
 {
@@ -88,7 +96,7 @@ static size_t count_samples(const scene *s)
     return (size_t)s->view.width * (size_t)s->view.height * side * side;
 }
 
-/* Fill all quads, a byte a sample. */
+/* Fill all quads; one byte per sample. */
 static bool fill_all(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
     const int side = view_samples(&s->view);
@@ -96,8 +104,8 @@ static bool fill_all(renderer *r, const scene *s, const painter *p, uint8_t *sam
     return renderer_fill(r, p->quads.items, p->quads.count, all, samples, error);
 }
 
-/* Quads are numbered as elements are, with the merged edges in the place of the boxes. */
-static uint64_t stroke_number(sources *all, const quad *q)
+/* The number of a quad's stroke: that of its element, with merged edges in place of boxes. */
+static uint64_t number_stroke(sources *all, const quad *q)
 {
     const source *from = source_of(all, q);
     const scene_kind kind = element_of(q, 0).kind;
@@ -107,7 +115,7 @@ static uint64_t stroke_number(sources *all, const quad *q)
            from->scene->boxes.count + paint_edge_count(from->painter);
 }
 
-/* The framebuffer holds one byte a sample: the quads are drawn once for each byte of the largest number. */
+/* Draw the number of the topmost stroke at each sample: one pass for each byte of the largest number. */
 static bool draw_strokes(renderer *r, const scene *s, painter *p, sources *all, uint32_t *numbers, octreel_error *error)
 {
     const size_t size = count_samples(s);
@@ -117,7 +125,7 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, sources *all, 
     memset(numbers, 0, size * sizeof *numbers);
     for (unsigned shift = 0; ok && shift < 32 && largest >> shift; shift += 8) {
         for (size_t i = 0; i < p->quads.count; i++)
-            p->quads.items[i].color = (uint8_t)(stroke_number(all, &p->quads.items[i]) >> shift);
+            p->quads.items[i].color = (uint8_t)(number_stroke(all, &p->quads.items[i]) >> shift);
         ok = fill_all(r, s, p, bytes, error);
         for (size_t i = 0; ok && i < size; i++)
             numbers[i] |= (uint32_t)bytes[i] << shift;
@@ -126,38 +134,38 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, sources *all, 
     return ok;
 }
 
-/* The number, in its scene, of the element of a stroke at a sample. */
-static uint32_t name_stroke(const source *from, uint32_t stroke, int x, int y)
+/* The number of the element to which a stroke belongs at a sample. */
+static uint32_t find_element(const source *from, uint32_t stroke, int x, int y)
 {
     const uint32_t edges = (uint32_t)paint_edge_count(from->painter);
     if (stroke > edges)
         return stroke - edges + (uint32_t)from->scene->boxes.count;
-    return 1 + (uint32_t)edge_boxes_owner(&from->boxes, paint_edge_at(from->painter, stroke - 1), x - from->left,
-                                          y - from->top);
+    return 1 + (uint32_t)edge_boxes_find_owner(&from->boxes, paint_edge_at(from->painter, stroke - 1), x - from->left,
+                                               y - from->top);
 }
 
-/* Replace the numbers of strokes by those of elements. */
-static void name_strokes(const scene *s, const sources *all, uint32_t *numbers)
+/* Replace the numbers of strokes by the numbers of elements. */
+static void number_elements(const scene *s, const sources *all, uint32_t *numbers)
 {
     const size_t width = (size_t)s->view.width * (size_t)view_samples(&s->view), size = count_samples(s);
     for (size_t i = 0; i < size; i++) {
         const source *from = &all->of[numbers[i] > all->of[0].strokes];
         if (numbers[i] > 0)
-            numbers[i] = from->elements_before + name_stroke(from, numbers[i] - (uint32_t)from->strokes_before,
-                                                             (int)(i % width), (int)(i / width));
+            numbers[i] = from->elements_before + find_element(from, numbers[i] - (uint32_t)from->strokes_before,
+                                                              (int)(i % width), (int)(i / width));
     }
 }
 
-bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error)
+bool renderer_number_samples(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error)
 {
     if (!renderer_fits(r, s, error))
         return false;
-    painter p = {0}; /* the renderer's own may be in use by the next frame */
+    painter p = {0}; /* not the renderer's own, which keeps the last frame */
     sources all = {0};
     const bool ok = ((paint(&p, s) && sources_open(&all, s, &p)) || error_no_memory(error)) &&
                     draw_strokes(r, s, &p, &all, numbers, error);
     if (ok)
-        name_strokes(s, &all, numbers);
+        number_elements(s, &all, numbers);
     sources_release(&all);
     painter_release(&p);
     return ok;
@@ -165,7 +173,7 @@ bool renderer_pick(renderer *r, const scene *s, uint32_t *numbers, octreel_error
 
 /* ---- Layers -------------------------------------------------------------------------------------------------- */
 
-/* As bits: its own, and that of the close-up that it is in. */
+/* The layer of a quad as a bit, plus LAYER_CLOSEUP in a close-up. */
 static unsigned layers_of(const scene *s, const painter *p, const quad *q)
 {
     const scene_element element = element_of(q, q->index);
@@ -174,7 +182,7 @@ static unsigned layers_of(const scene *s, const painter *p, const quad *q)
     return 1u << own | (element.in_closeup ? 1u << LAYER_CLOSEUP : 0);
 }
 
-/* A pixel is in the mask where one of its samples is. */
+/* A pixel is in the mask if any of its samples is. */
 static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
 {
     const size_t side = (size_t)view_samples(v), width = (size_t)v->width;
@@ -203,15 +211,15 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
 
 /* ---- All elements of one pixel ------------------------------------------------------------------------------- */
 
-#define MOST_SAMPLES 16 /* of a pixel: 4 on each axis */
+#define MOST_SAMPLES 16 /* per pixel: 4 on each axis */
 
-/* A query about one pixel. */
+/* The elements of one pixel are being listed. */
 typedef struct probe {
     const scene *picture;
     painter painter;
     sources sources;
-    renderer_part part; /* its samples */
-    unsigned taken;     /* bits of those that have an element on top already */
+    renderer_part part; /* the pixel's samples */
+    unsigned taken;     /* bits of samples whose topmost element is known */
     draw_touches *list;
     bool out_of_memory;
 } probe;
@@ -230,7 +238,7 @@ static draw_touch *find_touch(draw_touches *list, uint32_t number)
     return NULL;
 }
 
-/* Append an element that has no entry yet; null when there is no memory. */
+/* Append an element that has no entry yet. Null when out of memory. */
 static draw_touch *append_touch(probe *p, uint32_t number)
 {
     draw_touches *list = p->list;
@@ -244,18 +252,18 @@ static draw_touch *append_touch(probe *p, uint32_t number)
     return &list->items[list->count++];
 }
 
-/* The entry of an element, which is appended if it has none; null when there is no memory. */
-static draw_touch *take_touch(probe *p, scene_element element)
+/* Find the entry of an element, or append one. Null when out of memory. */
+static draw_touch *find_or_append(probe *p, scene_element element)
 {
     const uint32_t number = scene_number_of(p->picture, element);
     draw_touch *found = find_touch(p->list, number);
     return found ? found : append_touch(p, number);
 }
 
-/* Note that an element covers a sample. Quads come from the last to the first. */
-static void add_paint(probe *p, scene_element element, uint8_t color, int sample)
+/* Record that an element covers a sample. Quads come from the topmost to the lowest. */
+static void add_sample(probe *p, scene_element element, uint8_t color, int sample)
 {
-    draw_touch *touch = take_touch(p, element);
+    draw_touch *touch = find_or_append(p, element);
     const bool shown = !(p->taken >> sample & 1);
     if (!touch || touch->at >> sample & 1)
         return;
@@ -266,40 +274,40 @@ static void add_paint(probe *p, scene_element element, uint8_t color, int sample
     touch->shown += shown;
 }
 
-/* A quad of a probe. */
+/* A quad that covers the pixel. */
 typedef struct probed {
     probe *probe;
     const quad *quad;
 } probed;
 
-/* Add a box that shares an edge. */
-static void add_box_too(size_t box, void *context)
+/* Add a box that shares the edge of a quad. */
+static void add_sharing_box(size_t box, void *context)
 {
     const probed *at = context;
-    take_touch(at->probe, element_of(at->quad, box));
+    find_or_append(at->probe, element_of(at->quad, box));
 }
 
-/* Points are many: none of those that are added here has an entry yet, and none is looked for. */
+/* Append a point without searching the list, since points may be many and none added here has an entry yet. */
 static void append_point(probe *p, const quad *q, size_t index)
 {
     if (index != q->index)
         append_touch(p, scene_number_of(p->picture, element_of(q, index)));
 }
 
-/* Add the points that share the sample of a point that is drawn. */
-static void add_points_too(probe *p, const quad *q)
+/* Add the points that share the sample of a drawn point. */
+static void add_sharing_points(probe *p, const quad *q)
 {
     const scene *s = &source_of(&p->sources, q)->fine;
     size_t place, other;
     unsigned band;
-    if (!paint_point_pixel(s, &s->markers.items[q->index], &place, &band))
+    if (!paint_find_sample(s, &s->markers.items[q->index], &place, &band))
         return;
     for (size_t i = 0; i < s->markers.count; i++)
-        if (paint_point_pixel(s, &s->markers.items[i], &other, &band) && other == place)
+        if (paint_find_sample(s, &s->markers.items[i], &other, &band) && other == place)
             append_point(p, q, i);
 }
 
-/* Add all painted points of the pixel, after the first of them. */
+/* Add the points of the pixel that view_paints_points() paints as discs, hidden ones included. */
 static void add_painted_points(probe *p, const quad *q)
 {
     source *from = source_of(&p->sources, q);
@@ -322,16 +330,16 @@ static void add_points(probe *p, const quad *q)
     if (view_paints_points(&s->view))
         add_painted_points(p, q);
     else
-        add_points_too(p, q);
+        add_sharing_points(p, q);
 }
 
-/* Twice the area of the triangle of two corners and a place, doubled so that the place may lie between pixels. */
+/* Twice the signed area of the triangle of two corners of a quad and the point (x, y): its sign tells the side. */
 static int64_t side_of(const quad *q, int from, int to, int64_t x, int64_t y)
 {
     return ((int64_t)q->x[to] - q->x[from]) * (y - q->y[from]) - ((int64_t)q->y[to] - q->y[from]) * (x - q->x[from]);
 }
 
-/* Whether all corners of a square are on the outer side of one of the quad's sides; `turn` is the sign of its area. */
+/* Whether all corners of a square are outside one side of a quad; `turn` is the sign of the quad's area. */
 static bool is_beyond(const quad *q, int from, int to, int turn, const int64_t x[2], const int64_t y[2])
 {
     for (int corner = 0; corner < 4; corner++)
@@ -340,14 +348,14 @@ static bool is_beyond(const quad *q, int from, int to, int turn, const int64_t x
     return true;
 }
 
-/* Whether a quad may cover a sample of the pixel: it is less than a sample's width away. */
+/* Whether a quad may cover a sample of the pixel: no side separates it from the pixel and a margin of one sample. */
 static bool may_reach(const quad *q, const renderer_part *part)
 {
     const int64_t x[2] = {(int64_t)(part->x - 1) * QUAD_SUBPIXELS,
                           (int64_t)(part->x + part->width + 1) * QUAD_SUBPIXELS};
     const int64_t y[2] = {(int64_t)(part->y - 1) * QUAD_SUBPIXELS,
                           (int64_t)(part->y + part->height + 1) * QUAD_SUBPIXELS};
-    int left = 0, right = 0, above = 0, below = 0; /* corners of the quad */
+    int left = 0, right = 0, above = 0, below = 0; /* the number of corners on each side */
     for (int i = 0; i < 4; i++) {
         left += q->x[i] < x[0];
         right += q->x[i] > x[1];
@@ -361,8 +369,8 @@ static bool may_reach(const quad *q, const renderer_part *part)
     return !apart;
 }
 
-/* The samples that a quad covers, as bits; *ok is false when drawing fails. */
-static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, octreel_error *error)
+/* Find the samples of the pixel that a quad covers, as bits. *ok: whether drawing succeeds. */
+static unsigned find_covered(renderer *r, const probe *p, const quad *q, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
     quad alone = *q;
@@ -374,7 +382,7 @@ static unsigned covered(renderer *r, const probe *p, const quad *q, bool *ok, oc
     return bits;
 }
 
-/* The owner of an edge may differ from sample to sample. Boxes that merely share it come last. */
+/* Add the boxes of a merged edge: its owners, which may differ from sample to sample, then the boxes that share it. */
 static void add_edge(probe *p, const quad *q, unsigned bits)
 {
     const source *from = source_of(&p->sources, q);
@@ -386,9 +394,9 @@ static void add_edge(probe *p, const quad *q, unsigned bits)
             if (!(bits >> i & 1))
                 continue;
             if (pass == 0)
-                add_paint(p, element_of(q, edge_boxes_owner(&from->boxes, e, x, y)), q->color, i);
+                add_sample(p, element_of(q, edge_boxes_find_owner(&from->boxes, e, x, y)), q->color, i);
             else
-                edge_boxes_visit(&from->boxes, e, x, y, add_box_too, &at);
+                edge_boxes_visit(&from->boxes, e, x, y, add_sharing_box, &at);
         }
     }
 }
@@ -399,7 +407,7 @@ static void add_quad(probe *p, const quad *q, unsigned bits)
         add_edge(p, q, bits);
     for (int i = 0; !is_edge(q) && i < MOST_SAMPLES; i++)
         if (bits >> i & 1)
-            add_paint(p, element_of(q, q->index), q->color, i);
+            add_sample(p, element_of(q, q->index), q->color, i);
     if (element_of(q, 0).kind == SCENE_MARKER)
         add_points(p, q);
     p->taken |= bits;
@@ -410,14 +418,14 @@ static bool probe_quads(renderer *r, probe *p, octreel_error *error)
     bool ok = true;
     for (size_t i = p->painter.quads.count; ok && i-- > 0;) {
         const quad *q = &p->painter.quads.items[i];
-        const unsigned bits = may_reach(q, &p->part) ? covered(r, p, q, &ok, error) : 0;
+        const unsigned bits = may_reach(q, &p->part) ? find_covered(r, p, q, &ok, error) : 0;
         if (bits)
             add_quad(p, q, bits);
     }
     return ok;
 }
 
-bool renderer_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error)
+bool renderer_list_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}};

@@ -1,13 +1,26 @@
 /* SPDX-License-Identifier: MIT */
+/* project.c - projects points and segments of the world into the picture, in double precision.
+ *
+ * GL would transform in single precision: a scene at coordinates of 1e15 would collapse, and the last bits would depend
+ * on the CPU. So positions are made relative to the camera first, where nothing cancels, and rasterizers get pixels.
+ *
+ * A segment is clipped in camera space to the space in front of the eye, since a perspective division needs a positive
+ * depth. Then it is cut at the planes between the eight bands of depth: a band has one shade and one place in painter's
+ * order. Each piece is projected and clipped to the picture plus a margin, so that coordinates fit 32-bit integers.
+ * Cuts are weighted means of both ends, never a + t * (b - a): with one end at 1e300 the difference would lose all
+ * digits of the other end.
+ *
+ * A scene may have many points, so project_points() handles RUN of them at once in loops without branches, which
+ * compilers turn into vector instructions. */
 #include "project.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Pixels that a clipped line reaches beyond the picture, so that its ends are not seen. */
+/* Clipped lines end this many pixels outside the picture, where their ends are not visible. */
 #define CLIP_MARGIN 64.0
 
-/* Camera coordinates beyond this could overflow on their way to pixels. */
+/* Larger camera coordinates could overflow when they are projected. */
 #define FARTHEST 1e301
 
 scene project_samples(const scene *s)
@@ -22,8 +35,7 @@ scene project_samples(const scene *s)
     return fine;
 }
 
-/* A view depth in bands from the near side of the world: a real number, 0 to QUAD_BANDS within the world.
- */
+/* The position of a view depth among the bands: 0 at the near side of the world, QUAD_BANDS at the far side. */
 static double band_position(const camera *c, double depth)
 {
     const double span = c->far_depth - c->near_depth;
@@ -37,9 +49,9 @@ static unsigned band_of(double position)
     return position < QUAD_BANDS ? (unsigned)position : QUAD_BANDS - 1;
 }
 
-/* The point of a segment where a linear function that is `at_a` and `at_b` at its ends, of unlike sign, is zero. A
- * weighted mean of both ends, so that one at 1e300 does not cancel the digits of the other. */
-static void zero_of(const double a[3], const double b[3], double at_a, double at_b, double result[3])
+/* Find the point of a segment at which a linear function is zero; at_a and at_b, of opposite sign, are its values at
+ * the two ends. */
+static void find_zero(const double a[3], const double b[3], double at_a, double at_b, double result[3])
 {
     const double whole = at_b / 2 - at_a / 2;
     const double of_a = at_b / 2 / whole, of_b = -(at_a / 2) / whole;
@@ -47,7 +59,7 @@ static void zero_of(const double a[3], const double b[3], double at_a, double at
         result[i] = a[i] * of_a + b[i] * of_b;
 }
 
-/* Keep what is at least (side 1) or at most (side -1) a bound on one axis. False when nothing is left. */
+/* Cut off the part of a segment below (side 1) or above (side -1) a bound on one axis. False when nothing is left. */
 static bool keep_side(double a[3], double b[3], int axis, double side, double bound)
 {
     const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
@@ -55,7 +67,7 @@ static bool keep_side(double a[3], double b[3], int axis, double side, double bo
         return false;
     if (at_a < 0 || at_b < 0) {
         double *outer = at_a < 0 ? a : b, crossing[3];
-        zero_of(a, b, at_a, at_b, crossing);
+        find_zero(a, b, at_a, at_b, crossing);
         crossing[axis] = bound; /* not the rounded zero */
         memcpy(outer, crossing, sizeof crossing);
     }
@@ -68,7 +80,7 @@ static bool is_in_picture(const view *v, const double pixel[2])
            pixel[1] <= v->height + CLIP_MARGIN;
 }
 
-/* Clip a projected piece to the picture and its margin, where most are. False when nothing is left. */
+/* Clip a projected piece to the picture with its margin. False when nothing is left. Most pieces lie inside. */
 static bool clip_to_picture(const view *v, piece *p)
 {
     if (is_in_picture(v, p->from) && is_in_picture(v, p->to))
@@ -78,15 +90,15 @@ static bool clip_to_picture(const view *v, piece *p)
     for (int axis = 0; axis < 2; axis++)
         if (!keep_side(a, b, axis, 1, -CLIP_MARGIN) || !keep_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
             return false;
-    for (int axis = 0; axis < 2; axis++) { /* a mean of two numbers may leave their interval by its last bit */
+    for (int axis = 0; axis < 2; axis++) { /* rounding may move a mean of two numbers out of their interval */
         p->from[axis] = fmin(fmax(a[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
         p->to[axis] = fmin(fmax(b[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
     }
     return true;
 }
 
-/* Cut camera coordinates at the planes between bands, from the first end to the second. */
-static unsigned cut(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
+/* Cut a segment in camera coordinates at the planes between bands, from the first end to the second. */
+static unsigned cut_into_bands(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
 {
     const double first = band_position(&s->camera, a[2]), last = band_position(&s->camera, b[2]);
     const int step = first < last ? 1 : -1, last_band = (int)band_of(last);
@@ -98,7 +110,7 @@ static unsigned cut(const scene *s, const double a[3], const double b[3], piece 
         if (band == last_band)
             memcpy(to, b, sizeof to);
         else
-            zero_of(a, b, first - plane, last - plane, to);
+            find_zero(a, b, first - plane, last - plane, to);
         piece *p = &pieces[count];
         p->band = (unsigned)band;
         camera_project(&s->camera, from, p->from);
@@ -115,7 +127,8 @@ static bool is_near(double x, double y, double depth)
     return fabs(x) < FARTHEST && fabs(y) < FARTHEST && fabs(depth) < FARTHEST;
 }
 
-static bool see(const scene *s, const double position[3], double seen[3])
+/* Transform a position to camera coordinates. False when they could overflow later. */
+static bool transform(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
     return is_near(seen[0], seen[1], seen[2]);
@@ -125,7 +138,7 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
                          bool *overflowed)
 {
     double a[3], b[3];
-    *overflowed = !see(s, first, a) || !see(s, second, b);
+    *overflowed = !transform(s, first, a) || !transform(s, second, b);
     if (*overflowed)
         return 0;
     if (s->camera.perspective && !keep_side(a, b, 2, 1, s->camera.near))
@@ -133,7 +146,7 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
     if (s->camera.clips_depth &&
         !(keep_side(a, b, 2, 1, s->camera.near_depth) && keep_side(a, b, 2, -1, s->camera.far_depth)))
         return 0;
-    return cut(s, a, b, pieces);
+    return cut_into_bands(s, a, b, pieces);
 }
 
 bool project_flat(const scene *s, const double from[3], const double to[3], piece *p)
@@ -162,7 +175,7 @@ bool project_place(const scene *s, const double position[3], double pixel[2], do
 {
     double seen[3];
     const camera *c = &s->camera;
-    if (!see(s, position, seen) || !is_at_depth(c, seen[2]))
+    if (!transform(s, position, seen) || !is_at_depth(c, seen[2]))
         return false;
     camera_project(&s->camera, seen, pixel);
     *depth = seen[2];
@@ -170,15 +183,14 @@ bool project_place(const scene *s, const double position[3], double pixel[2], do
            pixel[1] < s->view.height + CLIP_MARGIN;
 }
 
-/* Many points at a time, value by value, without branches and calls: compilers make vectors of it; with 16 they unroll
- * the loops instead. */
+/* Points that are projected at once. With 16, compilers unroll the loops below instead of vectorizing them. */
 #define RUN 64
 
 typedef struct point_run {
     double from_eye[3][RUN];
-    double across[RUN], along[RUN], depth[RUN]; /* as of camera_transform() */
-    double x[RUN], y[RUN], band[RUN];           /* pixels; and band_position() */
-    double seen[RUN];                           /* not 0: it is in the picture */
+    double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
+    double x[RUN], y[RUN], band[RUN];           /* pixels, and band_position() */
+    double seen[RUN];                           /* 0: the point is not in the picture */
 } point_run;
 
 static void turn_run(const point_run *run, const double axis[3], double seen[RUN])
@@ -189,7 +201,7 @@ static void turn_run(const point_run *run, const double axis[3], double seen[RUN
     memcpy(seen, turned, sizeof turned);
 }
 
-/* As is_near() and is_at_depth() have it, and within the picture. */
+/* The tests of is_near() and is_at_depth(), and whether the pixel is in the picture. */
 static void see_run(const scene *s, point_run *run)
 {
     const camera *c = &s->camera;
@@ -214,7 +226,7 @@ static void see_run(const scene *s, point_run *run)
 
 static void project_run(const scene *s, point_run *run)
 {
-    const camera c = s->camera; /* a copy, of which nothing that is written is a part */
+    const camera c = s->camera; /* a copy, so that the compiler knows that no write below changes it */
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
             run->from_eye[axis][i] = camera_unit_on(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
@@ -231,7 +243,7 @@ static void project_run(const scene *s, point_run *run)
     see_run(s, run);
 }
 
-/* Where there are fewer, the first again. */
+/* Fills up with the first marker where there are fewer than RUN. */
 static void gather_run(const scene_marker *markers, size_t count, point_run *run)
 {
     for (size_t i = 0; i < RUN; i++) {

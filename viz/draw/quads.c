@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* quads.c - a list of quads, each with one colour, sorted in painter's order. */
 #include "quads.h"
 #include "array.h"
 #include "clip.h"
@@ -40,7 +41,7 @@ static void append(quad_list *list, const quad *q)
     added->index = list->index;
 }
 
-/* As unsigned numbers what is negative is beyond the limit too. */
+/* Negative coordinates become large unsigned numbers, so that one comparison tests both sides. */
 static bool is_within(const quad *q, const int32_t limits[2])
 {
     uint32_t x = 0, y = 0;
@@ -83,7 +84,7 @@ bool quads_sort(quad_list *list)
     return true;
 }
 
-bool quads_put_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2])
+bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2])
 {
     const uint16_t after = (uint16_t)(quad_order(LAYER_CLOSEUP, 0, 0) + 1);
     const size_t count = closeup->count;

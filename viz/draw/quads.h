@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* quads.h - the flat quads that a scene is painted with, in painter's order. For this folder.
+/* quads.h - a list of quads, each with one colour, sorted in painter's order. Private to this folder.
  *
- * Coordinates are in 1/256 pixel, y down, snapped. Visibility is decided here, not by GL: layers in their
- * order; within a layer eight bands of view depth, far to near; within a band deeper nodes first.
+ * Coordinates are whole numbers of 1/256 pixel, y down. Later quads cover earlier ones. They are ordered by layer; in a
+ * layer by eight bands of view depth, far to near; in a band deeper nodes come first.
  */
 #ifndef DRAW_QUADS_H
 #define DRAW_QUADS_H
@@ -15,37 +15,37 @@
 typedef struct quad {
     int32_t x[4], y[4];
     uint8_t color;  /* an index of the theme's table */
-    uint8_t kind;   /* scene_kind of the element that it is a part of; QUAD_IN_CLOSEUP more in a close-up */
-    uint16_t order; /* smaller is painted first */
-    uint32_t index; /* of that element; of a box, that of the edge in the painter's list instead */
+    uint8_t kind;   /* scene_kind of its element, plus QUAD_IN_CLOSEUP in a close-up */
+    uint16_t order; /* quads with a lower order are painted first */
+    uint32_t index; /* of its element; for boxes, the index of the merged edge: see paint_edge_at() */
 } quad;
 
 typedef struct quad_list {
     quad *items;
     size_t count, room;
     bool out_of_memory;
-    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; 0: nowhere */
-    uint8_t kind;      /* of the element whose quads are being added */
+    int32_t limits[2]; /* quads are clipped to [0, limits[axis]] on each axis; 0: not clipped */
+    uint8_t kind;      /* kind and index of the element whose quads are being added */
     uint32_t index;
 } quad_list;
 
 void quads_release(quad_list *list);
 
-/* Quads added from now on are parts of this element. */
+/* Quads added from now on belong to this element. */
 static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
 {
     list->kind = (uint8_t)kind;
     list->index = (uint32_t)index;
 }
 
-/* Convex quads only. */
+/* Add a convex quad. Out of memory is reported by list->out_of_memory. */
 void quads_add(quad_list *list, const quad *q);
 
-/* Put the quads of a close-up above the world and its frame, and below what comes after them, moved by subpixels. Both
- * lists are sorted. False when there is no memory. */
-bool quads_put_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2]);
+/* Insert the quads of a close-up, moved by `by` subpixels, after all quads up to LAYER_CLOSEUP. Both lists are sorted.
+ * False when out of memory. */
+bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2]);
 
-/* Stable, by order. False when there is no memory. */
+/* Sort by order, stably. False when out of memory. Cost: O(n), a counting sort. */
 bool quads_sort(quad_list *list);
 
 /* The order of a layer's element in a band (0 is nearest) and at a node's depth. */
@@ -53,8 +53,8 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
 
 #define QUAD_BANDS THEME_SHADES
 
-/* The order of letters and of panels, which have no depth: last in their layer; but those of the axes lie above nodes
- * and points, and those of nodes above these and velocities. */
+/* The order of letters and panels, which have no depth: last in their layer. Letters of axes come after nodes and
+ * points, letters of nodes after points and velocities. */
 uint16_t quad_order_of_text(unsigned layer);
 
 #endif

@@ -60,8 +60,7 @@ renderer *renderer_open(int width, int height, const renderer_choice *choice, oc
         error_no_memory(error);
         return NULL;
     }
-    *r = (renderer){
-        .choice = *choice, .width = width, .height = height, .canvas = {.width = width, .height = height}};
+    *r = (renderer){.choice = *choice, .width = width, .height = height, .canvas = {.width = width, .height = height}};
     if (choice->any_renderer)
         r->choice.fill = DRAW_FILL_GL;
     if (fills_by_gl(r) && !(r->surface = surface_open(width, height, choice, error))) {

@@ -1,4 +1,17 @@
 /* SPDX-License-Identifier: MIT */
+/* splats.c - paints points as discs that form surfaces with shading.
+ *
+ * The problem: a point cloud has no triangles. Drawn as single pixels its points leave holes, and points behind a wall
+ * shine through it. So each point becomes a disc as wide as the spacing of points, and at each sample the nearest disc
+ * wins. A disc gets deeper towards its rim, as a paraboloid seen from its tip. Where equal discs at one depth overlap,
+ * each sample then goes to the point whose centre is nearest: a Voronoi diagram, which Hoff et al. (1999) draw with
+ * cones.
+ *
+ * Shading comes from depth alone: eye-dome lighting (Boucheny 2009) darkens a sample that lies deeper than the samples
+ * around it. Opposite neighbours are added first, so that a tilted plane cancels out and is lit evenly.
+ *
+ * Depths are integers, 8 to a sample: everything after projection is integer arithmetic and the same on every machine,
+ * ties included. Under perspective the logarithm of the distance is used, so that a slope looks alike near and far. */
 #include "splats.h"
 #include "array.h"
 #include "layer.h"
@@ -10,28 +23,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Where and how large ------------------------------------------------------------------------------------- */
+/* ---- Position and size --------------------------------------------------------------------------------------- */
 
-/* Depths are kept in so many parts of a sample, so that differences of depth are slopes, whatever the scale of the
- * world, the camera and the picture. */
+/* The unit of depth is 1/8 of a sample, so that a difference of depth between samples is a slope, whatever the scale of
+ * the world and the camera. */
 #define DEPTH_PARTS 8
 #define MOST_DEPTH (1 << 29)
 
-/* What is nearest at a sample. */
+/* The nearest point at a sample. */
 typedef struct splat {
     int32_t depth;
-    uint32_t owner; /* 1 + the index of its marker; 0: there is no point */
+    uint32_t owner; /* 1 + the index of its marker; 0: no point */
 } splat;
 
-/* What is the same for all points of a scene. */
+/* The values that all points of a scene share. */
 typedef struct splatter {
     const scene *scene;
-    double spacing; /* between points, in samples; under perspective, at distance 1 */
-    int most;       /* the longest side, in samples */
+    double spacing; /* the diameter of a disc in samples; under perspective, at distance 1 */
+    int most;       /* the largest diameter, in samples */
 } splatter;
 
-/* log2 of a number above 0, from its exponent and a polynomial: the same on every machine, unlike libm's. It is within
- * 2e-5, and it grows with x. */
+/* log2 of a number above 0, from its exponent and a polynomial: the same on every machine, unlike log2() of libm. The
+ * error is at most 2e-5, and the function is increasing. */
 static double log2_of(double x)
 {
     int exponent;
@@ -48,7 +61,8 @@ static splatter splatter_make(const scene *s)
                       .most = POINT_WIDEST * s->unit * view_samples(&s->view)};
 }
 
-/* Under perspective differences of logarithms, since what is twice as far appears half as large. */
+/* A view depth in units. Under perspective its logarithm, since an object at twice the distance appears half as large.
+ */
 static int32_t depth_of(const splatter *with, double depth)
 {
     const camera *c = &with->scene->camera;
@@ -57,7 +71,7 @@ static int32_t depth_of(const splatter *with, double depth)
     return samples > MOST_DEPTH ? MOST_DEPTH : samples < -MOST_DEPTH ? -MOST_DEPTH : (int32_t)samples;
 }
 
-/* At least as large as a mark. */
+/* The diameter of a point's disc in samples, at least that of a marker. */
 static int side_of(const splatter *with, scene_style style, double depth)
 {
     const scene *s = with->scene;
@@ -66,7 +80,7 @@ static int side_of(const splatter *with, scene_style style, double depth)
     return side > with->most ? with->most : side > least ? (int)side : least;
 }
 
-static bool place(const splatter *with, const scene_marker *marker, splat_square *square, double *depth)
+static bool place_disc(const splatter *with, const scene_marker *marker, splat_square *square, double *depth)
 {
     double pixel[2];
     if (marker->style.layer != LAYER_POINTS || !project_place(with->scene, marker->at, pixel, depth))
@@ -77,9 +91,9 @@ static bool place(const splatter *with, const scene_marker *marker, splat_square
     return true;
 }
 
-/* ---- What is nearest ----------------------------------------------------------------------------------------- */
+/* ---- The nearest point --------------------------------------------------------------------------------------- */
 
-/* Of two points at the same depth in parts of a sample. */
+/* Whether point a is nearer than b, where their depths in units are equal. Equal points: the lower id. */
 static bool is_nearer(const scene *s, size_t a, size_t b)
 {
     double seen[2][3];
@@ -90,22 +104,21 @@ static bool is_nearer(const scene *s, size_t a, size_t b)
     return s->markers.items[a].id < s->markers.items[b].id;
 }
 
-/* The samples of a disc, from its middle in half samples. */
+/* Whether a sample is in a disc; `far` is the square of its distance from the centre in half samples. */
 static bool is_in_disc(int side, int far)
 {
     return side <= 2 || far <= side * side;
 }
 
-/* A disc lies the deeper the farther from its middle: of discs that overlap each has what is nearest to it. False
- * beyond its rim; `depth` is that of its middle. */
-static bool disc_depth(const splat_square *q, int x, int y, int32_t depth, int32_t *at)
+/* Find the depth of a disc at a sample; `depth` is the depth of its centre. False outside the disc. */
+static bool find_disc_depth(const splat_square *q, int x, int y, int32_t depth, int32_t *at)
 {
     const int dx = 2 * (x - q->left) - q->side + 1, dy = 2 * (y - q->top) - q->side + 1, far = dx * dx + dy * dy;
     *at = depth + far / (4 * q->side);
     return is_in_disc(q->side, far);
 }
 
-static void put(splats *t, const scene *s, size_t index, const splat_square *q, int32_t depth)
+static void draw_disc(splats *t, const scene *s, size_t index, const splat_square *q, int32_t depth)
 {
     const int right = q->left + q->side, bottom = q->top + q->side;
     const int left = q->left > 0 ? q->left : 0, end = right < s->view.width ? right : s->view.width;
@@ -114,15 +127,15 @@ static void put(splats *t, const scene *s, size_t index, const splat_square *q, 
         for (int x = left; x < end; x++) {
             const splat now = row[x];
             int32_t at;
-            if (disc_depth(q, x, y, depth, &at) &&
+            if (find_disc_depth(q, x, y, depth, &at) &&
                 (now.owner == 0 || at < now.depth || (at == now.depth && is_nearer(s, index, now.owner - 1))))
                 row[x] = (splat){at, (uint32_t)index + 1};
         }
     }
 }
 
-/* The middle of a square, if it is in the picture: its pixel. */
-static uint32_t *shared_at(const splats *t, const scene *s, const splat_square *q)
+/* The counter of the pixel in which a disc has its centre. Null: outside the picture, or nothing is counted. */
+static uint32_t *find_counter(const splats *t, const scene *s, const splat_square *q)
 {
     const int samples = view_samples(&s->view), half = (q->side - 1) / 2;
     const int x = q->left + half, y = q->top + half;
@@ -131,16 +144,16 @@ static uint32_t *shared_at(const splats *t, const scene *s, const splat_square *
     return &t->shared[(size_t)(y / samples) * (size_t)(s->view.width / samples) + (size_t)(x / samples)];
 }
 
-static void put_all(splats *t, const splatter *with)
+static void draw_discs(splats *t, const splatter *with)
 {
     const scene *s = with->scene;
     for (size_t i = 0; i < s->markers.count; i++) {
         splat_square square;
         double depth;
-        if (!place(with, &s->markers.items[i], &square, &depth))
+        if (!place_disc(with, &s->markers.items[i], &square, &depth))
             continue;
-        put(t, s, i, &square, depth_of(with, depth));
-        uint32_t *shared = shared_at(t, s, &square);
+        draw_disc(t, s, i, &square, depth_of(with, depth));
+        uint32_t *shared = find_counter(t, s, &square);
         if (shared)
             ++*shared;
     }
@@ -148,16 +161,16 @@ static void put_all(splats *t, const splatter *with)
 
 /* ---- Light --------------------------------------------------------------------------------------------------- */
 
-/* Half the light is left where the slopes sum up to this, in parts of a sample to a sample. */
+/* The sum of slopes, in units per sample, at which half the light is left. */
 #define HALF_LIGHT 160
 
-/* A slope counts up to this: beyond it is another thing. */
+/* Steeper slopes count as this one: the neighbour belongs to another object. */
 #define STEEPEST (4 * DEPTH_PARTS)
 
 #define NO_POINT INT32_MIN
 
-/* How much nearer the point at a sample is. */
-static int32_t nearer_by(const splats *t, const scene *s, int x, int y, int32_t depth)
+/* By how much the point at a sample is nearer than `depth`. NO_POINT: there is none. */
+static int32_t compare_depth(const splats *t, const scene *s, int x, int y, int32_t depth)
 {
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return NO_POINT;
@@ -170,32 +183,32 @@ static int32_t limit(int32_t value, int32_t most)
     return value == NO_POINT ? 0 : value > most ? most : value < -most ? -most : value;
 }
 
-/* How deep a sample lies below those around it, so far from it. Opposite ones are taken together, so that a plane is
- * lit evenly, however steep it is seen. */
-static int32_t sunken(const splats *t, const scene *s, int x, int y, int reach)
+/* By how much a sample lies deeper than the eight samples at distance `reach`. Opposite neighbours are added first, so
+ * that a plane is lit evenly, however steep it is. */
+static int32_t measure_sink(const splats *t, const scene *s, int x, int y, int reach)
 {
     static const int8_t around[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     const int32_t depth = t->samples[(size_t)y * (size_t)s->view.width + (size_t)x].depth, most = STEEPEST * reach;
     int32_t sum = 0;
     for (int i = 0; i < 4; i++) {
         const int dx = around[i][0] * reach, dy = around[i][1] * reach;
-        const int32_t both =
-            limit(nearer_by(t, s, x + dx, y + dy, depth), most) + limit(nearer_by(t, s, x - dx, y - dy, depth), most);
+        const int32_t both = limit(compare_depth(t, s, x + dx, y + dy, depth), most) +
+                             limit(compare_depth(t, s, x - dx, y - dy, depth), most);
         sum += both > 0 ? both : 0;
     }
     return sum / reach;
 }
 
-/* Eye-dome lighting (Boucheny 2009) at two distances, for fine and for large forms: 256ths of the full colour. */
+/* Eye-dome lighting at two distances, for fine and for large shapes. 256 is full light. */
 static int light_at(const splats *t, const scene *s, int x, int y)
 {
     const int reach = s->unit * view_samples(&s->view);
-    return 256 * HALF_LIGHT / (HALF_LIGHT + sunken(t, s, x, y, reach) + sunken(t, s, x, y, 4 * reach));
+    return 256 * HALF_LIGHT / (HALF_LIGHT + measure_sink(t, s, x, y, reach) + measure_sink(t, s, x, y, 4 * reach));
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------- */
 
-/* The same step for each doubling, from one point of a pixel on. */
+/* The colour for a number of points in a pixel: one step of the ramp for each doubling, interpolated between. */
 static theme_color color_of_density(uint32_t count)
 {
     unsigned whole = 0;
@@ -215,10 +228,10 @@ static theme_color color_of(const splats *t, const scene *s, const splatter *wit
     theme_color color = marker->color;
     splat_square square;
     double depth;
-    if (!(counted || banded) || !place(with, marker, &square, &depth))
+    if (!(counted || banded) || !place_disc(with, marker, &square, &depth))
         return color;
     if (counted) {
-        const uint32_t *shared = shared_at(t, s, &square);
+        const uint32_t *shared = find_counter(t, s, &square);
         color = color_of_density(shared ? *shared : 1);
     }
     return banded ? theme_shade(color, project_band(&s->camera, depth)) : color;
@@ -252,7 +265,7 @@ static void color_run(splats *t, const splatter *with, int x, int end, int y)
                   s->view.shade == SHADE_EDL ? theme_fade(color, light_at(t, s, x, y)) : color);
 }
 
-/* A run of samples with one owner is one quad. */
+/* Add one quad for each run of samples with the same point. */
 static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
 {
     const int width = with->scene->view.width;
@@ -267,7 +280,7 @@ static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
     }
 }
 
-/* ---- All ------------------------------------------------------------------------------------------------------ */
+/* ---- A scene -------------------------------------------------------------------------------------------------- */
 
 void splats_release(splats *t)
 {
@@ -304,7 +317,7 @@ bool splats_paint(splats *t, quad_list *quads, const scene *s)
     const splatter with = splatter_make(s);
     if (!make_room(t, s))
         return false;
-    put_all(t, &with);
+    draw_discs(t, &with);
     for (int y = 0; y < s->view.height; y++)
         paint_row(t, quads, &with, y);
     return true;
@@ -319,7 +332,7 @@ void splats_fill(splats *t, const scene *s, const scene_panel *panel)
                 set_color(t->colors + ((size_t)y * (size_t)s->view.width + (size_t)x) * 3, panel->color);
 }
 
-void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer)
+void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer)
 {
     const size_t side = (size_t)view_samples(&s->view), width = (size_t)s->view.width;
     const size_t row = (size_t)closer->view.width, left = (size_t)closer->place[0] * side,
@@ -328,9 +341,9 @@ void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const 
         memcpy(t->colors + 3 * ((top + y) * width + left), closeup->colors + 3 * y * row, 3 * row);
 }
 
-/* ---- What others hide ---------------------------------------------------------------------------------------- */
+/* ---- Hidden points -------------------------------------------------------------------------------------------- */
 
-/* The least depth of a disc in a square of samples; false where it covers none. */
+/* Find the least depth of a disc in a square of samples. False: it covers none of them. */
 static bool covers(const splat_square *q, int32_t depth, const splat_square *samples, int32_t *least)
 {
     bool any = false;
@@ -338,7 +351,7 @@ static bool covers(const splat_square *q, int32_t depth, const splat_square *sam
         const int x = samples->left + i % samples->side, y = samples->top + i / samples->side;
         int32_t at;
         if (x < q->left || y < q->top || x >= q->left + q->side || y >= q->top + q->side ||
-            !disc_depth(q, x, y, depth, &at))
+            !find_disc_depth(q, x, y, depth, &at))
             continue;
         *least = any && *least < at ? *least : at;
         any = true;
@@ -362,7 +375,7 @@ bool splats_list(const scene *s, const splat_square *samples, splat_list *list)
     for (size_t i = 0; i < s->markers.count; i++) {
         splat_square square;
         splat_covering one = {.marker = i, .id = s->markers.items[i].id};
-        if (!place(&with, &s->markers.items[i], &square, &one.view_depth) ||
+        if (!place_disc(&with, &s->markers.items[i], &square, &one.view_depth) ||
             !covers(&square, depth_of(&with, one.view_depth), samples, &one.depth))
             continue;
         splat_covering *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);

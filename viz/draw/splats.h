@@ -1,55 +1,54 @@
 /* SPDX-License-Identifier: MIT */
-/* splats.h - points painted one by one, each with its own colour: squares of whole samples, of which the nearest wins,
- * lit by the depths around them. All in integers, once the points' places and depths are known. For this folder.
+/* splats.h - paints points as discs with colours of their own. Private to this folder.
  *
- * GL or the filler only fills: where points are seen the quads have the index THEME_OWN, and what colour that is at
- * each sample is known here.
+ * Pictures hold indices of the theme's colours, and points have far more colours than the theme. So quads of points
+ * have the index THEME_OWN, and `colors` holds the colour of each such sample.
  */
 #ifndef DRAW_SPLATS_H
 #define DRAW_SPLATS_H
 
 #include "quads.h"
 
-/* Data that is reused from frame to frame. Empty when zeroed. */
+/* Buffers that are reused from frame to frame. Zeroed: empty. */
 typedef struct splats {
-    struct splat *samples; /* what is nearest at each */
-    uint32_t *shared;      /* under POINTS_BY_DENSITY: the points whose middle is in each pixel */
-    uint8_t *colors;       /* r, g, b a sample, where the picture has the index THEME_OWN */
-    size_t room;           /* samples; of `shared` and `colors` likewise, where they are needed */
+    struct splat *samples; /* the nearest point at each sample */
+    uint32_t *shared;      /* with POINTS_BY_DENSITY: the number of points whose centre is in each pixel */
+    uint8_t *colors;       /* r, g, b for each sample; valid where the picture has the index THEME_OWN */
+    size_t room;           /* the number of samples for which there is memory */
 } splats;
 
 void splats_release(splats *t);
 
-/* Where the view of a scene, which is in samples, paints points, make room for colours and add the quads of its points.
- * False when there is no memory. Cost: O(samples + points * the samples of one). */
+/* Add the quads of a scene's points, and set their colours. `s` is from project_samples(). False when out of memory.
+ * Cost: O(samples of the picture + points * samples of a disc). */
 bool splats_paint(splats *t, quad_list *quads, const scene *s);
 
-/* Colour a rectangle of the picture in pixels, such as a swatch. Above points alone. */
+/* Set the colours of a panel whose quad has the index THEME_OWN, such as a swatch of the legend. */
 void splats_fill(splats *t, const scene *s, const scene_panel *panel);
 
-/* Take over the colours of a close-up, where its part of the picture is; both scenes are in samples. */
-void splats_put_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
+/* Copy the colours of a close-up into its part of the picture. Both scenes are from project_samples(). */
+void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
 
-/* The painted points that cover any of some samples, those that others hide too, the nearest first; and where their
- * markers are. Empty when zeroed; free the items. */
+/* The points that cover samples of a square, including hidden ones, nearest first. Zeroed: empty. The caller frees the
+ * items. */
 typedef struct splat_list {
     struct splat_covering *items;
     size_t count, room;
 } splat_list;
 
 typedef struct splat_covering {
-    size_t marker;
-    int32_t depth; /* as it is painted there; of equal ones the nearer, and then the lower id, comes first */
+    size_t marker; /* its index in the scene */
+    int32_t depth; /* the depth of its disc there; ties are decided by view_depth, then by the lower id */
     double view_depth;
     uint64_t id;
 } splat_covering;
 
-/* So many samples to each side. */
+/* In samples. */
 typedef struct splat_square {
     int left, top, side;
 } splat_square;
 
-/* List those of a scene, which is in samples. False when there is no memory. Cost: O(markers). */
+/* List the points of a scene from project_samples(). False when out of memory. Cost: O(markers). */
 bool splats_list(const scene *s, const splat_square *samples, splat_list *list);
 
 #endif

@@ -1,21 +1,31 @@
 /* SPDX-License-Identifier: MIT */
+/* stroke.c - turns lines, markers and panels into quads.
+ *
+ * GL's own lines and points are not used: which pixels they cover differs between versions of Mesa. Here every shape is
+ * a quad with corners on a grid of 1/256 sample, and for quads the rule is exact (fill.c).
+ *
+ * A line is a parallelogram: its two ends, widened by half its width along the axis on which it is shorter. So a line
+ * that is one sample wide covers exactly one sample in each column (or row), as Bresenham's does, and the rasterizer
+ * sees a strip of constant width, its fastest path for slanted shapes. Bands of depth cut a segment into pieces that
+ * are shaded and ordered one by one; dashes continue from piece to piece. A segment shorter than a sample might cover
+ * no sample's centre, so it becomes a square. */
 #include "stroke.h"
 #include "layer.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Half units of a dash and of the gap after it. */
+/* The length of a dash and of the gap after it, in half units. */
 #define DASH 6
 #define GAP 4
 
-/* The head of an arrow in half units: its length, and its reach to either side. */
+/* The head of an arrow, in half units: its length, and its extent to either side. */
 #define HEAD 8
 #define HEAD_SIDE 4
 
 #define RING_CORNERS 40
 
-/* In pixels. Bold lines are at least 2 pixels wide, so that they look bold in the smallest picture too. */
+/* In pixels. Bold lines are at least 2 pixels wide, so that they look bold even in the smallest picture. */
 static int line_width(const scene *s, unsigned wanted)
 {
     const int width = (int)wanted * s->unit / 2, least = wanted > 1 ? 2 : 1;
@@ -32,7 +42,7 @@ pencil pencil_make(const scene *s, scene_style style, unsigned depth)
                     .depth = depth};
 }
 
-/* What happens in the tick fades less than the tree around it: the farthest shades would hide it. */
+/* Layers that show the events of a tick fade only a third as much as the tree: the farthest shades would hide them. */
 static unsigned shade_of(const pencil *with, unsigned band)
 {
     if (with->style.role == ROLE_BACKGROUND)
@@ -40,7 +50,7 @@ static unsigned shade_of(const pencil *with, unsigned band)
     return layer_rows[with->style.layer].fades ? band : band / 3;
 }
 
-static quad blank(const pencil *with, unsigned band)
+static quad make_quad(const pencil *with, unsigned band)
 {
     return (quad){
         .color = theme_index(with->style.role, shade_of(with, band)),
@@ -53,10 +63,10 @@ static int32_t snap(double pixel)
     return (int32_t)floor(pixel * QUAD_SUBPIXELS + 0.5);
 }
 
-/* A parallelogram, extended by half the width along the minor axis: a line of one pixel covers one pixel a step. */
+/* Add a line as a parallelogram, widened by half its width on either side along the axis on which it is shorter. */
 static void add_line(quad_list *list, const pencil *with, unsigned band, const double from[2], const double to[2])
 {
-    quad q = blank(with, band);
+    quad q = make_quad(with, band);
     const int32_t x0 = snap(from[0]), y0 = snap(from[1]), x1 = snap(to[0]), y1 = snap(to[1]);
     const bool flat = abs(x1 - x0) >= abs(y1 - y0);
     const int32_t half = with->width * QUAD_SUBPIXELS / 2;
@@ -69,14 +79,14 @@ static void add_line(quad_list *list, const pencil *with, unsigned band, const d
     quads_add(list, &q);
 }
 
-/* The left or top edge of a pixel, or one that is as far outside every picture. */
+/* The left or top edge of a pixel, clamped to coordinates outside every picture. */
 static int32_t pixel_edge(int64_t pixel)
 {
     const int64_t most = 2 * VIEW_MAX_SIDE;
     return (int32_t)(pixel < -most ? -most : pixel > most ? most : pixel) * QUAD_SUBPIXELS;
 }
 
-/* A filled rectangle of whole pixels. */
+/* Add a filled rectangle of whole samples. */
 static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t width, int64_t height)
 {
     const int32_t left = pixel_edge(x), right = pixel_edge(x + width);
@@ -88,7 +98,7 @@ static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t
     quads_add(list, &q);
 }
 
-/* Whether a whole segment lies within about a pixel, where a parallelogram may cover no centre. */
+/* Whether a segment is shorter than a sample on both axes, so that a parallelogram might cover no sample's centre. */
 static bool is_speck(const piece *pieces, unsigned count)
 {
     const piece *first = &pieces[0], *last = &pieces[count - 1];
@@ -101,7 +111,7 @@ static void add_solid(quad_list *list, const pencil *with, const piece *pieces, 
         add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
 }
 
-/* Dashes continue from piece to piece: `phase` is the position within dash and gap. */
+/* Dashes continue from piece to piece: `phase` is the position within a dash and the gap after it. */
 static void add_dashes(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
@@ -121,7 +131,7 @@ static void add_dashes(quad_list *list, const pencil *with, const piece *pieces,
     }
 }
 
-/* A head is at most half as long as its arrow, and is left out if too small to be recognized. */
+/* A head is at most half as long as its arrow. One that would be too small to see is left out. */
 static void add_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
 {
     const double half_unit = with->unit * with->samples / 2.0;
@@ -144,7 +154,7 @@ void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsig
     if (is_speck(pieces, count)) {
         const double *at = pieces[0].from;
         const int x = (int)floor(at[0]), y = (int)floor(at[1]);
-        add_rectangle(list, blank(with, pieces[0].band), x, y, with->width, with->width);
+        add_rectangle(list, make_quad(with, pieces[0].band), x, y, with->width, with->width);
         return;
     }
     pencil under = *with;
@@ -193,8 +203,8 @@ static void add_cross(quad_list *list, const pencil *with, unsigned band, int x,
     add_line(list, with, band, (double[2]){left, bottom}, (double[2]){right, top});
 }
 
-/* A band between two circles, as polygons of so many corners: the first is `up` or down of the centre. */
-static void add_band(quad_list *list, quad q, const double center[2], int corners, bool up, const double radii[2])
+/* Add the area between two regular polygons with a common centre; their first corner is above the centre, or below. */
+static void add_ring(quad_list *list, quad q, const double center[2], int corners, bool up, const double radii[2])
 {
     double from[2] = {0, up ? -1 : 1}, to[2];
     for (int i = 1; i <= corners; i++) {
@@ -211,21 +221,21 @@ static void add_band(quad_list *list, quad q, const double center[2], int corner
     }
 }
 
-/* A ring reaches as far as a square of its size; a triangle's corners reach as far beyond its sides as they are thick.
- */
-static void add_round(quad_list *list, const pencil *with, quad q, scene_shape shape, const double corner[2], int side)
+/* Add a ring, triangle or wedge that fits into a square of this side. */
+static void add_polygon(quad_list *list, const pencil *with, quad q, scene_shape shape, const double corner[2],
+                        int side)
 {
     const double center[2] = {corner[0] + side / 2.0, corner[1] + side / 2.0}, reach = side / 2.0;
     const double line = (shape == SHAPE_RING ? 3 : 4) * with->unit / 2.0 * with->samples;
     const double inner = shape == SHAPE_WEDGE || line > reach ? 0 : reach - line;
-    add_band(list, q, center, shape == SHAPE_RING ? RING_CORNERS : 3, shape != SHAPE_WEDGE, (double[2]){reach, inner});
+    add_ring(list, q, center, shape == SHAPE_RING ? RING_CORNERS : 3, shape != SHAPE_WEDGE, (double[2]){reach, inner});
 }
 
 void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
     const int side = stroke_marker_side(with->style.width, with->unit) * with->samples;
     const int left = (int)floor(pixel[0]) - (side - 1) / 2, top = (int)floor(pixel[1]) - (side - 1) / 2;
-    const quad q = blank(with, band);
+    const quad q = make_quad(with, band);
     pencil thin = *with, thick = *with;
     thin.width = (with->unit / 2 > 1 ? with->unit / 2 : 1) * with->samples;
     thick.width = with->unit * with->samples;
@@ -248,7 +258,7 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
     case SHAPE_RING:
     case SHAPE_TRIANGLE:
     case SHAPE_WEDGE:
-        add_round(list, with, q, shape, (const double[2]){left, top}, side);
+        add_polygon(list, with, q, shape, (const double[2]){left, top}, side);
         break;
     case SHAPE_COUNT:
         break;

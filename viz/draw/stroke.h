@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* stroke.h - lines and marks as quads of whole 1/256 samples. For this folder. */
+/* stroke.h - turns lines, markers and panels into quads. Private to this folder. */
 #ifndef DRAW_STROKE_H
 #define DRAW_STROKE_H
 
 #include "project.h"
 
-/* What a line is drawn with. */
+/* How a line is drawn. */
 typedef struct pencil {
     scene_style style;
-    int width;      /* of lines, samples */
-    int unit;       /* view_unit of the scene: pixels */
-    int samples;    /* a pixel, on each axis */
-    unsigned depth; /* of the node that the line belongs to */
+    int width;      /* of lines, in samples */
+    int unit;       /* scene.unit: the scale of marks, in pixels */
+    int samples;    /* per pixel, on each axis */
+    unsigned depth; /* of the node to which the line belongs */
 } pencil;
 
 pencil pencil_make(const scene *s, scene_style style, unsigned depth);
 
-/* Draw the pieces of one segment with its stroke; however short, at least one pixel. */
+/* Draw the pieces of one segment with its stroke. A visible segment gets at least one pixel, however short it is. */
 void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
-/* How many pixels a marker of a width has to each side: what is a pixel in the smallest picture grows with the unit, so
- * that it is not dust in a large one. */
+/* The side of a marker in pixels. It grows with the unit, so that markers stay visible in large pictures. */
 static inline int stroke_marker_side(int width, int unit)
 {
     const int side = 2 * (width * unit / 2) + 1, least = unit / 2;

@@ -48,8 +48,8 @@ typedef struct film_summary {
     uint64_t events[OCTREE_EVENT_KINDS]; /* ticks that had each event */
     uint64_t refusals;                   /* of points, edits and steps in these ticks */
     frame_checks checks;
-    film_start start;                    /* of a session */
-    uint64_t total;                      /* ticks that were to be filmed: more than `ticks` where it was stopped */
+    film_start start; /* of a session */
+    uint64_t total;   /* ticks that were to be filmed: more than `ticks` where it was stopped */
 } film_summary;
 
 #endif

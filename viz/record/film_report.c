@@ -177,7 +177,7 @@ void film_report_start(FILE *out, const film_start *start, const octree_session 
     }
 }
 
-static void report_empty(FILE *out, const film_summary *summary, const film_options *options)
+void film_report_empty(FILE *out, const film_summary *summary, const film_options *options)
 {
     const view *v = &options->view;
     const char *lacking = point_scale_lacks(v, options->values);
@@ -198,7 +198,7 @@ void film_report_notes(FILE *out, const film_summary *summary, const film_option
                        const octree_session *session)
 {
     film_report_start(out, &summary->start, session);
-    report_empty(out, summary, options);
+    film_report_empty(out, summary, options);
     if (*summary->checks.reason.text)
         fprintf(out, "octreel: %s frame was checked: %s\n", summary->checks.count ? "not every due" : "no",
                 summary->checks.reason.text);

@@ -18,8 +18,10 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
  * keeps them. */
 void film_report_start(FILE *out, const film_start *start, const octree_session *session);
 
-/* The same, and notes where the view asks for values that no point and no tick has, and where frames could not be
- * checked. */
+/* Notes where the view asks for values that no point and no tick has. */
+void film_report_empty(FILE *out, const film_summary *summary, const film_options *options);
+
+/* All of these notes, and one where frames could not be checked. */
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session);
 

@@ -53,18 +53,19 @@ static bool compare(frame_checks *checks, picture *p, const scene *s, const uint
     octreel_error unkept;
     const uint64_t different = count_different(picture_samples(p), by_gl);
     const char *gl = frame_checks_title(checks->by);
+    const char *differ = different == 1 ? " differs" : "s differ";
     checks->count += different == 0;
     if (different == 0)
         return true;
     if (!keep_both(p, s, by_gl, prefix, &unkept))
         return error_set(error,
-                         "%s: %" PRIu64 " samples differ between the integer rasterizer and %s; the two pictures "
+                         "%s: %" PRIu64 " sample%s between the integer rasterizer and %s; the two pictures "
                          "cannot be kept: %s",
-                         name, different, gl, unkept.text);
+                         name, different, differ, gl, unkept.text);
     return error_set(error,
-                     "%s: %" PRIu64 " samples differ between the integer rasterizer and %s. Report this bug, and draw "
+                     "%s: %" PRIu64 " sample%s between the integer rasterizer and %s. Report this bug, and draw "
                      "with --fill gl meanwhile. Both pictures are kept: %s.integers.png and %s.gl.png",
-                     name, different, gl, prefix, prefix);
+                     name, different, differ, gl, prefix, prefix);
 }
 
 bool frame_checks_compare(frame_checks *checks, picture *p, const scene *s, const char *name, const char *prefix,

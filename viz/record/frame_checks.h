@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* frame_checks.h - draws a few frames of a recording a second time, with GL, and compares the pixels.
  *
- * OSMesa is the authority on pixels, but the integer rasterizer is 2 to 3 times as fast. So the integer rasterizer draws
- * every frame, and GL also draws the first, every CHECK_EVERY-th and the last. Each comparison comes before the frame is
- * written. Where GL cannot be loaded, frames are not checked and `reason` says why; recording goes on, since the frames
- * are the same bytes. */
+ * OSMesa is the authority on pixels, but the integer rasterizer is 2 to 3 times as fast. So the integer rasterizer
+ * draws every frame, and GL also draws the first, every CHECK_EVERY-th and the last. Each comparison comes before the
+ * frame is written. Where GL cannot be loaded, frames are not checked and `reason` says why; recording goes on, since
+ * the frames are the same bytes. */
 #ifndef RECORD_FRAME_CHECKS_H
 #define RECORD_FRAME_CHECKS_H
 

@@ -130,7 +130,7 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
 {
     octreel_error error;
     setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
-    draw_context_set_report(NULL);          /* the process that started it does */
+    draw_context_set_report(NULL);    /* the process that started it does */
     begin_watch(self);
     p->learn_session = learn_session; /* the first frame is drawn meanwhile */
     p->learn_context = self;

@@ -32,9 +32,9 @@ bool live_tick(live_recording *live, const octree_input *input, octreel_error *e
 bool live_note(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error);
 
 /* Write what comes last, and free all memory: session.json with all ticks that were taken, and the page. `ticks` are
- * those of the session's header; *summary, which may be null, becomes the summary of all ticks that were filmed; a session that would then be longer than what was taken ends with that. Where a tick
- * failed, the files are those of a recording that broke off, which --resume completes. False with an error when that
- * cannot be written. */
+ * those of the session's header; *summary, which may be null, becomes the summary of all ticks that were filmed; a
+ * session that would then be longer than what was taken ends with that. Where a tick failed, the files are those of a
+ * recording that broke off, which --resume completes. False with an error when that cannot be written. */
 bool live_close(live_recording *live, uint64_t ticks, film_summary *summary, octreel_error *error);
 
 #endif

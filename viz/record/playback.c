@@ -173,8 +173,7 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
 
 static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
 {
-    return tick >= share->first &&
-           (share->count == 0 || share_find_job(share, tick / every, every) == share->index);
+    return tick >= share->first && (share->count == 0 || share_find_job(share, tick / every, every) == share->index);
 }
 
 bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),

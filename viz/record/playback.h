@@ -50,10 +50,10 @@ typedef struct playback {
     tick_history history;       /* of all ticks that were played, filmed or not */
     scene scene;
     playback_target target;
-    film_share share;    /* where it is known: what playback_run() films */
-    frame_checks checks; /* under DRAW_FILL_CHECKED */
+    film_share share;           /* where it is known: what playback_run() films */
+    frame_checks checks;        /* under DRAW_FILL_CHECKED */
     char unchecked[FRAME_NAME]; /* the frame that playback.picture shows, until it is checked; "": none */
-    uint64_t session_digest; /* of session.json, for the frames that are written; set by the caller, */
+    uint64_t session_digest;    /* of session.json, for the frames that are written; set by the caller, */
     void (*learn_session)(uint64_t *digest, void *context); /* or by this before the first is written; may be null */
     void *learn_context;
     picture picture;

@@ -53,7 +53,7 @@ typedef struct verify_report {
     char drawn_by[384];     /* the renderer of the recording, as renderer.json has it; "" without frames */
     char drawn_now[384];    /* the renderer of this process; "" where nothing was drawn */
     const char *fill;       /* draw_fill_name() of what filled its pixels; "" likewise */
-    octreel_error no_gl;    /* why GL could not be loaded, so that integers filled them; "": GL was loaded or not needed */
+    octreel_error no_gl; /* why GL could not be loaded, so that integers filled them; "": GL was loaded or not needed */
 } verify_report;
 
 typedef struct verify_options {

@@ -98,6 +98,7 @@ static void choices_that_do_not_fit_are_refused(void **state)
     const place folder = place_in(*state, "film");
     assert_not_drawn(NULL, "--context glx", &folder, "there is no context \"glx\"; there are auto, osmesa, egl");
     assert_not_drawn(NULL, "--any-renderer", &folder, "--context egl");
+    assert_not_drawn(NULL, "--context egl --fill integers", &folder, "loads no OpenGL");
     assert_not_drawn(NULL, "--any-renderer --context osmesa", &folder, "--context egl");
 }
 
@@ -126,7 +127,23 @@ static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
         command_release(&result);
         assert_renderer(&folder, "context", "egl");
     }
-    assert_not_drawn(&without, "--context osmesa", &other, "libosmesa6");
+    assert_not_drawn(&without, "--fill gl --context osmesa", &other, "libosmesa6");
+}
+
+/* Record without GL: a note says why no frame was checked, and the frames are the same bytes. */
+static void assert_unchecked(const command_setting *setting, const char *options, const temp_folder *own,
+                             const char *name, const char *reason)
+{
+    const place folder = place_in(own, name), plain = place_in(own, "plain");
+    if (!file_exists(plain.path))
+        assert_drawn_by(NULL, "--fill integers", &plain, "fill", "integers");
+    command_result result = run_octreel(setting, FILM " %s -o %s", options, folder.path);
+    assert_int_equal(result.status, 0);
+    assert_ptr_equal(strstr(result.err, "octreel: no frame was checked: "), result.err);
+    if (!strstr(result.err, reason) || strstr(result.out, "checked"))
+        fail_msg("%s%s", result.err, result.out);
+    command_release(&result);
+    assert_same_folders(plain.path, folder.path, "renderer.json");
 }
 
 static void machine_with_neither_is_told_what_to_install(void **state)
@@ -135,9 +152,13 @@ static void machine_with_neither_is_told_what_to_install(void **state)
     char path[96];
     const command_setting without = {.environment = {hide_libraries(*state, names, path)}};
     const place folder = place_in(*state, "film");
-    const char *first = draw_context_built(DRAW_OSMESA) ? "libosmesa6" : "libegl1";
-    assert_not_drawn(&without, "", &folder, first);
-    assert_not_drawn(&without, "--context egl", &folder, draw_context_built(DRAW_EGL) ? "libegl1" : "egl");
+    const char *first = draw_context_built(DRAW_OSMESA) ? "libosmesa6" : "libegl1",
+               *egl = draw_context_built(DRAW_EGL) ? "libegl1" : "egl";
+    assert_not_drawn(&without, "--fill gl", &folder, first);
+    assert_not_drawn(&without, "--fill gl --context egl", &folder, egl);
+    assert_unchecked(&without, "", *state, "auto", first);
+    assert_unchecked(&without, "--jobs 2", *state, "jobs", first);
+    assert_unchecked(&without, "--context egl", *state, "egl", egl);
     command_result result = run_octreel(&without, "--version");
     assert_int_equal(result.status, 2);
     assert_non_null(strstr(result.out, first));
@@ -152,7 +173,7 @@ static void egl_that_knows_no_driver_is_trouble(void **state)
     snprintf(path, sizeof path, "__EGL_VENDOR_LIBRARY_DIRS=%s", own->name);
     const command_setting bare = {.environment = {path}};
     const place folder = place_in(own, "film");
-    assert_not_drawn(&bare, "--context egl", &folder, "EGL gives no OpenGL context");
+    assert_not_drawn(&bare, "--fill gl --context egl", &folder, "EGL gives no OpenGL context");
 }
 
 static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
@@ -160,10 +181,11 @@ static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpip
 static void renderer_that_is_not_llvmpipe_is_refused(void **state)
 {
     const place folder = place_in(*state, "film");
-    assert_not_drawn(&softpipe, "", &folder, "softpipe");
+    assert_not_drawn(&softpipe, "--fill gl", &folder, "softpipe");
+    assert_unchecked(&softpipe, "", *state, "soft", "softpipe");
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
         char option[32];
-        snprintf(option, sizeof option, "--context %s", draw_context_name((draw_context)kind));
+        snprintf(option, sizeof option, "--fill gl --context %s", draw_context_name((draw_context)kind));
         assert_not_drawn(&softpipe, option, &folder,
                          draw_context_built((draw_context)kind) ? "llvmpipe alone" : "without the");
     }
@@ -182,10 +204,10 @@ static void any_renderer_draws_where_it_is_asked_for(void **state)
 static void integers_and_gl_film_the_same_bytes(void **state)
 {
     const place plain = place_in(*state, "plain"), integers = place_in(*state, "integers"), gl = place_in(*state, "gl");
-    assert_drawn_by(NULL, "", &plain, "fill", "integers");
+    assert_drawn_by(NULL, "", &plain, "fill", "checked");
     assert_drawn_by(NULL, "--fill integers", &integers, "fill", "integers");
     assert_drawn_by(NULL, "--fill gl", &gl, "fill", "gl");
-    assert_same_folders(plain.path, integers.path, NULL);
+    assert_same_folders(plain.path, integers.path, "renderer.json");
     assert_same_folders(plain.path, gl.path, "renderer.json"); /* recording.json too */
 }
 
@@ -207,8 +229,9 @@ static void inspect_fills_either_way(void **state)
 static void unknown_fill_is_refused(void **state)
 {
     const place folder = place_in(*state, "film");
-    assert_not_drawn(NULL, "--fill GL", &folder, "--fill takes no \"GL\", did you mean gl? there are integers, gl");
-    assert_not_drawn(NULL, "--fill ''", &folder, "there are integers, gl");
+    assert_not_drawn(NULL, "--fill GL", &folder,
+                     "--fill takes no \"GL\", did you mean gl? there are integers, checked, gl");
+    assert_not_drawn(NULL, "--fill ''", &folder, "there are integers, checked, gl");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)

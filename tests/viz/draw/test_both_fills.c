@@ -261,13 +261,13 @@ static void elements_are_told_alike(void **state)
     scene s = busy_scene(320, 180, CAMERA_ORBIT);
     both b = open_both(&s.view);
     uint32_t *one = calloc(frame_samples(&s), sizeof *one), *other = calloc(frame_samples(&s), sizeof *other);
-    assert_true(renderer_pick(b.integers, &s, one, &error));
-    assert_true(renderer_pick(b.gl, &s, other, &error));
+    assert_true(renderer_number_samples(b.integers, &s, one, &error));
+    assert_true(renderer_number_samples(b.gl, &s, other, &error));
     assert_memory_equal(one, other, frame_samples(&s) * sizeof *one);
     for (int x = 0; x < 320; x += 17) {
         draw_touches a = {0}, c = {0};
-        assert_true(renderer_pixel(b.integers, &s, x, 90, &a, &error));
-        assert_true(renderer_pixel(b.gl, &s, x, 90, &c, &error));
+        assert_true(renderer_list_pixel(b.integers, &s, x, 90, &a, &error));
+        assert_true(renderer_list_pixel(b.gl, &s, x, 90, &c, &error));
         assert_int_equal(a.count, c.count);
         for (size_t i = 0; i < a.count; i++)
             assert_true(a.items[i].number == c.items[i].number && a.items[i].at == c.items[i].at &&

@@ -75,7 +75,7 @@ static void its_elements_are_told(void **state)
     scene s = close_scene(CAMERA_ISO, 1, 219);
     renderer *r = renderer_open(s.view.width, s.view.height, &(renderer_choice){0}, &error);
     uint32_t *numbers = calloc(frame_samples(&s), sizeof *numbers);
-    assert_true(renderer_pick(r, &s, numbers, &error));
+    assert_true(renderer_number_samples(r, &s, numbers, &error));
     size_t inside = 0, nodes = 0;
     for (int y = 0; y < s.view.height; y += 3)
         for (int x = 0; x < s.view.width; x += 7) {
@@ -90,7 +90,7 @@ static void its_elements_are_told(void **state)
             assert_true(!element.in_closeup || is_in);
             inside += element.in_closeup;
             nodes += element.in_closeup && element.kind == SCENE_BOX;
-            assert_true(renderer_pixel(r, &s, x, y, &list, &error));
+            assert_true(renderer_list_pixel(r, &s, x, y, &list, &error));
             assert_int_equal(list.items[0].number, number);
             draw_touches_release(&list);
         }

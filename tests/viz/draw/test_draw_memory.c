@@ -22,7 +22,7 @@ static bool draw_it(renderer *r, const scene *s, void *bytes, octreel_error *err
 
 static bool pick_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
-    return renderer_pick(r, s, bytes, error);
+    return renderer_number_samples(r, s, bytes, error);
 }
 
 static bool mask_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
@@ -34,7 +34,7 @@ static bool mask_it(renderer *r, const scene *s, void *bytes, octreel_error *err
 static bool ask_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
     draw_touches list = {0};
-    const bool done = renderer_pixel(r, s, s->view.width / 2, s->view.height / 2, &list, error);
+    const bool done = renderer_list_pixel(r, s, s->view.width / 2, s->view.height / 2, &list, error);
     for (size_t i = 0; done && i < list.count && i < SIDE; i++)
         ((uint32_t *)bytes)[i] = list.items[i].number;
     draw_touches_release(&list);

@@ -65,7 +65,7 @@ static void a_mask_is_where_elements_of_its_layers_are_seen(void **state)
         octreel_error error = {""};
         renderer *r = open_renderer_for(&s);
         uint32_t *numbers = malloc(frame_samples(&s) * sizeof *numbers);
-        assert_true(renderer_pick(r, &s, numbers, &error));
+        assert_true(renderer_number_samples(r, &s, numbers, &error));
         for (unsigned layer = 0; layer <= LAYER_DIAGRAM; layer++) {
             const unsigned layers = 1u << layer | 1u << LAYER_PLAYER;
             uint8_t *mask = mask_of(r, &s, layers);

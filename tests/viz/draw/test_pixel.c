@@ -23,7 +23,7 @@ static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
 {
     draw_touches list = {0};
     octreel_error error = {""};
-    if (!renderer_pixel(r, s, x, y, &list, &error))
+    if (!renderer_list_pixel(r, s, x, y, &list, &error))
         fail_msg("%s", error.text);
     return list;
 }
@@ -39,7 +39,7 @@ static int place_of(const scene *s, const draw_touches *list, scene_kind kind, s
 
 /* ---- Against the whole picture ------------------------------------------------------------------------------ */
 
-/* The samples of a pixel at which renderer_pick() has this number. */
+/* The samples of a pixel at which renderer_number_samples() has this number. */
 static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_t number)
 {
     const int samples = view_samples(&s->view), width = s->view.width * samples;
@@ -77,7 +77,7 @@ static void what_is_seen_at_a_pixel_is_what_the_whole_picture_says(void **state)
         renderer *r = open_renderer_for(&s);
         const int samples = view_samples(&s.view), size = s.view.width * s.view.height * samples * samples;
         uint32_t *numbers = malloc((size_t)size * sizeof *numbers);
-        assert_true(renderer_pick(r, &s, numbers, &error));
+        assert_true(renderer_number_samples(r, &s, numbers, &error));
         for (int lit = 0, tries = 0; lit < 12 && tries < 4000; tries++) {
             const int x = (int)random_below(&seed, (uint64_t)s.view.width);
             const int y = (int)random_below(&seed, (uint64_t)s.view.height);
@@ -289,7 +289,7 @@ static void a_pixel_outside_the_picture_is_refused(void **state)
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
         draw_touches list = {0};
         octreel_error error = {""};
-        assert_false(renderer_pixel(r, &s, outside[i][0], outside[i][1], &list, &error));
+        assert_false(renderer_list_pixel(r, &s, outside[i][0], outside[i][1], &list, &error));
         assert_non_null(strstr(error.text, "320 x 240"));
         draw_touches_release(&list);
     }

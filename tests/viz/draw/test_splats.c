@@ -227,7 +227,7 @@ static void each_sample_has_the_colour_of_the_point_that_is_picked_there(void **
     uint32_t *numbers = malloc(frame_samples(&s) * sizeof *numbers);
     octreel_error error = {""};
     size_t seen = 0;
-    assert_true(numbers && renderer_pick(l.renderer, &s, numbers, &error));
+    assert_true(numbers && renderer_number_samples(l.renderer, &s, numbers, &error));
     for (size_t i = 0; i < frame_samples(&s); i++) {
         assert_int_equal(numbers[i] != 0, l.indices[i] == THEME_OWN);
         if (numbers[i] == 0)

@@ -116,19 +116,19 @@ typedef struct octreel_recorder_def {
     uint64_t budget;          /* the most boxes, and the most points, of a frame; 0: any number */
     int aa;                   /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
     uint64_t every;           /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
-    const char *fill;         /* the rasterizer: "integers", "checked" or "gl"; the pixels are the same. "integers" costs
-                                 the program least: OpenGL, 0.2 s of processor time and 85 MB, is never loaded, and
-                                 octreel verify checks the frames later. "checked" compares the first frame, every 100th
-                                 and, once the recording is closed, the last with OSMesa's, where OpenGL can be loaded */
-    const char *context;      /* which OpenGL, where it is loaded: "auto", "osmesa", "egl" */
-    bool any_renderer;        /* with "egl": OpenGL draws, also with a graphics card; frames are then the same on that
-                                 card alone */
-    size_t queue_ticks;       /* ticks that may wait for the worker, at least 1 */
-    size_t queue_bytes;       /* and what they may take together; one tick alone may take more */
-    bool never_wait; /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
-                       is a gap; at tick 0 the worker is waited for all the same */
-    size_t ring;     /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
-                       Beside the points of the first it holds what changed in the others */
+    const char *fill;    /* the rasterizer: "integers", "checked" or "gl"; the pixels are the same. "integers" costs
+                            the program least: OpenGL, 0.2 s of processor time and 85 MB, is never loaded, and
+                            octreel verify checks the frames later. "checked" compares the first frame, every 100th
+                            and, once the recording is closed, the last with OSMesa's, where OpenGL can be loaded */
+    const char *context; /* which OpenGL, where it is loaded: "auto", "osmesa", "egl" */
+    bool any_renderer;   /* with "egl": OpenGL draws, also with a graphics card; frames are then the same on that
+                            card alone */
+    size_t queue_ticks;  /* ticks that may wait for the worker, at least 1 */
+    size_t queue_bytes;  /* and what they may take together; one tick alone may take more */
+    bool never_wait;     /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
+                           is a gap; at tick 0 the worker is waited for all the same */
+    size_t ring;         /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
+                           Beside the points of the first it holds what changed in the others */
 } octreel_recorder_def;
 
 /* No player, 1280 x 720, "iso", the default layers, "integers", 16 ticks or 64 MiB in the queue, no ring. */

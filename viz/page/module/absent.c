@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, and clouds, which are
- * files. */
+/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, and clouds, which
+ * are files. */
 #include "cloud.h"
 #include "file.h"
 
