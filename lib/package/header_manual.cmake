@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
-# Run by CMake: write OUTPUT, the manual octree(3), from what HEADER says of each name. EXAMPLE is a text whose first
-# program in C is an example; VERSION and DATE are those of the library.
+# Run by CMake: write OUTPUT, the manual octree(3), from the comments in HEADER and in the types.h beside it. The first C
+# program in EXAMPLE becomes the example; VERSION and DATE are those of the library.
 cmake_policy(VERSION 3.22)
 file(READ ${HEADER} text)
+cmake_path(GET HEADER PARENT_PATH folder)
+file(READ ${folder}/types.h types)
+string(REGEX REPLACE "^/\\*[^\n]*\n/\\*[^/]*\\*/\n" "" types "${types}")
+string(REPLACE "#include \"octree/types.h\"\n" "${types}" text "${text}")
 file(READ ${EXAMPLE} example)
 
 # escape(TEXT): as troff has it. Until all is written other characters stand for those that part CMake's lists.

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* filmed_scenes.c - see filmed_scenes.h. */
 #include "filmed_scenes.h"
+#include "octree/octree.h"
 #include "octree/sample.h"
 
 #include <stdlib.h>

@@ -3,6 +3,7 @@
  * its tree over, beside what the program's own tick takes. */
 #include "measuring.h"
 #include "octreel/recorder.h"
+#include "octree/octree.h"
 #include "octree/sample.h"
 #include "program.h"
 #include "run_program.h"

@@ -3,6 +3,7 @@
  * with planted faults, answer random queries in games that judge them; each verdict is held against the truth.
  */
 #include "index_peer.h"
+#include "octree/octree.h"
 #include "point_sets.h"
 #include "program.h"
 #include "truth.h"

@@ -14,7 +14,7 @@ void recount_free(recount *all)
     *all = (recount){0};
 }
 
-static void add_visit(octree_address node, octree_touch touch, void *context)
+static void add_visit(octree_address node, octree_trace_kind touch, void *context)
 {
     recount *all = context;
     if (all->count == all->room) {
@@ -22,7 +22,7 @@ static void add_visit(octree_address node, octree_touch touch, void *context)
         all->visits = realloc(all->visits, all->room * sizeof *all->visits);
         assert_non_null(all->visits);
     }
-    all->visits[all->count++] = (octree_visit){node, touch, touch == OCTREE_TOUCH_TAKEN};
+    all->visits[all->count++] = (octree_visit){node, touch, touch == OCTREE_TRACE_TAKEN};
 }
 
 /* ---- Regions ------------------------------------------------------------------------------------------------ */
@@ -72,18 +72,18 @@ static octree_walk_order look_at(const octree_node *node, void *context)
     const relation is = r->box ? to_box(r, &node->box) : to_ball(r, &node->box);
     if (is == APART) {
         r->cost.pruned++;
-        add_visit(node->address, OCTREE_TOUCH_PRUNED, r->all);
+        add_visit(node->address, OCTREE_TRACE_PRUNED, r->all);
         return OCTREE_WALK_SKIP;
     }
     if (is == INSIDE) {
         r->cost.taken++;
-        add_visit(node->address, OCTREE_TOUCH_TAKEN, r->all);
+        add_visit(node->address, OCTREE_TRACE_TAKEN, r->all);
         return OCTREE_WALK_SKIP;
     }
     r->cost.nodes++;
     r->cost.leaves += node->leaf;
     r->cost.points += node->leaf ? node->count : 0;
-    add_visit(node->address, OCTREE_TOUCH_VISITED, r->all);
+    add_visit(node->address, OCTREE_TRACE_VISITED, r->all);
     return OCTREE_WALK_ON;
 }
 
@@ -255,11 +255,11 @@ static int compare_leaves(const void *a, const void *b)
     return compare_texts(*(const octree_address *)a, *(const octree_address *)b);
 }
 
-static octree_touch stronger(octree_touch a, octree_touch b)
+static octree_trace_kind stronger(octree_trace_kind a, octree_trace_kind b)
 {
-    if (a == OCTREE_TOUCH_VISITED || b == OCTREE_TOUCH_VISITED)
-        return OCTREE_TOUCH_VISITED;
-    return a == OCTREE_TOUCH_TAKEN || b == OCTREE_TOUCH_TAKEN ? OCTREE_TOUCH_TAKEN : OCTREE_TOUCH_PRUNED;
+    if (a == OCTREE_TRACE_VISITED || b == OCTREE_TRACE_VISITED)
+        return OCTREE_TRACE_VISITED;
+    return a == OCTREE_TRACE_TAKEN || b == OCTREE_TRACE_TAKEN ? OCTREE_TRACE_TAKEN : OCTREE_TRACE_PRUNED;
 }
 
 static void merge(recount *all)
@@ -309,7 +309,7 @@ void assert_recount(const recount *all, const octree_tick *tick)
         assert_int_equal(tick->visits[i].touch, all->visits[i].touch);
         assert_int_equal(tick->visits[i].taken, all->visits[i].taken);
     }
-    for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+    for (int touch = 0; touch < OCTREE_TRACE_KINDS; touch++)
         assert_int_equal(tick->touched[touch], all->touched[touch]);
     assert_int_equal(tick->hit_leaf_count, all->leaf_count);
     for (size_t i = 0; i < all->leaf_count; i++)

@@ -12,7 +12,7 @@
 typedef struct recount {
     octree_visit *visits; /* after recount_tick: each node once, the strongest touch, in pre-order */
     size_t count, room;
-    size_t touched[OCTREE_TOUCH_KINDS];
+    size_t touched[OCTREE_TRACE_KINDS];
     octree_address *leaves; /* of the hits and answers, in pre-order */
     size_t leaf_count, leaf_room;
 } recount;

@@ -5,6 +5,7 @@
 #include "knob.h"
 #include "mirrored.h"
 #include "neighbors.h"
+#include "octree/octree.h"
 #include "timing.h"
 #include "program.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "json_table.h"
 #include "hint.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #include <inttypes.h>
 #include <string.h>

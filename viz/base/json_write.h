@@ -8,7 +8,7 @@
 #ifndef BASE_JSON_WRITE_H
 #define BASE_JSON_WRITE_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #include <stdbool.h>
 #include <stddef.h>

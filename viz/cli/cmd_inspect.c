@@ -9,6 +9,7 @@
 #include "inspect_answers.h"
 #include "inspect_view.h"
 #include "layer.h"
+#include "octree/octree.h"
 #include "point_scale.h"
 #include "number.h"
 #include "point_world.h"

@@ -4,6 +4,7 @@
  */
 #include "query_options.h"
 #include "number.h"
+#include "octree/octree.h"
 #include "query_looks.h"
 
 #include <math.h>

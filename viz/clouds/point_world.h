@@ -3,7 +3,7 @@
 #ifndef CLOUDS_POINT_WORLD_H
 #define CLOUDS_POINT_WORLD_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 /* The smallest cube, centred on the points' bounding box, whose rounded faces contain every point. Its side is the
  * largest extent of the points, but at least 4 ulp of the largest coordinate, and 1 if all points are equal.

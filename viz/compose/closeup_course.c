@@ -6,6 +6,7 @@
 #include "closeup_course.h"
 #include "layer_type.h"
 #include "layout.h"
+#include "octree/octree.h"
 
 #include <math.h>
 #include <string.h>

@@ -12,6 +12,7 @@
 #include "layout.h"
 #include "node_boxes.h"
 #include "number.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <math.h>
@@ -155,7 +156,7 @@ static const octree_visit *find_visit(const octree_tick *tick, octree_address no
 static scene_style met_style(const diagram *d, octree_address node, theme_role role)
 {
     const octree_visit *visit = find_visit(d->in->tick, node);
-    const bool was_pruned = visit && visit->touch == OCTREE_TOUCH_PRUNED;
+    const bool was_pruned = visit && visit->touch == OCTREE_TRACE_PRUNED;
     const bool pruned = was_pruned && view_shows(d->in->view, LAYER_PRUNED);
     const bool visited = visit && !was_pruned && view_shows(d->in->view, LAYER_VISITED);
     d->scene->tally.marked_visited += visited;

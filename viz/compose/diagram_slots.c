@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "diagram_slots.h"
+#include "octree/octree.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -13,7 +13,7 @@
 #ifndef FRAME_DIAGRAM_SLOTS_H
 #define FRAME_DIAGRAM_SLOTS_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 typedef struct diagram_node {
     octree_address address;

@@ -4,6 +4,7 @@
 #include "judgement.h"
 #include "layer_type.h"
 #include "layout.h"
+#include "octree/octree.h"
 #include "text.h"
 #include "tick_scene.h"
 

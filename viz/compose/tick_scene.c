@@ -4,6 +4,7 @@
 #include "closeup.h"
 #include "layer_type.h"
 #include "layout.h"
+#include "octree/octree.h"
 
 #define LAYER_TYPE(layer, ...) &layer_##layer,
 const layer_type *const layer_types[LAYER_ALL] = {LAYER_MAP(LAYER_TYPE)};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* about.c - whether files can have what a program says of a tick. */
 #include "about.h"
+#include "octree/octree.h"
 #include "session_file.h"
 #include "status.h"
 

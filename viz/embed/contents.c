@@ -3,6 +3,7 @@
 #include "contents.h"
 #include "array.h"
 #include "octree/digest.h"
+#include "octree/octree.h"
 #include "session_file.h"
 #include "status.h"
 
@@ -132,7 +133,7 @@ void contents_undo(contents *c)
 {
     while (c->change_count > c->kept)
         change_undo(&c->changes[--c->change_count], &c->table);
-    c->tree.mark = (octree_mark){0}; /* what it told was of this tick */
+    c->tree.mark = (octree_cursor){0}; /* what it told was of this tick */
 }
 
 /* ---- By what a tree tells of its changes ------------------------------------------------------------------------ */
@@ -169,7 +170,7 @@ static bool ask_tree(followed_tree *f, const octree *tree)
     f->heard_count = 0;
     f->lost = false;
     if (f->whole || f->busy) /* what `now` has is older, or newer */
-        f->mark = (octree_mark){0};
+        f->mark = (octree_cursor){0};
     f->whole = false;
     return !f->busy && octree_changes_since(tree, next_name(f), &f->mark, hear, f) && !f->lost;
 }

@@ -5,12 +5,13 @@
 #define EMBED_CONTENTS_H
 
 #include "batch.h"
+#include "octree/octree.h"
 
 typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } points_source;
 
 /* What a tree tells of its changes. */
 typedef struct followed_tree {
-    octree_mark mark;     /* up to where `now`, or the table, has them; zero: it has not */
+    octree_cursor mark;   /* up to where `now`, or the table, has them; zero: it has not */
     uint64_t names;       /* of logs, that were given */
     octree_change *heard; /* in the tick that was read last */
     size_t heard_count, heard_room;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* edit_order.c - changes become edits that are all accepted. */
 #include "edit_order.h"
+#include "octree/octree.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include "points.h"
 #include "array.h"
 #include "octree/digest.h"
+#include "octree/octree.h"
 #include "session_file.h"
 
 #include <stdlib.h>

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "folder.h"
 #include "number.h"
+#include "octree/octree.h"
 #include "replacement.h"
 #include "ring.h"
 #include "session_file.h"

@@ -4,6 +4,7 @@
 #include "array.h"
 #include "judgement.h"
 #include "layer_type.h"
+#include "octree/octree.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

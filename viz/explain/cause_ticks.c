@@ -3,6 +3,7 @@
  * cause_compare.h. */
 #include "cause_compare.h"
 #include "json_read.h"
+#include "octree/octree.h"
 #include "text.h"
 #include "ticks_write.h"
 

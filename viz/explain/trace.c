@@ -4,6 +4,7 @@
 #include "array.h"
 #include "frame_file.h"
 #include "hash_map.h"
+#include "octree/octree.h"
 #include "png_read.h"
 #include "text.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "octree/octree.h"
 #include "session_members.h"
 
 #include <inttypes.h>

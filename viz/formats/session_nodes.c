@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* session_nodes.c - the nodes of a program's own tree, from a tick on. */
+#include "octree/octree.h"
 #include "session_members.h"
 
 #include <inttypes.h>

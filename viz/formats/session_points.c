@@ -3,6 +3,7 @@
 #include "cloud.h"
 #include "file.h"
 #include "hash_map.h"
+#include "octree/octree.h"
 #include "octree/sample.h"
 #include "point_world.h"
 #include "session_members.h"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "session_stream.h"
 #include "json_stream.h"
+#include "octree/octree.h"
 #include "session_members.h"
 
 #include <inttypes.h>

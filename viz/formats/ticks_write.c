@@ -2,6 +2,7 @@
 #include "ticks_write.h"
 #include "json_table.h"
 #include "octree/digest.h"
+#include "octree/octree.h"
 
 #include <inttypes.h>
 
@@ -323,9 +324,9 @@ static void write_foreign(json_writer *w, const void *from)
 
 /* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
 static const json_member visit_members[] = {
-    {"visited", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_VISITED])},
-    {"taken", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_TAKEN])},
-    {"pruned", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TOUCH_PRUNED])},
+    {"visited", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_VISITED])},
+    {"taken", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_TAKEN])},
+    {"pruned", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_PRUNED])},
     {"hit", &json_size, .offset = offsetof(octree_tick, hit_leaf_count)},
     {0},
 };

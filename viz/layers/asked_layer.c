@@ -2,6 +2,7 @@
 /* asked_layer.c - the layer of the node of a tree that is asked for. */
 #include "layer_type.h"
 #include "node_boxes.h"
+#include "octree/octree.h"
 
 #define MARK 12 /* half units: half the size of the mark on a node that appears small */
 

@@ -2,6 +2,7 @@
 /* change_layers.c - the layers of what happened to the tree's nodes: merges, splits, and what must never happen. */
 #include "foreign_nodes.h"
 #include "layer_type.h"
+#include "octree/octree.h"
 #include "text.h"
 #include "node_boxes.h"
 

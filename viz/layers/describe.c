@@ -2,6 +2,7 @@
 #include "describe.h"
 #include "layer_type.h"
 #include "number.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -3,6 +3,7 @@
  * it had since tick 0. */
 #include "heat_layers.h"
 #include "layer_type.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "node_boxes.h"
+#include "octree/octree.h"
 
 static theme_role occupancy_role(node_look node)
 {

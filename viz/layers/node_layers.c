@@ -7,6 +7,7 @@
 #include "layer_type.h"
 #include "layout.h"
 #include "node_boxes.h"
+#include "octree/octree.h"
 #include "point_colors.h"
 
 #include <inttypes.h>

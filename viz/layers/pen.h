@@ -6,7 +6,7 @@
 
 #include "layout.h"
 #include "number.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 #include "scene.h"
 
 #define DETAIL 10 /* the letter of a row at which its detail begins */

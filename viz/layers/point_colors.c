@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "point_colors.h"
 #include "layer_type.h"
+#include "octree/octree.h"
 
 #include <stdio.h>
 

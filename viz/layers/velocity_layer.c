@@ -6,6 +6,7 @@
 #include "velocity_layer.h"
 #include "layer_type.h"
 #include "node_boxes.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
 /* visit_layers.c - the layers of a tick's queries: nodes pruned, nodes visited, leaves with hits. */
 #include "foreign_nodes.h"
 #include "layer_type.h"
+#include "octree/octree.h"
 #include "text.h"
 #include "node_boxes.h"
 
@@ -10,7 +11,7 @@
 
 static bool is_pruned(const octree_visit *visit)
 {
-    return visit->touch == OCTREE_TOUCH_PRUNED;
+    return visit->touch == OCTREE_TRACE_PRUNED;
 }
 
 /* A node keeps its colour in the tree. Visited nodes are bold, pruned ones dashed. */
@@ -61,15 +62,15 @@ static size_t count_met(const layer_source *in, size_t own, octree_met met)
 
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    const size_t pruned = count_met(in, in->tick->touched[OCTREE_TOUCH_PRUNED], OCTREE_MET_PRUNED);
+    const size_t pruned = count_met(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_MET_PRUNED);
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
 /* Nodes taken whole have a line of their own if both counts do not fit into one. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
-    const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TOUCH_TAKEN] : 0;
-    const size_t visited = count_met(in, in->tick->touched[OCTREE_TOUCH_VISITED], OCTREE_MET_VISITED);
+    const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
+    const size_t visited = count_met(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_MET_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken whole", taken);

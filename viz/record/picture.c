@@ -2,6 +2,7 @@
 #include "picture.h"
 #include "filter.h"
 #include "camera.h"
+#include "octree/octree.h"
 #include "point_scale.h"
 
 _Static_assert(VIEW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");

@@ -2,6 +2,7 @@
 /* playback.c - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl. */
 #include "playback.h"
 #include "frame_file.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -3,6 +3,7 @@
 #include "array.h"
 #include "file.h"
 #include "file_kind.h"
+#include "octree/octree.h"
 #include "recording_file.h"
 #include "judgement.h"
 #include "number.h"

@@ -4,6 +4,7 @@
 #include "file.h"
 #include "json_write.h"
 #include "number.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -5,7 +5,7 @@
 
 #include "cloud.h"
 #include "json_write.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #include <stdio.h>
 

@@ -3,6 +3,7 @@
 #include "inspect_answers.h"
 #include "inspect.h"
 #include "json_write.h"
+#include "octree/octree.h"
 #include "text.h"
 #include "ticks_write.h"
 

@@ -3,6 +3,7 @@
  * while the tree grows, and it can be told how far it is. The nodes are a function of the contents: they are the same.
  */
 #include "inspect.h"
+#include "octree/octree.h"
 #include "parallel.h"
 
 #include <stdlib.h>

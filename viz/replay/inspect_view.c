@@ -2,6 +2,7 @@
 #include "inspect_view.h"
 #include "layer.h"
 #include "layout.h"
+#include "octree/octree.h"
 #include "point_scale.h"
 
 #include <stdio.h>

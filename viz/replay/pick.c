@@ -4,6 +4,7 @@
 #include "frame_file.h"
 #include "layer.h"
 #include "json_write.h"
+#include "octree/octree.h"
 #include "replay.h"
 #include "png_read.h"
 #include "text.h"

@@ -3,6 +3,7 @@
 #include "array.h"
 #include "file.h"
 #include "json_read.h"
+#include "octree/octree.h"
 #include "text.h"
 
 #include <inttypes.h>

@@ -2,6 +2,7 @@
 /* No libm beyond sqrt, fabs, floor, fmod and fmax: the same camera on every machine. */
 #include "camera.h"
 #include "filter.h"
+#include "octree/octree.h"
 
 #include <float.h>
 #include <math.h>

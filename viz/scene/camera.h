@@ -8,7 +8,7 @@
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 #include "view.h"
 
 /* The part of the frame that the world is drawn in; pixels, y down. */

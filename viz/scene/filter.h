@@ -14,7 +14,7 @@
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #include <stdbool.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "heat.h"
 #include "array.h"
+#include "octree/octree.h"
 
 static const hash_map_keys by_node = {sizeof(heat_cell), hash_map_hash_id, hash_map_same_id};
 
@@ -83,7 +84,7 @@ bool heat_add_tick(heat *h, const octree_game *game)
     octree_address taken = 0; /* the last node taken whole: visits are in pre-order, so its descendants come next */
     for (size_t i = 0; !w.failed && i < tick->visit_count; i++) {
         const octree_visit *visit = &tick->visits[i];
-        if (visit->touch == OCTREE_TOUCH_PRUNED || (taken && is_within(visit->node, taken)))
+        if (visit->touch == OCTREE_TRACE_PRUNED || (taken && is_within(visit->node, taken)))
             continue;
         taken = visit->taken ? visit->node : taken;
         add_visit(h, tree, visit->node, visit->taken);

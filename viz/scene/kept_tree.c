@@ -2,6 +2,7 @@
 #include "kept_tree.h"
 #include "array.h"
 #include "octree/digest.h"
+#include "octree/octree.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -127,7 +128,7 @@ static bool learn_changes(kept_tree *k, const octree *tree)
         return false;
     k->patience = k->patience < MOST_PATIENCE ? 2 * k->patience + 1 : MOST_PATIENCE;
     k->wait = k->patience;
-    k->mark = (octree_mark){0};
+    k->mark = (octree_cursor){0};
     return false;
 }
 

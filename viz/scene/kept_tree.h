@@ -5,6 +5,7 @@
 #ifndef SCENE_KEPT_TREE_H
 #define SCENE_KEPT_TREE_H
 
+#include "octree/types.h"
 #include "scene_digest.h"
 
 /* Kept are the subtrees of so many points or fewer whose parents have more, and leaves. */
@@ -48,7 +49,7 @@ typedef struct kept_tree {
     uint64_t sieve;        /* of the points of all of them: node_boxes.h */
     kept_list now, before; /* in the order of a walk; while one goes on, `before` has those of the last one, */
     size_t met;            /* of which so many were met */
-    octree_mark mark;
+    octree_cursor mark;
     unsigned wait, patience; /* ticks until the tree is asked again; and how many that will be if it is in vain */
     uint64_t *touched;       /* places where the tree has changed, in the order of a walk */
     size_t touched_count, touched_room, next_touched;

@@ -2,6 +2,7 @@
 #include "point_scale.h"
 #include "array.h"
 #include "octree/digest.h"
+#include "octree/octree.h"
 
 #include <math.h>
 #include <stdlib.h>

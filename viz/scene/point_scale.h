@@ -5,7 +5,7 @@
 #define SCENE_POINT_SCALE_H
 
 #include "camera.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 #include "point_values.h"
 #include "view.h"
 

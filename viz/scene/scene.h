@@ -10,7 +10,7 @@
 
 #include "camera.h"
 #include "lettering.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 #include "theme.h"
 #include "view.h"
 

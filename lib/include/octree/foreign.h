@@ -8,7 +8,7 @@
 #ifndef OCTREE_FOREIGN_H
 #define OCTREE_FOREIGN_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #ifdef __cplusplus
 extern "C" {

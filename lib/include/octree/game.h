@@ -166,8 +166,8 @@ typedef struct octree_refusal {
 typedef struct octree_visit {
     octree_address node; /* of the tree as it was when it was asked: the collision test comes before the step, which may
                             merge what the test has visited */
-    octree_touch touch;  /* where several met it, the strongest: visited, then taken whole, then pruned */
-    bool taken;          /* one of them took it whole, whatever the others did */
+    octree_trace_kind touch; /* where several met it, the strongest: visited, then taken whole, then pruned */
+    bool taken;              /* one of them took it whole, whatever the others did */
 } octree_visit;
 
 /* One tick. The arrays are owned by the game and valid until its next step. */
@@ -201,7 +201,7 @@ typedef struct octree_tick {
     bool judged;                /* a program's answer was judged in this tick or before */
     const octree_visit *visits; /* each node once, in pre-order */
     size_t visit_count;
-    size_t touched[OCTREE_TOUCH_KINDS]; /* how many of them were met in each way */
+    size_t touched[OCTREE_TRACE_KINDS]; /* how many of them were met in each way */
     const octree_address *hit_leaves;   /* the leaves that hold a hit or a point of an answer; in pre-order */
     size_t hit_leaf_count;
     const octree_shape *shapes; /* of this tick, and then those of every tick */

@@ -8,7 +8,6 @@
 #define OCTREE_QUERY_H
 
 #include "octree/foreign.h"
-#include "octree/octree.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,7 @@
 #ifndef OCTREE_SAMPLE_H
 #define OCTREE_SAMPLE_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #ifdef __cplusplus
 extern "C" {

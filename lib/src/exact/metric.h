@@ -10,7 +10,7 @@
 #define OCTREE_METRIC_H
 
 #include "float_rules.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 
 typedef struct metric {
     double target[3]; /* as given */

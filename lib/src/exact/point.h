@@ -4,7 +4,7 @@
 #define OCTREE_POINT_H
 
 #include "float_rules.h"
-#include "octree/octree.h"
+#include "octree/types.h"
 
 /* Without branches for each coordinate, which would be unpredictable where points share some, as in a lattice. */
 static inline bool same_position(const double a[3], const double b[3])

@@ -87,10 +87,10 @@ static void assign_results(octree_game *game)
 
 /* ---- Visited nodes ------------------------------------------------------------------------------------------ */
 
-static void record_visit(octree_address node, octree_touch touch, void *context)
+static void record_visit(octree_address node, octree_trace_kind touch, void *context)
 {
     octree_game *game = context;
-    const octree_visit visit = {node, touch, touch == OCTREE_TOUCH_TAKEN};
+    const octree_visit visit = {node, touch, touch == OCTREE_TRACE_TAKEN};
     game->lost_visits |= !list_push(&game->memory, &game->visits, &visit, sizeof visit);
 }
 
@@ -102,8 +102,8 @@ octree_search game_search(octree_game *game, octree_cost *cost)
 /* By node, and for one node by strength: visited, taken whole, pruned. */
 static int compare_visits(const void *a, const void *b)
 {
-    static const int weakness[OCTREE_TOUCH_KINDS] = {
-        [OCTREE_TOUCH_VISITED] = 0, [OCTREE_TOUCH_TAKEN] = 1, [OCTREE_TOUCH_PRUNED] = 2};
+    static const int weakness[OCTREE_TRACE_KINDS] = {
+        [OCTREE_TRACE_VISITED] = 0, [OCTREE_TRACE_TAKEN] = 1, [OCTREE_TRACE_PRUNED] = 2};
     const octree_visit *p = a, *q = b;
     return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : address_compare(&p->node, &q->node);
 }
@@ -115,7 +115,7 @@ static void sort_visits(octree_game *game)
     size_t kept = 0;
     if (game->visits.count > 1)
         qsort(visits, game->visits.count, sizeof *visits, compare_visits);
-    for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+    for (int touch = 0; touch < OCTREE_TRACE_KINDS; touch++)
         tick->touched[touch] = 0;
     for (size_t i = 0; i < game->visits.count; i++) {
         if (kept && visits[i].node == visits[kept - 1].node) {

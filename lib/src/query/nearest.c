@@ -266,7 +266,7 @@ static void run_search(search *s)
     const path p = path_to(tree, code);
     s->meter.count.nodes += p.depth + 1;
     for (unsigned depth = 0; s->meter.how->trace && depth <= p.depth; depth++)
-        meter_trace(&s->meter, morton_address(code, depth), OCTREE_TOUCH_VISITED);
+        meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
     unsigned depth = p.depth;
     if (p.nodes[depth]->octants) {
         depth++; /* its octant for the target is not occupied: its children are searched like those of the others */

@@ -69,7 +69,7 @@ typedef struct meter {
     const octree_search *how;
 } meter;
 
-static inline void meter_trace(const meter *m, octree_address address, octree_touch touch)
+static inline void meter_trace(const meter *m, octree_address address, octree_trace_kind touch)
 {
     if (m->how->trace)
         m->how->trace(address, touch, m->how->trace_context);
@@ -79,14 +79,14 @@ static inline void meter_trace(const meter *m, octree_address address, octree_to
 static inline void meter_visit(meter *m, octree_address address)
 {
     m->count.nodes++;
-    meter_trace(m, address, OCTREE_TOUCH_VISITED);
+    meter_trace(m, address, OCTREE_TRACE_VISITED);
 }
 
 /* A node that is inside the region. */
 static inline void meter_take(meter *m, octree_address address)
 {
     m->count.taken++;
-    meter_trace(m, address, OCTREE_TOUCH_TAKEN);
+    meter_trace(m, address, OCTREE_TRACE_TAKEN);
 }
 
 /* The children in these octants of a node are left out, with all below them. */
@@ -96,14 +96,14 @@ static inline void meter_prune(meter *m, octree_address parent, unsigned octants
     if (m->how->trace)
         for (unsigned octant = 0; octant < 8; octant++)
             if (octants >> octant & 1)
-                meter_trace(m, parent << 3 | octant, OCTREE_TOUCH_PRUNED);
+                meter_trace(m, parent << 3 | octant, OCTREE_TRACE_PRUNED);
 }
 
 /* The whole tree is left out. */
 static inline void meter_prune_root(meter *m)
 {
     m->count.pruned++;
-    meter_trace(m, OCTREE_ROOT, OCTREE_TOUCH_PRUNED);
+    meter_trace(m, OCTREE_ROOT, OCTREE_TRACE_PRUNED);
 }
 
 /* Add the counts to the caller's report. */

@@ -139,7 +139,7 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
     if (are_own(tree, points, count))
         return change_own(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     if (tree && change_log_is_on(&tree->changes))
-        return change_log_batch(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
+        return change_batch_and_log(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     const bool few = tree && points && are_few(tree, count) && float_mode_is_default();
     const octree_status status = (few ? insert_few : insert_sorted)(tree, points, count, statuses, inserted);
     if (status == OCTREE_OK)
@@ -180,7 +180,7 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
     if (are_own(tree, points, count))
         return change_own(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     if (tree && change_log_is_on(&tree->changes))
-        return change_log_batch(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
+        return change_batch_and_log(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
     octree_status status = OCTREE_OK;
     bool differ = false;
@@ -306,7 +306,7 @@ octree_status octree_move_many(octree *tree, const octree_point *points, const d
     if (are_own(tree, points, count))
         return change_own(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (tree && change_log_is_on(&tree->changes))
-        return change_log_batch(tree, OCTREE_MOVED, points, to, count, statuses, moved);
+        return change_batch_and_log(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (count && !to)
         return OCTREE_NULL_ARGUMENT;
     batch b = {.tree = tree, .points = points, .to = to, .count = count, .statuses = statuses};

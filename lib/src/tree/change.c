@@ -179,7 +179,7 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 {
     if (tree && change_log_is_on(&tree->changes))
-        return change_log_single(tree, OCTREE_INSERTED, position, id, position);
+        return change_and_log(tree, OCTREE_INSERTED, position, id, position);
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
@@ -246,7 +246,7 @@ static void remove_found(octree *tree, const found_point *found, node *spare)
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 {
     if (tree && change_log_is_on(&tree->changes))
-        return change_log_single(tree, OCTREE_REMOVED, position, id, position);
+        return change_and_log(tree, OCTREE_REMOVED, position, id, position);
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
@@ -284,7 +284,7 @@ static octree_status move_across(octree *tree, const found_point *found, const o
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
     if (tree && change_log_is_on(&tree->changes))
-        return change_log_single(tree, OCTREE_MOVED, from, id, to);
+        return change_and_log(tree, OCTREE_MOVED, from, id, to);
     octree_status status = check_position(tree, from);
     if (status == OCTREE_OK)
         status = check_position(tree, to);

@@ -1,14 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* change_log.c - what changed in a tree's contents, for who follows it. */
+/* change_log.c - the recent changes of a tree's contents, for programs that follow a tree.
+ *
+ * Problem: a program that mirrors a tree (a picture, a cache) must learn which points changed without comparing all of
+ * them. Readers run on many threads, have no registration, and may stop reading at any time.
+ *
+ * Idea: a ring of the last changes, numbered from 0 on. A reader keeps a cursor (log name, number) and reads from
+ * there. The log starts with the first read and stops by itself when nobody has read for so long that reading the whole
+ * tree would cost less. So the tree holds no list of readers, and a tree that nobody follows pays one test of an
+ * atomic.
+ *
+ * Cost: one write to the ring per change. The ring doubles when the unread changes fill half of it.
+ */
 #include "change_log.h"
 #include "tree.h"
 
 #include <string.h>
 
-/* Of more changes than this share of the points, to look at the whole tree costs as much as to follow them. */
+/* A reader that missed more changes than a quarter of the points reads the whole tree at the same cost. */
 enum { LEAST_CHANGES = 1024, SHARE = 4 };
 
-static uint64_t most_changes(const octree *tree)
+static uint64_t change_limit(const octree *tree)
 {
     const uint64_t share = tree->root.count / SHARE;
     return share > LEAST_CHANGES ? share : LEAST_CHANGES;
@@ -20,12 +31,12 @@ void change_log_stop(change_log *log, arena *memory)
     arena_give(memory, log->items, log->room * sizeof *log->items);
     log->items = NULL;
     log->room = 0;
-    log->first = ++log->next; /* no mark that was made before reaches it */
+    log->first = ++log->next; /* invalidates all older cursors */
 }
 
-/* ---- Noting ------------------------------------------------------------------------------------------------- */
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-static bool grow(change_log *log, arena *memory)
+static bool grow_ring(change_log *log, arena *memory)
 {
     const size_t room = log->room ? 2 * log->room : 16;
     octree_change *items = arena_take(memory, room * sizeof *items); /* no overflow, as in list_append() */
@@ -39,30 +50,30 @@ static bool grow(change_log *log, arena *memory)
     return true;
 }
 
-/* Room for one more. What was asked for may be overwritten, but not where that fills half of the room: so two who ask
- * in turn do not miss one another's changes. */
+/* Make room for one more change. Changes that were read may be overwritten, but only while the unread ones fill less
+ * than half of the ring: a second reader that lags behind the first then still finds its changes. */
 static bool make_room(change_log *log, arena *memory)
 {
     if (log->next - log->first < log->room)
         return true;
-    if (log->next - log->seen >= log->room / 2)
-        return grow(log, memory);
+    if (log->next - log->last_read >= log->room / 2)
+        return grow_ring(log, memory);
     log->first++;
     return true;
 }
 
-static void add_change(octree *tree, const octree_change *made)
+static void append_change(octree *tree, const octree_change *change)
 {
     change_log *log = &tree->changes;
-    if (atomic_exchange_explicit(&log->asked, false, memory_order_relaxed))
-        log->seen = log->next;
-    if (log->next - log->seen < most_changes(tree) && make_room(log, &tree->store.memory))
-        log->items[log->next++ & (log->room - 1)] = *made;
+    if (atomic_exchange_explicit(&log->was_read, false, memory_order_relaxed))
+        log->last_read = log->next;
+    if (log->next - log->last_read < change_limit(tree) && make_room(log, &tree->store.memory))
+        log->items[log->next++ & (log->room - 1)] = *change;
     else
         change_log_stop(log, &tree->store.memory);
 }
 
-/* ---- Changes made ------------------------------------------------------------------------------------------------ */
+/* ---- Changes that are logged -------------------------------------------------------------------------------- */
 
 static size_t suspend(change_log *log)
 {
@@ -76,8 +87,8 @@ static void resume(change_log *log, size_t name)
     atomic_store_explicit(&log->name, name, memory_order_relaxed);
 }
 
-static octree_status make_change(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
-                                 const double to[3])
+static octree_status apply_change(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
+                                  const double to[3])
 {
     switch (kind) {
     case OCTREE_INSERTED:
@@ -89,19 +100,19 @@ static octree_status make_change(octree *tree, octree_change_kind kind, const do
     }
 }
 
-octree_status change_log_single(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
-                                const double to[3])
+octree_status change_and_log(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
+                             const double to[3])
 {
-    octree_change made = {.kind = kind, .id = id}; /* a copy: the places may be the tree's own */
+    octree_change made = {.kind = kind, .id = id}; /* copied first: `from` and `to` may be the tree's own memory */
     if (from && kind != OCTREE_INSERTED)
         memcpy(made.from, from, sizeof made.from);
     if (to && kind != OCTREE_REMOVED)
         memcpy(made.to, to, sizeof made.to);
     const size_t name = suspend(&tree->changes);
-    const octree_status status = make_change(tree, kind, from, id, to);
+    const octree_status status = apply_change(tree, kind, from, id, to);
     resume(&tree->changes, name);
     if (status == OCTREE_OK)
-        add_change(tree, &made);
+        append_change(tree, &made);
     return status;
 }
 
@@ -118,8 +129,8 @@ octree_status change_batch(octree *tree, octree_change_kind kind, const octree_p
     }
 }
 
-static void note_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
-                       size_t count, const octree_status *statuses)
+static void log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
+                      size_t count, const octree_status *statuses)
 {
     for (size_t i = 0; i < count && change_log_is_on(&tree->changes); i++) {
         octree_change made = {.kind = kind, .id = points[i].id};
@@ -128,47 +139,47 @@ static void note_batch(octree *tree, octree_change_kind kind, const octree_point
         if (kind != OCTREE_REMOVED)
             memcpy(made.to, kind == OCTREE_MOVED ? to[i] : points[i].position, sizeof made.to);
         if (statuses[i] == OCTREE_OK)
-            add_change(tree, &made);
+            append_change(tree, &made);
     }
 }
 
-octree_status change_log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
-                               size_t count, octree_status *statuses, size_t *done)
+octree_status change_batch_and_log(octree *tree, octree_change_kind kind, const octree_point *points,
+                                   const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
 {
     arena *memory = &tree->store.memory;
     const uint64_t version = tree->version;
-    const bool few = points && count > 0 && count <= most_changes(tree);
+    const bool few = points && count > 0 && count <= change_limit(tree);
     octree_status *own = few && !statuses ? arena_take(memory, count * sizeof *own) : NULL;
-    octree_status *told = statuses ? statuses : own;
+    octree_status *results = statuses ? statuses : own;
     const size_t name = suspend(&tree->changes);
-    const octree_status status = change_batch(tree, kind, points, to, count, told, done);
+    const octree_status status = change_batch(tree, kind, points, to, count, results, done);
     resume(&tree->changes, name);
-    if (tree->version != version && few && told)
-        note_batch(tree, kind, points, to, count, told);
+    if (tree->version != version && few && results)
+        log_batch(tree, kind, points, to, count, results);
     else if (tree->version != version)
         change_log_stop(&tree->changes, memory);
     arena_give(memory, own, count * sizeof *own);
     return status;
 }
 
-/* ---- Asking ------------------------------------------------------------------------------------------------- */
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-bool octree_changes_since(const octree *tree, size_t name, octree_mark *mark, octree_change_visitor visit,
+bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cursor, octree_change_visitor visit,
                           void *context)
 {
-    if (!tree || !mark || !visit || name == 0)
+    if (!tree || !cursor || !visit || log_name == 0)
         return false;
-    /* Where const is cast away two atomic members are written, which no query reads. */
+    /* const is cast away to write two atomic members, which no query reads. */
     change_log *log = (change_log *)(uintptr_t)&tree->changes;
-    size_t own = 0;
-    if (atomic_compare_exchange_strong(&log->name, &own, name))
-        own = name;
-    atomic_store(&log->asked, true);
-    const octree_mark since = *mark;
-    *mark = (octree_mark){own, log->next};
-    if (since.log != own || since.at < log->first || since.at > log->next)
+    size_t name = 0;
+    if (atomic_compare_exchange_strong(&log->name, &name, log_name))
+        name = log_name;
+    atomic_store(&log->was_read, true);
+    const octree_cursor since = *cursor;
+    *cursor = (octree_cursor){name, log->next};
+    if (since.log != name || since.position < log->first || since.position > log->next)
         return false;
-    for (uint64_t i = since.at; i < log->next; i++)
+    for (uint64_t i = since.position; i < log->next; i++)
         visit(&log->items[i & (log->room - 1)], context);
     return true;
 }

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* change_log.h - the last changes of a tree's contents, while somebody asks for them (octree_changes_since). Off until
- * then, and off again when nobody has asked for long, when memory is short, and after what changes everything: who asks
- * next is told that the changes are not known. */
+/* change_log.h - the recent changes of a tree's contents, read through octree_changes_since().
+ *
+ * The log is off until the first read. It turns off again after too many unread changes, when memory is short, and
+ * after an operation that replaces all nodes. Readers are then told that the changes are not known.
+ */
 #ifndef OCTREE_CHANGE_LOG_H
 #define OCTREE_CHANGE_LOG_H
 
@@ -11,12 +13,12 @@
 #include <stdatomic.h>
 
 typedef struct change_log {
-    /* Two that are set by who asks, beside others that ask or read the tree: */
-    atomic_size_t name; /* of who asked first; 0: off */
-    atomic_bool asked;  /* since the last change */
-    /* and those that change with the tree. Changes are numbered from 0 on; number i is at items[i % room]. */
-    uint64_t first, next; /* the oldest that is kept, and the next to come */
-    uint64_t seen;        /* the next to come when it was asked for last */
+    /* Written by readers, concurrently with other readers and with queries: */
+    atomic_size_t name;   /* given by the first reader; 0: the log is off */
+    atomic_bool was_read; /* since the last change */
+    /* Written by changes of the tree only. Changes are numbered from 0 on; number i is at items[i % room]. */
+    uint64_t first, next; /* the oldest stored change, and the next one */
+    uint64_t last_read;   /* `next` at the time of the last read */
     octree_change *items;
     size_t room; /* 0, or a power of two */
 } change_log;
@@ -26,18 +28,20 @@ static inline bool change_log_is_on(const change_log *log)
     return atomic_load_explicit(&log->name, memory_order_relaxed) != 0;
 }
 
-/* Make a change of this kind by octree_insert(), octree_remove() or octree_move(), which find the log off meanwhile,
- * and note it. What has one place alone is given it twice. */
-octree_status change_log_single(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
-                                const double to[3]);
+/* Make one change through octree_insert(), octree_remove() or octree_move(), with the log off meanwhile, and log it. An
+ * insertion or removal passes its position as both `from` and `to`. */
+octree_status change_and_log(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
+                             const double to[3]);
 
-/* A batch by octree_insert_many() or its like; and the same with the log off meanwhile, after which it is noted. */
+/* Make a batch of changes through octree_insert_many(), octree_remove_many() or octree_move_many(). */
 octree_status change_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
                            size_t count, octree_status *statuses, size_t *done);
-octree_status change_log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
-                               size_t count, octree_status *statuses, size_t *done);
 
-/* Let all that was noted be forgotten. */
+/* The same with the log off meanwhile; then log the changes that were made. */
+octree_status change_batch_and_log(octree *tree, octree_change_kind kind, const octree_point *points,
+                                   const double (*to)[3], size_t count, octree_status *statuses, size_t *done);
+
+/* Discard all changes and turn the log off. */
 void change_log_stop(change_log *log, arena *memory);
 
 #endif

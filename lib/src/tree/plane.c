@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+#include "octree/octree.h"
 #include "plane.h"
 
 /* sum[0] + sum[1] = a + b, without error (Knuth's TwoSum). */

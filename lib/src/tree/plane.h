@@ -11,6 +11,7 @@
 #include "bits.h"
 #include "float_rules.h"
 #include "octree/octree.h"
+#include "octree/types.h"
 
 #define PLANE_GRID (1u << OCTREE_MAX_DEPTH)
 

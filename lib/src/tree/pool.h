@@ -9,7 +9,7 @@
 #ifndef OCTREE_POOL_H
 #define OCTREE_POOL_H
 
-#include "octree/octree.h"
+#include "octree/types.h"
 
 #include <stdatomic.h>
 #include <string.h>

@@ -129,10 +129,10 @@ static void add_nodes_below(octree_cost *cost, const node *n)
         add_nodes_below(cost, &children_of(n)[i]);
 }
 
-static void add_taken(octree_address address, octree_touch touch, void *context)
+static void add_taken(octree_address address, octree_trace_kind touch, void *context)
 {
     range_cost *r = context;
-    if (touch != OCTREE_TOUCH_TAKEN)
+    if (touch != OCTREE_TRACE_TAKEN)
         return;
     const path p = path_to(r->trial, morton_of_address(address));
     add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);

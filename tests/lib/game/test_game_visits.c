@@ -11,7 +11,7 @@
 
 /* Which kinds of touch and of leaf a session has shown. */
 typedef struct shown {
-    size_t touched[OCTREE_TOUCH_KINDS];
+    size_t touched[OCTREE_TRACE_KINDS];
     size_t leaves, cost_points;
 } shown;
 
@@ -25,7 +25,7 @@ static void check_session(const octree_session *session, shown *met)
         const octree_tick *tick = octree_game_tick(game);
         recount_tick(&all, game, before);
         assert_recount(&all, tick);
-        for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+        for (int touch = 0; touch < OCTREE_TRACE_KINDS; touch++)
             met->touched[touch] += tick->touched[touch];
         met->leaves += tick->hit_leaf_count;
         met->cost_points += tick->hit_cost.points;
@@ -40,7 +40,7 @@ static void check_session(const octree_session *session, shown *met)
 
 static void assert_all_shown(const shown *met)
 {
-    for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+    for (int touch = 0; touch < OCTREE_TRACE_KINDS; touch++)
         assert_true(met->touched[touch] > 0);
     assert_true(met->leaves > 0 && met->cost_points > 0);
 }
@@ -111,12 +111,12 @@ static octree_session three_levels(void)
     return session;
 }
 
-static octree_touch touch_of(const octree_tick *tick, octree_address node)
+static octree_trace_kind touch_of(const octree_tick *tick, octree_address node)
 {
     for (size_t i = 0; i < tick->visit_count; i++)
         if (tick->visits[i].node == node)
             return tick->visits[i].touch;
-    return OCTREE_TOUCH_KINDS;
+    return OCTREE_TRACE_KINDS;
 }
 
 static void the_strongest_touch_of_a_node_counts(void **state)
@@ -131,13 +131,13 @@ static void the_strongest_touch_of_a_node_counts(void **state)
     session.queries = queries;
     const struct {
         size_t asked;
-        octree_touch touches[5]; /* of 0, 0/0, 0/7, 4, 7 */
+        octree_trace_kind touches[5]; /* of 0, 0/0, 0/7, 4, 7 */
     } rows[] = {
-        {0, {OCTREE_TOUCH_PRUNED, OCTREE_TOUCH_KINDS, OCTREE_TOUCH_KINDS, OCTREE_TOUCH_PRUNED, OCTREE_TOUCH_PRUNED}},
-        {1, {OCTREE_TOUCH_VISITED, OCTREE_TOUCH_TAKEN, OCTREE_TOUCH_VISITED, OCTREE_TOUCH_PRUNED, OCTREE_TOUCH_PRUNED}},
-        {2, {OCTREE_TOUCH_VISITED, OCTREE_TOUCH_TAKEN, OCTREE_TOUCH_VISITED, OCTREE_TOUCH_TAKEN, OCTREE_TOUCH_VISITED}},
+        {0, {OCTREE_TRACE_PRUNED, OCTREE_TRACE_KINDS, OCTREE_TRACE_KINDS, OCTREE_TRACE_PRUNED, OCTREE_TRACE_PRUNED}},
+        {1, {OCTREE_TRACE_VISITED, OCTREE_TRACE_TAKEN, OCTREE_TRACE_VISITED, OCTREE_TRACE_PRUNED, OCTREE_TRACE_PRUNED}},
+        {2, {OCTREE_TRACE_VISITED, OCTREE_TRACE_TAKEN, OCTREE_TRACE_VISITED, OCTREE_TRACE_TAKEN, OCTREE_TRACE_VISITED}},
         {3,
-         {OCTREE_TOUCH_VISITED, OCTREE_TOUCH_VISITED, OCTREE_TOUCH_VISITED, OCTREE_TOUCH_TAKEN, OCTREE_TOUCH_VISITED}},
+         {OCTREE_TRACE_VISITED, OCTREE_TRACE_VISITED, OCTREE_TRACE_VISITED, OCTREE_TRACE_TAKEN, OCTREE_TRACE_VISITED}},
     };
     static const octree_address nodes[] = {010, 0100, 0107, 014, 017};
     for (size_t row = 0; row < sizeof rows / sizeof rows[0]; row++) {
@@ -146,8 +146,8 @@ static void the_strongest_touch_of_a_node_counts(void **state)
         const octree_tick *tick = octree_game_tick(game);
         for (size_t i = 0; i < 5; i++)
             assert_int_equal(touch_of(tick, nodes[i]), rows[row].touches[i]);
-        assert_int_equal(touch_of(tick, OCTREE_ROOT), OCTREE_TOUCH_VISITED);
-        assert_int_equal(touch_of(tick, 013), OCTREE_TOUCH_VISITED);
+        assert_int_equal(touch_of(tick, OCTREE_ROOT), OCTREE_TRACE_VISITED);
+        assert_int_equal(touch_of(tick, 013), OCTREE_TRACE_VISITED);
         octree_game_destroy(game);
     }
 }
@@ -204,7 +204,7 @@ static void a_tick_that_asks_nothing_but_its_collision_test_is_counted(void **st
     for (int i = 0; i < 3; i++) {
         const octree_tick *tick = play_key(game, "w.f"[i]);
         assert_int_equal(tick->visit_count, 1); /* one leaf, the root */
-        assert_int_equal(tick->touched[OCTREE_TOUCH_VISITED], 1);
+        assert_int_equal(tick->touched[OCTREE_TRACE_VISITED], 1);
         assert_true(tick->hit_cost.nodes == 1 && tick->hit_cost.leaves == 1 && tick->hit_cost.points == 1);
         assert_int_equal(tick->hit_leaf_count, 0);
     }

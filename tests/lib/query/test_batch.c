@@ -307,7 +307,7 @@ static void null_is_refused_but_for_how_and_found(void **state)
     octree_destroy(tree);
 }
 
-static void count_trace(octree_address node, octree_touch touch, void *context)
+static void count_trace(octree_address node, octree_trace_kind touch, void *context)
 {
     (void)node;
     ((size_t *)context)[touch]++;
@@ -336,7 +336,7 @@ static void a_batch_is_traced_as_its_searches_are(void **state)
         assert_int_equal(octree_nearest_k(tree, targets[i], 1, &how, &one, &found), OCTREE_OK);
         assert_int_equal(one.point.id, neighbors[i].point.id);
     }
-    assert_true(singly[OCTREE_TOUCH_VISITED] > 0);
+    assert_true(singly[OCTREE_TRACE_VISITED] > 0);
     assert_memory_equal(singly, together, sizeof singly);
     octree_destroy(tree);
 }

@@ -88,7 +88,7 @@ static bool overlap(const octree_box *a, const octree_box *b)
 typedef struct judge {
     const step *step;
     octree_box around, world;
-    size_t count[OCTREE_TOUCH_KINDS];
+    size_t count[OCTREE_TRACE_KINDS];
 } judge;
 
 /* Whether the box around the step meets no other octant of a node's parent: then the node is not judged by itself. */
@@ -102,15 +102,15 @@ static bool is_only_octant(const judge *j, octree_address node)
     return met == 1;
 }
 
-static void judge_node(octree_address node, octree_touch touch, void *context)
+static void judge_node(octree_address node, octree_trace_kind touch, void *context)
 {
     judge *j = context;
     const octree_box cell = octree_cell_box(&j->world, node);
     const bool met = meets_cell(j->step, &cell);
     j->count[touch]++;
-    if (touch == OCTREE_TOUCH_PRUNED)
+    if (touch == OCTREE_TRACE_PRUNED)
         assert_false(met);
-    else if (touch == OCTREE_TOUCH_TAKEN)
+    else if (touch == OCTREE_TRACE_TAKEN)
         assert_true(covers_cell(j->step, &cell));
     else
         assert_true(met || node == OCTREE_ROOT || is_only_octant(j, node));
@@ -136,7 +136,7 @@ static void a_node_is_visited_when_its_cell_is_touched_and_taken_when_it_is_cove
         const octree_search how = {.trace = judge_node, .trace_context = &j};
         assert_int_equal(octree_collide_swept(tree, s.from, s.to, s.size, NULL, &how, ignore, NULL), OCTREE_OK);
     }
-    for (int touch = 0; touch < OCTREE_TOUCH_KINDS; touch++)
+    for (int touch = 0; touch < OCTREE_TRACE_KINDS; touch++)
         assert_true(j.count[touch] > 1000);
     octree_destroy(tree);
     brute_free(&all);
@@ -207,10 +207,10 @@ static void add_node(effort *e, octree_address address, bool all_below)
             add_node(e, address << 3 | octant, true);
 }
 
-static void add_effort(octree_address node, octree_touch touch, void *context)
+static void add_effort(octree_address node, octree_trace_kind touch, void *context)
 {
-    if (touch != OCTREE_TOUCH_PRUNED)
-        add_node(context, node, touch == OCTREE_TOUCH_TAKEN);
+    if (touch != OCTREE_TRACE_PRUNED)
+        add_node(context, node, touch == OCTREE_TRACE_TAKEN);
 }
 
 static void assert_true_points(const octree *tree, const brute *all, const step *s, effort *swept, effort *around)

@@ -16,7 +16,7 @@ static bool box_contains(const octree_box *box, const double p[3])
 
 typedef struct touched {
     octree_address node;
-    octree_touch touch;
+    octree_trace_kind touch;
 } touched;
 
 typedef struct trace {
@@ -24,7 +24,7 @@ typedef struct trace {
     size_t count;
 } trace;
 
-static void note(octree_address node, octree_touch touch, void *context)
+static void note(octree_address node, octree_trace_kind touch, void *context)
 {
     trace *t = context;
     assert_true(t->count < sizeof t->items / sizeof t->items[0]);
@@ -38,7 +38,7 @@ static bool ignore(const octree_point *point, void *context)
     return true;
 }
 
-static size_t count_of(const trace *t, octree_touch touch)
+static size_t count_of(const trace *t, octree_trace_kind touch)
 {
     size_t count = 0;
     for (size_t i = 0; i < t->count; i++)
@@ -72,7 +72,7 @@ static void assert_answer_was_met(const octree *tree, const trace *t, const doub
     octree_node leaf;
     assert_int_equal(octree_locate(tree, position, &leaf), OCTREE_OK);
     const int touch = touch_of(t, leaf.address);
-    assert_true(touch == OCTREE_TOUCH_VISITED || touch == OCTREE_TOUCH_TAKEN);
+    assert_true(touch == OCTREE_TRACE_VISITED || touch == OCTREE_TRACE_TAKEN);
 }
 
 static octree *sampled_tree(brute *all, octree_sample_kind kind)
@@ -89,15 +89,15 @@ static void assert_taken_where_within(const octree *tree, const trace *t, const 
         octree_node node;
         octree_node_at(tree, t->items[i].node, &node);
         const bool within = box_contains(box, node.box.min) && box_contains(box, node.box.max);
-        assert_int_equal(t->items[i].touch == OCTREE_TOUCH_TAKEN, within);
+        assert_int_equal(t->items[i].touch == OCTREE_TRACE_TAKEN, within);
     }
 }
 
 static void assert_counts_are_traced(const trace *t, const octree_cost *cost)
 {
-    assert_int_equal(count_of(t, OCTREE_TOUCH_VISITED), cost->nodes);
-    assert_int_equal(count_of(t, OCTREE_TOUCH_TAKEN), cost->taken);
-    assert_int_equal(count_of(t, OCTREE_TOUCH_PRUNED), cost->pruned);
+    assert_int_equal(count_of(t, OCTREE_TRACE_VISITED), cost->nodes);
+    assert_int_equal(count_of(t, OCTREE_TRACE_TAKEN), cost->taken);
+    assert_int_equal(count_of(t, OCTREE_TRACE_PRUNED), cost->pruned);
 }
 
 /* The box around two cells of depth 3. */
@@ -225,7 +225,7 @@ static void what_lies_apart_from_the_world_prunes_the_root(void **state)
     assert_int_equal(octree_nearest_within(tree, far_off, 1, &how, &found), OCTREE_NOT_FOUND);
     assert_int_equal(t.count, 3);
     for (size_t i = 0; i < t.count; i++)
-        assert_true(t.items[i].node == OCTREE_ROOT && t.items[i].touch == OCTREE_TOUCH_PRUNED);
+        assert_true(t.items[i].node == OCTREE_ROOT && t.items[i].touch == OCTREE_TRACE_PRUNED);
     assert_true(cost.nodes == 0 && cost.pruned == 3);
     octree_destroy(tree);
 }

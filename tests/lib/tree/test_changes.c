@@ -10,7 +10,7 @@
 
 /* Somebody who keeps a copy of a tree's contents. */
 typedef struct follower {
-    octree_mark mark;
+    octree_cursor mark;
     size_t name;
     brute copy;
     size_t told, looked; /* how often each way was taken */
@@ -221,7 +221,7 @@ static void nothing_is_known_without_a_mark_or_a_name(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
-    octree_mark mark = {0}, other = {0};
+    octree_cursor mark = {0}, other = {0};
     assert_false(octree_changes_since(NULL, 1, &mark, ignore_change, NULL));
     assert_false(octree_changes_since(tree, 0, &mark, ignore_change, NULL));
     assert_false(octree_changes_since(tree, 1, NULL, ignore_change, NULL));
@@ -238,7 +238,7 @@ static void a_mark_of_another_tree_knows_nothing(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW), *other = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
-    octree_mark mark = {0}, fresh = {0};
+    octree_cursor mark = {0}, fresh = {0};
     assert_false(octree_changes_since(tree, 7, &mark, ignore_change, NULL));
     assert_false(octree_changes_since(other, 8, &fresh, ignore_change, NULL));
     const double at[3] = {0, 0, 0};

@@ -197,13 +197,13 @@ static void assert_answers(const json_t *list, const octree_tick *tick)
 
 static void assert_visits(const json_t *object, const octree_tick *tick)
 {
-    size_t touched[OCTREE_TOUCH_KINDS] = {0};
+    size_t touched[OCTREE_TRACE_KINDS] = {0};
     for (size_t i = 0; i < tick->visit_count; i++)
         touched[tick->visits[i].touch]++;
     assert_members(object, "visited taken pruned hit");
-    assert_whole_number(json_member(object, "visited"), touched[OCTREE_TOUCH_VISITED]);
-    assert_whole_number(json_member(object, "taken"), touched[OCTREE_TOUCH_TAKEN]);
-    assert_whole_number(json_member(object, "pruned"), touched[OCTREE_TOUCH_PRUNED]);
+    assert_whole_number(json_member(object, "visited"), touched[OCTREE_TRACE_VISITED]);
+    assert_whole_number(json_member(object, "taken"), touched[OCTREE_TRACE_TAKEN]);
+    assert_whole_number(json_member(object, "pruned"), touched[OCTREE_TRACE_PRUNED]);
     assert_whole_number(json_member(object, "hit"), tick->hit_leaf_count);
 }
 

@@ -17,13 +17,13 @@ static bool panel_says(const scene *s, const char *text)
     return false;
 }
 
-/* How a recount says that a node was met; OCTREE_TOUCH_KINDS where it was not. */
+/* How a recount says that a node was met; OCTREE_TRACE_KINDS where it was not. */
 static unsigned touch_of(const recount *met, octree_address node)
 {
     for (size_t i = 0; i < met->count; i++)
         if (met->visits[i].node == node)
             return met->visits[i].touch;
-    return OCTREE_TOUCH_KINDS;
+    return OCTREE_TRACE_KINDS;
 }
 
 /* Every line of the diagram; those on the way are yellow and bold whatever else. Returns how many are told as met. */
@@ -35,8 +35,8 @@ static size_t check_lines(const scene *s, const recount *met, unsigned layers)
         if (line->style.layer != LAYER_DIAGRAM || line->style.role == ROLE_PLAYER)
             continue;
         const unsigned touch = touch_of(met, line->id);
-        const bool pruned = touch == OCTREE_TOUCH_PRUNED && layers >> LAYER_PRUNED & 1;
-        const bool visited = touch != OCTREE_TOUCH_PRUNED && touch != OCTREE_TOUCH_KINDS && layers >> LAYER_VISITED & 1;
+        const bool pruned = touch == OCTREE_TRACE_PRUNED && layers >> LAYER_PRUNED & 1;
+        const bool visited = touch != OCTREE_TRACE_PRUNED && touch != OCTREE_TRACE_KINDS && layers >> LAYER_VISITED & 1;
         assert_int_equal(line->style.stroke, pruned ? STROKE_DASHED : STROKE_SOLID);
         assert_int_equal(line->style.width, visited ? 2 : 1);
         told += pruned || visited;
@@ -48,8 +48,8 @@ static size_t check_lines(const scene *s, const recount *met, unsigned layers)
 static void check_legend(const scene *s, const recount *met)
 {
     char text[SCENE_TEXT];
-    const size_t taken = met->touched[OCTREE_TOUCH_TAKEN];
-    const size_t visited = met->touched[OCTREE_TOUCH_VISITED], pruned = met->touched[OCTREE_TOUCH_PRUNED];
+    const size_t taken = met->touched[OCTREE_TRACE_TAKEN];
+    const size_t visited = met->touched[OCTREE_TRACE_VISITED], pruned = met->touched[OCTREE_TRACE_PRUNED];
     snprintf(text, sizeof text, "%zu node%s visited", visited, visited == 1 ? "" : "s");
     assert_true(!s->tally.marked_visited || panel_says(s, text));
     snprintf(text, sizeof text, "%zu taken whole", taken);

@@ -72,10 +72,10 @@ static bool says(const scene *s, const char *text)
 /* Each node that was met is in the layer of its touch, each leaf of what was found in another, and nothing else is. */
 static void check_visits(const scene *s, const recount *met, const octree *tree)
 {
-    static const scene_style styles[OCTREE_TOUCH_KINDS] = {
-        [OCTREE_TOUCH_VISITED] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
-        [OCTREE_TOUCH_TAKEN] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
-        [OCTREE_TOUCH_PRUNED] = {LAYER_PRUNED, 0, STROKE_CUT, 1},
+    static const scene_style styles[OCTREE_TRACE_KINDS] = {
+        [OCTREE_TRACE_VISITED] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
+        [OCTREE_TRACE_TAKEN] = {LAYER_VISITED, 0, STROKE_SOLID, 2},
+        [OCTREE_TRACE_PRUNED] = {LAYER_PRUNED, 0, STROKE_CUT, 1},
     };
     static const scene_style hit = {LAYER_HIT, ROLE_HIT, STROKE_SOLID, 2};
     dues due = {{0}, 0};
@@ -100,8 +100,8 @@ static void check_visits(const scene *s, const recount *met, const octree *tree)
 static void check_words(const scene *s, const recount *met)
 {
     char text[SCENE_TEXT];
-    const size_t taken = met->touched[OCTREE_TOUCH_TAKEN];
-    const size_t visited = met->touched[OCTREE_TOUCH_VISITED], pruned = met->touched[OCTREE_TOUCH_PRUNED];
+    const size_t taken = met->touched[OCTREE_TRACE_TAKEN];
+    const size_t visited = met->touched[OCTREE_TRACE_VISITED], pruned = met->touched[OCTREE_TRACE_PRUNED];
     snprintf(text, sizeof text, "%zu node%s visited", visited, visited == 1 ? "" : "s");
     assert_true(says(s, text));
     snprintf(text, sizeof text, "%zu taken whole", taken);
@@ -123,9 +123,9 @@ static void check_line(const octree_game *game, const recount *met)
     assert_int_equal(fclose(out), 0);
     json_t *line = json_read(text);
     const json_t *visits = json_member(line, "visits");
-    assert_whole_number(json_member(visits, "visited"), met->touched[OCTREE_TOUCH_VISITED]);
-    assert_whole_number(json_member(visits, "taken"), met->touched[OCTREE_TOUCH_TAKEN]);
-    assert_whole_number(json_member(visits, "pruned"), met->touched[OCTREE_TOUCH_PRUNED]);
+    assert_whole_number(json_member(visits, "visited"), met->touched[OCTREE_TRACE_VISITED]);
+    assert_whole_number(json_member(visits, "taken"), met->touched[OCTREE_TRACE_TAKEN]);
+    assert_whole_number(json_member(visits, "pruned"), met->touched[OCTREE_TRACE_PRUNED]);
     assert_whole_number(json_member(visits, "hit"), met->leaf_count);
     json_decref(line);
     free(text);

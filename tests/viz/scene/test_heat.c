@@ -45,7 +45,7 @@ static bool was_visited(const recount *met, octree_address node)
     for (octree_address at = node; at; at >>= 3)
         for (size_t i = 0; i < met->count; i++)
             if (met->visits[i].node == at &&
-                (met->visits[i].taken || (at == node && met->visits[i].touch == OCTREE_TOUCH_VISITED)))
+                (met->visits[i].taken || (at == node && met->visits[i].touch == OCTREE_TRACE_VISITED)))
                 return true;
     return false;
 }

@@ -9,6 +9,7 @@
 #include "choices.h"
 #include "describe.h"
 #include "layer.h"
+#include "octree/octree.h"
 #include "pick.h"
 #include "playback.h"
 #include "recording_file.h"

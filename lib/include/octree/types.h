@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: MIT */
+/* types.h - the plain values that the tree, the game and the recorder exchange.
+ *
+ * This header declares types only. Include octree.h for the functions of the tree, game.h for those of the game.
+ */
+#ifndef OCTREE_TYPES_H
+#define OCTREE_TYPES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* One line per status: its name, the word that files use, and its sentence. */
+#define OCTREE_STATUS_MAP(X)                                                                                           \
+    X(OK, "ok", "done")                                                                                                \
+    X(NOT_FOUND, "not_found", "the tree has no such point or node")                                                    \
+    X(DUPLICATE, "duplicate", "the id is taken: in a tree at the same position, in a game at any position")            \
+    X(FULL, "full", "the leaf is full and cannot be split any further")                                                \
+    X(OUTSIDE, "outside", "the position is outside the world")                                                         \
+    X(NOT_FINITE, "not_finite", "a number is NaN or infinite")                                                         \
+    X(NULL_ARGUMENT, "null_argument", "a required pointer is null")                                                    \
+    X(BAD_WORLD, "bad_world", "the world must have finite corners with min below max on every axis")                   \
+    X(BAD_CAPACITY, "bad_capacity", "the leaf capacity must be at least 1; OCTREE_AUTO needs OCTREE_GROW")             \
+    X(BAD_RANGE, "bad_range", "the box's min is above its max")                                                        \
+    X(BAD_SIZE, "bad_size", "a size must not be negative")                                                             \
+    X(BAD_KEY, "bad_key", "the key is not one of w a s d e f n q .")                                                   \
+    X(BAD_OPTION, "bad_option", "an enum has an unknown value, or only one of two allocator functions is set")         \
+    X(BAD_TEXT, "bad_text", "text must be printable ASCII and end with a zero byte within its array")                  \
+    X(BAD_ORDER, "bad_order", "edits, queries and shapes must be in ascending order of their ticks")                   \
+    X(BAD_PARENT, "bad_parent", "a foreign node is its own ancestor")                                                  \
+    X(FLOAT_MODE, "float_mode", "the thread does not round to nearest, or flushes subnormals to zero")                 \
+    X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
+    X(TOO_MANY, "too_many", "the tree would exceed its limit of 4294967295 points")
+
+typedef enum octree_status {
+#define OCTREE_STATUS_ENUM(name, word, text) OCTREE_##name,
+    OCTREE_STATUS_MAP(OCTREE_STATUS_ENUM)
+#undef OCTREE_STATUS_ENUM
+        OCTREE_STATUS_COUNT
+} octree_status;
+
+/* ---- Points, boxes and nodes -------------------------------------------------------------------------------- */
+
+/* A closed axis-aligned box. */
+typedef struct octree_box {
+    double min[3];
+    double max[3];
+} octree_box;
+
+/* A stored point. A pair (position, id) is unique in a tree; an id need not be. */
+typedef struct octree_point {
+    double position[3];
+    uint64_t id;
+} octree_point;
+
+/* The greatest depth of a node. The root is at depth 0; 21 octants of three bits and a leading 1 fit 64 bits. */
+#define OCTREE_MAX_DEPTH 21
+
+/* The address of a node: a leading 1 bit, then three bits per octant from the root down (Morton order). */
+typedef uint64_t octree_address;
+#define OCTREE_ROOT ((octree_address)1)
+
+/* A read-only description of one node. */
+typedef struct octree_node {
+    octree_address address;
+    unsigned depth;
+    bool leaf;
+    uint8_t octants;            /* bit i is set when octant i has a node; 0 for a leaf */
+    octree_box box;             /* its inner faces are the planes that insertion compares with */
+    size_t count;               /* points in and below this node */
+    const octree_point *points; /* of a leaf, in no stated order; owned by the tree, valid until the next change.
+                                   Null for inner nodes and for the root of an empty tree */
+} octree_node;
+
+typedef struct octree_stats {
+    size_t points;
+    size_t nodes;
+    size_t leaves;
+    unsigned depth;      /* of the deepest node */
+    size_t largest_leaf; /* points in the fullest leaf */
+    size_t nodes_at_depth[OCTREE_MAX_DEPTH + 1];
+    size_t leaves_at_depth[OCTREE_MAX_DEPTH + 1];
+    size_t memory; /* bytes allocated and not yet released */
+} octree_stats;
+
+/* ---- Definition of a tree ----------------------------------------------------------------------------------- */
+
+typedef struct octree octree;
+
+/* What happens to a point that meets a full leaf which cannot split: the tree refuses it with OCTREE_FULL, as the
+ * paper does, or the leaf grows beyond its capacity. */
+typedef enum octree_full_leaf {
+    OCTREE_REFUSE,
+    OCTREE_GROW,
+} octree_full_leaf;
+
+/* The memory functions of a tree. `allocate` returns memory with the alignment of malloc, or null. `release` receives
+ * the size that was requested; its pointer is never null. Setting only one of the two is BAD_OPTION. The context must
+ * outlive the tree. Changes of a tree call the allocator from one thread at a time. octree_nearest_batch and
+ * octree_query_answer (game.h) also allocate: a program that runs them on several threads at once needs a thread-safe
+ * allocator, such as malloc. */
+typedef struct octree_allocator {
+    void *(*allocate)(size_t size, void *context);
+    void (*release)(void *memory, size_t size, void *context);
+    void *context;
+} octree_allocator;
+
+typedef void octree_task(size_t number, void *context);
+
+/* The caller's threads. `run` calls the task once for each number below `count` (at most 64), on any threads and in
+ * any order, and returns when all calls have returned. Bulk changes, octree_nearest_batch, octree_digest and
+ * octree_check divide large work, of some thousand points or more, into tasks. Nodes, statuses, answers and digests do
+ * not depend on the number of threads; memory use may differ slightly, because tasks compete for free blocks. Tasks
+ * call the allocator one at a time. Null means the calling thread. The context must outlive the tree. */
+typedef struct octree_executor {
+    void (*run)(octree_task *task, size_t count, void *task_context, void *context);
+    void *context;
+} octree_executor;
+
+/* A leaf capacity that octree_tune chooses, with the default mix or the one last given to it: first when the tree
+ * reaches 1024 points, then each time the number of points has doubled. Requires OCTREE_GROW, because a point must not
+ * be refused on account of a choice. The nodes are then a function of the contents and the capacity in force. */
+#define OCTREE_AUTO (SIZE_MAX - 1)
+
+/* Everything that defines an empty tree. Start from octree_def_default() and change what you need. */
+typedef struct octree_def {
+    octree_box world;           /* min < max on every axis; any finite doubles, +-DBL_MAX included */
+    size_t leaf_capacity;       /* points in a leaf before it splits; at least 1, clamped to 2^32 - 1; or OCTREE_AUTO */
+    size_t max_depth;           /* clamped to OCTREE_MAX_DEPTH; 0 keeps the root a leaf */
+    octree_full_leaf full_leaf; /* what a full leaf at the maximum depth does */
+    octree_allocator allocator; /* null functions mean malloc and free */
+    octree_executor executor;   /* a null function means the calling thread */
+} octree_def;
+
+/* A cursor into a tree's change log. All zero means that nothing has been read yet. */
+typedef struct octree_cursor {
+    size_t log;        /* the name of the log */
+    uint64_t position; /* the number of changes read */
+} octree_cursor;
+
+/* ---- Queries ------------------------------------------------------------------------------------------------ */
+
+/* Which points do not count as neighbours of a target. */
+typedef enum octree_skip {
+    OCTREE_SKIP_NONE,       /* every point counts */
+    OCTREE_SKIP_ID,         /* leave out points with the given id: "not the target itself" */
+    OCTREE_SKIP_COINCIDENT, /* leave out points at the target's coordinates: the paper's rule */
+} octree_skip;
+
+/* How distances are compared: as real numbers, or as doubles. FAST names the wrong one of two points whose distances
+ * differ by less than a rounding error. It is 1.6 to 6 times as fast where many distances are equal, as on a lattice,
+ * and about as fast as EXACT elsewhere. */
+typedef enum octree_mode {
+    OCTREE_EXACT,
+    OCTREE_FAST,
+} octree_mode;
+
+/* The work of a query, in counts that are the same on every machine. A query adds to the counts, so that one report
+ * can sum many queries. */
+typedef struct octree_cost {
+    uint64_t nodes;  /* visited, leaves included */
+    uint64_t leaves; /* visited */
+    uint64_t points; /* compared with the query one by one */
+    uint64_t pruned; /* nodes whose box is out of reach; the nodes below them are not counted */
+    uint64_t taken;  /* nodes whose box is inside the range, so that all their points match without comparison; these
+                        nodes and points are in no other count */
+} octree_cost;
+
+/* What a query did with a node. */
+typedef enum octree_trace_kind {
+    OCTREE_TRACE_VISITED, /* examined its children or its points one by one */
+    OCTREE_TRACE_PRUNED,  /* skipped it, and all nodes below it, because its box is out of reach */
+    OCTREE_TRACE_TAKEN,   /* accepted all points below it without comparison, because its box is inside the range */
+    OCTREE_TRACE_KINDS
+} octree_trace_kind;
+
+/* Called for each node that a query visits, prunes or takes. It must not change the tree. */
+typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void *context);
+
+/* Options of a query. All zero, or a null pointer in its place, means exact and every point counts. */
+typedef struct octree_search {
+    octree_skip skip;    /* read by nearest-neighbour queries only */
+    uint64_t skip_id;    /* read under OCTREE_SKIP_ID only */
+    octree_mode mode;    /* of distances; boxes are exact in both modes */
+    double epsilon;      /* finite, >= 0; a ratio for neighbours, a length for ranges: see each function */
+    octree_cost *cost;   /* null: do not count */
+    octree_tracer trace; /* null: do not trace */
+    void *trace_context;
+} octree_search;
+
+typedef struct octree_neighbor {
+    octree_point point;
+    double distance; /* Euclidean, within 4 ulp, without overflow or underflow on the way. Rounded: used as a radius it
+                        may miss the very point that it belongs to */
+} octree_neighbor;
+
+#endif
