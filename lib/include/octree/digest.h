@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* digest.h - one 64-bit digest for trees, scenes and pixels: the same on every machine, not for cryptography.
+/* digest.h - a 64-bit digest for trees, scenes and pixels: the same on every machine, not for cryptography.
  *
- * Start with OCTREE_DIGEST_START and feed words or bytes; the order counts.
+ * Start with OCTREE_DIGEST_START and add words or bytes; their order matters. Example:
+ *
+ *     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
  */
 #ifndef OCTREE_DIGEST_H
 #define OCTREE_DIGEST_H
@@ -12,7 +14,7 @@
 
 #define OCTREE_DIGEST_START UINT64_C(0x6f637472656c0001)
 
-/* Add one word: the finalizer of splitmix64 over the running state. */
+/* Add one word, by the finalizer of splitmix64 (Steele, Lea and Flood 2014). Returns the new digest. */
 static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
 {
     uint64_t x = (digest ^ word) + UINT64_C(0x9e3779b97f4a7c15);
@@ -21,10 +23,10 @@ static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/* Add a double by its value: -0.0 and +0.0 count as equal. */
+/* Add a double by its value: -0.0 and +0.0 give the same digest. */
 static inline uint64_t octree_digest_double(uint64_t digest, double value)
 {
-    uint64_t bits; /* alone: arithmetic would follow the rules that the including program is built by */
+    uint64_t bits; /* no arithmetic on doubles: it would depend on the compiler flags of the including program */
     memcpy(&bits, &value, sizeof bits);
     return octree_digest_word(digest, bits << 1 ? bits : 0);
 }
@@ -33,7 +35,7 @@ static inline uint64_t octree_digest_double(uint64_t digest, double value)
 static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, size_t size)
 {
     const unsigned char *at = (const unsigned char *)bytes;
-    for (; size >= 8; at += 8, size -= 8) { /* one load, where the machine has that order */
+    for (; size >= 8; at += 8, size -= 8) { /* compiles to one load on little-endian machines */
         const uint64_t word = (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
                               (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 |
                               (uint64_t)at[7] << 56;
@@ -45,7 +47,7 @@ static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, s
     return size > 0 ? octree_digest_word(digest, rest) : digest;
 }
 
-/* Add bytes as words, then their number. */
+/* Add bytes as octree_digest_words() does, then their count. */
 static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, size_t size)
 {
     return octree_digest_word(octree_digest_words(digest, bytes, size), size);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* sample.h - seeded point distributions: one workload for sessions, tests and benches.
+/* sample.h - seeded point distributions for sessions, tests and benchmarks.
  *
- * The same kind, seed, box and index give the same point on every machine: integers, additions, products and square
- * roots alone.
+ * The same kind, seed, box and index give the same point on every machine: only integers, additions, products and
+ * square roots are used.
  */
 #ifndef OCTREE_SAMPLE_H
 #define OCTREE_SAMPLE_H
@@ -15,17 +15,17 @@ extern "C" {
 
 typedef enum octree_sample_kind {
     OCTREE_SAMPLE_UNIFORM,   /* independent, uniform in the box */
-    OCTREE_SAMPLE_GAUSSIAN,  /* about the centre; sigma is a sixth of the extent, as a sum of twelve uniforms */
-    OCTREE_SAMPLE_CLUSTERED, /* sixteen small gaussian clusters of unlike size about uniform centres */
-    OCTREE_SAMPLE_SURFACE,   /* on the ellipsoid that fills nine tenths of the box */
-    OCTREE_SAMPLE_LATTICE,   /* a cubic grid of cell centres, x slowest; the seed is not used */
+    OCTREE_SAMPLE_GAUSSIAN,  /* around the centre; a sum of twelve uniforms, sigma is a sixth of the extent */
+    OCTREE_SAMPLE_CLUSTERED, /* sixteen small gaussian clusters of different sizes around uniform centres */
+    OCTREE_SAMPLE_SURFACE,   /* on an ellipsoid nine tenths the size of the box */
+    OCTREE_SAMPLE_LATTICE,   /* a cubic grid of cell centres, x varies slowest; ignores the seed */
     OCTREE_SAMPLE_KINDS
 } octree_sample_kind;
 
-/* "uniform", "gaussian", ...; null for a value that is not listed. */
+/* The name of a kind: "uniform", "gaussian", ...; null for an unknown value. */
 const char *octree_sample_name(octree_sample_kind kind);
 
-/* The inverse. False when no kind has this name. */
+/* Find the kind with a name. False if there is none. */
 bool octree_sample_parse(const char *name, octree_sample_kind *kind);
 
 /* Write `count` positions within `box` to `positions`, one row of three doubles each.
@@ -33,7 +33,7 @@ bool octree_sample_parse(const char *name, octree_sample_kind *kind);
 octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count,
                             double (*positions)[3]);
 
-/* The generator behind it (splitmix64, Steele, Lea and Flood 2014): the next 64 random bits of a state. */
+/* The next 64 random bits of a state, by splitmix64 (Steele, Lea and Flood 2014). */
 uint64_t octree_random(uint64_t *state);
 
 /* The next uniform double in [0, 1), with 53 random bits. */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* bits.h - small integer tricks: counting bits, and Morton order. */
+/* bits.h - bit operations on integers: counting, searching, and spreading bits for Morton codes. */
 #ifndef OCTREE_BITS_H
 #define OCTREE_BITS_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The number of bits set in each of 16 values, four bits an answer: two shifts count a mask of eight. */
+/* A table of 16 four-bit entries: the bit count of each value 0..15. */
 #define BITS_COUNTS UINT64_C(0x4332322132212110)
 
 static inline unsigned bits_count8(unsigned mask)
@@ -14,7 +14,7 @@ static inline unsigned bits_count8(unsigned mask)
     return (unsigned)((BITS_COUNTS >> 4 * (mask & 15) & 15) + (BITS_COUNTS >> 4 * (mask >> 4) & 15));
 }
 
-/* The number of bits set: of pairs, of fours, of bytes, and their sum in the highest byte. */
+/* The number of set bits, by partial sums of 2, 4 and 8 bits; the product adds the bytes in the highest one. */
 static inline unsigned bits_count(uint64_t mask)
 {
     mask -= mask >> 1 & UINT64_C(0x5555555555555555);
@@ -49,7 +49,7 @@ static inline unsigned bits_highest(uint64_t mask)
 #endif
 }
 
-/* Spread the low 21 bits so that two zero bits follow each. */
+/* Insert two zero bits before each of the low 21 bits, so that three such words interleave to a Morton code. */
 static inline uint64_t bits_spread(uint64_t x)
 {
     x = (x | x << 32) & UINT64_C(0x001f00000000ffff);
@@ -60,7 +60,7 @@ static inline uint64_t bits_spread(uint64_t x)
     return x;
 }
 
-/* The mask, or none of it; without a branch. */
+/* `mask` if the condition holds, else 0; without a branch. */
 static inline unsigned bits_if(bool condition, unsigned mask)
 {
     return (0u - condition) & mask;

@@ -1,4 +1,18 @@
 /* SPDX-License-Identifier: MIT */
+/* exact.c - exact sums of products of doubles, and directed rounding of a sum.
+ *
+ * Problem: the sign of a sum such as |a - t|^2 - |b - t|^2 decides which point is nearer. Rounding can turn it around
+ * or hide a tie. Long double or compensated sums only make that rarer.
+ *
+ * Idea (Kulisch's long accumulator): a double is an integer times a power of two, so a product of two doubles is an
+ * integer at a fixed bit position of one very wide fixed-point number. Adding integers loses nothing. The number is
+ * kept in digits of 32 bits in signed 64-bit cells, which absorb 2^20 additions before any carry must be propagated;
+ * exact_sign() propagates carries once. Only the digits in use are initialized, a few for terms of similar size.
+ *
+ * Why not multi-precision integers or expansions (Shewchuk): they allocate, or need branches per term, and neither is
+ * simpler. Cost: three additions of digits per product and one pass over the digits in use. Callers compare doubles
+ * first and use exact sums only for near ties.
+ */
 #include "exact.h"
 
 /* A finite double as mantissa * 2^exponent, the mantissa an integer below 2^53, and a sign. */
@@ -26,8 +40,8 @@ void exact_clear(exact_sum *sum)
     sum->first = sum->end = 0;
 }
 
-/* Three digits from a place on. The range in use grows to cover them; new digits begin as 0. */
-static int64_t *use_digits(exact_sum *sum, int place)
+/* Return the three digits that start at `place`. The range in use grows to include them; new digits are 0. */
+static int64_t *digits_at(exact_sum *sum, int place)
 {
     if (sum->first == sum->end)
         sum->first = sum->end = place;
@@ -38,13 +52,13 @@ static int64_t *use_digits(exact_sum *sum, int place)
     return sum->digits + place;
 }
 
-/* Add sign * value * 2^offset, offset >= 0. */
+/* Add sign * value * 2^offset; offset >= 0 counts from the lowest bit of the fixed-point number. */
 static void add_at(exact_sum *sum, int sign, uint64_t value, int offset)
 {
     const int shift = offset % 32;
     const uint64_t low = (value & UINT32_MAX) << shift;
     const uint64_t high = (value >> 32) << shift;
-    int64_t *digits = use_digits(sum, offset / 32);
+    int64_t *digits = digits_at(sum, offset / 32);
     digits[0] += sign * (int64_t)(low & UINT32_MAX);
     digits[1] += sign * (int64_t)((low >> 32) + (high & UINT32_MAX));
     digits[2] += sign * (int64_t)(high >> 32);
@@ -72,10 +86,10 @@ int exact_sign(exact_sum *sum)
         carry = (digit - sum->digits[i]) / (INT64_C(1) << 32);
         any |= sum->digits[i] != 0;
     }
-    return carry < 0 ? -1 : any; /* no carry is above 0: the last digit that a product uses has 23 bits to spare */
+    return carry < 0 ? -1 : any; /* a carry is never positive: products leave 23 bits free in their last digit */
 }
 
-/* The rounding error of sum = fl(a + b), exactly (Dekker's FastTwoSum; Knuth's TwoSum can overflow in between). */
+/* The exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum can overflow in between. */
 static double sum_error(double a, double b, double sum)
 {
     return fabs(a) >= fabs(b) ? b - (sum - a) : a - (sum - b);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* float_rules.h - what floating-point arithmetic must be for the library's answers to hold. Included by every source
- * that computes.
+/* float_rules.h - the floating-point rules that the library's answers depend on, checked at compile time and run time.
+ * Every source file that computes with positions includes it.
  *
- * Compile time: no fast-math, and doubles that are evaluated as doubles. Run time: the thread's mode is the default
- * one. SSE2 (every x86-64 has it) works on two doubles at once; the tests build the portable path too, by
- * OCTREE_PORTABLE. Subnormal numbers are counted rather than multiplied, which processors do slowly.
+ * Compile time: no fast-math, and doubles are evaluated in double precision. Run time: the thread has the default
+ * floating-point mode. On x86-64 SSE2 processes two doubles at once; OCTREE_PORTABLE selects the portable code instead,
+ * and the tests build both. Subnormal numbers are converted to integers, because processors multiply them slowly.
  */
 #ifndef OCTREE_FLOAT_RULES_H
 #define OCTREE_FLOAT_RULES_H
@@ -18,8 +18,9 @@
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "Octreel's answers are exact: it must not be compiled with -ffast-math or -ffinite-math-only"
 #endif
-/* 0 evaluates all types as themselves, 1 floats as doubles (s390x under -std=c17; the library has no floats), and 16 to
- * 64 what is shorter than that many bits. 2 is long double. */
+/* FLT_EVAL_METHOD 0 evaluates each type in its own precision; 1 evaluates float as double (s390x under -std=c17), which
+ * does no harm, because the library computes in double; 16 to 64 widen only types shorter than that many bits. 2 means
+ * long double. */
 #if FLT_EVAL_METHOD < 0 || FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD > 64
 #if defined(__i386__)
 #error "Octreel needs doubles that are evaluated as doubles, which the x87 does not: compile with -msse2 -mfpmath=sse"
@@ -33,9 +34,10 @@
 #include <emmintrin.h>
 #endif
 
-/* Whether the thread rounds to nearest and keeps subnormals. Hosts change that: audio and physics code flushes
- * subnormals to zero, interval code rounds up and down. On x86-64 one read of the control register tells (about 1 ns);
- * elsewhere operations that the compiler must not fold do. */
+/* Whether the thread rounds to nearest and keeps subnormals. Host programs change this mode: audio and physics code
+ * flushes subnormals to zero, interval arithmetic rounds up and down. On x86-64 one read of the control register shows
+ * it (about 1 ns). Elsewhere test operations show it, with volatile operands so that the compiler does not fold them.
+ */
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 
@@ -52,9 +54,9 @@ static inline bool float_mode_is_default(void)
 }
 #endif
 
-/* Many processors leave products with subnormal numbers to microcode, some 150 cycles each (measured: a nearest
- * neighbour in a world at 1e-310 took 21 times as long as elsewhere). Such a number is a whole multiple of 2^-1074, and
- * that multiple is an ordinary double. Differences of numbers below SUBNORMAL_HALF are subnormal or 0. */
+/* Many processors multiply subnormal numbers in microcode, at some 150 cycles each (measured: a nearest-neighbour
+ * search in a world at 1e-310 took 21 times as long as elsewhere). A subnormal number is an integer multiple of
+ * 2^-1074, and that integer is a normal double. Differences of numbers below SUBNORMAL_HALF are subnormal or 0. */
 #define SUBNORMAL_HALF 0x1p-1023
 
 static inline bool is_subnormal(double x)
@@ -62,7 +64,7 @@ static inline bool is_subnormal(double x)
     return fabs(x) < 0x1p-1022;
 }
 
-/* x * 2^1074, exactly; is_subnormal(x). The bits of such a number are that integer. */
+/* x * 2^1074, exact, for a subnormal x: its bit pattern without the sign is that integer. */
 static inline double subnormal_count(double x)
 {
     uint64_t bits;
@@ -71,10 +73,10 @@ static inline double subnormal_count(double x)
     return bits >> 63 ? -count : count;
 }
 
-/* The product with 2^-1074, rounded to even as that product is; |count| < 2^51. */
+/* count * 2^-1074, rounded to nearest even like the product; |count| < 2^51. */
 static inline double subnormal_of(double count)
 {
-    const double sum = fabs(count) + 0x1p52; /* rounds to a whole number */
+    const double sum = fabs(count) + 0x1p52; /* rounds to an integer */
     uint64_t bits;
     double x;
     memcpy(&bits, &sum, sizeof bits);

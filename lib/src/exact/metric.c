@@ -1,4 +1,17 @@
 /* SPDX-License-Identifier: MIT */
+/* metric.c - squared distances in scaled doubles, and their exact comparison.
+ *
+ * Problem: a search compares thousands of distances. Squares of coordinates near 1e200 overflow, those near 1e-200
+ * underflow, and rounding makes the farther of two close points look nearer.
+ *
+ * Idea: multiply coordinates by a power of two that brings the world's extent near 1, which loses nothing. Compute
+ * squares in doubles with a proven error bound (metric.h). Only when two squares are closer than the bound, compare the
+ * real distances with exact sums (exact.h). So nearly every comparison is one of doubles, and none is wrong.
+ *
+ * Why not exact arithmetic throughout: it is far too slow. Why not an epsilon: it has no right value,
+ * and ties would depend on the order of insertion. Cost: metric_points() compares two points at a time with SSE2; the
+ * exact comparison adds up to twelve products. Worlds of subnormal coordinates use integers (float_rules.h).
+ */
 #include "metric.h"
 #include "exact.h"
 #include "point.h"
@@ -27,7 +40,7 @@ metric metric_make(double scale, bool subnormal, const double target[3])
 }
 
 #ifdef OCTREE_SSE2
-/* The squares of two points at once; not for subnormal worlds. */
+/* The squared distances of two points at once. Not for subnormal worlds. */
 static inline __m128d square_pair(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b), z = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);
@@ -50,7 +63,7 @@ static inline void scan_pair(pair_scan *s, const octree_point *points, unsigned 
     _mm_storeu_pd(&squares[i], pair);
 }
 
-/* The last pair of an odd number of points has one in common with that before: no branch depends on the number. */
+/* For an odd count the last pair overlaps the pair before it, so that no branch depends on the parity. */
 static metric_scan scan_pairs(const metric *m, const octree_point *points, unsigned count, double reach,
                               double squares[])
 {
@@ -81,7 +94,8 @@ metric_scan metric_points(const metric *m, const octree_point *points, unsigned 
 
 int metric_compare(const double target[3], const double a[3], const double b[3])
 {
-    /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, less where coordinates agree. */
+    /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, fewer where coordinates are equal.
+     */
     if (same_position(a, b))
         return 0; /* many points at one position are compared often */
     exact_sum sum;
@@ -110,7 +124,7 @@ int metric_compare_radius(const double target[3], const double p[3], double radi
     return exact_sign(&sum);
 }
 
-static double length_of(const double gap[3])
+static double vector_length(const double gap[3])
 {
     return sqrt((gap[0] * gap[0] + gap[1] * gap[1]) + gap[2] * gap[2]);
 }
@@ -118,7 +132,7 @@ static double length_of(const double gap[3])
 static double subnormal_length(const double gap[3])
 {
     const double counts[3] = {subnormal_count(gap[0]), subnormal_count(gap[1]), subnormal_count(gap[2])};
-    const double length = length_of(counts);
+    const double length = vector_length(counts);
     return length < 0x1p51 ? subnormal_of(length) : ldexp(length, -1074);
 }
 
@@ -130,7 +144,7 @@ double metric_distance(const double a[3], const double b[3])
         largest = gap[i] > largest ? gap[i] : largest;
     }
     if (0x1p-480 < largest && largest < 0x1p480)
-        return length_of(gap);
+        return vector_length(gap);
     if (is_subnormal(largest))
         return subnormal_length(gap);
     const bool halve = isinf(largest);
@@ -139,5 +153,5 @@ double metric_distance(const double a[3], const double b[3])
         frexp(largest, &exponent);
     for (int i = 0; i < 3; i++)
         gap[i] = halve ? ldexp(fabs(a[i] / 2 - b[i] / 2), 1 - exponent) : ldexp(gap[i], -exponent);
-    return ldexp(length_of(gap), exponent);
+    return ldexp(vector_length(gap), exponent);
 }

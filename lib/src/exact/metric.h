@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* metric.h - squared distances in doubles that neither overflow nor underflow in any world, with a proven error.
+/* metric.h - squared distances in doubles, with a proven error, that neither overflow nor underflow in any world.
  *
- * Coordinates are first multiplied by a power of two that brings the world's extent near 1. For points of the world
- * that product is exact, or wrong by less than 2^-1074 where it is subnormal. The computed square s of a real scaled
- * square S then satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each
- * product, two in the sum. A target far outside the world may give infinity or NaN: nothing is certain then.
+ * Coordinates are multiplied by a power of two that brings the world's extent near 1. For points of the world the
+ * product is exact, or has an error below 2^-1074 if it is subnormal. The computed square s of a real scaled square S
+ * satisfies |s - S| <= 6u s + 2^-1000 with u = 2^-53: one rounding in each difference, one in each product, two in the
+ * sum. A target far outside the world may give infinity or NaN; comparisons with those decide nothing.
  */
 #ifndef OCTREE_METRIC_H
 #define OCTREE_METRIC_H
@@ -13,13 +13,13 @@
 #include "octree/types.h"
 
 typedef struct metric {
-    double target[3]; /* as given */
+    double target[3]; /* unscaled */
     double scaled[3]; /* times scale */
     double scale;
-    double grain; /* scale * 2^-1074 in a world whose coordinates are all subnormal, else 0 */
+    double grain; /* scale * 2^-1074 in a world of subnormal coordinates, else 0 */
 } metric;
 
-/* The power of two for a world; between 2^-1020 and 2^1000, so that it is a normal double. */
+/* The power of two by which a world is scaled: between 2^-1020 and 2^1000, so that it is a normal double. */
 double metric_scale(const octree_box *world);
 
 metric metric_make(double scale, bool subnormal, const double target[3]);
@@ -39,7 +39,8 @@ static inline double metric_point(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The same for up to 64 points, bit for bit: the least, and which are not above a reach, a bit each. */
+/* The squares of up to 64 points, bit for bit those of metric_point(): the least one, and a mask of the points whose
+ * square is not above a limit. */
 typedef struct metric_scan {
     uint64_t within;
     double least;
@@ -47,7 +48,7 @@ typedef struct metric_scan {
 
 metric_scan metric_points(const metric *m, const octree_point *points, unsigned count, double reach, double squares[]);
 
-/* Which of them are not above another reach. Without branches, which would be unpredictable. */
+/* A mask of the squares that are not above a limit. Without branches, because they would be unpredictable. */
 static inline uint64_t metric_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
@@ -62,7 +63,7 @@ static inline uint64_t metric_within(const double squares[], unsigned count, dou
     return within;
 }
 
-/* The scaled distance along one axis to an interval. */
+/* The scaled distance from the target to an interval on one axis; 0 inside. */
 static inline double metric_gap(const metric *m, int i, double min, double max)
 {
     const double below = metric_scaled(m, min) - m->scaled[i];
@@ -70,13 +71,13 @@ static inline double metric_gap(const metric *m, int i, double min, double max)
     return below > 0 ? below : above > 0 ? above : 0;
 }
 
-/* A square below this has not overflowed; a larger one may stand for any larger number. */
+/* A square below this limit did not overflow. A larger one may stand for any larger number. */
 #define METRIC_FINITE 0x1p1020
 
-/* Bounds to compare many squares with: a square above metric_above(b) is surely more than b, one below metric_below(b)
- * surely less, by the real numbers. The band is 64u: 12u for the two errors of 6u, 3u for its own roundings, and room
- * for the 16u by which siblings may be out of order (nearest.c). Nothing is above an infinite b, and
- * NaN is above nothing. */
+/* Bounds for certain comparisons: a square above metric_above(b) is certainly greater than b as a real number, a square
+ * below metric_below(b) certainly less. The band is 64u wide: 12u for the errors of both squares, 3u for its own
+ * roundings, and the rest covers the 16u by which nearest.c may visit siblings out of order. No square is above an
+ * infinite b, and NaN is above nothing. */
 static inline double metric_above(double b)
 {
     return b * (1 + 0x1p-47) + 0x1p-998;

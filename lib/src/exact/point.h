@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* point.h - comparing positions and boxes. */
+/* point.h - comparisons of positions and boxes. */
 #ifndef OCTREE_POINT_H
 #define OCTREE_POINT_H
 
 #include "float_rules.h"
 #include "octree/types.h"
 
-/* Without branches for each coordinate, which would be unpredictable where points share some, as in a lattice. */
+/* One branch for three coordinates: on a lattice, where points share some coordinates, three would be unpredictable. */
 static inline bool same_position(const double a[3], const double b[3])
 {
 #ifdef OCTREE_SSE2
@@ -23,7 +23,7 @@ static inline bool is_finite(const double p[3])
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }
 
-/* Whether a box can be the world of a tree. */
+/* Whether a box is valid as the world of a tree. */
 static inline bool is_world(const octree_box *box)
 {
     bool good = true;
@@ -43,14 +43,14 @@ static inline bool box_contains(const octree_box *box, const double p[3])
     return _mm_movemask_pd(_mm_and_pd(above_min, below_max)) == 3;
 #else
     bool inside = true;
-    for (int i = 0; i < 3; i++) /* without branches, which would be unpredictable */
+    for (int i = 0; i < 3; i++) /* no branches, because they would be unpredictable */
         inside &= (box->min[i] <= p[i]) & (p[i] <= box->max[i]);
     return inside;
 #endif
 }
 
-/* The nearest float, the last finite one beyond those; infinities stay. volatile: GCC 12 at -O3 leaves out one of three
- * such roundings side by side. */
+/* Round to the nearest float; finite values beyond FLT_MAX become FLT_MAX, infinities stay. volatile works around GCC
+ * 12 at -O3, which drops one of three adjacent roundings. */
 static inline double round_to_float(double x)
 {
     const volatile float rounded = (float)(x > FLT_MAX ? FLT_MAX : x < -FLT_MAX ? -FLT_MAX : x);

@@ -1,14 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* Relative to the box's middle the point goes from u = p - a to w = q - b, where p, q are the point's ends and a, b the
- * box's. On an axis on which it goes downwards by d = u - w > 0, it is within the size r from enter = (u - r) / d to
- * leave = (u + r) / d; upwards everything is mirrored. It is touched when the three intervals and 0..1 have a moment in
- * common: when every enter is at most 1 and at most every leave, and every leave is at least 0. The moments are
- * compared in doubles where their error allows; otherwise as fractions, by their cross products, exactly.
+/* sweep.c - whether a moving box touches a moving point.
+ *
+ * Problem: both move in a straight line during the time 0..1. Testing the two end positions misses fast points; testing
+ * several moments in between only makes that rarer. A rounded time of contact gives wrong answers at grazing contacts.
+ *
+ * Idea (slab test): subtract the box's motion, so that only the point moves, from u = p - a to w = q - b, where p, q
+ * are the point's ends and a, b the box's. On an axis with d = u - w > 0 the point is within the half size r of the box
+ * from the time enter = (u - r) / d to leave = (u + r) / d; for d < 0 everything is mirrored. They touch if and only if
+ * the three intervals and 0..1 share a moment: every enter <= 1, every enter <= every leave, every leave >= 0.
+ *
+ * Times are first compared in doubles with an error bound. If the bound does not decide, fractions are compared by
+ * their cross products in exact sums (exact.h). Cost: a few divisions; exact sums only for grazing contacts.
  */
 #include "sweep.h"
 #include "exact.h"
 
-/* The ends on one axis. */
+/* The ends of both motions on one axis: of the box (a, b) and of the point (p, q). */
 typedef struct ends {
     double a, b, p, q;
 } ends;
@@ -20,24 +27,25 @@ static ends ends_on(const sweep *box, const double from[3], const double to[3], 
 
 /* ---- In doubles --------------------------------------------------------------------------------------------- */
 
-/* When the box begins and ends to touch the point, as far as doubles can tell. */
+/* The interval of contact so far, in doubles. */
 typedef struct moments {
-    double enter, leave; /* the last to enter, the first to leave */
-    double error;        /* bound for both */
+    double enter, leave; /* the latest enter and the earliest leave of all axes */
+    double error;        /* an error bound for both */
 } moments;
 
-/* At rest relative to the box: 1 or 0 when doubles can tell whether the axis is covered, else -1. Three roundings. */
-static int guess_at_rest(const ends *e, double size)
+/* For an axis without motion: 1 if the point is within the size, 0 if not, -1 if doubles do not decide. The error
+ * covers three roundings. */
+static int test_axis_at_rest(const ends *e, double size)
 {
     const double offset = fabs(e->p - e->a), error = (offset + size) * 0x1p-50;
     return offset + error < size ? 1 : offset - error > size ? 0 : -1;
 }
 
-/* Narrow the moments to those of one axis; false when doubles cannot tell its direction. With v = 2^-53, `length` is
- * off by at most 4v * travel, less than an eighth of itself, and the numerators by at most 4v * (|u| + r); so the
- * quotients are off by at most 16v times what is added up here, of which 32v is taken. The last term is for underflow.
- * Where a step of this computation overflows, the error is infinite or NaN. */
-static bool narrow(moments *known, const ends *e, double size)
+/* Intersect the interval with that of one axis. False if doubles do not decide the direction of the motion. With
+ * v = 2^-53, the error of `length` is at most 4v * travel, less than an eighth of it, and that of the numerators at
+ * most 4v * (|u| + r). So the error of the quotients is at most 16v times the sum below; 32v is used. The last term
+ * covers underflow. If a step overflows, the error is infinite or NaN, and the result is false. */
+static bool intersect_axis(moments *known, const ends *e, double size)
 {
     const double step = e->b - e->a, own = e->q - e->p, travel = fabs(step) + fabs(own);
     const double length = fabs(step - own), way = step > own ? 1 : -1;
@@ -55,22 +63,22 @@ static bool narrow(moments *known, const ends *e, double size)
     return true;
 }
 
-/* 1 or 0 when doubles can tell, -1 when only exact arithmetic can. */
-static int guess(const sweep *box, const double from[3], const double to[3])
+/* 1 for contact, 0 for none, -1 if only exact arithmetic decides. */
+static int test_in_doubles(const sweep *box, const double from[3], const double to[3])
 {
     moments known = {.enter = 0, .leave = 1};
-    int guessed = 1;
+    int result = 1;
     for (int i = 0; i < 3; i++) {
         const ends e = ends_on(box, from, to, i);
         const bool rests = e.a == e.b && e.p == e.q;
-        const int answer = rests ? guess_at_rest(&e, box->size) : narrow(&known, &e, box->size) ? 1 : -1;
+        const int answer = rests ? test_axis_at_rest(&e, box->size) : intersect_axis(&known, &e, box->size) ? 1 : -1;
         if (answer == 0)
             return 0;
-        guessed = answer < 0 ? -1 : guessed;
+        result = answer < 0 ? -1 : result;
     }
     if (known.enter - known.leave > 2 * known.error)
         return 0;
-    return known.leave - known.enter > 2 * known.error ? guessed : -1;
+    return known.leave - known.enter > 2 * known.error ? result : -1;
 }
 
 /* ---- Exactly ------------------------------------------------------------------------------------------------ */
@@ -84,8 +92,8 @@ static int sign_of_sum(const double terms[], int count)
     return exact_sign(&sum);
 }
 
-/* The sign of (u - w): 1 where the point comes from above relative to the box, 0 at rest. */
-static int direction(const ends *e)
+/* The sign of u - w: 1 if the point moves down relative to the box, 0 if it is at rest. */
+static int motion_sign(const ends *e)
 {
     return sign_of_sum((double[]){e->p, -e->a, -e->q, e->b}, 4);
 }
@@ -96,7 +104,7 @@ static bool is_inside(double point, double middle, int side, double size)
     return sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
 
-/* Add factor * (way * u + side * r) of one axis times the length of the way on another. */
+/* Add factor * (way * u + reach) of one axis times the length |u - w| of another axis. */
 static void add_cross(exact_sum *sum, int factor, const ends *e, int way, double reach, const ends *other,
                       int other_way)
 {
@@ -107,7 +115,7 @@ static void add_cross(exact_sum *sum, int factor, const ends *e, int way, double
             exact_add_product(sum, factor * other_way, terms[i], length[j]);
 }
 
-/* Whether the point is within the size on axis `i` before it leaves it on axis `j`: leave_j - enter_i >= 0, times both
+/* Whether the point enters on axis `i` before it leaves on axis `j`: leave_j - enter_i >= 0, multiplied by both
  * lengths. */
 static bool enters_before(const ends *i, int way_i, const ends *j, int way_j, double size)
 {
@@ -124,9 +132,8 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
     int way[3];
     for (int i = 0; i < 3; i++) {
         e[i] = ends_on(box, from, to, i);
-        way[i] = direction(&e[i]);
-        const int side =
-            way[i] ? way[i] : 1; /* at rest both ends are one position, and the tests are of its two sides */
+        way[i] = motion_sign(&e[i]);
+        const int side = way[i] ? way[i] : 1; /* at rest the two tests check the two sides of one position */
         if (!is_inside(e[i].q, e[i].b, side, box->size) || !is_inside(e[i].p, e[i].a, -side, box->size))
             return false;
     }
@@ -139,6 +146,6 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
 
 bool sweep_touches(const sweep *box, const double from[3], const double to[3])
 {
-    const int guessed = guess(box, from, to);
-    return guessed < 0 ? touches_exactly(box, from, to) : guessed == 1;
+    const int result = test_in_doubles(box, from, to);
+    return result < 0 ? touches_exactly(box, from, to) : result == 1;
 }

@@ -5,15 +5,15 @@
 
 #include <stdbool.h>
 
-/* The box position +- size, moving in a straight line from one position to another during the time 0..1. All finite,
- * size >= 0. */
+/* The box position +- size, which moves in a straight line from `from` to `to` during the time 0..1. All values are
+ * finite, size >= 0. */
 typedef struct sweep {
     const double *from, *to;
     double size;
 } sweep;
 
-/* Whether the box touches, at some time of 0..1, a point that moves in a straight line from one position to another
- * (both the same for a point at rest). Decided by the real numbers. */
+/* Whether the box touches, at some moment of 0..1, a point that moves in a straight line from `from` to `to` (equal for
+ * a point at rest). Exact for all finite values. */
 bool sweep_touches(const sweep *box, const double from[3], const double to[3]);
 
 #endif

@@ -1,11 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* nearest.c - Algorithms 6 and 7: the nearest points, decided by the real numbers.
+/* nearest.c - Algorithms 6 and 7: the nearest points to a target, by exact distance.
  *
- * A depth-first search, nearest octant first. It goes straight to the leaf that the target lies in, by integers alone,
- * and measures the nodes of that path on its way back, when most of their other octants are out of reach. A child's
- * distance to the target has one term an axis: that of the half that the target lies in or beside, which the child's
- * parent has too, or that of the plane between the halves. So the children ascend like the sums of the subsets of three
- * increments, and the first that is out of reach ends its node.
+ * Problem: find the k nearest of n points while visiting as few nodes as possible. Every node whose box is nearer than
+ * the k-th best point must be visited; no other node should be, and the visiting order decides how soon that is known.
+ *
+ * Idea: depth first, nearest octant first. The textbook descent measures every node on the way down. Here the search
+ * goes straight to the target's leaf by the bits of its Morton code, without measuring anything, and measures the nodes
+ * of that path on the way back up, when the best distance is small and most siblings are out of reach. From the best
+ * distance and the keys, nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
+ *
+ * Order of siblings: a child's squared distance is a sum of one term per axis, either that of the parent (near half) or
+ * that of the splitting plane (far half). The eight sums are ordered like the subset sums of three increments, so three
+ * comparisons sort them, and the first child out of reach ends the node.
+ *
+ * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms
+ * 6 and 7; Samet (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
  */
 #include "leaf.h"
 #include "morton_sort.h"
@@ -13,16 +22,16 @@
 #include "search.h"
 #include "tasks.h"
 
-/* An inner node, and which of its children come next. */
+/* An inner node whose children are being searched. */
 typedef struct frame {
     const node *node;
     octree_address address;
-    double center[3];     /* of its cell, from -1 to 1 in the world */
-    double squares[3][2]; /* a child's distance on each axis, squared: [axis][0 in the near half, 1 in the far] */
-    uint8_t near;         /* the octant that is nearest */
-    uint8_t flips[8];     /* octant ^ near of the children, nearest first */
-    uint8_t next;         /* of flips */
-    uint8_t left;         /* octants of the children that come next */
+    double center[3];     /* of its cell, in units in which the world extends from -1 to 1 */
+    double squares[3][2]; /* squared distance of a child on each axis: [axis][0: near half, 1: far half] */
+    uint8_t near;         /* the nearest octant */
+    uint8_t flips[8];     /* octant ^ near, in order of distance */
+    uint8_t next;         /* index of the next flip */
+    uint8_t left;         /* mask of the octants not yet searched */
 } frame;
 
 typedef struct search {
@@ -30,12 +39,13 @@ typedef struct search {
     neighbor_heap found;
     meter meter;
     double root_squares[3];         /* from the target to the world on each axis */
-    unsigned open;                  /* frames: the innermost is at depth open - 1 */
+    unsigned open;                  /* count of open frames; the innermost has depth open - 1 */
     frame frames[OCTREE_MAX_DEPTH]; /* by depth */
 } search;
 
-/* Put two in order, without branches, which would be unpredictable. */
-static inline void order(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
+/* Swap two values and their labels if they are out of order. Without branches, because they would be unpredictable.
+ */
+static inline void sort_two(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 {
     const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
     const uint8_t change = (uint8_t)bits_if(*b < *a, *of_a ^ *of_b);
@@ -45,17 +55,17 @@ static inline void order(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
     *of_b ^= change;
 }
 
-/* The sums of subsets of three increments ascend like this, a being the least: 0, a, b, the lesser of c and a + b, ...
- */
+/* Sort the octants by distance. The subset sums of increments a <= b <= c ascend as 0, a, b, min(c, a + b), and then
+ * the complements of these in reverse order. */
 static void sort_flips(frame *f)
 {
     double a = f->squares[0][1] - f->squares[0][0];
     double b = f->squares[1][1] - f->squares[1][0];
     double c = f->squares[2][1] - f->squares[2][0];
     uint8_t bit_a = 4, bit_b = 2, bit_c = 1;
-    order(&a, &b, &bit_a, &bit_b);
-    order(&b, &c, &bit_b, &bit_c);
-    order(&a, &b, &bit_a, &bit_b);
+    sort_two(&a, &b, &bit_a, &bit_b);
+    sort_two(&b, &c, &bit_b, &bit_c);
+    sort_two(&a, &b, &bit_a, &bit_b);
     f->flips[0] = 0;
     f->flips[1] = bit_a;
     f->flips[2] = bit_b;
@@ -64,8 +74,8 @@ static void sort_flips(frame *f)
         f->flips[7 - i] = 7 ^ f->flips[i];
 }
 
-/* Measure the planes that cut a frame's cell. Its center and the squares of its near halves are known. */
-static void measure(const search *s, frame *f)
+/* Measure the planes that split a frame's cell. Its centre and the squares of its near halves are already set. */
+static void measure_planes(const search *s, frame *f)
 {
     f->near = 0;
     for (int i = 0; i < 3; i++) {
@@ -90,7 +100,7 @@ static void open_child(search *s, unsigned flip, const node *child)
     f->address = parent->address << 3 | octant;
     f->next = 0;
     f->left = child->octants;
-    measure(s, f);
+    measure_planes(s, f);
     sort_flips(f);
 }
 
@@ -118,19 +128,19 @@ static void scan_leaf(search *s, const node *leaf)
         scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
 }
 
-static double square_of(const frame *f, unsigned flip)
+static double child_square(const frame *f, unsigned flip)
 {
     return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
 }
 
-/* Take the nearest child that is left of the innermost node, or leave the node. */
-static void step(search *s)
+/* Search the nearest remaining child of the innermost node, or close the node if no child is within reach. */
+static void search_next_child(search *s)
 {
     frame *f = &s->frames[s->open - 1];
     while (f->left) {
         const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
         if (f->left >> octant & 1) {
-            if (square_of(f, flip) > s->found.node_reach)
+            if (child_square(f, flip) > s->found.node_reach)
                 break;
             const node *child = &children_of(f->node)[child_index(f->node, octant)];
             f->left &= ~(1u << octant);
@@ -149,8 +159,8 @@ static void step(search *s)
     s->open--;
 }
 
-/* The frame of a node on the path to the target's leaf, from which its other octants are searched. */
-static frame *path_frame(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
+/* Fill the frame of a node on the path to the target's leaf; the octant on the path counts as searched. */
+static frame *open_path_node(search *s, const node *n, uint64_t code, const uint32_t keys[3], unsigned depth)
 {
     frame *f = &s->frames[depth];
     const uint32_t half = cell_size(depth + 1);
@@ -160,30 +170,30 @@ static frame *path_frame(search *s, const node *n, uint64_t code, const uint32_t
     }
     f->node = n;
     f->address = morton_address(code, depth);
-    measure(s, f);
+    measure_planes(s, f);
     f->near = (uint8_t)morton_octant(code, depth);
     f->next = 1;
     f->left = n->octants & ~(1u << f->near);
     return f;
 }
 
-/* Search the octants of a node that are not on the path to the target's leaf: most often all are out of reach. */
+/* Search the octants of a node that are not on the path to the target's leaf. Usually all are out of reach. */
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
-    const double x = square_of(f, 4), y = square_of(f, 2), z = square_of(f, 1);
-    if ((x > reach) & (y > reach) & (z > reach)) { /* without branches, which would be unpredictable */
+    const double x = child_square(f, 4), y = child_square(f, 2), z = child_square(f, 1);
+    if ((x > reach) & (y > reach) & (z > reach)) { /* one branch: three would be unpredictable */
         meter_prune(&s->meter, f->address, f->left);
         return;
     }
     sort_flips(f);
     s->open = depth + 1;
     while (s->open > depth)
-        step(s);
+        search_next_child(s);
 }
 
-/* The codes of the cells beside that of this depth that a target is so close to that a search for k points is likely
- * to go there: for one, within a quarter of the cell. Returns their number. */
+/* The codes of the adjacent cells of the target's cell that the search will probably visit: those within a quarter of
+ * the cell's size from the target for k = 1, within half for k > 1. Returns their count. */
 static unsigned codes_beside(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
     const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
@@ -195,13 +205,13 @@ static unsigned codes_beside(const uint32_t keys[3], unsigned depth, size_t k, u
             beside[i] -= size;
         else if (within >= size - close)
             beside[i] += size;
-        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped */
+        if (beside[i] != keys[i] && beside[i] < PLANE_GRID) /* a key below 0 has wrapped around */
             codes[count++] = morton_interleave(beside);
     }
     return count;
 }
 
-/* Prefetch the leaves beside the target's, while that is being loaded. */
+/* Prefetch the leaves adjacent to the target's leaf while that one is being loaded. */
 static void prefetch_beside(const path *p, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
@@ -218,7 +228,7 @@ static void prefetch_beside(const path *p, uint64_t code, const uint32_t keys[3]
     }
 }
 
-/* The keys of the place of the world that is nearest to a target. */
+/* The keys of the target, clamped to the world. */
 static void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -227,9 +237,9 @@ static void nearest_keys(const octree *tree, const double target[3], uint32_t ke
     }
 }
 
-/* How many nodes from the root down are cut by no plane within reach of a target of the world: 20 less the highest bit
- * in which the keys of the reach's two ends differ. Keys are trusted up to their error, and two more; where they cannot
- * be trusted, none. */
+/* The number of nodes on the path, from the root down, whose splitting planes are all out of reach of the target: 20
+ * minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The reach in keys is
+ * widened by the error of the keys plus two. 0 where keys are not reliable or the target is outside the world. */
 static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
@@ -243,10 +253,10 @@ static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
         const uint32_t high = keys[i] + wide < PLANE_GRID ? keys[i] + wide : PLANE_GRID - 1;
         differ |= low ^ high;
     }
-    return OCTREE_MAX_DEPTH - 1 - bits_highest(differ); /* not 0: each low is below its high */
+    return OCTREE_MAX_DEPTH - 1 - bits_highest(differ); /* `differ` is not 0, because low < high on every axis */
 }
 
-static void run_search(search *s)
+static void descend(search *s)
 {
     const octree *tree = s->tree;
     uint32_t keys[3];
@@ -269,16 +279,16 @@ static void run_search(search *s)
         meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
     unsigned depth = p.depth;
     if (p.nodes[depth]->octants) {
-        depth++; /* its octant for the target is not occupied: its children are searched like those of the others */
+        depth++; /* the target's octant has no node: search the children of this node like those of the others */
     } else {
         leaf_prefetch(p.nodes[depth]);
         prefetch_beside(&p, code, keys, s->found.k);
         scan_leaf(s, p.nodes[depth]);
     }
-    const unsigned clear = nodes_out_of_reach(s, keys);
+    const unsigned first_near = nodes_out_of_reach(s, keys);
     while (depth-- > 0)
-        if (depth >= clear)
-            search_siblings(s, path_frame(s, p.nodes[depth], code, keys, depth), depth);
+        if (depth >= first_near)
+            search_siblings(s, open_path_node(s, p.nodes[depth], code, keys, depth), depth);
         else
             meter_prune(&s->meter, morton_address(code, depth),
                         p.nodes[depth]->octants & ~(1u << morton_octant(code, depth)));
@@ -286,9 +296,9 @@ static void run_search(search *s)
 
 #define NO_RADIUS (-1.0)
 
-/* The arguments have been checked; k >= 1. Returns how many were found. */
-static size_t run_query(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
-                        octree_neighbor *neighbors)
+/* Search with valid arguments and k >= 1. Returns the number of points found. */
+static size_t search_tree(const octree *tree, const double target[3], size_t k, double radius, const octree_search *how,
+                          octree_neighbor *neighbors)
 {
     search s;
     s.tree = tree;
@@ -296,14 +306,14 @@ static size_t run_query(const octree *tree, const double target[3], size_t k, do
     neighbor_heap_begin(&s.found, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
     s.open = 0;
-    run_search(&s);
+    descend(&s);
     neighbor_heap_finish(&s.found);
     meter_report(&s.meter);
     return s.found.count;
 }
 
-static octree_status check_and_run(const octree *tree, const double target[3], size_t k, double radius,
-                                   const octree_search *how, octree_neighbor *neighbors, size_t *count)
+static octree_status check_and_search(const octree *tree, const double target[3], size_t k, double radius,
+                                      const octree_search *how, octree_neighbor *neighbors, size_t *count)
 {
     if (!count)
         return OCTREE_NULL_ARGUMENT;
@@ -315,14 +325,14 @@ static octree_status check_and_run(const octree *tree, const double target[3], s
     if (status == OCTREE_OK)
         status = check_search(&search);
     if (status == OCTREE_OK && k > 0)
-        *count = run_query(tree, target, k, radius, &search, neighbors);
+        *count = search_tree(tree, target, k, radius, &search, neighbors);
     return status;
 }
 
 octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
                                octree_neighbor *neighbors, size_t *count)
 {
-    return check_and_run(tree, target, k, NO_RADIUS, how, neighbors, count);
+    return check_and_search(tree, target, k, NO_RADIUS, how, neighbors, count);
 }
 
 octree_status octree_nearest_within(const octree *tree, const double target[3], double radius, const octree_search *how,
@@ -331,7 +341,7 @@ octree_status octree_nearest_within(const octree *tree, const double target[3], 
     size_t count = 0;
     octree_status status = check_length(radius);
     if (status == OCTREE_OK)
-        status = check_and_run(tree, target, 1, radius, how, nearest, &count);
+        status = check_and_search(tree, target, 1, radius, how, nearest, &count);
     return status == OCTREE_OK && count == 0 ? OCTREE_NOT_FOUND : status;
 }
 
@@ -340,7 +350,7 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
 {
     const octree_search how = {.skip = skip, .skip_id = skip_id};
     size_t count;
-    const octree_status status = check_and_run(tree, target, 1, NO_RADIUS, &how, nearest, &count);
+    const octree_status status = check_and_search(tree, target, 1, NO_RADIUS, &how, nearest, &count);
     return status == OCTREE_OK && count == 0 ? OCTREE_NOT_FOUND : status;
 }
 
@@ -359,7 +369,9 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
-#define AHEAD 4 /* targets: how early the caller's arrays, which are accessed out of order, are prefetched */
+#define PREFETCH_AHEAD                                                                                                 \
+    4 /* targets: the lead of prefetching in the caller's arrays, which are not accessed in order                      \
+       */
 
 typedef struct target_batch {
     const octree *tree;
@@ -392,11 +404,11 @@ static void search_share(size_t number, void *context)
     for (size_t i = tasks_share(b->count, b->tasks, number); i < end; i++) {
         octree_neighbor nearest;
         const uint32_t place = b->order[i].place;
-        if (i + AHEAD < end) {
-            prefetch(&b->targets[b->order[i + AHEAD].place]);
-            prefetch(&b->neighbors[b->order[i + AHEAD].place]);
+        if (i + PREFETCH_AHEAD < end) {
+            prefetch(&b->targets[b->order[i + PREFETCH_AHEAD].place]);
+            prefetch(&b->neighbors[b->order[i + PREFETCH_AHEAD].place]);
         }
-        const bool one = run_query(b->tree, b->targets[place], 1, NO_RADIUS, &how, &nearest) == 1;
+        const bool one = search_tree(b->tree, b->targets[place], 1, NO_RADIUS, &how, &nearest) == 1;
         if (one)
             b->neighbors[place] = nearest;
         if (b->found)
@@ -418,7 +430,7 @@ static void search_in_order(target_batch *b, arena *memory)
     tasks_run(b->tree, order_share, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
     if (b->how.trace)
-        b->tasks = 1; /* the caller's tracer is for one thread */
+        b->tasks = 1; /* the caller's tracer need not be thread-safe */
     for (unsigned i = 0; i < b->tasks; i++)
         b->costs[i] = (octree_cost){0};
     tasks_run(b->tree, search_share, b->tasks, b);
@@ -433,7 +445,8 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     const octree_status status = check_batch(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
-    arena memory = {.allocator = tree->def.allocator}; /* its bytes are not the tree's: queries do not change that */
+    arena memory = {.allocator =
+                        tree->def.allocator}; /* an arena of its own: queries do not change the tree's byte count */
     target_batch b;
     b.tree = tree;
     b.targets = targets;

@@ -1,15 +1,28 @@
 /* SPDX-License-Identifier: MIT */
+/* neighbor_heap.c - the k nearest neighbours found so far.
+ *
+ * Problem: a search offers thousands of points and keeps k. Each kept point lowers the distance beyond which points and
+ * nodes are ignored. Squares in doubles order most points, but for near ties only the exact comparison decides.
+ *
+ * Idea: for k <= 32 a sorted array of keys. A key is the square as a double with its lowest five bits replaced by the
+ * index of the neighbour's slot, so that moving one double moves the neighbour. Insertion shifts keys by minimum and
+ * maximum, without branches and two at a time. A key is off by 2^-47 of itself; neighbours closer than that are
+ * compared exactly. Only the last key must be exact, since it sets the reach; the rest is sorted exactly at the end.
+ *
+ * Why not a heap for all k: for small k its unpredictable branches cost more than the shifts. Larger k use a binary
+ * heap in the caller's array, farthest on top. Cost: O(k) respectively O(log k) for each point kept.
+ */
 #include "neighbor_heap.h"
 #include "search.h"
 
 #if defined(__GNUC__)
-#define SELDOM __attribute__((noinline)) /* so that what is done often saves fewer registers */
+#define RARE __attribute__((noinline)) /* not inlined, so that the frequent path saves fewer registers */
 #else
-#define SELDOM
+#define RARE
 #endif
 
-/* Once there are k, the reach goes with the worst. Nodes have the slack of exact mode in fast mode too: the bound of
- * epsilon rests on it, and the order in which siblings are taken. */
+/* With k neighbours found, the farthest one limits the search. Nodes keep the tolerance of exact mode in FAST mode: the
+ * bound of epsilon and the order of siblings (nearest.c) depend on it. */
 static void set_reach(neighbor_heap *h, double worst)
 {
     h->point_reach = h->how.mode == OCTREE_FAST ? worst : metric_above(worst);
@@ -44,7 +57,7 @@ static int compare_close(const neighbor_heap *h, const octree_point *p, const oc
     return order ? order : octree_compare_points(p, q);
 }
 
-/* The order of results: by distance, then by id, then by position. */
+/* The order of the results: by distance, then by id, then by position. */
 static inline int compare(const neighbor_heap *h, const octree_point *p, double p_square, const octree_point *q,
                           double q_square)
 {
@@ -57,14 +70,14 @@ static inline int compare(const neighbor_heap *h, const octree_point *p, double 
 
 /* ---- Few ---------------------------------------------------------------------------------------------------- */
 
-static unsigned place_of(double key)
+static unsigned slot_of_key(double key)
 {
     uint64_t bits;
     memcpy(&bits, &key, sizeof bits);
     return bits & (FEW_NEIGHBORS - 1);
 }
 
-static double key_of(double square, unsigned place)
+static double make_key(double square, unsigned place)
 {
     uint64_t bits;
     memcpy(&bits, &square, sizeof bits);
@@ -73,25 +86,25 @@ static double key_of(double square, unsigned place)
     return square;
 }
 
-/* What has a square or key below this is surely nearer than what has this key: either key is off by 2^-47 of itself at
- * most, and metric_below() has the rest. */
-static double surely_below(double key)
+/* A neighbour with a square or key below this value is certainly nearer than one with `key`: each key is off by at most
+ * 2^-47 of itself, and metric_below() covers the errors of the squares. */
+static double certainly_below(double key)
 {
     return key * (1 - 0x1p-45) - 0x1p-998;
 }
 
-static SELDOM bool is_nearer(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
+static RARE bool is_nearer(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
 {
     return compare(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
 }
 
-/* The order of the neighbours with two keys. */
+/* Compare the neighbours of two keys. */
 static int compare_keys(const neighbor_heap *h, double a, double b)
 {
-    const unsigned place = place_of(a);
-    if (a < surely_below(b))
+    const unsigned place = slot_of_key(a);
+    if (a < certainly_below(b))
         return -1;
-    return is_nearer(h, h->few.points[place], h->few.squares[place], place_of(b)) ? -1 : 1;
+    return is_nearer(h, h->few.points[place], h->few.squares[place], slot_of_key(b)) ? -1 : 1;
 }
 
 static void begin_few(neighbor_heap *h)
@@ -99,11 +112,11 @@ static void begin_few(neighbor_heap *h)
     for (int i = 0; i < FEW_FIRST; i++)
         h->few.keys[i] = -1;
     for (unsigned i = 0; i < h->k; i++)
-        h->few.keys[FEW_FIRST + i] = key_of(2 * METRIC_FINITE, i); /* beyond those of points */
+        h->few.keys[FEW_FIRST + i] = make_key(2 * METRIC_FINITE, i); /* greater than the key of any point */
 }
 
-/* Put a key where it belongs among those before `last`, which goes. Without branches, which would be unpredictable:
- * each becomes the middle one of itself, the one before and the new one. */
+/* Insert a key in ascending order and drop the key at `last`. Without branches, because they would be unpredictable:
+ * each key becomes the median of itself, its predecessor and the new key. */
 static inline void insert_key(double *keys, size_t last, double key)
 {
 #ifdef OCTREE_SSE2
@@ -124,11 +137,11 @@ static inline void insert_key(double *keys, size_t last, double key)
 #endif
 }
 
-/* Of neighbours that are too close for doubles, let the last be the farthest. */
-static SELDOM void settle_last(const neighbor_heap *h, double *keys, size_t last)
+/* Among the last neighbours whose keys are too close to decide, move the farthest one to the end. */
+static RARE void settle_last(const neighbor_heap *h, double *keys, size_t last)
 {
     size_t farthest = last;
-    const double close = surely_below(keys[last]);
+    const double close = certainly_below(keys[last]);
     for (size_t i = last - 1; keys[i] >= close; i--)
         farthest = compare_keys(h, keys[farthest], keys[i]) < 0 ? i : farthest;
     const double key = keys[farthest];
@@ -141,22 +154,23 @@ static void add_to_few(neighbor_heap *h, const octree_point *point, double squar
 {
     few_neighbors *f = &h->few;
     const size_t last = FEW_FIRST - 1 + h->k;
-    const unsigned place = place_of(f->keys[last]);
+    const unsigned place = slot_of_key(f->keys[last]);
     if (h->count < h->k)
         h->count++;
-    else if (!(square < surely_below(f->keys[last])) && !is_nearer(h, point, square, place))
+    else if (!(square < certainly_below(f->keys[last])) && !is_nearer(h, point, square, place))
         return;
     f->points[place] = point;
     f->squares[place] = square;
-    insert_key(f->keys, last, key_of(square < METRIC_FINITE ? square : METRIC_FINITE, place)); /* it may be NaN */
+    insert_key(f->keys, last,
+               make_key(square < METRIC_FINITE ? square : METRIC_FINITE, place)); /* the square may be NaN */
     if (h->count < h->k)
         return;
-    if (f->keys[last - 1] >= surely_below(f->keys[last]))
+    if (f->keys[last - 1] >= certainly_below(f->keys[last]))
         settle_last(h, f->keys, last);
-    set_reach(h, f->squares[place_of(f->keys[last])]);
+    set_reach(h, f->squares[slot_of_key(f->keys[last])]);
 }
 
-/* Sorted into the caller's array. */
+/* Sort the neighbours exactly and store them in the caller's array. */
 static void finish_few(const neighbor_heap *h, double *keys)
 {
     for (size_t i = 0; i < h->count; i++) {
@@ -167,7 +181,7 @@ static void finish_few(const neighbor_heap *h, double *keys)
         keys[at] = key;
     }
     for (size_t i = 0; i < h->count; i++)
-        h->items[i].point = *h->few.points[place_of(keys[i])];
+        h->items[i].point = *h->few.points[slot_of_key(keys[i])];
 }
 
 /* ---- Many --------------------------------------------------------------------------------------------------- */
@@ -177,7 +191,7 @@ static inline int compare_items(const neighbor_heap *h, const octree_neighbor *p
     return compare(h, &p->point, p->distance, &q->point, q->distance);
 }
 
-/* Replace the top of the first `count`: what is farther than the new item rises. */
+/* Replace the top of the heap of `count` items by `item` and restore the heap order downwards. */
 static void sink(const neighbor_heap *h, const octree_neighbor *item, size_t count)
 {
     octree_neighbor *items = h->items;
@@ -192,7 +206,7 @@ static void sink(const neighbor_heap *h, const octree_neighbor *item, size_t cou
     items[at] = *item;
 }
 
-/* Put an item after the others: what is nearer sinks below it. */
+/* Append an item at index `at` and restore the heap order upwards. */
 static void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at)
 {
     octree_neighbor *items = h->items;
@@ -201,7 +215,7 @@ static void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at)
     items[at] = *item;
 }
 
-static SELDOM void add_to_many(neighbor_heap *h, const octree_point *point, double square)
+static RARE void add_to_many(neighbor_heap *h, const octree_point *point, double square)
 {
     const octree_neighbor found = {*point, square};
     if (h->count < h->k)
@@ -256,7 +270,7 @@ void neighbor_heap_finish(neighbor_heap *h)
         sort_heap(h);
     for (size_t i = 0; i < h->count; i++) {
         const double distance = metric_distance(h->metric.target, h->items[i].point.position);
-        /* The order is the real numbers'; rounding must not make it look otherwise. */
+        /* The order is exact; rounded distances must not contradict it. */
         h->items[i].distance = i > 0 ? fmax(distance, h->items[i - 1].distance) : distance;
     }
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* neighbor_heap.h - the k nearest neighbours found so far, decided by the real numbers. Private.
+/* neighbor_heap.h - the k nearest neighbours found so far, compared exactly. Private.
  *
- * Few are kept in order; more in a heap in the caller's array, the farthest on top. Squared distances in doubles decide
- * whenever their proven error allows (metric.h), exact arithmetic decides the rest: so rounding never picks a
- * neighbour.
+ * Up to 32 neighbours are kept in order, more in a heap. Squared distances in doubles decide when their proven error
+ * allows it (metric.h); otherwise exact arithmetic decides. So rounding never selects a neighbour.
  */
 #ifndef OCTREE_NEIGHBOR_HEAP_H
 #define OCTREE_NEIGHBOR_HEAP_H
@@ -12,45 +11,47 @@
 
 #include <stddef.h>
 
-/* Up to 32 neighbours have places; a key is a neighbour's square but for the lowest bits, which are its place. Keys
- * ascend, but that the last of k is the farthest's by the real numbers. Unlike those of a heap of items, moves of keys
- * need no branches, and compare two at once. */
+/* Up to 32 neighbours in numbered slots. A key is a neighbour's square whose lowest FEW_BITS bits hold its slot. Keys
+ * ascend, except that the last of k keys belongs to the neighbour that is farthest by exact comparison. */
 #define FEW_BITS 5
 #define FEW_NEIGHBORS (1 << FEW_BITS)
-#define FEW_FIRST 3 /* before the first key there are less ones, for pairs to end in */
+#define FEW_FIRST                                                                                                      \
+    3 /* index of the first key; smaller sentinels before it let pairwise insertion run past the start                 \
+       */
 typedef struct few_neighbors {
     double keys[FEW_FIRST + FEW_NEIGHBORS];
-    double squares[FEW_NEIGHBORS]; /* by place */
+    double squares[FEW_NEIGHBORS]; /* by slot */
     const octree_point *points[FEW_NEIGHBORS];
 } few_neighbors;
 
 typedef struct neighbor_heap {
     metric metric;
     octree_search how;
-    double radius; /* negative: there is none */
+    double radius; /* negative: no limit */
     double radius_square;
-    double shrink;          /* 1 / (1 + epsilon)^2, rounded up: a node farther than the farthest by this is left out */
-    double point_reach;     /* a point whose square is beyond this is not among the k nearest */
-    double node_reach;      /* and so is no point of a node whose square is beyond this */
-    octree_neighbor *items; /* `distance` holds scaled squares until the end */
+    double
+        shrink; /* 1 / (1 + epsilon)^2, rounded up: the factor of the farthest square beyond which nodes are pruned */
+    double point_reach;     /* a point with a greater square is not among the k nearest */
+    double node_reach;      /* a node with a greater square contains none of the k nearest */
+    octree_neighbor *items; /* the caller's array; `distance` holds scaled squares until the end */
     size_t count, k;
-    few_neighbors few; /* in place of items until the end */
+    few_neighbors few; /* used instead of `items` until the end if k <= FEW_NEIGHBORS */
 } neighbor_heap;
 
-/* `h` has its metric. */
+/* Start a search. h->metric is already set; radius < 0 means no limit; `room` holds k neighbours. */
 void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radius, octree_neighbor *room, size_t k);
 
-/* Points beyond this square are not among the k nearest, given that some point of the tree has the square `square`. */
+/* The square beyond which points are not among the k nearest, given that a point with the square `square` exists. */
 static inline double neighbor_heap_reach(const neighbor_heap *h, double square)
 {
     const double reach = metric_above(square);
     return h->k == 1 && h->how.skip == OCTREE_SKIP_NONE && reach < h->point_reach ? reach : h->point_reach;
 }
 
-/* Add a point whose square is not beyond point_reach, if it counts and is among the k nearest so far. */
+/* Offer a point whose square is not above point_reach. It is kept if it is not skipped and is among the k nearest. */
 void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square);
 
-/* Sort by distance, then by id, then by position; squares become distances. */
+/* Sort the neighbours by distance, id and position, and replace squares by distances. */
 void neighbor_heap_finish(neighbor_heap *h);
 
 #endif

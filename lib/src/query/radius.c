@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* radius.c - the points in a closed ball. */
+/* radius.c - range search in a closed ball: octree_radius(). */
 #include "region.h"
 
-/* The squares of the distances from the centre to a cell, axis by axis. What depends on the half that something lies in
- * is found by an index: branches would be unpredictable. */
+/* Squared distances from the ball's centre to the parts of a cell, axis by axis. Values of the lower and upper half are
+ * indexed by 0 and 1, because branches would be unpredictable. */
 typedef struct ball_cell {
     double center[3];  /* of the cell, from -1 to 1 in the world */
-    double near[3];    /* to its nearest place */
+    double near[3];    /* to the nearest place of the cell */
     double ends[3][2]; /* to its lower plane and to its upper one */
-    double middle[3];  /* to the plane that cuts it */
+    double middle[3];  /* to the plane that splits the cell */
     double half[3][2]; /* to the nearest place of its lower half and of its upper one */
 } ball_cell;
 
 typedef struct ball {
     metric metric;
     octree_mode mode;
-    double radius; /* as given */
-    double square; /* of the radius, scaled */
-    double reach;  /* what has a square beyond this is outside */
-    double whole;  /* what has a square below this is inside the ball of radius + epsilon */
+    double radius; /* unscaled */
+    double square; /* of the scaled radius */
+    double reach;  /* a point or cell with a greater square is outside the ball */
+    double whole;  /* a cell with a smaller square is inside the ball of radius + epsilon */
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
 
-static octant_masks masks_of(const ball *b, const ball_cell *c)
+static octant_masks octant_masks_of(const ball *b, const ball_cell *c)
 {
     double far[3][2];
     for (int i = 0; i < 3; i++)
@@ -37,7 +37,7 @@ static octant_masks masks_of(const ball *b, const ball_cell *c)
     return (octant_masks){(uint8_t)meets, (uint8_t)inside};
 }
 
-static void cut(const ball *b, const octree *tree, ball_cell *c)
+static void measure_planes(const ball *b, const octree *tree, ball_cell *c)
 {
     for (int i = 0; i < 3; i++) {
         const double plane = metric_scaled(&b->metric, plane_inside(&tree->axes[i], c->center[i]));
@@ -64,8 +64,8 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
             c->ends[i][!upper] = parent->middle[i];
         }
     }
-    cut(b, tree, c);
-    return masks_of(b, c);
+    measure_planes(b, tree, c);
+    return octant_masks_of(b, c);
 }
 
 static uint64_t scan(const void *shape, const octree_point *points, unsigned count)
@@ -80,7 +80,7 @@ static uint64_t scan(const void *shape, const octree_point *points, unsigned cou
     return found;
 }
 
-/* The world's own cell, which nothing has cut yet. */
+/* Measure the root's cell. The masks are those of the root itself, in the lowest bit. */
 static octant_masks measure_root(ball *b, const octree *tree)
 {
     ball_cell *c = &b->cells[0];
@@ -100,21 +100,21 @@ static octant_masks measure_root(ball *b, const octree *tree)
     return (octant_masks){!(near > b->reach), far < b->whole};
 }
 
-static double square_of(double length)
+static double squared(double length)
 {
     return length * length;
 }
 
-static void run_query(const octree *tree, const double center[3], double radius, const octree_search *how,
-                      octree_point_visitor visit, void *context)
+static void search_ball(const octree *tree, const double center[3], double radius, const octree_search *how,
+                        octree_point_visitor visit, void *context)
 {
     ball b;
     b.metric = metric_make(tree->scale, is_subnormal_world(tree), center);
     b.mode = how->mode;
     b.radius = radius;
-    b.square = square_of(radius * tree->scale);
+    b.square = squared(radius * tree->scale);
     b.reach = metric_above(b.square);
-    b.whole = metric_below(square_of(radius * tree->scale + how->epsilon * tree->scale)); /* their sum may overflow */
+    b.whole = metric_below(squared(radius * tree->scale + how->epsilon * tree->scale)); /* their sum may overflow */
     region r = {
         .tree = tree,
         .shape = &b,
@@ -139,6 +139,6 @@ octree_status octree_radius(const octree *tree, const double center[3], double r
     if (status == OCTREE_OK)
         status = check_length(radius);
     if (status == OCTREE_OK)
-        run_query(tree, center, radius, &search, visit, context);
+        search_ball(tree, center, radius, &search, visit, context);
     return status;
 }

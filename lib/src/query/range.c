@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* range.c - the points in a closed box: Algorithm 4, and Algorithm 5, which asks for the box about a place. */
+/* range.c - range search in a closed box (Algorithm 4), and collision as a range search (Algorithm 5). */
 #include "exact.h"
 #include "region.h"
 
 #include <stdlib.h>
 
-/* The box moved out by epsilon, rounded so that nothing beyond it counts as inside. */
+/* The box with its faces moved out by epsilon, rounded inwards so that no point beyond epsilon counts as inside. */
 static octree_box widen(const octree_box *box, double epsilon)
 {
     octree_box wide;
@@ -16,9 +16,9 @@ static octree_box widen(const octree_box *box, double epsilon)
     return wide;
 }
 
-/* Visit or count. The box has been checked. */
-static size_t run_query(const octree *tree, const octree_box *box, const octree_search *how, octree_point_visitor visit,
-                        void *context)
+/* Visit the points in a valid box, or count them if `visit` is null. Returns the count. */
+static size_t search_box(const octree *tree, const octree_box *box, const octree_search *how,
+                         octree_point_visitor visit, void *context)
 {
     const octree_box wide = widen(box, how->epsilon);
     box_shape shape = box_shape_make(tree, box, how->epsilon > 0 ? &wide : box);
@@ -45,7 +45,7 @@ octree_status octree_range_search(const octree *tree, const octree_box *box, con
     if (status == OCTREE_OK)
         status = check_search(&search);
     if (status == OCTREE_OK)
-        run_query(tree, box, &search, visit, context);
+        search_box(tree, box, &search, visit, context);
     return status;
 }
 
@@ -61,11 +61,12 @@ octree_status octree_range_count(const octree *tree, const octree_box *box, size
     *count = 0;
     const octree_status status = tree ? check_box(box) : OCTREE_NULL_ARGUMENT;
     if (status == OCTREE_OK)
-        *count = run_query(tree, box, &(octree_search){0}, NULL, NULL);
+        *count = search_box(tree, box, &(octree_search){0}, NULL, NULL);
     return status;
 }
 
-/* ---- Into an array ------------------------------------------------------------------------------------------ */
+/* ---- Results in an array ------------------------------------------------------------------------------------------
+ */
 
 typedef struct collection {
     octree_point *points;
@@ -81,7 +82,7 @@ static bool collect(const octree_point *point, void *context)
     return true;
 }
 
-/* Let the largest, on top of a heap of points, sink to its place. */
+/* Restore the heap order, greatest point on top, after the top was replaced. */
 static void sink(octree_point *heap, size_t count)
 {
     for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
@@ -100,8 +101,8 @@ static int compare_reversed(const void *a, const void *b)
     return octree_compare_points(b, a);
 }
 
-/* Keep the smallest. When the array is full it becomes a heap, largest on top (descending order is one), and a smaller
- * point replaces the top. */
+/* Keep the `room` smallest points. A full array is sorted in descending order, which makes it a heap with the greatest
+ * point on top; each smaller point then replaces the top. */
 static bool collect_smallest(const octree_point *point, void *context)
 {
     collection *c = context;
@@ -117,8 +118,8 @@ static bool collect_smallest(const octree_point *point, void *context)
     return true;
 }
 
-static octree_status run(const octree *tree, const octree_box *box, const octree_search *how,
-                         octree_point_visitor visit, octree_point *points, size_t room, size_t *count)
+static octree_status collect_points(const octree *tree, const octree_box *box, const octree_search *how,
+                                    octree_point_visitor visit, octree_point *points, size_t room, size_t *count)
 {
     if (!count)
         return OCTREE_NULL_ARGUMENT;
@@ -134,13 +135,13 @@ static octree_status run(const octree *tree, const octree_box *box, const octree
 octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
                                    octree_point *points, size_t room, size_t *count)
 {
-    return run(tree, box, how, collect, points, room, count);
+    return collect_points(tree, box, how, collect, points, room, count);
 }
 
 octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
                                           octree_point *points, size_t room, size_t *count)
 {
-    const octree_status status = run(tree, box, how, collect_smallest, points, room, count);
+    const octree_status status = collect_points(tree, box, how, collect_smallest, points, room, count);
     const size_t stored = !count ? 0 : *count < room ? *count : room;
     if (stored > 1)
         qsort(points, stored, sizeof *points, octree_compare_points);
@@ -157,7 +158,7 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
     if (status == OCTREE_OK)
         status = check_length(box_size);
     for (int i = 0; status == OCTREE_OK && i < 3; i++) {
-        const double middle = center[i]; /* which may be an end of the box */
+        const double middle = center[i]; /* read first: `center` may point into *box */
         box->min[i] = exact_add_up(middle, -box_size);
         box->max[i] = exact_add_down(middle, box_size);
     }

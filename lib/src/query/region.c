@@ -1,27 +1,29 @@
 /* SPDX-License-Identifier: MIT */
+/* region.c - the traversal that visits the points of a region, and the shape of a closed box. */
 #include "region.h"
 #include "leaf.h"
 
-/* An inner node of the descent, and the octants of its children that are still to be visited. */
+/* An inner node on the path of the descent. */
 typedef struct frame {
     const node *node;
     octree_address address;
-    uint8_t pending, inside;
+    uint8_t pending; /* octants of children not yet visited */
+    uint8_t inside;  /* octants that lie within the region */
 } frame;
 
-/* Leaves are queued while their points are being prefetched; the descent goes on meanwhile. */
+/* Leaves wait in a queue while their points are loaded from memory; the descent continues meanwhile. */
 #define QUEUE_ROOM 16
 
 typedef struct descent {
     region *region;
     unsigned depth;
     frame frames[OCTREE_MAX_DEPTH + 1];
-    unsigned queued, scanned; /* numbers of leaves */
+    unsigned queued, scanned; /* counts of leaves */
     const node *queue[QUEUE_ROOM];
 } descent;
 
-/* Every point in and below a node whose cell is inside the region. False when the visitor stopped. */
-static bool visit_all_below(region *r, const node *n)
+/* Visit every point in and below a node. False when the visitor stopped. */
+static bool visit_points_below(region *r, const node *n)
 {
     const node *stack[STACK_ROOM];
     size_t size = 0;
@@ -41,11 +43,11 @@ static bool visit_all_below(region *r, const node *n)
     return true;
 }
 
-static bool take_whole(region *r, const node *n, octree_address address)
+static bool accept_node(region *r, const node *n, octree_address address)
 {
     meter_take(&r->meter, address);
     if (r->visit)
-        return visit_all_below(r, n);
+        return visit_points_below(r, n);
     r->count += n->count;
     return true;
 }
@@ -67,17 +69,17 @@ static bool scan_leaf(region *r, const node *leaf)
     return true;
 }
 
-static bool scan_next(descent *d)
+static bool scan_oldest(descent *d)
 {
     return scan_leaf(d->region, d->queue[d->scanned++ % QUEUE_ROOM]);
 }
 
 static bool queue_leaf(descent *d, const node *leaf)
 {
-    const bool go_on = d->queued - d->scanned < QUEUE_ROOM || scan_next(d);
+    const bool going = d->queued - d->scanned < QUEUE_ROOM || scan_oldest(d);
     leaf_prefetch(leaf);
     d->queue[d->queued++ % QUEUE_ROOM] = leaf;
-    return go_on;
+    return going;
 }
 
 static void prefetch_children(const frame *f)
@@ -96,11 +98,11 @@ static void open_node(descent *d, const node *n, octree_address address, unsigne
     meter_prune(&r->meter, address, n->octants & ~masks.meets);
 }
 
-/* Visit a node that meets the region. */
+/* Visit a node that meets the region. False when the visitor stopped. */
 static bool visit_node(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
 {
     if (inside)
-        return take_whole(d->region, n, address);
+        return accept_node(d->region, n, address);
     meter_visit(&d->region->meter, address);
     if (n->octants == 0)
         return queue_leaf(d, n);
@@ -113,8 +115,8 @@ static void descend(region *r, octant_masks root)
     descent d;
     d.region = r;
     d.depth = d.queued = d.scanned = 0;
-    bool go_on = visit_node(&d, &r->tree->root, OCTREE_ROOT, 0, root.inside & 1);
-    while (go_on && d.depth > 0) {
+    bool going = visit_node(&d, &r->tree->root, OCTREE_ROOT, 0, root.inside & 1);
+    while (going && d.depth > 0) {
         frame *f = &d.frames[d.depth];
         if (!f->pending) {
             d.depth--;
@@ -122,10 +124,10 @@ static void descend(region *r, octant_masks root)
         }
         const unsigned octant = bits_lowest(f->pending);
         f->pending &= (uint8_t)(f->pending - 1);
-        go_on = visit_node(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
+        going = visit_node(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
     }
-    while (go_on && d.scanned < d.queued)
-        go_on = scan_next(&d);
+    while (going && d.scanned < d.queued)
+        going = scan_oldest(&d);
 }
 
 void region_search(region *r, octant_masks root)
@@ -150,8 +152,9 @@ static key_box box_keys(const octree *tree, const octree_box *box)
     return keys;
 }
 
-/* The box's keys with all that is inside strictly between: a box that begins at a plane has all above it. */
-static key_box keys_around(const octree *tree, const octree_box *box, key_box keys)
+/* The keys such that every cell strictly between them is inside the box. A box whose face is a plane contains the cell
+ * that begins at that plane. */
+static key_box enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
 {
     for (int i = 0; i < 3; i++)
         keys.min[i] -= keys.min[i] >= 0 && plane_at(&tree->axes[i], (uint32_t)keys.min[i]) == box->min[i];
@@ -163,7 +166,7 @@ box_shape box_shape_make(const octree *tree, const octree_box *box, const octree
     box_shape s;
     s.box = box;
     s.near = box_keys(tree, box);
-    s.whole = keys_around(tree, whole, whole == box ? s.near : box_keys(tree, whole));
+    s.whole = enclosing_keys(tree, whole, whole == box ? s.near : box_keys(tree, whole));
     return s;
 }
 
@@ -197,7 +200,8 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const int32_t middle = low + half, high = low + size;
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
-        meets &= bits_if(s->near.min[i] < middle, below) | bits_if(middle <= s->near.max[i], above); /* the node does */
+        meets &= bits_if(s->near.min[i] < middle, below) |
+                 bits_if(middle <= s->near.max[i], above); /* the node itself meets the box */
         inside &= (bits_if(s->whole.min[i] < low, below) & bits_if(middle <= s->whole.max[i], below)) |
                   (bits_if(s->whole.min[i] < middle, above) & bits_if(high <= s->whole.max[i], above));
     }
@@ -205,12 +209,12 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
 }
 
 #ifdef OCTREE_SSE2
-/* A box, with each bound twice: for two points at once. */
+/* A box with each bound stored twice, to compare two points at once. */
 typedef struct twin_box {
     __m128d min[3], max[3];
 } twin_box;
 
-/* Which of two points are in the box, a bit each. */
+/* A mask of two bits: which of two points are in the box. */
 static inline uint64_t scan_pair(const twin_box *box, const double a[3], const double b[3])
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
@@ -224,7 +228,7 @@ static inline uint64_t scan_pair(const twin_box *box, const double a[3], const d
     return (uint64_t)_mm_movemask_pd(inside);
 }
 
-/* The last pair of an odd number of points has one in common with that before: no branch depends on the number. */
+/* For an odd count the last pair overlaps the pair before it, so that no branch depends on the parity. */
 static uint64_t scan_pairs(const octree_box *box, const octree_point *points, unsigned count)
 {
     twin_box twin;

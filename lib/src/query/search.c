@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* search.c - checks of arguments that all queries share. */
 #include "search.h"
 #include "float_rules.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* search.h - what all queries share: checked arguments, counts and traces of what they met. Private. */
+/* search.h - shared by all queries: argument checks, and the count and trace of visited nodes. Private. */
 #ifndef OCTREE_SEARCH_H
 #define OCTREE_SEARCH_H
 
@@ -9,40 +9,40 @@
 
 #include <math.h>
 
-#define SCAN_POINTS 64 /* of a leaf, that are compared at once */
+#define SCAN_POINTS 64 /* points of a leaf that are compared in one call */
 
-/* The search that a null pointer stands for. */
+/* *how, or the default options for null. */
 octree_search search_or_default(const octree_search *how);
 
-/* OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
+/* Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
 octree_status check_search(const octree_search *how);
 
-/* FLOAT_MODE, or NOT_FINITE when one of three coordinates is. */
+/* Returns OK, FLOAT_MODE, or NOT_FINITE. */
 octree_status check_finite(const double position[3]);
 
-/* NOT_FINITE, or BAD_SIZE when it is negative. */
+/* Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
 octree_status check_length(double length);
 
-/* NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE (a NaN) or BAD_RANGE. */
+/* Returns OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE (a NaN) or BAD_RANGE. */
 octree_status check_box(const octree_box *box);
 
 /* Whether `size` bytes hold printable ASCII characters and a final zero. */
 bool is_text(const char *text, size_t size);
 
-/* Not fmax(), which is a call: no argument is NaN. */
+/* The maximum of two numbers that are not NaN. fmax() would be a function call. */
 static inline double larger(double a, double b)
 {
     return a > b ? a : b;
 }
 
-/* True when a square is decided by as it is: in fast mode, but for squares that overflow, which say nothing. */
+/* Whether a square is compared without exact arithmetic: in FAST mode, unless it overflowed. */
 static inline bool is_trusted(octree_mode mode, double square)
 {
     return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
-/* Is a point with this scaled square within a radius, whose scaled square is given too? Surely farther ones were left
- * out before. */
+/* Whether a point with this scaled square is within a radius, whose scaled square is given too. The caller has already
+ * excluded points that are certainly farther. */
 static inline bool is_within(const metric *m, octree_mode mode, const octree_point *point, double square, double radius,
                              double radius_square)
 {
@@ -53,7 +53,7 @@ static inline bool is_within(const metric *m, octree_mode mode, const octree_poi
     return metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
-/* A visitor that leaves out the pair that collides with the others. */
+/* A visitor that skips the colliding point itself. */
 typedef struct collision {
     const octree_point *self; /* may be null */
     octree_point_visitor visit;
@@ -62,34 +62,34 @@ typedef struct collision {
 
 bool collision_visit(const octree_point *point, void *context);
 
-/* ---- What a query met --------------------------------------------------------------------------------------- */
+/* ---- Counts and trace ---------------------------------------------------------------------------------------- */
 
 typedef struct meter {
     octree_cost count;
     const octree_search *how;
 } meter;
 
-static inline void meter_trace(const meter *m, octree_address address, octree_trace_kind touch)
+static inline void meter_trace(const meter *m, octree_address address, octree_trace_kind kind)
 {
     if (m->how->trace)
-        m->how->trace(address, touch, m->how->trace_context);
+        m->how->trace(address, kind, m->how->trace_context);
 }
 
-/* A node whose children or points are looked at one by one. */
+/* Record a node whose children or points are examined one by one. */
 static inline void meter_visit(meter *m, octree_address address)
 {
     m->count.nodes++;
     meter_trace(m, address, OCTREE_TRACE_VISITED);
 }
 
-/* A node that is inside the region. */
+/* Record a node that is inside the region. */
 static inline void meter_take(meter *m, octree_address address)
 {
     m->count.taken++;
     meter_trace(m, address, OCTREE_TRACE_TAKEN);
 }
 
-/* The children in these octants of a node are left out, with all below them. */
+/* Record that the children in these octants are pruned, with all nodes below them. */
 static inline void meter_prune(meter *m, octree_address parent, unsigned octants)
 {
     m->count.pruned += bits_count8(octants);
@@ -99,14 +99,14 @@ static inline void meter_prune(meter *m, octree_address parent, unsigned octants
                 meter_trace(m, parent << 3 | octant, OCTREE_TRACE_PRUNED);
 }
 
-/* The whole tree is left out. */
+/* Record that the root is pruned. */
 static inline void meter_prune_root(meter *m)
 {
     m->count.pruned++;
     meter_trace(m, OCTREE_ROOT, OCTREE_TRACE_PRUNED);
 }
 
-/* Add the counts to the caller's report. */
+/* Add the counts to the caller's octree_cost. */
 static inline void meter_report(const meter *m)
 {
     octree_cost *cost = m->how->cost;

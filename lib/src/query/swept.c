@@ -1,45 +1,50 @@
 /* SPDX-License-Identifier: MIT */
-/* swept.c - the points that a moving box touches: tested against the box around the whole step by keys, against the
- * hull of the step by doubles where their error allows, and the remaining points exactly.
+/* swept.c - the points that a box touches on its way from one position to another: octree_collide_swept().
  *
- * The box position +- r goes from a by d. What it touches is a convex body whose faces are those of the box around the
- * whole step, and six more: a face's normal is across two of its edges, and these are the axes and d (a zonotope). On
- * the axes i and j the normal across d is (-d_j, d_i), and p lies between its two faces where
+ * Problem: the swept volume of a diagonal step is a small part of the box around the step, so testing that box alone
+ * visits far too many nodes. The exact test of one point (sweep.h) is too slow for every point.
+ *
+ * Idea: three tests, from cheap to exact: the box around the step by integer keys, the convex hull of the step by
+ * doubles with an error bound, and sweep_touches() for points that neither decides.
+ *
+ * The box position +- r moves from a by d. It sweeps a zonotope: a convex body whose faces are the six of the box
+ * around the step and up to six more, whose normals are perpendicular to d and to one axis. In the plane of the axes i
+ * and j the normal is (-d_j, d_i), and a point p lies between the two faces if
  *
  *     |side(p)| <= r (|d_i| + |d_j|) = R,    side(p) = d_i (p_j - a_j) - d_j (p_i - a_i).
  *
- * Where d_i or d_j is 0 the box around the step says that already.
+ * If d_i or d_j is 0, the box around the step implies this already.
  *
- * All is first multiplied by a power of two that brings steps, places and the world below 8, without rounding but for
- * less than 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where `far` is from a to the farther end of
- * the world. For a point, side is off by at most 5u S (a rounding in d, in p - a, in the product, in the sum, and what
- * they make of each other), and R by at most 4u S. For a cell the planes are taken as evenly spaced: at its lowest
- * corner's keys, side is that of the world's lowest corner (5u S) and two products of a key (each 4u of at most 2S),
- * and four sums of terms of at most 3S in all make 12u S more: 33u S. The planes themselves are off from their ideal
- * places by two ulps of the world's coordinates at most (test_exact_planes), of which four are taken. So a band of
- * 128u S, of those ulps times d, and of 2^-1000 for underflow, on either side of R, has room for all: beyond it is
- * surely outside, and below it surely inside.
+ * Error bound. Everything is scaled by a power of two that brings step, positions and world below 8; this is exact but
+ * for less than 2^-1074. Let u = 2^-53 and S = |d_i| far_j + |d_j| far_i + R, where far is the distance from a to the
+ * farther end of the world. For a point, the error of side is at most 5u S (roundings in d, in p - a, in the product,
+ * in the sum, and their combination), that of R at most 4u S. For a cell, planes are treated as evenly spaced: side at
+ * its lowest corner is that of the world's lowest corner (5u S) plus two products of a key (4u of at most 2S each);
+ * four sums of terms of at most 3S add 12u S, in total 33u S. The planes themselves are at most two ulps of the world's
+ * coordinates off their ideal position (test_exact_planes); four are used. A band of 128u S, plus those ulps times d,
+ * plus 2^-1000 for underflow, on either side of R covers all of this: beyond it a point is certainly outside, within it
+ * certainly inside.
  */
 #include "region.h"
 #include "sweep.h"
 
-/* Two faces, across the step on two axes. */
+/* Two parallel faces, whose normal lies in the plane of the axes i and j. */
 typedef struct hull_faces {
     int i, j;
     double step_i, step_j;       /* d */
-    double lowest;               /* side of the world's lowest corner */
-    double per_key_i, per_key_j; /* its decrease and increase for each key on an axis */
-    double reach, whole;         /* R and the band; R without it, maybe negative */
+    double lowest;               /* side() of the world's lowest corner */
+    double per_key_i, per_key_j; /* the decrease of side() per key on axis i, its increase per key on axis j */
+    double reach, whole;         /* R plus the error band; R minus the band, possibly negative */
 } hull_faces;
 
 typedef struct hull {
-    metric metric; /* from a */
+    metric metric; /* relative to a */
     hull_faces faces[3];
-    unsigned face_count; /* 1 for a step in a plane of two axes, else 3 */
+    unsigned face_count; /* 1 for a step along two axes, 3 for a step along three */
 } hull;
 
-/* The largest coordinate on an axis. */
-static double largest_on(const axis *a)
+/* The largest absolute coordinate on an axis. */
+static double largest_coordinate(const axis *a)
 {
     return larger(fabs(a->min), fabs(a->max));
 }
@@ -48,16 +53,17 @@ static double scale_for(const octree *tree, const sweep *box)
 {
     double largest = box->size;
     for (int i = 0; i < 3; i++)
-        largest = larger(larger(largest, largest_on(&tree->axes[i])), larger(fabs(box->from[i]), fabs(box->to[i])));
+        largest =
+            larger(larger(largest, largest_coordinate(&tree->axes[i])), larger(fabs(box->from[i]), fabs(box->to[i])));
     int exponent;
     frexp(largest, &exponent);
     return ldexp(1.0, -(exponent < -1000 ? -1000 : exponent > 1021 ? 1021 : exponent));
 }
 
-/* The step and the world on one axis, relative to where the step begins; scaled. */
+/* The step and the world on one axis, relative to the start of the step, scaled. */
 typedef struct axis_view {
     double step, low, high;
-    double far;   /* distance of the farther end */
+    double far;   /* distance to the farther end of the world */
     double error; /* the largest error of a plane */
 } axis_view;
 
@@ -66,7 +72,7 @@ static axis_view view_axis(const metric *m, const axis *a, double start, double 
     axis_view o = {
         .step = end - start, .low = metric_scaled(m, a->min) - start, .high = metric_scaled(m, a->max) - start};
     o.far = larger(fabs(o.low), fabs(o.high));
-    o.error = metric_scaled(m, largest_on(a)) * 0x1p-50 + m->scale * 0x1p-1000 * 0x1p-72;
+    o.error = metric_scaled(m, largest_coordinate(a)) * 0x1p-50 + m->scale * 0x1p-1000 * 0x1p-72;
     return o;
 }
 
@@ -89,7 +95,7 @@ static hull_faces make_faces(const axis_view view[3], double size, int i, int j)
     };
 }
 
-/* False for a step along an axis, which has no such faces; the hull is then left as it is. */
+/* Make the hull of a diagonal step. False for a step along one axis: it has no such faces, and *h is not written. */
 static bool hull_make(hull *h, const octree *tree, const sweep *box)
 {
     bool moves[3];
@@ -112,7 +118,7 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
     return true;
 }
 
-/* Which octants of a cell may lie between all the faces, and which surely do; `low` are its lowest keys. */
+/* The octants of a cell that may lie between all faces, and those that certainly do. `low` holds its lowest keys. */
 static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned depth)
 {
     const double half = (double)cell_size(depth) / 2, quarter = half / 2;
@@ -121,7 +127,7 @@ static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned d
         const hull_faces *f = &h->faces[k];
         const double middle = f->lowest + (low[f->j] + half) * f->per_key_j - (low[f->i] + half) * f->per_key_i;
         const double x = f->per_key_i * quarter, y = f->per_key_j * quarter, grown = fabs(x) + fabs(y);
-        for (int column = 0; column < 4; column++) { /* of two octants */
+        for (int column = 0; column < 4; column++) { /* a column of two octants */
             const int upper_i = column >> 1, upper_j = column & 1;
             const unsigned octants = octants_beside[f->i][upper_i] & octants_beside[f->j][upper_j];
             const double side = fabs((middle + (upper_j ? y : -y)) - (upper_i ? x : -x));
@@ -142,7 +148,7 @@ static double hull_side(const hull *h, const hull_faces *f, const double p[3])
 /* ---- The search --------------------------------------------------------------------------------------------- */
 
 typedef struct swept_shape {
-    box_shape around; /* first: of the whole step */
+    box_shape around; /* the box around the whole step; first, because enter() of a box casts to it */
     hull hull;
     sweep box;
 } swept_shape;
@@ -151,23 +157,23 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
-    if ((around.meets & (around.meets - 1)) == 0) /* a single octant: its children are tested instead */
+    if ((around.meets & (around.meets - 1)) == 0) /* a single octant: test its children instead */
         return (octant_masks){around.meets, 0};
     const octant_masks between = hull_octants(&s->hull, s->around.low[depth], depth);
     return (octant_masks){around.meets & between.meets, around.inside & between.inside};
 }
 
-/* Whether a point in the box around the step is touched. */
+/* Whether the moving box touches a point that lies in the box around the step. */
 static bool is_touched(const swept_shape *s, const double p[3])
 {
-    bool sure = true;
+    bool certain = true;
     for (unsigned k = 0; k < s->hull.face_count; k++) {
         const double side = fabs(hull_side(&s->hull, &s->hull.faces[k], p));
         if (side > s->hull.faces[k].reach)
             return false;
-        sure = sure && side < s->hull.faces[k].whole;
+        certain = certain && side < s->hull.faces[k].whole;
     }
-    return sure || sweep_touches(&s->box, p, p);
+    return certain || sweep_touches(&s->box, p, p);
 }
 
 static uint64_t scan(const void *shape, const octree_point *points, unsigned count)
@@ -181,8 +187,8 @@ static uint64_t scan(const void *shape, const octree_point *points, unsigned cou
     return found;
 }
 
-static void run_query(const octree *tree, const sweep *box, const octree_box *around, const octree_search *how,
-                      collision *visitor)
+static void search_step(const octree *tree, const sweep *box, const octree_box *around, const octree_search *how,
+                        collision *visitor)
 {
     swept_shape shape;
     shape.around = box_shape_make(tree, around, around);
@@ -191,7 +197,7 @@ static void run_query(const octree *tree, const sweep *box, const octree_box *ar
     region r = {
         .tree = tree,
         .shape = &shape,
-        .enter = diagonal ? enter : box_shape_enter, /* along an axis the box around the step is exact */
+        .enter = diagonal ? enter : box_shape_enter, /* along one axis, the box around the step is the exact answer */
         .scan = diagonal ? scan : box_shape_scan,
         .visit = collision_visit,
         .context = visitor,
@@ -218,10 +224,10 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
         status = check_search(&search);
     if (status != OCTREE_OK)
         return status;
-    for (int i = 0; i < 3; i++) { /* around the whole step */
+    for (int i = 0; i < 3; i++) { /* the box around the whole step */
         start.min[i] = fmin(start.min[i], end.min[i]);
         start.max[i] = fmax(start.max[i], end.max[i]);
     }
-    run_query(tree, &(sweep){from, to, box_size}, &start, &search, &(collision){self, visit, context});
+    search_step(tree, &(sweep){from, to, box_size}, &start, &search, &(collision){self, visit, context});
     return OCTREE_OK;
 }

@@ -1,36 +1,49 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.c - the points of a batch: checked, sorted by Morton code, each pair once. */
+/* batch.c - the points of a batch: checked, sorted by Morton code, repetitions dropped, and matched with leaves.
+ *
+ * Problem: a thousand changes made one by one walk down from the root a thousand times, in random order of memory, and
+ * split and merge the same leaves repeatedly.
+ *
+ * Idea: sort the changes by Morton code, which is the order of the leaves in a walk. All changes of one leaf are then
+ * adjacent, so that one pass over the tree visits each changed leaf once. The pass keeps its path from the root and
+ * goes up only as far as the next code requires; it finds six leaves ahead and prefetches them.
+ *
+ * A pair (position, id) counts once: items with equal codes are compared in a small hashed or plain leaf, and repeated
+ * ones get their status from the first. Large batches are divided into tasks (division.h), each with the items of whole
+ * subtrees. restructure.c then plans the changes, plan.c makes them. Cost: O(count) radix passes and one visit per
+ * leaf.
+ */
 #include "division.h"
 #include "float_rules.h"
 #include "grid_fill.h"
 
 #include <string.h>
 
-/* So many items for each point. */
-static morton_item *take_items(const batch *b, size_t each)
+/* Allocate `each` items per point of the batch. */
+static morton_item *allocate_items(const batch *b, size_t each)
 {
-    /* unreachable: where size_t has 64 bits, for a batch has at most UINT32_MAX points */
+    /* unreachable: size_t has 64 bits, and a batch has at most UINT32_MAX points */
     if (b->count >= SIZE_MAX / sizeof(morton_item) / each - 1)
         return NULL;
     return arena_take(&b->tree->store.memory, each * (b->count + 1) * sizeof(morton_item));
 }
 
-static void give_items(const batch *b, morton_item *items, size_t each)
+static void release_items(const batch *b, morton_item *items, size_t each)
 {
     arena_give(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
 }
 
-/* The lists of a move are one block, taken once: malloc would give the pages of several back, and fault them in again,
- * tick after tick. */
+/* The lists of a move share one allocation. With several, malloc returns their pages to the system and page faults
+ * recur with every batch. */
 static size_t list_count(const batch *b)
 {
     return b->to ? 4 : 1;
 }
 
-static bool take_lists(batch *b)
+static bool allocate_lists(batch *b)
 {
     const size_t room = b->count + 1;
-    b->lists = take_items(b, list_count(b));
+    b->lists = allocate_items(b, list_count(b));
     b->valid.items = b->lists;
     if (b->to && b->lists) {
         b->spare = b->lists + room;
@@ -40,10 +53,10 @@ static bool take_lists(batch *b)
     return b->lists != NULL;
 }
 
-enum { TOGETHER = 64 }; /* codes are computed of so many positions at a time */
+enum { TOGETHER = 64 }; /* positions whose codes are computed in one call */
 
-/* The code of a position, OK when it is in the world. */
-static octree_status sure_code(const octree *tree, const double position[3], uint64_t *code)
+/* Complete the code of a position if it is unsure. Returns OK if the position is in the world. */
+static octree_status complete_code(const octree *tree, const double position[3], uint64_t *code)
 {
     const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
     if (*code == MORTON_UNSURE && status == OCTREE_OK)
@@ -51,15 +64,15 @@ static octree_status sure_code(const octree *tree, const double position[3], uin
     return status;
 }
 
-/* Of a point and of where it moves. */
+/* Check a point and, for a move, its destination. */
 static octree_status check_point(const batch *b, size_t place, uint64_t *code)
 {
-    const octree_status status = sure_code(b->tree, b->points[place].position, code);
+    const octree_status status = complete_code(b->tree, b->points[place].position, code);
     return status == OCTREE_OK && b->to ? check_inside(b->tree, b->to[place]) : status;
 }
 
-/* Items for the valid ones of some points. */
-static void collect_some(batch *b, size_t first, size_t count)
+/* Append items for the valid points among points[first .. first + count - 1]. */
+static void collect_points(batch *b, size_t first, size_t count)
 {
     uint64_t codes[TOGETHER];
     morton_codes(b->tree->axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
@@ -76,10 +89,10 @@ static void collect_some(batch *b, size_t first, size_t count)
 static void collect_range(batch *b, size_t first, size_t end)
 {
     for (size_t i = first; i < end; i += TOGETHER)
-        collect_some(b, i, end - i < TOGETHER ? end - i : TOGETHER);
+        collect_points(b, i, end - i < TOGETHER ? end - i : TOGETHER);
 }
 
-/* The list of a part begins where its share does. */
+/* The list of a part begins at the index of its first point. */
 static void collect_part(size_t number, void *context)
 {
     division *d = context;
@@ -111,7 +124,7 @@ static void collect_items(batch *b)
 
 enum { LEAST_REMADE = 64 };
 
-/* Whether no two points can be the same, as where ids are counted. */
+/* Whether ids are strictly ascending, as when a program counts them: then no pair is repeated. */
 static bool ids_ascend(const batch *b)
 {
     for (size_t i = 1; i < b->count; i++)
@@ -122,7 +135,7 @@ static bool ids_ascend(const batch *b)
 
 static bool sort_items(batch *b)
 {
-    morton_item *spare = b->spare ? b->spare : take_items(b, 1);
+    morton_item *spare = b->spare ? b->spare : allocate_items(b, 1);
     if (!spare)
         return false;
     const size_t unsorted = b->tree->root.count == 0 ? unsorted_count(b->tree) : 0;
@@ -130,21 +143,21 @@ static bool sort_items(batch *b)
     b->repeated =
         morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
     if (!b->spare)
-        give_items(b, spare, 1);
+        release_items(b, spare, 1);
     return true;
 }
 
 enum { LEVELS_BELOW = 6 };
 
-/* Whether points are so rarely together in a cell that cannot be divided that a full leaf need not be feared. */
+/* Whether full leaves are rare: they cannot refuse, or cells at the maximum depth are much smaller than the grid's. */
 static bool refuses_rarely(const octree_def *def)
 {
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
 
-/* Of so many moves it is cheaper to build the tree anew, as counted by callgrind at 1e5 points: by a grid from a fifth
- * on, which takes 170 instructions a stored point, else from three tenths on, at 350. Without the grid what may meet a
- * full leaf is found by sorting. False when there is no memory. */
+/* Decide whether a batch of moves rebuilds the tree. Rebuilding by a grid costs 170 instructions per stored point and
+ * pays from a fifth of the points on; without a grid it costs 350 and pays from three tenths on (callgrind, 1e5
+ * points). Without a grid, sorting also finds the points that may meet a full leaf. False when there is no memory. */
 static bool choose_remake(batch *b)
 {
     const size_t stored = b->tree->root.count;
@@ -170,7 +183,7 @@ octree_status batch_begin(batch *b)
     return b->remakes ? OCTREE_OK : batch_collect(b);
 }
 
-/* Cells in place of items, of a tree that is empty. */
+/* Compute the grid cells of points, which replace items when an empty tree is built. */
 static void find_cells(const batch *b, size_t first, size_t count)
 {
     const octree_point *points = b->points + first;
@@ -207,13 +220,13 @@ octree_status batch_collect(batch *b)
         tasks_run(b->tree, find_share, tasks_for(b->tree, b->count), b);
         return OCTREE_OK;
     }
-    if (!take_lists(b))
+    if (!allocate_lists(b))
         return OCTREE_NO_MEMORY;
     collect_items(b);
     return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-/* A point that repeats an earlier one of the batch: both by their index. */
+/* A point that repeats an earlier one of the batch, and that one, by their indices. */
 typedef struct repetition {
     uint32_t place, first;
 } repetition;
@@ -230,14 +243,14 @@ void batch_end(batch *b)
     release_repetitions(b);
     if (b->store)
         division_end(b);
-    give_items(b, b->lists, list_count(b));
+    release_items(b, b->lists, list_count(b));
     arena_give(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
 
 size_t octant_share(const morton_item *items, size_t count, unsigned depth)
 {
     const unsigned octant = morton_octant(items[0].code, depth);
-    size_t low = 1, high = count; /* the first that lies elsewhere is in [low, high] */
+    size_t low = 1, high = count; /* the first item in another octant is in [low, high] */
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (morton_octant(items[middle].code, depth) == octant)
@@ -248,7 +261,7 @@ size_t octant_share(const morton_item *items, size_t count, unsigned depth)
     return low;
 }
 
-/* The same of items. */
+/* ids_ascend() for some items. */
 static bool item_ids_ascend(const batch *b, const morton_item *items, size_t count)
 {
     for (size_t i = 1; i < count; i++)
@@ -257,29 +270,29 @@ static bool item_ids_ascend(const batch *b, const morton_item *items, size_t cou
     return true;
 }
 
-/* Keep the first of each pair among items of one code, which are in the caller's order. *kept receives how many are
- * left. False when there is no memory. */
+/* Among items of equal code, in the caller's order, keep the first of each pair and list the others as repetitions.
+ * *kept receives the number of items kept. False when there is no memory. */
 static bool drop_repeated(batch *b, morton_item *items, size_t count, size_t *kept)
 {
     store *st = &b->tree->store;
-    node seen;
+    node distinct;
     *kept = count;
     if (item_ids_ascend(b, items, count))
         return true;
-    bool ok = leaf_create(st, &seen, (uint32_t)count);
+    bool ok = leaf_create(st, &distinct, (uint32_t)count);
     for (size_t i = 0; ok && i < count; i++) {
         const octree_point *point = &b->points[items[i].place];
-        const uint32_t first = leaf_find(&seen, point->position, point->id);
+        const uint32_t first = leaf_find(&distinct, point->position, point->id);
         if (first == LEAF_NONE) {
-            items[seen.count] = items[i];
-            leaf_put(&seen, point);
+            items[distinct.count] = items[i];
+            leaf_put(&distinct, point);
             continue;
         }
         const repetition r = {items[i].place, items[first].place};
         ok = list_push(&st->memory, &b->repetitions, &r, sizeof r);
     }
-    *kept = seen.count;
-    leaf_release(st, &seen);
+    *kept = distinct.count;
+    leaf_release(st, &distinct);
     return ok;
 }
 
@@ -307,16 +320,17 @@ void set_repeated_statuses(const batch *b, octree_status status)
         b->statuses[all[i].place] = b->statuses[all[i].first] == OCTREE_FULL ? OCTREE_FULL : status;
 }
 
-/* ---- The leaves that items lie in --------------------------------------------------------------------------- */
+/* ---- Visiting the leaves of the items --------------------------------------------------------------------------- */
 
-/* The items of one leaf, or of an octant where there is none. */
+/* A leaf with its items; or, with a null node, the items of an octant that has no node. */
 typedef struct visit {
     node *node;
     unsigned depth;
     span items;
 } visit;
 
-/* How many of the sorted items lie in one cell of this depth with the first of them. Most often they are few. */
+/* The number of sorted items in the same cell of this depth as the first one. A linear search: usually there are few.
+ */
 static size_t cell_share(const batch *b, span items, unsigned depth)
 {
     const unsigned below = 3 * (OCTREE_MAX_DEPTH - depth);
@@ -326,8 +340,8 @@ static size_t cell_share(const batch *b, span items, unsigned depth)
     return share;
 }
 
-/* Go down a path to the leaf of the first items, which *next becomes, and up again to the last node that it shares with
- * that of the items after them. */
+/* Extend the path down to the leaf of the first item, store that visit in *next, and shorten the path to the deepest
+ * node that also contains the item after those of the leaf. */
 static void find_next(const batch *b, path *p, unsigned top, span *items, visit *next)
 {
     const uint64_t code = items->items[0].code;
@@ -347,9 +361,9 @@ static void find_next(const batch *b, path *p, unsigned top, span *items, visit 
         p->depth--;
 }
 
-enum { LEAVES_TOGETHER = 6 }; /* are loaded at once */
+enum { LEAVES_TOGETHER = 6 }; /* leaves prefetched before the first is visited */
 
-/* The items of a node of this depth, leaf by leaf. */
+/* Visit the leaves below a node of this depth that contain the items. */
 static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
 {
     path p = {.depth = depth};
@@ -364,7 +378,7 @@ static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visi
     }
 }
 
-/* ---- The same by tasks -------------------------------------------------------------------------------------- */
+/* ---- Visiting by tasks -------------------------------------------------------------------------------------- */
 
 typedef struct visits {
     division *division;
@@ -372,7 +386,7 @@ typedef struct visits {
     list all;
 } visits;
 
-/* List what lies below a node in shares that are worth a task. False when there is no memory. */
+/* List subtrees with their items, each of at most `grain` items or a single leaf. False when there is no memory. */
 static bool gather_visits(batch *b, list *all, node *n, unsigned depth, span items)
 {
     if (!n || !n->octants || items.count <= b->division->grain) {
@@ -380,7 +394,7 @@ static bool gather_visits(batch *b, list *all, node *n, unsigned depth, span ite
         return list_push(&b->store->memory, all, &v, sizeof v);
     }
     span shares[8];
-    share_out(items, depth, shares);
+    divide_items(items, depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
         if (shares[octant].count > 0 && !gather_visits(b, all, child_at(n, octant), depth + 1, shares[octant]))
             return false;
@@ -392,7 +406,7 @@ static span list_from(span list, size_t before)
     return (span){list.items ? list.items + before : NULL, 0};
 }
 
-/* The lists of a part begin where its first items do among all. */
+/* The lists of a part begin at the index of its first item, so that parts do not overlap. */
 static void visit_part(size_t number, void *context)
 {
     const visits *v = context;
@@ -419,7 +433,7 @@ static void share_visits(division *d, const list *all, size_t total)
     d->starts[d->tasks] = all->count;
 }
 
-/* False when there is no memory; nothing has been visited then. */
+/* False when there is no memory; then nothing was visited. */
 static bool visit_by_tasks(batch *b, leaf_visitor *visitor)
 {
     division *d = b->division;

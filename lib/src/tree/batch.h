@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.h - many changes of a tree at once.
  *
- * What leaves and what arrives is sorted by Morton code. restructure() then goes once down the tree and up again and
- * plans: a leaf with room for what arrives is edited later, in place; another node that changes is made anew from its
- * old self; what does not change is shared. Last of all the plan is carried out, which cannot fail: so a batch either
- * happens or does not.
+ * The points that leave and those that arrive are sorted by Morton code. restructure() walks the tree once and makes a
+ * plan: a leaf with enough room is edited later in place; any other changed node gets a successor; unchanged nodes are
+ * shared. Planning allocates and may fail. Carrying out the plan cannot fail, so a batch happens completely or not.
  */
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
@@ -12,7 +11,7 @@
 #include "morton_sort.h"
 #include "tree.h"
 
-/* Sorted items: by code and, within one leaf, in any order. */
+/* Items sorted by code; within one leaf in any order. */
 typedef struct span {
     morton_item *items;
     size_t count;
@@ -20,33 +19,33 @@ typedef struct span {
 
 typedef struct batch {
     octree *tree;
-    store *store;               /* where nodes and points come from: the tree's, or a task's */
-    struct division *division;  /* into tasks; null: into none */
+    store *store;               /* the allocator of nodes and points: the tree's, or a task's */
+    struct division *division;  /* the division into tasks; null: none */
     const octree_point *points; /* the caller's */
-    const double (*to)[3];      /* where they move to; null where they do not move */
+    const double (*to)[3];      /* destinations of a move, else null */
     size_t count;
     octree_status *statuses; /* the caller's, one for each point; may be null */
-    size_t done;             /* how many points were changed */
+    size_t done;             /* count of points changed */
 
-    span valid;         /* the points with valid positions, by code; in cells that are leaves in any order */
-    bool repeated;      /* some of them may have the same code */
-    span leaving;       /* stored points that leave, with their index */
-    span arriving;      /* points of the caller's that arrive */
-    morton_item *lists; /* the memory of `valid`, and of a move of all three and of a spare list, for sorting */
-    morton_item *spare;
+    span valid;         /* the points with valid positions */
+    bool repeated;      /* some valid points may have equal codes */
+    span leaving;       /* stored points that leave, with their index in the leaf */
+    span arriving;      /* the caller's points that arrive */
+    morton_item *lists; /* one allocation for `valid`; for a move also for leaving, arriving and spare */
+    morton_item *spare; /* scratch memory for sorting */
     list repetitions;
 
-    bool inserts;               /* an empty tree may be built by a grid */
-    bool remakes;               /* many points move: `valid` is empty at first */
-    bool settled;               /* the moves have their statuses: none meets a full leaf */
-    bool may_be_stored;         /* look whether an arriving pair is stored already */
-    bool duplicate;             /* one is */
-    bool overflow;              /* a moved point may meet a full leaf */
-    const octree_point *stored; /* those among the items that nodes are built of */
-    size_t stored_count;        /* with cells, after those of the batch's points */
-    uint32_t *cells;            /* of a grid of this depth, in place of items (grid_fill.h) */
-    unsigned grid;
-    list patches, edits; /* the plan */
+    bool inserts;               /* the batch only inserts: an empty tree may be built by a grid */
+    bool remakes;               /* many points move: rebuild the tree; `valid` is empty at first */
+    bool settled;               /* the moves have their final statuses, and none meets a full leaf */
+    bool may_be_stored;         /* check whether an arriving pair is already stored */
+    bool duplicate;             /* such a pair was found */
+    bool overflow;              /* a moved point may meet a full leaf under OCTREE_REFUSE */
+    const octree_point *stored; /* the stored points that items refer to by index */
+    size_t stored_count;        /* count of stored points in `cells`, after the batch's points */
+    uint32_t *cells;            /* grid cells of the points, in place of items (grid_fill.h) */
+    unsigned grid;              /* depth of the grid; 0: no grid */
+    list patches, edits;        /* the plan */
 } batch;
 
 static inline void set_status(const batch *b, const morton_item *item, octree_status status)
@@ -55,7 +54,7 @@ static inline void set_status(const batch *b, const morton_item *item, octree_st
         b->statuses[item->place] = status;
 }
 
-/* The point that an item of the caller's becomes. */
+/* The caller's point of an item, at its destination if it moves. */
 static inline octree_point arriving_point(const batch *b, const morton_item *item)
 {
     octree_point point = b->points[item->place];
@@ -64,7 +63,7 @@ static inline octree_point arriving_point(const batch *b, const morton_item *ite
     return point;
 }
 
-/* Start loading what an item of the caller's reads: those are scattered, in the caller's order. */
+/* Prefetch the caller's point of an item: points are in the caller's order, not in that of the items. */
 static inline void prefetch_item(const batch *b, const morton_item *item)
 {
     prefetch(&b->points[item->place]);
@@ -72,27 +71,27 @@ static inline void prefetch_item(const batch *b, const morton_item *item)
         prefetch(&b->to[item->place]);
 }
 
-/* A point of the caller's that arrives, or one that is stored. */
+/* The point of an item: an arriving one of the caller's, or a stored one. */
 static inline octree_point batch_point(const batch *b, const morton_item *item)
 {
     return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
 }
 
-/* How many of the sorted items lie in the same octant of a cell of this depth as the first of them. */
+/* The number of sorted items in the same octant of a cell of this depth as the first one. */
 size_t octant_share(const morton_item *items, size_t count, unsigned depth);
 
-/* How many items of a cell need not be sorted where they become a leaf. */
+/* Cells with at most this many items become leaves, whose items need no order. */
 static inline size_t unsorted_count(const octree *tree)
 {
     return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
 }
 
-/* Check all positions, and sort those that are valid into `valid`. Sets each point's status: OK, or why it is not
- * among them. A batch that `remakes` the tree leaves that to batch_collect(). */
+/* Check all positions, set the statuses, and sort the valid points into `valid`. For a batch that `remakes` the tree,
+ * the second step is left to batch_collect(). */
 octree_status batch_begin(batch *b);
 octree_status batch_collect(batch *b);
 
-/* OK, OUTSIDE or NOT_FINITE. */
+/* Returns OK, OUTSIDE or NOT_FINITE. */
 static inline octree_status check_inside(const octree *tree, const double position[3])
 {
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
@@ -100,55 +99,53 @@ static inline octree_status check_inside(const octree *tree, const double positi
 
 void batch_end(batch *b);
 
-/* Whether no two points of the batch have one id: then no change depends on another, but where a leaf is full. False
- * when there is no memory. */
+/* Store in *differ whether all ids of the batch differ: then no change depends on another, except where a leaf is full.
+ * False when there is no memory. */
 bool ids_differ(const batch *b, bool *differ);
 
-/* Told the leaf of some items, and its depth; or null where there is none. */
+/* Called with some items and their leaf, or null if their octant has no node, and the depth of its cell. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
-/* Visit the leaves that the valid items lie in, maybe by tasks: of the parts of the batch leaving, arriving and done
- * are put together. */
+/* Visit the leaves of the valid items, by tasks if there are many. The lists `leaving` and `arriving` of the tasks are
+ * concatenated, and `done` is summed. */
 void batch_visit_leaves(batch *b, leaf_visitor *visit);
 
-/* Drop the items that repeat the pair of an earlier one, and list them. False when there is no memory. */
+/* Move the items that repeat an earlier pair to the list of repetitions. False when there is no memory. */
 bool drop_repetitions(batch *b);
 
-/* Give them their status, unless the earlier one was refused by a full leaf, as they would then be too. */
+/* Set the status of all repetitions, or FULL if a full leaf refused the first of the pair. */
 void release_repetitions(batch *b);
 void set_repeated_statuses(const batch *b, octree_status status);
 
-/* The items of each octant of a cell of this depth. Returns the octants that have any. */
-unsigned share_out(span all, unsigned depth, span shares[8]);
+/* Divide the items of a cell of this depth by octant. Returns a mask of the octants that have items. */
+unsigned divide_items(span all, unsigned depth, span shares[8]);
 
-/* The sorted codes of more points than the capacity: whether they all lie in one cell that cannot be divided. */
+/* Whether items sorted by code all lie in one cell that cannot be divided. */
 bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
 
-/* Take what leaves out of the tree, and put in what arrives. Points that meet a full leaf under OCTREE_REFUSE are
- * given their status, if they are inserted; those that move set `overflow`. NO_MEMORY, or OK: the tree is then changed
- * unless `duplicate` or `overflow` is set for a move. */
+/* Remove the leaving points from the tree and insert the arriving ones. An insertion that meets a full leaf under
+ * OCTREE_REFUSE gets the status FULL; a move sets `overflow`. Returns OK or NO_MEMORY. The tree is unchanged on
+ * NO_MEMORY, and for a move if `duplicate` or `overflow` is set. */
 octree_status restructure(batch *b);
 
-/* Where a leaf may come to hold more points than its capacity while points move one after the other, in whatever order:
- * whether there may be more than that in one cell that cannot be divided. True also when there is no memory to find
- * out. */
+/* Whether moves made one after the other, in any order, might meet a full leaf in the cell: whether one indivisible
+ * cell might at some time hold more points than the capacity. Also true when there is no memory to decide. */
 bool may_overflow(const batch *b, const node *old, cell c, span arriving);
 
-/* The same where the tree is built anew, of the points where they go to, for all moves at once: quicker, and sometimes
- * true where it need not be. Cost: O(n) for n points where leaves of both trees hold more than the capacity together.
- */
+/* The same for all moves at once, from the old tree and the rebuilt one: faster, and sometimes true without need.
+ * Cost: O(n) for the n points in leaves that hold more than the capacity together with their counterpart. */
 bool may_overflow_anew(const octree *tree, const node *made);
 
-/* Put the points that have cells, or where there is no grid all that arrives, in place of what is stored. Errors:
- * NO_MEMORY; the tree is unchanged then, and when `overflow` is set. */
+/* Replace all stored points by the points that have grid cells or, without a grid, by the arriving ones. Errors:
+ * NO_MEMORY; the tree is then unchanged, also if `overflow` is set. */
 octree_status build_anew(batch *b);
 
-/* Move the points while the tree is built anew. *settled is false where moves depend on one another; the tree is then
- * unchanged, and the statuses are not known. Errors: NO_MEMORY. */
+/* Move the points by rebuilding the tree. *settled becomes false if moves depend on one another; the tree is then
+ * unchanged and the statuses are undefined. Errors: NO_MEMORY. */
 octree_status remake_tree(batch *b, bool *settled);
 
-/* Give the moves their statuses one after the other in the order given, and list what leaves and arrives in the end.
- * The tree is not changed. False when there is no memory. */
+/* Simulate the moves one by one in the given order: set their statuses and list the points that leave and arrive in the
+ * end. The tree is not changed. False when there is no memory. */
 bool resolve_moves_in_order(batch *b);
 
 #endif

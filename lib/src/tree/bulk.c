@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* bulk.c - many points inserted, removed or moved at once: their statuses, and what leaves and arrives. */
+/* bulk.c - octree_insert_many(), octree_remove_many() and octree_move_many(): statuses, and the lists of points that
+ * leave and arrive. */
 #include "batch.h"
 #include "float_rules.h"
 #include "few.h"
 
 #include <string.h>
 
-/* *done (may be null) receives how many points were changed. */
+/* End a batch. *done (may be null) receives the number of points changed. */
 static octree_status finish(batch *b, octree_status status, size_t *done)
 {
     if (status == OCTREE_OK && b->done > 0)
@@ -17,10 +18,10 @@ static octree_status finish(batch *b, octree_status status, size_t *done)
     return status;
 }
 
-/* ---- Points of the tree itself ------------------------------------------------------------------------------- */
+/* ---- Points in the tree's own memory ------------------------------------------------------------------------- */
 
-/* Whether the points are those of a leaf. */
-static bool are_own(const octree *tree, const octree_point *points, size_t count)
+/* Whether the caller's array lies in a leaf of the tree. */
+static bool lie_in_leaf(const octree *tree, const octree_point *points, size_t count)
 {
     if (!points || count == 0 || check_position(tree, points->position) != OCTREE_OK)
         return false;
@@ -32,9 +33,9 @@ static bool are_own(const octree *tree, const octree_point *points, size_t count
     return false;
 }
 
-/* The same with a copy of points that change with the tree. */
-static octree_status change_own(octree *tree, octree_change_kind kind, const octree_point *points,
-                                const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
+/* Make a batch of changes with a copy of the points. */
+static octree_status change_copies(octree *tree, octree_change_kind kind, const octree_point *points,
+                                   const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
 {
     arena *memory = &tree->store.memory;
     octree_point *copies = arena_take(memory, count * sizeof *copies);
@@ -48,7 +49,7 @@ static octree_status change_own(octree *tree, octree_change_kind kind, const oct
 
 /* ---- Ids ---------------------------------------------------------------------------------------------------- */
 
-/* Ids that lie so close together have a bit each. */
+/* Whether ids are close enough together for a table of one bit per id. */
 static bool are_dense(const batch *b, uint64_t least, uint64_t most)
 {
     return most - least < 64 * (uint64_t)b->count;
@@ -65,7 +66,7 @@ static bool bits_differ(const batch *b, uint64_t least, uint64_t *bits)
     return true;
 }
 
-/* Open addressing with linear probing. */
+/* A hash table with linear probing; a slot holds an index + 1, or 0. */
 static bool hashes_differ(const batch *b, uint32_t *table, size_t slots)
 {
     for (size_t i = 0; i < b->count; i++) {
@@ -85,7 +86,7 @@ bool ids_differ(const batch *b, bool *differ)
     *differ = true;
     for (size_t i = 0; i < b->count; i++) {
         const uint64_t id = b->points[i].id;
-        *differ &= i == 0 || id > most; /* so far they ascend */
+        *differ &= i == 0 || id > most; /* true while ids ascend */
         least = id < least ? id : least;
         most = id > most ? id : most;
     }
@@ -136,8 +137,8 @@ octree_status insert_sorted(octree *tree, const octree_point *points, size_t cou
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
-    if (are_own(tree, points, count))
-        return change_own(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
+    if (lie_in_leaf(tree, points, count))
+        return change_copies(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     if (tree && change_log_is_on(&tree->changes))
         return change_batch_and_log(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
     const bool few = tree && points && are_few(tree, count) && float_mode_is_default();
@@ -149,7 +150,7 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* Keep the items that are stored, with their indices. */
+/* List the items that are stored as leaving, with their index in the leaf. */
 static void find_removed(batch *b, node *leaf, unsigned depth, span items)
 {
     (void)depth;
@@ -177,8 +178,8 @@ static octree_status remove_valid(batch *b)
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed)
 {
-    if (are_own(tree, points, count))
-        return change_own(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
+    if (lie_in_leaf(tree, points, count))
+        return change_copies(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     if (tree && change_log_is_on(&tree->changes))
         return change_batch_and_log(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
     batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
@@ -201,7 +202,8 @@ static bool same_bits(const double a[3], const double b[3])
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-/* A point that stays in its leaf is written in place at once: that is undone without memory. */
+/* Overwrite a point that stays in its leaf at once, which undo_moves() reverts without memory; list others as leaving
+ * and arriving. */
 static void move_found(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
 {
     const double *to = b->to[item->place];
@@ -223,7 +225,8 @@ static void move_found(batch *b, node *leaf, unsigned depth, morton_item *item, 
     b->done++;
 }
 
-/* A leaf that was built holds its points in the order of the batch: so the one after the last is tried first. */
+/* Find a point in a leaf. A leaf built from a batch keeps the batch's order, so the point after the last is tried
+ * first. */
 static uint32_t find_after(const node *leaf, uint32_t last, const octree_point *point)
 {
     const uint32_t next = last + 1; /* LEAF_NONE + 1 is 0 */
@@ -248,7 +251,7 @@ static void find_moved(batch *b, node *leaf, unsigned depth, span items)
     }
 }
 
-/* What was written in place, back. No node has changed since. */
+/* Restore the points that were overwritten in place. No node has changed since. */
 static void undo_moves(batch *b)
 {
     for (size_t i = 0; i < b->valid.count; i++) {
@@ -262,8 +265,8 @@ static void undo_moves(batch *b)
     }
 }
 
-/* Moves that do not depend on one another. *settled is false when they do after all; the tree is then unchanged. */
-static octree_status move_apart(batch *b, bool *settled)
+/* Make moves whose ids differ. *settled becomes false if they depend on one another; the tree is then unchanged. */
+static octree_status move_independent(batch *b, bool *settled)
 {
     b->may_be_stored = true;
     batch_visit_leaves(b, find_moved);
@@ -295,7 +298,7 @@ static octree_status move_valid(batch *b)
     } else if (!ids_differ(b, &settled)) {
         return OCTREE_NO_MEMORY;
     } else if (settled && b->valid.count > 0) {
-        status = move_apart(b, &settled);
+        status = move_independent(b, &settled);
     }
     return settled || status != OCTREE_OK ? status : move_in_order(b);
 }
@@ -303,8 +306,8 @@ static octree_status move_valid(batch *b)
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved)
 {
-    if (are_own(tree, points, count))
-        return change_own(tree, OCTREE_MOVED, points, to, count, statuses, moved);
+    if (lie_in_leaf(tree, points, count))
+        return change_copies(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (tree && change_log_is_on(&tree->changes))
         return change_batch_and_log(tree, OCTREE_MOVED, points, to, count, statuses, moved);
     if (count && !to)

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* change.c - single changes. Algorithm 1: a point goes down to its leaf; a full leaf splits, refuses or grows.
- * Algorithm 2: a point is removed; nodes whose points now fit one leaf merge. A move is both, or stays in its leaf. */
+/* change.c - single changes.
+ *
+ * Algorithm 1 (insert): a point descends to its leaf; a full leaf splits, refuses or grows. Algorithm 2 (remove): nodes
+ * whose remaining points fit one leaf merge. A move within a leaf overwrites the point; any other is an insertion and a
+ * removal. Memory is allocated before anything changes, so that a failure leaves the tree as it was.
+ */
 #include "tree.h"
 
 #include <string.h>
 
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
-/* The path ends at an inner node whose octant is not occupied: add a leaf with this point. */
+/* Add a leaf with this point to an inner node whose octant has no child. */
 static octree_status add_child(octree *tree, node *parent, unsigned octant, const octree_point *point)
 {
     const unsigned children = bits_count8(parent->octants), index = child_index(parent, octant);
@@ -28,14 +32,14 @@ static octree_status add_child(octree *tree, node *parent, unsigned octant, cons
     return OCTREE_OK;
 }
 
-/* How the points of a full leaf and a new one are distributed to the octants of a cell. */
+/* The distribution of a full leaf's points and a new one to the octants of a cell. */
 typedef struct shares {
-    double planes[3]; /* in the middle of the cell */
+    double planes[3]; /* the splitting planes of the cell */
     uint32_t counts[8];
     uint8_t mask;
 } shares;
 
-/* The octant of a position, by the planes that keys come from. */
+/* The octant of a position, by comparison with the planes. */
 static unsigned octant_of(const shares *s, const double p[3])
 {
     return (unsigned)(p[0] >= s->planes[0]) << 2 | (unsigned)(p[1] >= s->planes[1]) << 1 |
@@ -60,8 +64,8 @@ static shares count_shares(const octree *tree, cell c, const node *full, const o
     return s;
 }
 
-/* From the cell of a full leaf down to the first one whose octants separate its points and a new one: true. False when
- * the last cell that can be divided does not; *c is then the one below it, which holds them all. */
+/* Descend from the cell of a full leaf to the first cell whose octants separate its points and the new one; true. False
+ * if no divisible cell separates them; *c is then the indivisible cell that holds all. */
 static bool find_split(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
 {
     for (; may_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
@@ -80,8 +84,8 @@ static bool make_leaves(octree *tree, node *group, const shares *s)
     return true;
 }
 
-/* An inner node with leaves for the points of a full leaf and a new one. False when there is no memory; nothing is
- * allocated then. */
+/* Make an inner node whose leaves hold the points of a full leaf and a new one. False when there is no memory; then
+ * nothing stays allocated. */
 static bool make_split(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
     const unsigned children = bits_count8(s->mask);
@@ -100,7 +104,7 @@ static bool make_split(octree *tree, node *made, const node *full, const octree_
     return true;
 }
 
-/* A leaf of the points of a full leaf and a new one. */
+/* Make a leaf beyond the capacity from the points of a full leaf and a new one. */
 static bool make_grown(octree *tree, node *made, const node *full, const octree_point *point)
 {
     if (!leaf_create(&tree->store, made, full->count + 1))
@@ -110,7 +114,7 @@ static bool make_grown(octree *tree, node *made, const node *full, const octree_
     return true;
 }
 
-/* Put `bottom`, a node of depth `from`, under a chain of only children up to depth `to`. */
+/* Replace `bottom`, a node of depth `from`, by a chain of single children from depth `to` down to it. */
 static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
@@ -126,8 +130,8 @@ static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from,
     return true;
 }
 
-/* Add a point to a full leaf of this depth. The replacement is built first and then put in its place, so that nothing
- * has changed when memory runs out. */
+/* Add a point to a full leaf of this depth. The replacement is completed before it takes the leaf's place, so that a
+ * shortage of memory changes nothing. */
 static octree_status split_or_grow(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
 {
     cell bottom = morton_cell(code, depth);
@@ -169,7 +173,8 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
                                          : add_child(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
-    const unsigned inner = is_leaf ? p.depth : p.depth + 1; /* leaf_append() has counted the leaf's */
+    const unsigned inner =
+        is_leaf ? p.depth : p.depth + 1; /* leaf_append() has already counted the point in the leaf */
     for (unsigned i = 0; i < inner; i++)
         p.nodes[i]->count++;
     tree->version++;
@@ -189,9 +194,10 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
     return inserted;
 }
 
-/* ---- Removing: reserved and then done, so that a move can reserve it before it changes anything ------------- */
+/* ---- Removing: allocate first, then change, so that a move can allocate before it changes anything ---------- */
 
-/* The depth of the highest node on the path that fits one leaf with one point less; the leaf's own when none does. */
+/* The depth of the highest node on the path that would fit one leaf with one point less; the leaf's own depth if none.
+ */
 static unsigned merge_depth(const octree *tree, const path *p)
 {
     unsigned depth = p->depth;
@@ -200,7 +206,7 @@ static unsigned merge_depth(const octree *tree, const path *p)
     return depth;
 }
 
-/* Make the leaf that removing this point now would merge nodes into, empty when none would merge. False when there is
+/* Allocate the leaf into which nodes merge when this point is removed; an empty leaf if none merge. False when there is
  * no memory. */
 static bool reserve_merge(octree *tree, const found_point *found, node *spare)
 {
@@ -222,7 +228,7 @@ void drop_child(octree *tree, node *parent, node *child)
     parent->octants &= (uint8_t) ~(1u << octant);
 }
 
-/* Remove the point. Cannot fail; uses or frees the spare leaf. */
+/* Remove the point. Cannot fail. Uses or frees the spare leaf. */
 static void remove_found(octree *tree, const found_point *found, node *spare)
 {
     const path *p = &found->path;
@@ -262,8 +268,8 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
-/* Only the insertion can be refused, so it comes first; memory for the removal is reserved before it. That is enough:
- * the tree only grows in between, so nodes that would not merge now will not merge then. */
+/* Move a point to another leaf. Only the insertion can be refused, so it comes first; the memory of the removal is
+ * allocated before it. That suffices: the insertion only adds points, so no more nodes merge after it than before. */
 static octree_status move_across(octree *tree, const found_point *found, const octree_point *moved)
 {
     const octree_point old = leaf_points(path_end(&found->path))[found->index];

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* division.c - the tasks of a large batch: their memory pools, and how they start. See division.h. */
 #include "division.h"
 
 #include <string.h>

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* division.h - a large batch divided into tasks: each has a batch of its own, which is a part of the whole one.
+/* division.h - a large batch divided into tasks.
  *
- * Inside a part nothing is divided any further. What parts share they only read; statuses are written by place.
+ * Problem: several threads change one tree. Locks on nodes would cost more than the changes, and the result must not
+ * depend on timing. Idea: divide the sorted items at node boundaries, so that tasks own disjoint subtrees. Each task
+ * works on a part: a copy of the batch with its own memory pools and its own plan. Parts only read shared data and
+ * write statuses of their own points. Afterwards the pools are joined and the plans are carried out, in a fixed order.
+ * Cost: one list of jobs, and two pools per task.
  */
 #ifndef OCTREE_DIVISION_H
 #define OCTREE_DIVISION_H
@@ -9,9 +13,9 @@
 #include "batch.h"
 #include "tasks.h"
 
-/* A node that a task makes ahead of its parent's. */
+/* A node that a task plans before its parent is planned. */
 typedef struct job {
-    const node *old; /* null: it is built of what arrives */
+    const node *old; /* the node that changes; null: build one from the arriving items */
     cell cell;
     span leaving, arriving;
     node made;
@@ -24,53 +28,54 @@ typedef struct patch {
     node made;
 } patch;
 
-/* A leaf that is edited in its block. */
+/* A leaf that is edited in place when the plan is carried out. */
 typedef struct edit {
     octree_point *points;
-    uint32_t count; /* before */
-    uint8_t room, room_left;
+    uint32_t count;          /* before */
+    uint8_t room, room_left; /* before and after, in points */
     span leaving, arriving;
 } edit;
 
 typedef struct part {
     batch batch;
-    store store; /* while a batch is restructured */
+    store store; /* its own pools, while a batch is restructured */
 } part;
 
 typedef struct division {
     unsigned tasks;
-    size_t grain;                     /* a job has at most so many items */
-    list jobs;                        /* in the order in which their nodes are met */
-    size_t next;                      /* of them */
-    bool ready;                       /* they are done */
-    size_t starts[TASKS_AT_MOST + 1]; /* those of each task */
+    size_t grain;                     /* the greatest number of items of a job */
+    list jobs;                        /* in the order in which planning reaches their nodes */
+    size_t next;                      /* index of the next job whose result is used */
+    bool ready;                       /* all jobs are done */
+    size_t starts[TASKS_AT_MOST + 1]; /* index of the first job of each task */
     part parts[TASKS_AT_MOST];
 } division;
 
-/* Divide a batch if it is worth it, there is an executor, and there is memory. */
+/* Divide a batch if it is large, there is an executor, and there is memory. */
 void division_begin(batch *b);
 void division_end(batch *b);
 
-/* Give the parts pools of their own, where about so many more points than before are `expected`; and join them. */
+/* Create the pools of the parts, sized for `expected` additional points in all; and join them to the tree's. */
 void division_open(batch *b, size_t expected);
 void division_close(batch *b);
 
-/* Run a task for each part, as it is now the batch but for the plan that it has made. */
+/* Run a task for each part. Each part becomes a copy of the batch and keeps its own plan. */
 void division_run(batch *b, octree_task *task, void *context);
 
-/* Whether tasks have made a node of so many items; and the next of their nodes. */
+/* Whether a node with this many items was planned by a task; and the next node that was. */
 bool is_job(const batch *b, size_t count);
-bool take_job(batch *b, node *made);
+bool use_job(batch *b, node *made);
 
-/* Make the node of a cell that holds only the items; divided into tasks, where there are many. */
+/* Whether items become a leaf; build the node of a cell that holds only these items; build it by tasks if there are
+ * many. */
 bool becomes_leaf(const batch *b, cell c, span items);
 bool build_node(batch *b, cell c, span items, node *made);
 bool build_divided(batch *b, cell c, span items, node *made);
 
-/* Make a node's successor. False when there is no memory; *made then holds what was made. */
+/* Make the successor of a node. False when there is no memory; *made then holds the incomplete successor. */
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made);
 
-/* Let a node have a successor. False when there is no memory; nothing is allocated then. */
+/* Add the successor of a node to the plan. False when there is no memory; the successor is then released. */
 bool plan_patch(batch *b, node *at, const node *made);
 
 #endif

@@ -1,13 +1,26 @@
 /* SPDX-License-Identifier: MIT */
+/* few.c - batches of few points in a large tree: insert_few() and remove_few().
+ *
+ * Problem: of a thousand changes in a million points hardly two meet in one leaf. Sorting them (batch.c) gains nothing;
+ * making them one by one waits for memory at every level of every descent.
+ *
+ * Idea: let 32 points descend in lockstep. At each level the next node of all of them is prefetched before any is read,
+ * so that 32 cache misses overlap. Then the points are changed in the given order. Insertion stays on the found paths
+ * as long as no node moves in memory; points that meet a full leaf are collected and inserted as one batch at the end.
+ * Removal first looks up all points, then allocates the leaves of all merges, and only then changes anything.
+ *
+ * Cost: that of single changes without most of the waiting; it pays up to a twentieth of the stored points. are_few()
+ * holds the measured limits.
+ */
 #include "few.h"
 #include "tasks.h"
 
 #include <string.h>
 
 enum {
-    CACHED = 300000,   /* as many points are held by a processor's caches: there, sorting gains less */
-    FEW = 20,          /* as many times more points are stored than a few */
-    FEW_OF_CACHED = 8, /* the same where those that are stored are cached */
+    CACHED = 300000,   /* trees with fewer points fit a processor's caches, where sorting gains less */
+    FEW = 20,          /* few: less than a twentieth of the stored points */
+    FEW_OF_CACHED = 8, /* the same for a tree that fits the caches: less than an eighth */
 };
 
 bool are_few(const octree *tree, size_t count)
@@ -17,20 +30,19 @@ bool are_few(const octree *tree, size_t count)
            count <= UINT32_MAX - stored;
 }
 
-/* ---- Leaves of several points at once ----------------------------------------------------------------------- */
+/* ---- Descents in lockstep ----------------------------------------------------------------------- */
 
 enum { TOGETHER = 32 };
 
-/* Where some points lead: the nodes on their ways, and how deep those end. Of a position outside the world there is
- * none. */
-typedef struct ways {
+/* The paths of several points, level by level. A position outside the world has no path. */
+typedef struct descents {
     octree_status statuses[TOGETHER];
     uint64_t codes[TOGETHER];
     unsigned depths[TOGETHER];
     node *nodes[OCTREE_MAX_DEPTH + 1][TOGETHER];
-} ways;
+} descents;
 
-static void find_codes(ways *w, const octree *tree, const octree_point *points, size_t count)
+static void find_codes(descents *w, const octree *tree, const octree_point *points, size_t count)
 {
     morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
     for (size_t i = 0; i < count; i++) {
@@ -40,8 +52,8 @@ static void find_codes(ways *w, const octree *tree, const octree_point *points, 
     }
 }
 
-/* All ways go down a level at a time, so that the memory of the next one is loaded for all at once. */
-static void find_ways(ways *w, octree *tree, const octree_point *points, size_t count)
+/* Descend one level at a time with all points, so that their cache misses overlap. */
+static void descend_together(descents *w, octree *tree, const octree_point *points, size_t count)
 {
     size_t going = 0, left[TOGETHER];
     find_codes(w, tree, points, count);
@@ -74,15 +86,15 @@ static void find_ways(ways *w, octree *tree, const octree_point *points, size_t 
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
 typedef struct insertions {
-    octree_point *full;
-    octree_status *statuses; /* of all, and then of those */
+    octree_point *full;      /* points that met a full leaf */
+    octree_status *statuses; /* of all points, then of the full ones */
     const octree_point *points;
     size_t full_count, inserted;
 } insertions;
 
-/* Into the leaf that a way ends at. No node moves, so that other ways stay as they are. There is room for all points
- * of a batch: are_few() has counted them. */
-static octree_status insert_on_way(octree *tree, const octree_point *point, const ways *w, size_t i)
+/* Insert a point into the leaf at the end of its path. No node moves in memory, so that other paths stay valid. The
+ * count cannot overflow: are_few() has checked it. */
+static octree_status insert_at_end(octree *tree, const octree_point *point, const descents *w, size_t i)
 {
     node *leaf = w->nodes[w->depths[i]][i];
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
@@ -96,22 +108,22 @@ static octree_status insert_on_way(octree *tree, const octree_point *point, cons
     return OCTREE_OK;
 }
 
-/* A point whose way ends at an inner node adds a leaf there, which moves nodes: until the next ways are found, others
- * are inserted as single ones are. */
-static octree_status insert_some(octree *tree, const octree_point *points, size_t count, insertions *f)
+/* Insert up to TOGETHER points. A point whose path ends at an inner node adds a leaf, which moves nodes in memory; the
+ * rest of the group then descends from the root again, point by point. */
+static octree_status insert_group(octree *tree, const octree_point *points, size_t count, insertions *f)
 {
-    ways w;
+    descents w;
     bool moved = false;
     const size_t first = (size_t)(points - f->points);
-    find_ways(&w, tree, points, count);
+    descend_together(&w, tree, points, count);
     for (size_t i = 0; i < count; i++) {
         octree_status status = w.statuses[i];
-        const bool on_way = status == OCTREE_OK && !moved && !w.nodes[w.depths[i]][i]->octants;
-        if (on_way)
-            status = insert_on_way(tree, &points[i], &w, i);
+        const bool at_end = status == OCTREE_OK && !moved && !w.nodes[w.depths[i]][i]->octants;
+        if (at_end)
+            status = insert_at_end(tree, &points[i], &w, i);
         else if (status == OCTREE_OK)
             status = insert_point(tree, &points[i], w.codes[i], false);
-        moved = moved || !on_way;
+        moved = moved || !at_end;
         f->statuses[first + i] = status;
         if (status == OCTREE_NO_MEMORY)
             return status;
@@ -143,7 +155,7 @@ octree_status insert_few(octree *tree, const octree_point *points, size_t count,
     size_t more = 0;
     octree_status status = f.full && f.statuses ? OCTREE_OK : OCTREE_NO_MEMORY;
     for (size_t i = 0; status == OCTREE_OK && i < count; i += TOGETHER)
-        status = insert_some(tree, points + i, count - i < TOGETHER ? count - i : TOGETHER, &f);
+        status = insert_group(tree, points + i, count - i < TOGETHER ? count - i : TOGETHER, &f);
     tree->version = version + f.inserted;
     if (status == OCTREE_OK && f.full_count > 0)
         status = insert_sorted(tree, f.full, f.full_count, f.statuses + count, &more);
@@ -160,16 +172,16 @@ octree_status insert_few(octree *tree, const octree_point *points, size_t count,
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* A point that is found, and its leaf: no node is moved or freed before the last is removed. */
+/* A point to remove, with its leaf. No node moves in memory before the last point is removed. */
 typedef struct removal {
     node *leaf, *parent; /* null: the leaf is the root */
     uint32_t place, index;
 } removal;
 
-/* A node that becomes a leaf when all are removed. */
+/* A node that becomes a leaf when all points are removed. */
 typedef struct merging {
     node *at;
-    node made; /* empty, with room for what stays */
+    node made; /* an empty leaf with room for the points that stay */
 } merging;
 
 typedef struct removals {
@@ -181,11 +193,11 @@ typedef struct removals {
     list mergings;
 } removals;
 
-/* The counts of inner nodes are at once what they will be. */
-static void find_some(removals *r, size_t first, size_t count)
+/* Find up to TOGETHER points, and already reduce the counts of the inner nodes above them. */
+static void find_group(removals *r, size_t first, size_t count)
 {
-    ways w;
-    find_ways(&w, r->tree, r->points + first, count);
+    descents w;
+    descend_together(&w, r->tree, r->points + first, count);
     for (size_t i = 0; i < count; i++) {
         octree_status status = w.statuses[i];
         const octree_point *point = &r->points[first + i];
@@ -209,7 +221,8 @@ static path path_of(const removals *r, const removal *found)
     return path_to(r->tree, morton_code(r->tree->axes, r->points[found->place].position));
 }
 
-/* Make the leaf for the highest node on the way to a point that fits one; an inner node's room says that it has one. */
+/* Allocate the leaf for the highest node above a point that now fits one. An inner node with room != 0 already has it.
+ */
 static bool plan_merging(removals *r, const removal *found)
 {
     store *s = &r->tree->store;
@@ -252,15 +265,14 @@ static void undo_removals(removals *r)
     }
 }
 
-/* Take the points out of their leaves. Returns in how many empty leaves that ended; those come first in `found` then.
- */
-static size_t take_points(removals *r)
+/* Remove the points from their leaves. Returns the number of leaves that became empty; these come first in `found`. */
+static size_t remove_points(removals *r)
 {
     size_t emptied = 0;
     for (size_t i = 0; i < r->count; i++) {
         removal *it = &r->found[i];
         const octree_point *point = &r->points[it->place];
-        if (it->index >= it->leaf->count) /* it was the last, and took the place of another that was removed */
+        if (it->index >= it->leaf->count) /* it was the last point and has moved into a removed one's place */
             it->index = leaf_find(it->leaf, point->position, point->id);
         leaf_remove(&r->tree->store, it->leaf, it->index);
         if (it->leaf->count == 0)
@@ -273,7 +285,7 @@ static size_t take_points(removals *r)
 static void carry_out_removals(removals *r)
 {
     octree *tree = r->tree;
-    const size_t emptied = take_points(r);
+    const size_t emptied = remove_points(r);
     merging *mergings = r->mergings.items;
     for (size_t i = 0; i < r->mergings.count; i++) {
         node_gather(&mergings[i].made, mergings[i].at, NULL);
@@ -282,7 +294,7 @@ static void carry_out_removals(removals *r)
     }
     for (size_t i = 0; i < emptied; i++) {
         const path p = path_of(r, &r->found[i]);
-        if (path_end(&p)->count == 0) /* and not the root: most points stay */
+        if (path_end(&p)->count == 0) /* never the root, since most points stay */
             drop_child(tree, p.nodes[p.depth - 1], path_end(&p));
     }
     if (r->count > 0)
@@ -298,7 +310,7 @@ octree_status remove_few(octree *tree, const octree_point *points, size_t count,
     if (!r.found)
         return OCTREE_NO_MEMORY;
     for (size_t i = 0; i < count; i += TOGETHER)
-        find_some(&r, i, count - i < TOGETHER ? count - i : TOGETHER);
+        find_group(&r, i, count - i < TOGETHER ? count - i : TOGETHER);
     const bool ok = plan_mergings(&r);
     if (ok)
         carry_out_removals(&r);

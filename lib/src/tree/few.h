@@ -1,25 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* few.h - batches of few points in a large tree. Hardly two meet in one leaf, so that sorting them gains nothing: they
- * are changed in the order given, some dozens of leaves being loaded at once.
- */
+/* few.h - batches of few points in a large tree, changed in the given order with overlapping cache misses. */
 #ifndef OCTREE_FEW_H
 #define OCTREE_FEW_H
 
 #include "batch.h"
 
-/* Whether there are so few points that this pays. */
+/* Whether `count` points are few enough for these functions to be faster than sorting. */
 bool are_few(const octree *tree, size_t count);
 
-/* Those that find room in their leaf are inserted one by one, and the others, whose leaves were full and are so at the
- * end, at once. */
+/* Insert points: those whose leaf has room one by one, the others as one batch at the end. */
 octree_status insert_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                          size_t *inserted);
 
-/* All ids differ. */
+/* Remove points whose ids all differ. */
 octree_status remove_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                          size_t *removed);
 
-/* Of any number. */
+/* Insert any number of points through a sorted batch (bulk.c). */
 octree_status insert_sorted(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                             size_t *inserted);
 

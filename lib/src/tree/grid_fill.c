@@ -1,12 +1,25 @@
 /* SPDX-License-Identifier: MIT */
+/* grid_fill.c - builds a tree from evenly spread points by counting them in a grid.
+ *
+ * Problem: building a tree of n points by sorting reads and writes each point's item several times.
+ *
+ * Idea: if points are spread evenly, the nodes follow from counts. Choose a grid so fine that few of its cells hold
+ * more points than a leaf. Count the points of each cell; add the counts of eight cells to get those one level above;
+ * make the nodes from the root down, with leaves where the count fits; then write each point straight into its leaf.
+ * Each point is read twice and written once, and the order within a leaf is the caller's. Tasks count and write
+ * disjoint shares of the points; per-task counts fix the position of each share in a leaf, so that threads do not meet.
+ *
+ * Cells that hold more points than a leaf ("crowds") are sorted and built by restructure.c. A sample decides beforehand
+ * whether there are few of them; clustered points use the sort instead. Cost: O(n + cells), half the time of sorting.
+ */
 #include "grid_fill.h"
 #include "division.h"
 
 #include <string.h>
 
-enum { SAMPLE_STEP = 16 }; /* one point of so many */
+enum { SAMPLE_STEP = 16 }; /* every 16th point is sampled */
 
-/* A node whose points are divided further than the grid. */
+/* A node whose points must be divided further than the grid. */
 typedef struct crowd {
     node *at;
     cell cell;
@@ -15,13 +28,13 @@ typedef struct crowd {
 
 typedef struct filling {
     batch *whole;
-    size_t count; /* points of the batch, and copies of stored ones */
+    size_t count; /* points of the batch and copies of stored ones */
     unsigned depth, tasks;
-    uint32_t *counts[GRID_DEEPEST + 1]; /* of each depth: of the points in its cells */
-    uint32_t *shares;                   /* of each task: of its points in the cells of the grid */
-    octree_point **next;                /* likewise: where its next point there goes; null in a crowd */
+    uint32_t *counts[GRID_DEEPEST + 1]; /* for each depth, the number of points in each cell */
+    uint32_t *shares;                   /* for each task, the number of its points in each cell of the grid */
+    octree_point **next;                /* for each task and cell, where its next point is written; null in a crowd */
     list crowds;                        /* in Morton order */
-    size_t crowded;                     /* points in them */
+    size_t crowded;                     /* count of points in crowds */
 } filling;
 
 static size_t cells_at(unsigned depth)
@@ -29,15 +42,15 @@ static size_t cells_at(unsigned depth)
     return (size_t)1 << 3 * depth;
 }
 
-/* Whether so many points are a leaf that is written point by point. */
-static bool takes(const octree *tree, size_t count)
+/* Whether this many points form a leaf that is written directly. */
+static bool is_plain_leaf(const octree *tree, size_t count)
 {
     return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
 }
 
 /* ---- The grid -------------------------------------------------------------------------------------------------- */
 
-/* How many of a sample lie in cells that would hold twice as many points as a leaf takes. */
+/* The number of sampled points in cells with more than `limit` of them, that is, with twice the points of a leaf. */
 static size_t count_crowded(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
 {
     const size_t stride = b->to ? 3 : sizeof *b->points / sizeof(double), samples = b->count / SAMPLE_STEP;
@@ -77,7 +90,7 @@ bool grid_choose(batch *b, size_t total)
     return true;
 }
 
-/* Items for some points side by side: the caller's, or copies of stored ones. */
+/* Make items for adjacent points, which are all the caller's or all copies of stored ones. Returns the number made. */
 static size_t add_items(const batch *b, size_t first, size_t count, octree_point *const *filter, morton_item *items)
 {
     const bool is_new = first < b->count;
@@ -128,7 +141,7 @@ static void count_share(size_t number, void *context)
             counts[cells[i]]++;
 }
 
-static void add_up(filling *f)
+static void sum_counts(filling *f)
 {
     const size_t cells = cells_at(f->depth);
     for (size_t i = 0; i < cells; i++)
@@ -141,8 +154,8 @@ static void add_up(filling *f)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Let the points of a cell's part of the grid go to a leaf: cell by cell, and in each in the order given. */
-static void aim(filling *f, cell c, size_t index, octree_point *to)
+/* Set where the points of a cell are written in its leaf: grid cell by grid cell, in the given order within each. */
+static void set_targets(filling *f, cell c, size_t index, octree_point *to)
 {
     const size_t cells = cells_at(f->depth), width = cells_at(f->depth - c.depth);
     for (size_t i = index * width; i < (index + 1) * width; i++)
@@ -152,9 +165,9 @@ static void aim(filling *f, cell c, size_t index, octree_point *to)
         }
 }
 
-/* Whether a cell is left to build_node(): it is a leaf, or not divided by the grid, or it may be that nothing separates
- * its points. */
-static bool is_crowd(const filling *f, cell c, size_t index)
+/* Whether build_node() must build a cell: it is a large leaf, the grid does not divide it, or its points may be
+ * inseparable under OCTREE_REFUSE. */
+static bool needs_sorting(const filling *f, cell c, size_t index)
 {
     const octree *tree = f->whole->tree;
     const uint32_t count = f->counts[c.depth][index];
@@ -191,14 +204,14 @@ static bool make_node(filling *f, cell c, size_t index, node *made)
 {
     batch *b = f->whole;
     const uint32_t count = f->counts[c.depth][index];
-    if (takes(b->tree, count)) {
+    if (is_plain_leaf(b->tree, count)) {
         if (!leaf_create(b->store, made, count))
             return false;
         made->count = count;
-        aim(f, c, index, leaf_points(made));
+        set_targets(f, c, index, leaf_points(made));
         return true;
     }
-    if (!is_crowd(f, c, index))
+    if (!needs_sorting(f, c, index))
         return make_children(f, c, index, made);
     const crowd found = {made, c, count};
     f->crowded += count;
@@ -207,7 +220,7 @@ static bool make_node(filling *f, cell c, size_t index, node *made)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* The points from `first` on: the caller's, or copies of stored ones; with the places that they move to, or null. */
+/* Write points into their leaves, at their destinations if `to` is not null. */
 static void write_points(const uint32_t *cells, const octree_point *points, const double (*to)[3], size_t count,
                          octree_point **next)
 {
@@ -229,14 +242,16 @@ static void write_share(size_t number, void *context)
     const batch *b = f->whole;
     octree_point **next = f->next + number * cells_at(f->depth);
     const size_t first = tasks_share(f->count, f->tasks, number), end = tasks_share(f->count, f->tasks, number + 1);
-    const size_t middle = end < b->count ? end : first < b->count ? b->count : first; /* the caller's end here */
+    const size_t middle = end < b->count     ? end
+                          : first < b->count ? b->count
+                                             : first; /* the end of the caller's points in this share */
     if (first < middle)
         write_points(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
     if (middle < end)
         write_points(b->cells + middle, b->stored + (middle - b->count), NULL, end - middle, next);
 }
 
-/* The points of a node: fewer than were counted where some were refused. */
+/* Correct the counts of a node after some points were refused. Returns its count. */
 static uint32_t recount(node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -265,11 +280,11 @@ static bool build_crowds(filling *f)
     return ok;
 }
 
-static bool fill(filling *f, node *made)
+static bool build_tree(filling *f, node *made)
 {
     const octree *tree = f->whole->tree;
     tasks_run(tree, count_share, f->tasks, f);
-    add_up(f);
+    sum_counts(f);
     if (f->counts[0][0] == 0)
         return true;
     if (!make_node(f, root_cell(), 0, made))
@@ -286,7 +301,8 @@ bool grid_fill(batch *b, node *made)
 {
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
-    const size_t cells = cells_at(f.depth), most = f.count / cells + 1; /* so that tables are of the points' size */
+    const size_t cells = cells_at(f.depth),
+                 most = f.count / cells + 1; /* bounds the tables by the size of the points */
     f.tasks = tasks_for(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
     const size_t size = (cells_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;
@@ -300,7 +316,7 @@ bool grid_fill(batch *b, node *made)
         f.counts[f.depth] = f.shares + f.tasks * cells;
         for (unsigned depth = f.depth; depth-- > 0;)
             f.counts[depth] = f.counts[depth + 1] + cells_at(depth + 1);
-        ok = fill(&f, made);
+        ok = build_tree(&f, made);
     }
     list_release(memory, &f.crowds, sizeof(crowd));
     arena_give(memory, f.shares, size);

@@ -1,28 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* grid_fill.h - a tree of points that are spread evenly: they are counted in the cells of a grid, which gives the nodes
- * above it, and each point is written straight into its leaf. So a point is read twice and written once, and none is
- * sorted but for those of cells that hold more than a leaf takes.
- */
+/* grid_fill.h - builds a tree from evenly spread points by counting them in a grid instead of sorting them. */
 #ifndef OCTREE_GRID_FILL_H
 #define OCTREE_GRID_FILL_H
 
 #include "batch.h"
 
-/* The cell of a point that is left out. */
+/* The cell of a point that is not part of the tree. */
 #define GRID_NONE GRID_UNSURE
 
-enum { GRID_TOGETHER = 64 }; /* cells are found of so many positions at a time */
+enum { GRID_TOGETHER = 64 }; /* positions whose cells are computed in one call */
 
-/* Choose the depth of a grid for `total` points that are spread as the batch's are after its changes; none where a
- * sample shows that they are not spread evenly enough. False when there is no memory. */
+/* Set b->grid to the depth of a grid for `total` points with the distribution of the batch's points after their
+ * changes, or leave it 0 if a sample shows that they are not spread evenly. False when there is no memory. */
 bool grid_choose(batch *b, size_t total);
 
-/* Items for the points of a batch, and for those of `stored`, that have cells. Returns how many; *filter, when it is
- * not null, has a null for each cell that is wanted. */
+/* Make items for the points of the batch and of `stored` that have a cell. Returns the number of items. If `filter` is
+ * not null, only cells with a null entry in it count. */
 size_t grid_items(const batch *b, octree_point *const *filter, morton_item *items);
 
-/* Make the root of a tree of the points that have cells; no two have one id. False when there is no memory; *made then
- * holds what was made. Cost: O(count). */
+/* Build the root of a tree of the points that have cells; all ids differ. False when there is no memory; *made then
+ * holds the incomplete tree. Cost: O(count). */
 bool grid_fill(batch *b, node *made);
 
 #endif

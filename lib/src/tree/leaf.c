@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* leaf.c - leaves: pooled blocks of up to 64 points, hashed leaves above, and operations on whole subtrees. */
 #include "leaf.h"
 #include "octree/digest.h"
 
@@ -76,7 +77,8 @@ uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t i
     return slots_of(points)[slot_of(points, position, id)] - 1;
 }
 
-/* Empty a slot and close the gap: later entries of the run move up unless that would put them before their home. */
+/* Empty a slot and close the gap: later entries of the run move up, unless that would place them before their home
+ * slot. */
 static void clear_slot(octree_point *points, uint32_t gap)
 {
     uint32_t *slots = slots_of(points);
@@ -105,7 +107,7 @@ static void hashed_remove(octree_point *points, uint32_t count, uint32_t index)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* It grows by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
+/* Block sizes grow by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
 unsigned leaf_room(uint32_t count)
 {
     const unsigned step = count <= 4 ? 1 : count <= 8 ? 2 : count <= 32 ? 4 : 8;
@@ -166,7 +168,7 @@ void leaf_put_hashed(node *leaf, const octree_point *point)
     slots_of(points)[slot_of(points, point->position, point->id)] = ++leaf->count;
 }
 
-/* Move the points into a block with room for `count`. */
+/* Move the points into a new block with room for `count`. False when there is no memory. */
 static bool change_room(store *s, node *leaf, uint32_t count)
 {
     node moved;
@@ -181,8 +183,8 @@ static bool change_room(store *s, node *leaf, uint32_t count)
 bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
     if (leaf->count == room_of(leaf)) {
-        /* A hashed leaf doubles, so that copying is linear in the number of insertions. */
-        /* unreachable: by tests, for it takes 2^31 points in one leaf, 64 GiB */
+        /* A hashed leaf doubles its room, so that all copying is linear in the number of insertions. */
+        /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
         const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
         if (!change_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
             return false;
@@ -197,7 +199,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
         hashed_remove(leaf->below, leaf->count, index);
         leaf->count--;
         if (leaf->count < header_of(leaf->below)->room / 4)
-            change_room(s, leaf, leaf->count); /* without memory it keeps its room */
+            change_room(s, leaf, leaf->count); /* without memory the leaf keeps its room */
         return;
     }
     octree_point *points = leaf_points(leaf);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* leaf.h - the nodes of a tree, and the points of those that are leaves.
+/* leaf.h - the nodes of a tree and the points of its leaves.
  *
- * Up to 64 points lie in a block of the tree's pool. A larger leaf is hashed: it has a block of its own with a hash
- * table, so that a million equal points are inserted and removed in constant time each.
+ * A leaf of up to 64 points is a block of the tree's pool. A larger leaf is hashed: a separate allocation with a hash
+ * table, so that each of a million equal points is inserted and removed in constant time.
  */
 #ifndef OCTREE_LEAF_H
 #define OCTREE_LEAF_H
@@ -12,16 +12,16 @@
 #include "pool.h"
 
 typedef struct node {
-    void *below;     /* inner: struct node[], the occupied octants' children; leaf: octree_point[]; may be null */
+    void *below;     /* inner: struct node[], the children by octant; leaf: octree_point[], null if empty */
     uint32_t count;  /* points in and below */
-    uint8_t octants; /* bit mask of the occupied ones; 0 for a leaf */
-    uint8_t room;    /* leaf: points that its block has room for, or LEAF_HASHED */
+    uint8_t octants; /* bit mask of the octants that have a child; 0 for a leaf */
+    uint8_t room;    /* leaf: the capacity of its block in points, or LEAF_HASHED */
 } node;
 
 #define LEAF_HASHED 255
 #define LEAF_NONE UINT32_MAX
 
-/* A stack of nodes still to be visited never holds more: 7 siblings for each level, and 8 at the deepest. */
+/* The greatest size of a stack of nodes to visit: 7 siblings per level, and 8 at the deepest level. */
 #define STACK_ROOM (7 * OCTREE_MAX_DEPTH + 8)
 
 /* The memory of a tree. */
@@ -46,14 +46,14 @@ static inline unsigned child_index(const node *n, unsigned octant)
     return bits_count8(n->octants & ((1u << octant) - 1));
 }
 
-/* The child in an octant, or null when the octant is not occupied. */
+/* The child in an octant, or null if there is none. */
 static inline node *child_at(const node *n, unsigned octant)
 {
     return n->octants >> octant & 1 ? children_of(n) + child_index(n, octant) : NULL;
 }
 
-/* Start loading memory that will be read soon. Only speed depends on it. (GCC takes a function that does nothing else
- * for one without effect and leaves calls of it out: an empty statement of assembly is an effect.) */
+/* Start loading memory that will be read soon. Affects speed only. The empty assembly statement counts as a side
+ * effect: without it GCC treats a function that only prefetches as pure and drops calls to it. */
 static inline void prefetch(const void *memory)
 {
 #if defined(__GNUC__)
@@ -64,9 +64,9 @@ static inline void prefetch(const void *memory)
 #endif
 }
 
-/* All points of a leaf; of a hashed one the first. The processor's own prefetching comes some cache lines late, a
- * quarter of the time of a query whose leaves are not in the cache. Eight points at a time, for where they end cannot
- * be foreseen; what lies behind them does no harm. */
+/* Prefetch the points of a leaf, of a hashed leaf the first ones. The processor's own prefetcher starts some cache
+ * lines late, which costs a quarter of a query's time when leaves are not cached. Blocks of eight points keep the
+ * loop's branches predictable; prefetching past the last point does no harm. */
 static inline void leaf_prefetch(const node *leaf)
 {
     enum { TOGETHER = 8, A_LINE = 2 };
@@ -93,17 +93,17 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
     return LEAF_NONE;
 }
 
-/* The room that a block has which holds so many points, at most POOL_MAX_UNITS. */
+/* The room of the block that is allocated for `count` points, at most POOL_MAX_UNITS. */
 unsigned leaf_room(uint32_t count);
 
-/* An empty leaf with room for `count` points. False when there is no memory. */
+/* Make an empty leaf with room for `count` points. False when there is no memory. */
 bool leaf_create(store *s, node *leaf, uint32_t count);
 void leaf_release(store *s, const node *leaf);
 
-/* Append a pair that is not there yet. False when there is no memory; nothing has changed then. */
+/* Append a pair that the leaf does not hold yet. False when there is no memory; the leaf is then unchanged. */
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
-/* The same for a leaf that has room for it. */
+/* The same for a leaf that has room. Cannot fail. */
 void leaf_put_hashed(node *leaf, const octree_point *point);
 static inline void leaf_put(node *leaf, const octree_point *point)
 {
@@ -116,19 +116,19 @@ static inline void leaf_put(node *leaf, const octree_point *point)
 /* Remove the point at an index; the last point moves into its place. Cannot fail. */
 void leaf_remove(store *s, node *leaf, uint32_t index);
 
-/* Overwrite the point at an index with a pair that is not there yet. Cannot fail. */
+/* Replace the point at an index by a pair that the leaf does not hold yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
-/* Append all points in and below a node, except for one (may be null), to a leaf that has room for them. */
+/* Append all points in and below a node, except one (may be null), to a leaf that has room for them. */
 void node_gather(node *leaf, const node *from, const octree_point *except);
 
 /* Copy the points in and below a node, in the order of their leaves. Returns the end of the copies. */
 octree_point *node_copy_points(const node *n, octree_point *to);
 
-/* Free the children or points of a node, and all below it; the node itself is the caller's. */
+/* Free the children or points of a node and everything below it; the caller owns the node itself. */
 void node_release(store *s, const node *n);
 
-/* The same, but for what it shares with another version of the node in the same cell: what has the same block. */
+/* The same, except the blocks that are shared with another version of the node in the same cell. */
 void node_release_unshared(store *s, const node *n, const node *other);
 
 #endif

@@ -1,17 +1,29 @@
 /* SPDX-License-Identifier: MIT */
-/* morton_sort.c - a radix sort from the world down to small cells, whose items soon fit a cache. */
+/* morton_sort.c - sorts items by Morton code, by a radix sort from the most significant digit.
+ *
+ * Problem: order n items of 63-bit codes. Comparison sorts need n log n unpredictable branches; a radix sort from the
+ * least significant digit makes 21 / 3 = 7 passes over all items, each scattered over memory.
+ *
+ * Idea: start at the most significant digit, so that one digit is a descent of up to three levels of the tree, and each
+ * group of equal digits is a cell. Cells soon fit the caches, and cells with few items stop early: up to 16 items by
+ * insertion sort, and cells that will become leaves not at all, since the order within a leaf is free. Only equal codes
+ * must then be adjacent; a small hash filter shows that usually there are none.
+ *
+ * With an executor, one parallel pass over all items (count, prefix sums, scatter) divides them into 512 cells, which
+ * tasks sort independently. The result does not depend on the number of tasks. Cost: O(n), usually two or three passes.
+ */
 #include "morton_sort.h"
 #include "tasks.h"
 
 #include <string.h>
 
-#define FEW 16   /* sorted by insertion */
-#define LEVELS 3 /* of cells a pass goes down, at most: it scatters to 8^3 places */
+#define FEW 16   /* cells of at most this many items are sorted by insertion */
+#define LEVELS 3 /* the greatest number of tree levels per pass: 8^3 buckets */
 
 typedef struct sorter {
-    size_t unsorted;
-    bool differ;   /* no two items are one point, whatever their codes: repetitions are not looked for */
-    bool repeated; /* some items may have one code */
+    size_t unsorted; /* cells of at most this many items stay unsorted */
+    bool differ;     /* no two items are the same point, so that equal codes need not be adjacent */
+    bool repeated;   /* result: some items may have equal codes */
 } sorter;
 
 static void insertion_sort(morton_item *items, size_t count)
@@ -25,7 +37,7 @@ static void insertion_sort(morton_item *items, size_t count)
     }
 }
 
-static bool is_among(const morton_item *items, size_t count, uint64_t code)
+static bool contains_code(const morton_item *items, size_t count, uint64_t code)
 {
     for (size_t i = 0; i < count; i++)
         if (items[i].code == code)
@@ -33,23 +45,23 @@ static bool is_among(const morton_item *items, size_t count, uint64_t code)
     return false;
 }
 
-/* Whether two of up to MORTON_UNSORTED items have the same code. A filter of 12 bits of a product (Knuth's
- * multiplicative hash) rarely finds two alike, so that most often nothing is compared. */
+/* Whether two of up to MORTON_UNSORTED items have equal codes. Items are compared only if 12 bits of a multiplicative
+ * hash (Knuth) collide in the filter, which is rare. */
 static bool has_repetition(const morton_item *items, size_t count)
 {
     uint64_t filter[(1u << 12) / 64] = {0};
     for (size_t i = 0; i < count; i++) {
         const unsigned hash = (unsigned)(items[i].code * UINT64_C(0x9e3779b97f4a7c15) >> 52);
         const uint64_t bit = UINT64_C(1) << hash % 64;
-        if ((filter[hash / 64] & bit) && is_among(items, i, items[i].code))
+        if ((filter[hash / 64] & bit) && contains_code(items, i, items[i].code))
             return true;
         filter[hash / 64] |= bit;
     }
     return false;
 }
 
-/* The items of a cell with `left` levels below it that is not divided any further. */
-static void finish(sorter *s, morton_item *items, size_t count, unsigned left)
+/* End the recursion at a cell with `left` levels below it: sort its few items, or leave them unsorted. */
+static void finish_cell(sorter *s, morton_item *items, size_t count, unsigned left)
 {
     if (left > 0 && count <= s->unsorted && (s->differ || !has_repetition(items, count)))
         return;
@@ -58,7 +70,7 @@ static void finish(sorter *s, morton_item *items, size_t count, unsigned left)
         insertion_sort(items, count);
 }
 
-/* As many levels as leave a few items in each cell. */
+/* The number of levels that leave few items in each cell. */
 static unsigned levels_for(const sorter *s, size_t count, unsigned left)
 {
     const size_t wanted = s->unsorted > 4 ? s->unsorted : 4;
@@ -68,7 +80,8 @@ static unsigned levels_for(const sorter *s, size_t count, unsigned left)
     return levels;
 }
 
-/* Move the items to where those of their digit begin. ends[d], the number of items with digit d, becomes their end. */
+/* Distribute the items by digit. On entry ends[d] is the count of items with digit d; on return it is the end of their
+ * range in `to`. */
 static void scatter(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
                     uint32_t ends[])
 {
@@ -82,12 +95,12 @@ static void scatter(const morton_item *from, morton_item *to, size_t count, unsi
         to[ends[from[i].code >> shift & (digits - 1)]++] = from[i];
 }
 
-/* Sort the items of a cell with `left` levels below it, into `other` or in place. */
+/* Sort the items of a cell with `left` levels below it. The result is in `items` if in_place, else in `other`. */
 static void sort(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
                  uint32_t ends[])
 {
     if (left == 0 || count <= FEW || count <= s->unsorted) {
-        finish(s, items, count, left);
+        finish_cell(s, items, count, left);
         if (!in_place)
             memcpy(other, items, count * sizeof *items);
         return;
@@ -109,7 +122,7 @@ static void sort(sorter *s, morton_item *items, morton_item *other, size_t count
 static bool sort_alone(morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
                        size_t unsorted, bool differ)
 {
-    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* a section for each pass in progress */
+    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* one section for each level of the recursion */
     sorter s = {.unsorted = unsorted, .differ = differ};
     sort(&s, items, other, count, left, in_place, ends);
     return s.repeated;
@@ -124,17 +137,19 @@ bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned 
 
 enum { DIGITS = 1 << 3 * LEVELS };
 
-/* One pass, and the cells that it leaves. */
+/* One parallel pass and the cells that it produces. */
 typedef struct pass {
     const octree *tree;
-    uint32_t (*counts)[DIGITS]; /* of each task: of items with a digit, then where its next one goes */
+    uint32_t (*counts)[DIGITS]; /* for each task: items per digit, then where its next item of a digit goes */
     morton_item *from, *to;
     size_t count, unsorted;
-    unsigned tasks, left, shift; /* levels below the cells */
+    unsigned tasks;
+    unsigned left;  /* levels below the cells */
+    unsigned shift; /* of the digit in a code */
     bool differ;
-    bool in_place;           /* the cells end up where they are */
-    size_t ends[DIGITS + 1]; /* of the cells; that of the first is at 1 */
-    unsigned cells[TASKS_AT_MOST + 1];
+    bool in_place;                     /* sort the cells in place in `to` */
+    size_t ends[DIGITS + 1];           /* cell d spans ends[d] .. ends[d + 1] */
+    unsigned cells[TASKS_AT_MOST + 1]; /* the first cell of each task */
     bool repeated[TASKS_AT_MOST];
 } pass;
 
@@ -160,7 +175,7 @@ static void scatter_share(size_t number, void *context)
         p->to[next[digit_of(p, &p->from[i])]++] = p->from[i];
 }
 
-static void place_digits(pass *p)
+static void sum_digits(pass *p)
 {
     uint32_t next = 0;
     p->ends[0] = 0;
@@ -174,7 +189,7 @@ static void place_digits(pass *p)
     }
 }
 
-/* Such a cell is divided into tasks in its turn. */
+/* Whether a cell is so large that it is sorted by a parallel pass of its own. */
 static bool is_large(const pass *p, unsigned digit)
 {
     return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > p->count / 8 && tasks_for(p->tree, p->count / 8) > 1;
@@ -193,7 +208,7 @@ static void sort_cells(size_t number, void *context)
     p->repeated[number] = s.repeated;
 }
 
-static void share_cells(pass *p)
+static void assign_cells(pass *p)
 {
     unsigned digit = 0;
     for (unsigned task = 0; task < p->tasks; task++) {
@@ -204,8 +219,7 @@ static void share_cells(pass *p)
     p->cells[p->tasks] = DIGITS;
 }
 
-/* Sort the items of a cell with `left` levels below it, into `other` or in place; without memory for the counts on one
- * thread. */
+/* sort() by tasks; on the calling thread if there is no memory for the counts. */
 static bool sort_by_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *other, size_t count,
                           unsigned left, bool in_place, size_t unsorted, bool differ)
 {
@@ -218,10 +232,10 @@ static bool sort_by_tasks(const octree *tree, arena *memory, morton_item *items,
     if (!p.counts)
         return sort_alone(items, other, count, left, in_place, unsorted, differ);
     tasks_run(tree, count_digits, p.tasks, &p);
-    place_digits(&p);
+    sum_digits(&p);
     tasks_run(tree, scatter_share, p.tasks, &p);
     arena_give(memory, p.counts, p.tasks * sizeof *p.counts);
-    share_cells(&p);
+    assign_cells(&p);
     tasks_run(tree, sort_cells, p.tasks, &p);
     bool repeated = false;
     for (unsigned task = 0; task < p.tasks; task++)

@@ -7,26 +7,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A point: its code, and where it is. */
+/* A point to sort: its code and where the point is. */
 typedef struct morton_item {
     uint64_t code;
-    uint32_t place; /* index in the caller's array */
-    uint32_t index; /* of a stored point in its leaf; MORTON_NEW for one that is not stored */
+    uint32_t place; /* index of the point in the caller's array */
+    uint32_t index; /* index of a stored point in its leaf; MORTON_NEW for a point that is not stored */
 } morton_item;
 
 #define MORTON_NEW UINT32_MAX
 
-/* Cells of at most this many items may be left unsorted. */
+/* The greatest `unsorted` that callers may pass. */
 #define MORTON_UNSORTED 64
 
-/* Sort the items of a cell of this depth by code; those of one code keep their order. Cells that hold at most
- * `unsorted` items, up to MORTON_UNSORTED, are left in any order, but with equal codes side by side: what becomes a
- * leaf need not be sorted. False when all codes differ, true when some may be equal. `spare` has room for as many
- * items. Cost: O(count), in up to 21 passes, most often two or three. */
+/* Sort the items of a cell of this depth by code; items of equal code keep their order. Cells of at most `unsorted`
+ * items (up to MORTON_UNSORTED) stay in any order, but with equal codes adjacent: they become leaves, whose items need
+ * no order. `spare` has room for `count` items. Returns false if all codes differ, true if some may be equal.
+ * Cost: O(count), in up to 21 passes, usually two or three. */
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted);
 
-/* The same for all of the world, by the tasks of a tree's executor where there are many items. Where all ids `differ`
- * equal codes need not be side by side, and are not looked for in cells that are left unsorted. */
+/* Sort the items of the whole world, by tasks if there are many. If all ids `differ`, equal codes need not be adjacent
+ * in unsorted cells and are not detected there. */
 struct octree;
 struct arena;
 bool morton_sort_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,

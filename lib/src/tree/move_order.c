@@ -1,7 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* move_order.c - moves one after the other in the order given, without the tree: which pairs are there, and under
- * OCTREE_REFUSE how many points each smallest cell holds, followed in hash tables. For batches in which an id comes
- * twice, a pair would be there twice, or a leaf may be full. */
+/* move_order.c - simulates moves one by one in the given order, and detects possibly full leaves.
+ *
+ * Problem: the result of a batch must be that of single moves. Usually moves do not interact, and all leaving and
+ * arriving points can be changed at once. They interact if an id occurs twice (A to B, then B to C), if a pair would
+ * occur twice for a moment, or if a full leaf refuses a point depending on which points have left it before.
+ *
+ * Idea: simulate without the tree. A hash table holds each pair (position, id) that a move leaves or reaches, with its
+ * current owner. Under OCTREE_REFUSE a second table holds the point count of each smallest cell involved: a leaf
+ * refuses exactly if its smallest cell is full, since any larger leaf would split. Each move is then O(1). At the end
+ * the table shows which stored points leave and which points arrive, and restructure.c makes the change.
+ *
+ * Cost: about 250 bytes a move, so may_overflow() and may_overflow_anew() first rule out full leaves where they can.
+ */
 #include "batch.h"
 #include "octree/digest.h"
 
@@ -9,38 +19,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NOBODY UINT32_MAX
+#define NO_OWNER UINT32_MAX
 #define FIRST_OWNER (UINT32_MAX - 1)
 
 /* A pair (position, id) that a move leaves or goes to. */
 typedef struct pair {
     octree_point point;
     uint64_t code;
-    uint32_t owner; /* the move whose point is there: by its place in the batch; NOBODY; or who was first there */
-    uint32_t index; /* in its leaf at first, MORTON_NEW where it was not stored */
+    uint32_t owner; /* index of the move whose point is here, NO_OWNER, or FIRST_OWNER for the point stored at first */
+    uint32_t index; /* in its leaf at first; MORTON_NEW if it was not stored */
 } pair;
 
-/* A cell that cannot be divided. */
-typedef struct crowd {
+/* An indivisible cell and its current number of points. */
+typedef struct cell_count {
     octree_address cell; /* 0: unused */
     uint32_t count;
-} crowd;
+} cell_count;
 
-typedef struct resolution {
+typedef struct simulation {
     batch *batch;
     pair *pairs;
     size_t pair_count;
-    uint32_t *slots; /* index + 1 of a pair, or 0; open addressing with linear probing */
-    crowd *crowds;   /* likewise; null where no leaf refuses a point */
+    uint32_t *slots;   /* index + 1 of a pair, or 0; open addressing with linear probing */
+    cell_count *cells; /* likewise; null where no leaf refuses a point */
     size_t slot_count;
-} resolution;
+} simulation;
 
 static bool same_pair(const octree_point *a, const octree_point *b)
 {
     return a->id == b->id && same_position(a->position, b->position);
 }
 
-static size_t home_of(const resolution *r, const octree_point *point)
+static size_t home_slot(const simulation *r, const octree_point *point)
 {
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, point->id);
     for (int i = 0; i < 3; i++)
@@ -54,22 +64,22 @@ static uint32_t stored_index(const octree *tree, const octree_point *point)
     return find_point(tree, point->position, point->id, &found) ? found.index : MORTON_NEW;
 }
 
-static pair *pair_of(resolution *r, const octree_point *point)
+static pair *find_pair(simulation *r, const octree_point *point)
 {
     const octree *tree = r->batch->tree;
-    size_t slot = home_of(r, point);
+    size_t slot = home_slot(r, point);
     while (r->slots[slot] && !same_pair(&r->pairs[r->slots[slot] - 1].point, point))
         slot = (slot + 1) & (r->slot_count - 1);
     if (!r->slots[slot]) {
         const uint32_t index = stored_index(tree, point);
-        r->pairs[r->pair_count++] =
-            (pair){*point, morton_code(tree->axes, point->position), index == MORTON_NEW ? NOBODY : FIRST_OWNER, index};
+        r->pairs[r->pair_count++] = (pair){*point, morton_code(tree->axes, point->position),
+                                           index == MORTON_NEW ? NO_OWNER : FIRST_OWNER, index};
         r->slots[slot] = (uint32_t)r->pair_count;
     }
     return &r->pairs[r->slots[slot] - 1];
 }
 
-/* The cell that cannot be divided in which a code lies. */
+/* The indivisible cell that contains a code. */
 static octree_address smallest_cell(const octree *tree, uint64_t code)
 {
     cell c = root_cell();
@@ -89,23 +99,24 @@ static uint32_t stored_count(const octree *tree, uint64_t code, octree_address c
     return count;
 }
 
-static crowd *crowd_of(const resolution *r, uint64_t code)
+static cell_count *count_of_cell(const simulation *r, uint64_t code)
 {
     const octree_address cell = smallest_cell(r->batch->tree, code);
     size_t slot = (size_t)octree_digest_word(OCTREE_DIGEST_START, cell) & (r->slot_count - 1);
-    while (r->crowds[slot].cell && r->crowds[slot].cell != cell)
+    while (r->cells[slot].cell && r->cells[slot].cell != cell)
         slot = (slot + 1) & (r->slot_count - 1);
-    if (!r->crowds[slot].cell)
-        r->crowds[slot] = (crowd){cell, stored_count(r->batch->tree, code, cell)};
-    return &r->crowds[slot];
+    if (!r->cells[slot].cell)
+        r->cells[slot] = (cell_count){cell, stored_count(r->batch->tree, code, cell)};
+    return &r->cells[slot];
 }
 
-/* Whether the leaf at the end of a move takes it. A leaf that cannot be divided has the points of just one cell. */
-static bool takes(const resolution *r, uint64_t from, uint64_t to)
+/* Move the count of a point from one indivisible cell to another. False if the destination is full: a full leaf that
+ * cannot split holds the points of one indivisible cell only. */
+static bool enter_cell(const simulation *r, uint64_t from, uint64_t to)
 {
-    if (!r->crowds)
+    if (!r->cells)
         return true;
-    crowd *left = crowd_of(r, from), *entered = crowd_of(r, to);
+    cell_count *left = count_of_cell(r, from), *entered = count_of_cell(r, to);
     if (entered != left && entered->count >= r->batch->tree->def.leaf_capacity)
         return false;
     left->count--;
@@ -113,18 +124,18 @@ static bool takes(const resolution *r, uint64_t from, uint64_t to)
     return true;
 }
 
-static octree_status move_one(resolution *r, uint32_t place)
+static octree_status move_one(simulation *r, uint32_t place)
 {
     const octree_point *from = &r->batch->points[place];
     const octree_point moved = arriving_point(r->batch, &(morton_item){.place = place});
-    pair *left = pair_of(r, from), *entered = pair_of(r, &moved);
-    if (left->owner == NOBODY)
+    pair *left = find_pair(r, from), *entered = find_pair(r, &moved);
+    if (left->owner == NO_OWNER)
         return OCTREE_NOT_FOUND;
-    if (entered != left && entered->owner != NOBODY)
+    if (entered != left && entered->owner != NO_OWNER)
         return OCTREE_DUPLICATE;
-    if (!takes(r, left->code, entered->code))
+    if (!enter_cell(r, left->code, entered->code))
         return OCTREE_FULL;
-    left->owner = NOBODY;
+    left->owner = NO_OWNER;
     entered->owner = place;
     return OCTREE_OK;
 }
@@ -135,28 +146,28 @@ static int compare_places(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* What the pairs have become. */
-static void list_changes(const resolution *r)
+/* List the stored points that leave and the points that arrive, from the final owners of the pairs. */
+static void list_changes(const simulation *r)
 {
     batch *b = r->batch;
     for (size_t i = 0; i < r->pair_count; i++) {
         const pair *p = &r->pairs[i];
         if (p->index != MORTON_NEW && p->owner != FIRST_OWNER)
             b->leaving.items[b->leaving.count++] = (morton_item){p->code, 0, p->index};
-        if (p->owner != NOBODY && p->owner != FIRST_OWNER)
+        if (p->owner != NO_OWNER && p->owner != FIRST_OWNER)
             b->arriving.items[b->arriving.count++] = (morton_item){p->code, p->owner, MORTON_NEW};
     }
     morton_sort(b->leaving.items, b->spare, b->leaving.count, 0, 0);
     morton_sort(b->arriving.items, b->spare, b->arriving.count, 0, 0);
 }
 
-static void resolve(resolution *r)
+static void simulate(simulation *r)
 {
     batch *b = r->batch;
     morton_item *items = b->valid.items;
     memset(r->slots, 0, r->slot_count * sizeof *r->slots);
-    if (r->crowds)
-        memset(r->crowds, 0, r->slot_count * sizeof *r->crowds);
+    if (r->cells)
+        memset(r->cells, 0, r->slot_count * sizeof *r->cells);
     qsort(items, b->valid.count, sizeof *items, compare_places);
     for (size_t i = 0; i < b->valid.count; i++) {
         const octree_status status = move_one(r, items[i].place);
@@ -170,19 +181,19 @@ bool resolve_moves_in_order(batch *b)
 {
     arena *memory = &b->tree->store.memory;
     const bool refuses = b->tree->def.full_leaf == OCTREE_REFUSE;
-    resolution r = {.batch = b, .slot_count = 64};
+    simulation r = {.batch = b, .slot_count = 64};
     while (r.slot_count < 4 * b->valid.count)
         r.slot_count *= 2;
     const size_t pairs_size = (2 * b->valid.count + 1) * sizeof(pair);
     r.pairs = arena_take(memory, pairs_size);
     r.slots = arena_take(memory, r.slot_count * sizeof *r.slots);
-    r.crowds = refuses ? arena_take(memory, r.slot_count * sizeof *r.crowds) : NULL;
-    const bool ok = r.pairs && r.slots && (r.crowds || !refuses);
+    r.cells = refuses ? arena_take(memory, r.slot_count * sizeof *r.cells) : NULL;
+    const bool ok = r.pairs && r.slots && (r.cells || !refuses);
     if (ok)
-        resolve(&r);
+        simulate(&r);
     arena_give(memory, r.pairs, pairs_size);
     arena_give(memory, r.slots, r.slot_count * sizeof *r.slots);
-    arena_give(memory, r.crowds, r.slot_count * sizeof *r.crowds);
+    arena_give(memory, r.cells, r.slot_count * sizeof *r.cells);
     return ok;
 }
 
@@ -201,8 +212,9 @@ static size_t lower_bound(span s, uint64_t code)
     return low;
 }
 
-/* Of a leaf: where its points are, where those that move were and where they arrive, by code. */
-static bool crowds(const batch *b, const node *leaf, cell c, span arriving)
+/* Whether one indivisible cell of a leaf has more than the capacity of codes among its points, the origins of moves and
+ * the destinations of moves. */
+static bool may_overfill(const batch *b, const node *leaf, cell c, span arriving)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
     const uint64_t first = morton_interleave(c.low);
@@ -210,7 +222,7 @@ static bool crowds(const batch *b, const node *leaf, cell c, span arriving)
     const size_t moved = lower_bound(b->valid, first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth))) - start;
     const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
     arena *memory = &b->store->memory;
-    /* unreachable: where size_t has 64 bits, for leaves and batches have at most UINT32_MAX points */
+    /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */
     morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory, room) : NULL;
     if (!all)
         return true;
@@ -233,9 +245,9 @@ bool may_overflow(const batch *b, const node *old, cell c, span arriving)
     if (b->tree->def.full_leaf != OCTREE_REFUSE || arriving.count == 0 || b->settled)
         return false;
     if (!old->octants)
-        return !fits_leaf(b->tree, old->count + arriving.count) && crowds(b, old, c, arriving);
+        return !fits_leaf(b->tree, old->count + arriving.count) && may_overfill(b, old, c, arriving);
     span shares[8];
-    share_out(arriving, c.depth, shares);
+    divide_items(arriving, c.depth, shares);
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *child = child_at(old, octant);
         if (may_overflow(b, child ? child : &empty, cell_child(c, octant), shares[octant]))
@@ -244,11 +256,11 @@ bool may_overflow(const batch *b, const node *old, cell c, span arriving)
     return false;
 }
 
-/* ---- Overflow of a tree built anew ---------------------------------------------------------------------------- */
+/* ---- Overflow of a rebuilt tree ---------------------------------------------------------------------------- */
 
-/* Two points that lie farther apart than this on some axis are not in one cell that cannot be divided: such a cell is
- * of the greatest depth, or no double lies inside it. */
-static void least_distance(const octree *tree, double distance[3])
+/* Two points farther apart than this on some axis are never in one indivisible cell: such a cell has the greatest
+ * depth, or contains no double between its planes. */
+static void separating_distance(const octree *tree, double distance[3])
 {
     const octree_box *world = &tree->def.world;
     for (int i = 0; i < 3; i++) {
@@ -264,9 +276,9 @@ static bool are_close(const octree_point *a, const octree_point *b, const double
            fabs(a->position[1] - b->position[1]) <= distance[1] && fabs(a->position[2] - b->position[2]) <= distance[2];
 }
 
-/* At most how many of twice `half` points lie in one cell that cannot be divided: one of each two that are not close.
- */
-static size_t most_of_pairs(const octree_point *points, uint32_t half, const double distance[3])
+/* An upper bound of the number of points in one indivisible cell, among 2 * half points: of two points that are not
+ * close at most one counts. */
+static size_t pairs_bound(const octree_point *points, uint32_t half, const double distance[3])
 {
     size_t most = half;
     for (uint32_t i = 0; i < half; i++)
@@ -274,28 +286,28 @@ static size_t most_of_pairs(const octree_point *points, uint32_t half, const dou
     return most;
 }
 
-/* The same of the points of two leaves. */
-static size_t most_in_a_cell(const node *old, const node *made, const double distance[3])
+/* The same bound for the points of two leaves together. */
+static size_t cell_bound(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);
-    const uint32_t odd = old->count % 2, also_odd = made->count % 2;
-    size_t most = most_of_pairs(before + odd, old->count / 2, distance) +
-                  most_of_pairs(after, made->count / 2, distance) + (odd | also_odd);
-    if (odd && also_odd)
+    const uint32_t odd = old->count % 2, made_odd = made->count % 2;
+    size_t most = pairs_bound(before + odd, old->count / 2, distance) + pairs_bound(after, made->count / 2, distance) +
+                  (odd | made_odd);
+    if (odd && made_odd)
         most += are_close(&before[0], &after[made->count - 1], distance);
     return most;
 }
 
-static bool may_crowd(const octree *tree, const node *old, const node *made, const double distance[3])
+static bool may_overflow_pair(const octree *tree, const node *old, const node *made, const double distance[3])
 {
     if (fits_leaf(tree, (size_t)old->count + made->count))
         return false;
     if (old->octants == 0 && made->octants == 0)
-        return !fits_leaf(tree, most_in_a_cell(old, made, distance));
+        return !fits_leaf(tree, cell_bound(old, made, distance));
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *before = old->octants ? child_at(old, octant) : old;
         const node *after = made->octants ? child_at(made, octant) : made;
-        if (before && after && may_crowd(tree, before, after, distance))
+        if (before && after && may_overflow_pair(tree, before, after, distance))
             return true;
     }
     return false;
@@ -306,6 +318,6 @@ bool may_overflow_anew(const octree *tree, const node *made)
     double distance[3];
     if (tree->def.full_leaf != OCTREE_REFUSE)
         return false;
-    least_distance(tree, distance);
-    return may_crowd(tree, &tree->root, made, distance);
+    separating_distance(tree, distance);
+    return may_overflow_pair(tree, &tree->root, made, distance);
 }

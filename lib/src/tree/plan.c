@@ -1,9 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* plan.c - a batch planned and carried out, by tasks where it is large.
+/* plan.c - makes and carries out the plan of a batch, by tasks if the batch is large.
  *
- * What leaves and arrives is first divided as the nodes will be, down to shares that are worth a task. Tasks plan
- * these, each with pools of its own that borrow from the tree's; then the nodes above are planned with what the tasks
- * have made.
+ * Problem: restructure.c plans one node after the other; a large batch should use several threads, with the same result
+ * for any number of them.
+ *
+ * Idea: first walk the nodes as restructure.c would, without planning, down to nodes with few enough items for a task,
+ * and list these as jobs. Tasks plan the jobs, each with memory pools of its own that borrow free blocks from the
+ * tree's. Then plan the nodes above; where the walk reaches a job's node again, it takes the finished result. Both
+ * walks have the same order, so that jobs are matched by counting. The division depends on counts only, never on
+ * timing.
+ *
+ * Carrying out a plan edits leaves, replaces nodes and frees the old ones. Nothing is allocated, so it cannot fail.
  */
 #include "division.h"
 #include "grid_fill.h"
@@ -11,7 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Jobs: what tasks plan ---------------------------------------------------------------------------------- */
+/* ---- Jobs: the nodes that tasks plan
+ * ---------------------------------------------------------------------------------- */
 
 static bool push_job(batch *b, const node *old, cell c, span leaving, span arriving)
 {
@@ -19,7 +27,7 @@ static bool push_job(batch *b, const node *old, cell c, span leaving, span arriv
     return list_push(&b->store->memory, &b->division->jobs, &j, sizeof j);
 }
 
-/* The jobs of build_node(), in its order. False when there is no memory. */
+/* List the jobs of build_node() in its order. False when there is no memory. */
 static bool gather_builds(batch *b, cell c, span items)
 {
     if (items.count <= b->division->grain)
@@ -27,14 +35,15 @@ static bool gather_builds(batch *b, cell c, span items)
     if (becomes_leaf(b, c, items))
         return true;
     span shares[8];
-    share_out(items, c.depth, shares);
+    divide_items(items, c.depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
         if (shares[octant].count > 0 && !gather_builds(b, cell_child(c, octant), shares[octant]))
             return false;
     return true;
 }
 
-/* Likewise those of change_node(). A leaf for which very many arrive is divided in its turn. */
+/* List the jobs of change_node() in its order. A leaf with very many arriving items is divided later, by
+ * build_divided(). False when there is no memory. */
 static bool gather_changes(batch *b, const node *old, cell c, span leaving, span arriving)
 {
     static const node empty = {0};
@@ -48,8 +57,8 @@ static bool gather_changes(batch *b, const node *old, cell c, span leaving, span
     if (!old->octants || fits_leaf(b->tree, old->count - leaving.count + arriving.count))
         return true;
     span out[8], in[8];
-    share_out(leaving, c.depth, out);
-    share_out(arriving, c.depth, in);
+    divide_items(leaving, c.depth, out);
+    divide_items(arriving, c.depth, in);
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *child = child_at(old, octant);
         if (!gather_changes(b, child ? child : &empty, cell_child(c, octant), out[octant], in[octant]))
@@ -72,7 +81,7 @@ static void plan_jobs(size_t number, void *context)
     }
 }
 
-/* What is left of the jobs is not needed. */
+/* Release the results of the jobs that were not used, and the list. */
 static void drop_jobs(batch *b)
 {
     static const node none = {0};
@@ -85,7 +94,7 @@ static void drop_jobs(batch *b)
     d->ready = false;
 }
 
-/* False when there is no memory; nothing is left of the jobs then. */
+/* Run all jobs. False when there is no memory; the jobs are then dropped. */
 static bool run_jobs(batch *b)
 {
     division *d = b->division;
@@ -114,14 +123,14 @@ bool is_job(const batch *b, size_t count)
     return b->division && b->division->ready && count <= b->division->grain;
 }
 
-bool take_job(batch *b, node *made)
+bool use_job(batch *b, node *made)
 {
     const job *jobs = b->division->jobs.items;
     *made = jobs[b->division->next++].made;
     return true;
 }
 
-/* The jobs that a leaf is divided into are done while those of the whole tree wait. */
+/* The jobs of one large leaf run while the list of the whole tree is set aside. */
 bool build_divided(batch *b, cell c, span items, node *made)
 {
     if (!b->division)
@@ -143,13 +152,13 @@ bool build_divided(batch *b, cell c, span items, node *made)
 
 /* ---- The plan ----------------------------------------------------------------------------------------------- */
 
-/* Points that arrive take the places of those that leave, then those behind the last; the last fill gaps that are left.
- */
-static void carry_out_edit(batch *b, const edit *e)
+/* Edit a leaf in place. Arriving points first overwrite leaving ones, then are appended. If more leave than arrive, the
+ * last points fill the gaps. */
+static void apply_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;
     size_t taken = 0;
-    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last on: so the last point is never one that leaves */
+    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last gap on, so that the last point never leaves itself */
         octree_point *gap = &e->points[e->leaving.items[i].index];
         *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
     }
@@ -159,11 +168,11 @@ static void carry_out_edit(batch *b, const edit *e)
         pool_give(&b->store->points, e->points + e->room_left, e->room - e->room_left);
 }
 
-static void carry_out(batch *b)
+static void apply_plan(batch *b)
 {
     const edit *edits = b->edits.items;
     for (size_t i = 0; i < b->edits.count; i++)
-        carry_out_edit(b, &edits[i]);
+        apply_edit(b, &edits[i]);
     const patch *patches = b->patches.items;
     for (size_t i = 0; i < b->patches.count; i++) {
         const node old = *patches[i].at;
@@ -172,9 +181,9 @@ static void carry_out(batch *b)
     }
 }
 
-static void carry_out_part(size_t number, void *context)
+static void apply_part(size_t number, void *context)
 {
-    carry_out(&((division *)context)->parts[number].batch);
+    apply_plan(&((division *)context)->parts[number].batch);
 }
 
 static void drop_plan(batch *b)
@@ -190,19 +199,19 @@ static void release_plan(batch *b)
     list_release(&b->store->memory, &b->edits, sizeof(edit));
 }
 
-/* Below the nodes of the tree's own plan lie those of the parts': they come first. */
-static void finish_plan(batch *b, bool happens)
+/* Apply or drop the plans. Those of the parts come first: their nodes lie below those of the batch's own plan. */
+static void finish_plan(batch *b, bool succeeds)
 {
     division *d = b->division;
-    if (d && happens)
-        tasks_run(b->tree, carry_out_part, d->tasks, d);
+    if (d && succeeds)
+        tasks_run(b->tree, apply_part, d->tasks, d);
     for (unsigned i = 0; d && i < d->tasks; i++) {
-        if (!happens)
+        if (!succeeds)
             drop_plan(&d->parts[i].batch);
         release_plan(&d->parts[i].batch);
     }
-    if (happens)
-        carry_out(b);
+    if (succeeds)
+        apply_plan(b);
     else
         drop_plan(b);
     release_plan(b);
@@ -216,7 +225,7 @@ static void gather_flags(batch *b)
     }
 }
 
-/* ---- A tree built anew -------------------------------------------------------------------------------------- */
+/* ---- Building anew -------------------------------------------------------------------------------------- */
 
 static void reset_pools(store *s)
 {
@@ -224,7 +233,7 @@ static void reset_pools(store *s)
     pool_init(&s->points, &s->memory, sizeof(octree_point));
 }
 
-/* Free all nodes, with pools that hold nothing else. */
+/* Free all nodes and the pools that hold them. */
 static void release_pools(store *s, const node *root)
 {
     node_release(s, root); /* hashed leaves are not in the pools */
@@ -232,7 +241,7 @@ static void release_pools(store *s, const node *root)
     pool_release(&s->points);
 }
 
-/* A tree in pools of its own, as dense as one that is built, takes the place of the old one. */
+/* Build a tree in new pools, densely packed, and replace the old one if it succeeds. */
 octree_status build_anew(batch *b)
 {
     octree *tree = b->tree;
@@ -246,22 +255,22 @@ octree_status build_anew(batch *b)
     const bool ok = b->grid ? grid_fill(b, &made) : build_divided(b, root_cell(), b->arriving, &made);
     division_close(b);
     b->overflow = b->overflow || (ok && b->to && b->grid && may_overflow_anew(tree, &made));
-    const bool happens = ok && !b->overflow;
+    const bool succeeds = ok && !b->overflow;
     const pool nodes = tree->store.nodes, points = tree->store.points;
-    if (happens) {
+    if (succeeds) {
         tree->store.nodes = old_nodes;
         tree->store.points = old_points;
     }
-    release_pools(&tree->store, happens ? &tree->root : &made);
-    tree->store.nodes = happens ? nodes : old_nodes;
-    tree->store.points = happens ? points : old_points;
-    tree->root = happens ? made : tree->root;
+    release_pools(&tree->store, succeeds ? &tree->root : &made);
+    tree->store.nodes = succeeds ? nodes : old_nodes;
+    tree->store.points = succeeds ? points : old_points;
+    tree->root = succeeds ? made : tree->root;
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
 /* ---- Restructuring ------------------------------------------------------------------------------------------ */
 
-/* False when there is no memory; nothing but patches and edits is left then. */
+/* Make the plan. False when there is no memory; then only patches and edits remain, to be dropped. */
 static bool make_plan(batch *b)
 {
     octree *tree = b->tree;

@@ -1,17 +1,31 @@
 /* SPDX-License-Identifier: MIT */
+/* plane.c - the planes of an axis, the keys of coordinates, and node addresses.
+ *
+ * Problem: insertion, queries and drawing must agree on every plane to the last bit, in any world from subnormal to
+ * near DBL_MAX. Halving boxes repeatedly accumulates rounding, overflows in (min + max), and costs a descent per point.
+ *
+ * Idea: number the 2^21 + 1 finest planes of an axis and compute plane k by one closed form, center + half * t with an
+ * exact t in -1..1, from a few unevaluated terms (double-double arithmetic), so that only the last addition rounds. The
+ * key of a coordinate, the largest k with plane(k) <= x, then comes from one multiplication: a guess with a proven
+ * error bound. If the guess is farther than that from an integer it is certain; this holds for nearly
+ * all coordinates. Otherwise the planes themselves decide between neighbours, or a binary search in extreme worlds.
+ *
+ * Guesses are added to 2^21, so that the bits of the double are a fixed-point number (21 bits of key, 31 of fraction)
+ * and two coordinates are processed at once with SSE2.
+ */
 #include "octree/octree.h"
 #include "plane.h"
 
-/* sum[0] + sum[1] = a + b, without error (Knuth's TwoSum). */
+/* Set sum[0] + sum[1] = a + b exactly (Knuth's TwoSum). */
 static void add_exactly(double a, double b, double sum[2])
 {
     sum[0] = a + b;
-    const double b_seen = sum[0] - a;
-    sum[1] = (a - (sum[0] - b_seen)) + (b - b_seen);
+    const double b_part = sum[0] - a;
+    sum[1] = (a - (sum[0] - b_part)) + (b - b_part);
 }
 
-/* The first 31 bits of a double: their product with the 22 bits of a key is exact. */
-static double first_bits(double value)
+/* The 31 most significant bits of a double; their product with the 22 bits of a key is exact. */
+static double high_bits(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -20,8 +34,9 @@ static double first_bits(double value)
     return value;
 }
 
-/* The rounding to fixed point is one more error. Where coordinates are subnormal, guesses come from another product. */
-static void set_sure(axis *a)
+/* Set the range of certain guesses. The rounding to fixed point adds one more error. In subnormal worlds no guess is
+ * certain, because guesses use another product. */
+static void set_certain_range(axis *a)
 {
     static const double first = (double)PLANE_GRID;
     const double error = a->guess_error * (double)(UINT64_C(1) << PLANE_FRACTION) + 2;
@@ -38,12 +53,12 @@ axis axis_make(double min, double max)
     axis a = {.min = min, .max = max, .unit = 1, .keys_per_unit = (double)PLANE_GRID / (max - min)};
     a.subnormal = fabs(min) < SUBNORMAL_HALF && fabs(max) < SUBNORMAL_HALF;
     if (fabs(min) < 0x1p-900 && fabs(max) < 0x1p-900)
-        a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100; /* so that halves are not subnormal */
+        a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100; /* scaled, so that halves are not subnormal */
     const double low = min / a.unit / 2, high = max / a.unit / 2;
     double half[2];
     add_exactly(high, low, a.center);
     add_exactly(high, -low, half);
-    a.half[0] = first_bits(half[0]);
+    a.half[0] = high_bits(half[0]);
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
     a.guess_error = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
@@ -51,7 +66,7 @@ axis axis_make(double min, double max)
         a.keys_per_unit = (double)PLANE_GRID / subnormal_count(max - min);
         a.guess_error = 0x1p-29 + 4 * a.keys_per_unit;
     }
-    set_sure(&a);
+    set_certain_range(&a);
     a.plain = a.unit == 1 && a.center[1] == 0 && a.half[1] == 0 && a.half[2] == 0;
     return a;
 }
@@ -74,12 +89,12 @@ static uint32_t key_search(const axis *a, double x)
     return key;
 }
 
-/* The guess is right up to rounding, so the planes decide between it and its neighbours. Where it is useless (worlds a
- * few ulps wide, extents that overflow) a binary search finds the key. */
+/* The guess is correct except for rounding, so the planes decide between it and its neighbours. In worlds a few ulps
+ * wide or with an overflowing extent the guess is useless, and a binary search finds the key. */
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess(a, x);
-    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID)) /* it is not below 0 */
+    if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID)) /* the guess is never negative */
         return key_search(a, x);
     uint32_t key = (uint32_t)guess;
     const double fraction = guess - (double)key;
@@ -94,7 +109,7 @@ uint32_t plane_key_near(const axis *a, double x)
 
 #ifdef OCTREE_SSE2
 
-/* The same as bits_spread(), of two words. */
+/* bits_spread() of two words. */
 static inline __m128i spread_step(__m128i x, int shift, uint64_t mask)
 {
     return _mm_and_si128(_mm_or_si128(x, _mm_slli_epi64(x, shift)), _mm_set1_epi64x((long long)mask));
@@ -109,7 +124,7 @@ static inline __m128i spread_both(__m128i x)
     return spread_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
-/* Numbers of at most 8 bits. */
+/* The same for numbers of at most 8 bits. */
 static inline __m128i spread_short(__m128i x)
 {
     x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
@@ -117,7 +132,7 @@ static inline __m128i spread_short(__m128i x)
     return spread_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
-/* What the codes of two positions need to know of an axis, twice. */
+/* The constants of an axis, duplicated for two positions. */
 typedef struct axis_pair {
     __m128d min, keys_per_unit;
     __m128i sure_from, sure_last;
@@ -150,7 +165,7 @@ static inline __m128i all_if_unsure(__m128i unsure)
     return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
 }
 
-/* The codes of two positions. */
+/* The codes of two positions; MORTON_UNSURE where a guess is not certain. */
 static inline void codes_of_two(const axis_pair axes[3], const double *p, const double *q, uint64_t codes[2])
 {
     __m128i sums = _mm_setzero_si128(), unsure = sums;
@@ -161,7 +176,7 @@ static inline void codes_of_two(const axis_pair axes[3], const double *p, const 
     _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_if_unsure(unsure)));
 }
 
-/* The same of the first bits of each key. */
+/* The same for grid cells, from the most significant bits of each key. */
 static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const double *p, const double *q,
                                 uint32_t cells[2])
 {

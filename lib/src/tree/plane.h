@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* plane.h - planes, cells, Morton codes and addresses: one closed form for insertion, queries and drawing.
  *
- * Each axis of the world is cut by 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of the gaps between them on
- * each axis. The key of a coordinate is the gap it lies in: the largest k with plane(k) <= x. Three keys interleaved
- * are a point's Morton code, whose octants from the top are the point's path down the tree.
+ * Each axis of the world has 2^21 + 1 grid planes. A cell of depth d spans 2^(21-d) of the gaps between them on each
+ * axis. The key of a coordinate is the number of its gap: the largest k with plane(k) <= x. The Morton code of a point
+ * is its three keys interleaved; its groups of three bits, from the highest, are the octants of the point's path.
  */
 #ifndef OCTREE_PLANE_H
 #define OCTREE_PLANE_H
@@ -17,23 +17,23 @@
 
 typedef struct axis {
     double min, max;
-    double unit;          /* a power of two, in which the terms below are given */
+    double unit;          /* a power of two: the unit of the terms below */
     double center[2];     /* (min + max) / 2 as an unevaluated sum */
-    double half[3];       /* (max - min) / 2 likewise; the first term has 31 bits */
-    bool plain;           /* the first terms and one rounding are enough */
-    bool subnormal;       /* all coordinates and their differences are */
-    double keys_per_unit; /* a guess only: may be 0 or infinite in extreme worlds */
-    double guess_error;   /* bound for that guess, in keys; may be infinite or NaN */
-    uint64_t sure_from;   /* guesses in fixed point: where the surely right ones of a key begin, from its plane on */
-    uint64_t sure_span;   /* and how many there are; 0 where no guess is sure */
+    double half[3];       /* (max - min) / 2 as an unevaluated sum; the first term has 31 bits */
+    bool plain;           /* the first terms alone are exact */
+    bool subnormal;       /* all coordinates and their differences are subnormal */
+    double keys_per_unit; /* rounded; may be 0 or infinite in extreme worlds */
+    double guess_error;   /* error bound of a guessed key, in keys; may be infinite or NaN */
+    uint64_t sure_from;   /* fixed point: offset from a plane to the first certain guess above it */
+    uint64_t sure_span;   /* fixed point: length of the range of certain guesses; 0 if none is certain */
 } axis;
 
 axis axis_make(double min, double max);
 
-/* Any plane inside the world, at t = -1 .. 1 from its centre, from all the terms. */
+/* The plane at center + half * t for t in -1 .. 1, computed from all terms. */
 double plane_precise(const axis *a, double t);
 
-/* A grid plane other than the world's own faces. */
+/* The same, from the first terms where they suffice, clamped to the world. Not for the world's own faces. */
 static inline double plane_inside(const axis *a, double t)
 {
     const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_precise(a, t);
@@ -42,32 +42,31 @@ static inline double plane_inside(const axis *a, double t)
     return plane > a->min ? plane : a->min;
 }
 
-/* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with t = k / 2^20 - 1, which is exact. The terms are
- * summed to some 80 bits before the one rounding that shows. So planes are the paper's repeated (min + max) / 2
- * wherever those are doubles; they are monotone, since neighbours are 2^-21 of the extent apart; and nothing overflows.
- */
+/* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with the exact t = k / 2^20 - 1. The terms are summed to
+ * some 80 bits and rounded once. So planes equal the paper's repeated (min + max) / 2 wherever that is a double; they
+ * are monotone, because neighbours are 2^-21 of the extent apart; and nothing overflows. */
 static inline double plane_at(const axis *a, uint32_t k)
 {
     return k == 0 ? a->min : k == PLANE_GRID ? a->max : plane_inside(a, (double)k * 0x1p-20 - 1);
 }
 
-/* Where a coordinate lies, in keys, up to rounding. */
+/* The key of a coordinate as a real number, except for rounding. */
 static inline double plane_guess(const axis *a, double x)
 {
     const double above = x - a->min;
     return (a->subnormal ? subnormal_count(above) : above) * a->keys_per_unit;
 }
 
-/* The same as plane_key() for a coordinate near a plane, where the guess may be wrong. */
+/* plane_key() for a coordinate near a plane, where the guess may be wrong. */
 uint32_t plane_key_near(const axis *a, double x);
 
-/* Fixed point: 21 bits of a key and PLANE_FRACTION bits below them, which are the fraction of a double in
+/* Fixed point: 21 bits of a key and PLANE_FRACTION bits of fraction. Together they are the mantissa of a double in
  * [2^21, 2^22). */
 #define PLANE_FRACTION 31
 #define PLANE_FRACTION_MASK ((UINT64_C(1) << PLANE_FRACTION) - 1)
 #define PLANE_FIXED_BITS (OCTREE_MAX_DEPTH + PLANE_FRACTION)
 
-/* The guess in fixed point, less the error that it may have: more than that from a whole number it is right. */
+/* The guessed key in fixed point, minus the possible error. */
 static inline uint64_t plane_fixed(const axis *a, double x)
 {
     const double guess = (x - a->min) * a->keys_per_unit + (double)PLANE_GRID;
@@ -76,15 +75,16 @@ static inline uint64_t plane_fixed(const axis *a, double x)
     return bits - a->sure_from;
 }
 
-/* The highest bit is set when that guess is not sure, as for all coordinates outside the world. */
+/* The highest bit of the result is set if the guess is not certain, which includes all coordinates outside the world.
+ */
 static inline uint64_t plane_unsure(uint64_t span, uint64_t fixed)
 {
     return (span - 1 - (fixed & PLANE_FRACTION_MASK)) | (0 - (fixed >> PLANE_FIXED_BITS));
 }
 
 /* The key of a coordinate of the world, 0 <= key < PLANE_GRID. The guess has four roundings of a number below 2^21,
- * less than 2^-29 in all, and a plane is off its ideal place by at most an ulp of the world's coordinates: a guess
- * farther than that from a whole number is right. */
+ * less than 2^-29 in all, and a plane is at most one ulp of the world's coordinates off its ideal position. A guess
+ * farther than that from an integer is certain. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
     const uint64_t fixed = plane_fixed(a, x);
@@ -118,11 +118,10 @@ static inline cell cell_child(cell parent, unsigned octant)
 
 octree_box cell_bounds(const axis axes[3], cell c);
 
-/* True when at least one of the cell's three planes lies strictly inside it: some octants would differ. Precondition:
- * depth < OCTREE_MAX_DEPTH. */
+/* Whether at least one of the cell's three splitting planes lies strictly inside it. depth < OCTREE_MAX_DEPTH. */
 bool cell_divisible(const axis axes[3], cell c);
 
-/* The Morton code of three keys: 63 bits, x in the highest of each three. */
+/* The Morton code of three keys: 63 bits, with x in the highest bit of each group of three. */
 static inline uint64_t morton_interleave(const uint32_t keys[3])
 {
     return bits_spread(keys[0]) << 2 | bits_spread(keys[1]) << 1 | bits_spread(keys[2]);
@@ -136,34 +135,34 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
     return morton_interleave(keys);
 }
 
-/* No code: a position whose code takes more than a sure guess, or that is not in the world. */
+/* Not a code: a position whose guessed keys are not certain, or which is outside the world. */
 #define MORTON_UNSURE UINT64_MAX
 
-/* The Morton codes of `count` positions, each so many doubles after the one before: some instructions a position, as
- * most guesses are sure. The others are MORTON_UNSURE. */
+/* The Morton codes of `count` positions, `stride` doubles apart. Positions without a certain code get MORTON_UNSURE;
+ * call morton_code() for those that are in the world. */
 void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
 
-/* Grids of at most this depth, with 2 million cells, number them by the first bits of their codes. */
+/* The greatest depth of a grid: 2 million cells, numbered by the most significant bits of their codes. */
 #define GRID_DEEPEST 7
 #define GRID_UNSURE UINT32_MAX
 
-/* The same as morton_codes() for the cells of a grid. */
+/* morton_codes() for the cells of a grid; GRID_UNSURE without a certain code. */
 void grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
                 uint32_t *cells);
 
-/* Of one position of the world. */
+/* The grid cell of one position of the world. */
 static inline uint32_t grid_cell(const axis axes[3], unsigned depth, const double position[3])
 {
     return (uint32_t)(morton_code(axes, position) >> 3 * (OCTREE_MAX_DEPTH - depth));
 }
 
-/* The octant that a code takes from a node of this depth. */
+/* The octant of a code at a node of this depth. */
 static inline unsigned morton_octant(uint64_t code, unsigned depth)
 {
     return (unsigned)(code >> (3 * (OCTREE_MAX_DEPTH - 1 - depth))) & 7;
 }
 
-/* The cell of this depth that a code lies in, its address, and the lowest code of the cell at an address. */
+/* The cell of this depth that contains a code; its address; and the lowest code of the cell at an address. */
 cell morton_cell(uint64_t code, unsigned depth);
 
 static inline octree_address morton_address(uint64_t code, unsigned depth)
@@ -180,7 +179,7 @@ static inline uint64_t morton_of_address(octree_address address)
 /* For qsort: addresses in the order in which octree_walk() visits nodes, parents first. */
 int address_compare(const void *a, const void *b);
 
-/* Whether a word is a valid address: its leading 1 stands at a multiple of three bits. */
+/* Whether a word is a valid address: the position of its leading 1 is a multiple of three. */
 bool is_address(octree_address address);
 
 #endif

@@ -1,4 +1,18 @@
 /* SPDX-License-Identifier: MIT */
+/* pool.c - the pool allocator of a tree.
+ *
+ * Problem: a tree allocates and frees many small blocks of 1 to 64 units, in any order. malloc adds a header and
+ * alignment to each.
+ *
+ * Idea: slabs of units, and one free list per block size. A block comes from the list of its size, from a larger block
+ * that is split, or from the unused end of the newest slab. A freed block only enters a list, which takes a few
+ * instructions. When an eighth of the pool is free and half of that was freed recently, adjacent free blocks are
+ * joined: all free units are marked in bit maps, and the runs of marks become the new free lists. Buddy allocation was
+ * no option: it wastes up to half of a block. Joining costs O(pool), but is amortized over the blocks freed since.
+ *
+ * Tasks have pools of their own. While the tree's pool has much free memory, they borrow blocks from it under a
+ * lock.
+ */
 #include "pool.h"
 #include "bits.h"
 
@@ -9,12 +23,12 @@
 #define SLAB_MAX_BYTES (1u << 22)
 #define CACHE_LINE 64
 
-/* The header is followed by one bit per unit, used while free blocks are joined, and then by the units. */
+/* The header of a slab. One bit per unit follows, used while free blocks are joined, then the units. */
 struct slab {
     struct slab *next;
     size_t size; /* bytes in all */
     size_t units;
-    unsigned char *first; /* unit, at the start of a cache line */
+    unsigned char *first; /* the first unit, aligned to a cache line */
 };
 
 struct free_block {
@@ -39,7 +53,7 @@ octree_allocator default_allocator(void)
     return (octree_allocator){.allocate = default_allocate, .release = default_release};
 }
 
-static void *take(arena *a, size_t size)
+static void *allocate(arena *a, size_t size)
 {
     void *memory = a->allocator.allocate(size, a->allocator.context);
     if (memory)
@@ -47,7 +61,7 @@ static void *take(arena *a, size_t size)
     return memory;
 }
 
-static void give(arena *a, void *memory, size_t size)
+static void release(arena *a, void *memory, size_t size)
 {
     a->bytes -= size;
     a->allocator.release(memory, size, a->allocator.context);
@@ -56,9 +70,9 @@ static void give(arena *a, void *memory, size_t size)
 void *arena_take(arena *a, size_t size)
 {
     if (!a->shared)
-        return take(a, size);
+        return allocate(a, size);
     arena_lock(a->shared);
-    void *memory = take(a->shared, size);
+    void *memory = allocate(a->shared, size);
     arena_unlock(a->shared);
     return memory;
 }
@@ -69,7 +83,7 @@ void arena_give(arena *a, void *memory, size_t size)
         return;
     if (a->shared)
         arena_lock(a->shared);
-    give(a->shared ? a->shared : a, memory, size);
+    release(a->shared ? a->shared : a, memory, size);
     if (a->shared)
         arena_unlock(a->shared);
 }
@@ -89,7 +103,7 @@ void pool_release(pool *p)
     pool_init(p, p->memory, p->unit);
 }
 
-static void push(pool *p, void *block, unsigned units)
+static void push_block(pool *p, void *block, unsigned units)
 {
     if (units == 0)
         return;
@@ -102,7 +116,7 @@ static void push(pool *p, void *block, unsigned units)
     p->free_units += units;
 }
 
-static void *pop(pool *p, unsigned units)
+static void *pop_block(pool *p, unsigned units)
 {
     struct free_block *block = p->free_blocks[units - 1];
     p->free_blocks[units - 1] = block->next;
@@ -115,7 +129,7 @@ static void *pop(pool *p, unsigned units)
 void pool_give(pool *p, void *block, unsigned units)
 {
     p->freed_units += units;
-    push(p, block, units);
+    push_block(p, block, units);
 }
 
 static uint64_t *bits_of(struct slab *slab)
@@ -142,7 +156,7 @@ static int compare_slabs(const void *a, const void *b)
 
 enum { FEW_SLABS = 64 };
 
-/* All slabs in the order of their addresses, or null where they are few or there is no memory. */
+/* All slabs sorted by address; null if there are few or there is no memory. */
 static struct slab **sort_slabs(pool *p)
 {
     struct slab **sorted = p->slab_count > FEW_SLABS ? arena_take(p->memory, p->slab_count * sizeof *sorted) : NULL;
@@ -154,7 +168,7 @@ static struct slab **sort_slabs(pool *p)
     return sorted;
 }
 
-/* The slab that a block lies in: most often that of the block before it. */
+/* The slab that contains a block; `guess` is that of the previous block, which is usually the same. */
 static struct slab *slab_of(const pool *p, struct slab **sorted, const void *block, struct slab *guess)
 {
     if (lies_in(p, guess, block))
@@ -165,7 +179,7 @@ static struct slab *slab_of(const pool *p, struct slab **sorted, const void *blo
             slab = slab->next;
         return slab;
     }
-    size_t low = 0, high = p->slab_count; /* the last that begins before the block is in [low, high) */
+    size_t low = 0, high = p->slab_count; /* the last slab that begins before the block is in [low, high) */
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         if ((uintptr_t)sorted[middle] <= (uintptr_t)block)
@@ -176,7 +190,7 @@ static struct slab *slab_of(const pool *p, struct slab **sorted, const void *blo
     return sorted[low];
 }
 
-/* Mark at most POOL_MAX_UNITS. */
+/* Set `units` bits, at most POOL_MAX_UNITS. */
 static void mark_units(uint64_t *bits, size_t first, unsigned units)
 {
     const uint64_t mask = UINT64_MAX >> (POOL_MAX_UNITS - units);
@@ -191,13 +205,13 @@ static void mark_free(pool *p, struct slab **sorted)
     struct slab *slab = p->slabs;
     for (unsigned units = 1; units <= POOL_MAX_UNITS; units++)
         while (p->free_blocks[units - 1]) {
-            const unsigned char *block = pop(p, units);
+            const unsigned char *block = pop_block(p, units);
             slab = slab_of(p, sorted, block, slab);
             mark_units(bits_of(slab), (size_t)(block - slab->first) / p->unit, units);
         }
 }
 
-/* The marks of the 64 units from one on; beyond the last there are none. */
+/* The marks of 64 units from `unit` on; 0 beyond the last unit. */
 static uint64_t marks_from(struct slab *slab, size_t unit)
 {
     const uint64_t *bits = bits_of(slab) + unit / 64;
@@ -206,14 +220,14 @@ static uint64_t marks_from(struct slab *slab, size_t unit)
     return bits[0] >> shift | (more ? bits[1] << (64 - shift) : 0);
 }
 
-/* Put the free runs of a slab into the free lists, in blocks of at most POOL_MAX_UNITS. */
+/* Add the runs of marked units of a slab to the free lists, in blocks of at most POOL_MAX_UNITS. */
 static void push_runs(pool *p, struct slab *slab)
 {
     for (size_t unit = 0; unit < slab->units;) {
         const uint64_t marks = marks_from(slab, unit);
         const unsigned used = marks ? bits_lowest(marks) : 64;
         const unsigned run = used ? 0 : ~marks ? bits_lowest(~marks) : POOL_MAX_UNITS;
-        push(p, slab->first + unit * p->unit, run);
+        push_block(p, slab->first + unit * p->unit, run);
         unit += used + run;
     }
 }
@@ -231,7 +245,8 @@ static void join_free_blocks(pool *p)
     arena_give(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
-/* An eighth of the pool's size, so that at most an eighth is unused. That of a task begins with about what it needs. */
+/* A new slab is an eighth of the pool, so that at most an eighth is unused. The first slab of a task's pool has the
+ * expected size. */
 static size_t next_slab_bytes(const pool *p)
 {
     const size_t least = p->lender ? POOL_MAX_UNITS * p->unit : SLAB_MIN_BYTES;
@@ -249,7 +264,8 @@ static bool add_slab(pool *p)
     struct slab *slab = arena_take(p->memory, size);
     if (!slab)
         return false;
-    push(p, p->fresh, (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, or no slab would be needed */
+    push_block(p, p->fresh,
+               (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, otherwise no slab would be needed */
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
     *slab =
@@ -268,20 +284,20 @@ static void *take_free(pool *p, unsigned units)
     if (!large_enough)
         return NULL;
     const unsigned found = bits_lowest(large_enough) + 1;
-    unsigned char *block = pop(p, found);
-    push(p, block + units * p->unit, found - units);
+    unsigned char *block = pop_block(p, found);
+    push_block(p, block + units * p->unit, found - units);
     return block;
 }
 
-/* Joining costs time in proportion to what is free. It is done when an eighth of the pool is free and half of that was
- * freed since the last time, so that its amortized cost per freed block is constant. */
+/* Whether to join free blocks: an eighth of the pool is free, and half of that was freed since the last time. Joining
+ * takes time in proportion to the free blocks, so its amortized cost per freed block is constant. */
 static bool worth_joining(const pool *p)
 {
     return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
 
-/* A free block of the lender's, or null. */
-static void *borrow(pool *p, unsigned units)
+/* Take a free block of the lender, or null. */
+static void *borrow_block(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
     void *block = take_free(p->lender, units);
@@ -293,7 +309,7 @@ void *pool_take(pool *p, unsigned units)
 {
     void *block = take_free(p, units);
     if (!block && p->borrows) {
-        block = borrow(p, units);
+        block = borrow_block(p, units);
     } else if (!block && !p->lender && p->fresh_units < units && worth_joining(p)) {
         join_free_blocks(p);
         block = take_free(p, units);
@@ -323,13 +339,13 @@ void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units)
     p->borrows = is_much_free(lender);
 }
 
-/* Hand all of the newest slab out to the free lists; its first units are taken first. */
+/* Move the unused units of the newest slab to the free lists, in an order such that its first units are used first. */
 static void free_fresh(pool *p)
 {
     while (p->fresh_units > 0) {
         const unsigned rest = (unsigned)(p->fresh_units % POOL_MAX_UNITS), units = rest ? rest : POOL_MAX_UNITS;
         p->fresh_units -= units;
-        push(p, p->fresh + p->fresh_units * p->unit, units);
+        push_block(p, p->fresh + p->fresh_units * p->unit, units);
     }
 }
 
@@ -377,7 +393,7 @@ void *list_append(arena *memory, list *l, size_t item_size)
 {
     if (l->count == l->room) {
         const size_t room = l->room ? 2 * l->room : 16;
-        void *items = arena_take(memory, room * item_size); /* no overflow: no allocation is larger than PTRDIFF_MAX */
+        void *items = arena_take(memory, room * item_size); /* no overflow: no allocation exceeds PTRDIFF_MAX */
         if (!items)
             return NULL;
         if (l->count)

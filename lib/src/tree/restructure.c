@@ -1,13 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* restructure.c - what leaves and arrives merged into the nodes, in one pass down and up: the plan is made. */
+/* restructure.c - plans the successors of all nodes that a batch changes.
+ *
+ * Problem: after a batch the nodes must be those that single changes would have produced (the canonical form, tree.h),
+ * and a failure halfway must leave the tree as it was.
+ *
+ * Idea: one recursion from the root, with the leaving and arriving items sorted by Morton code. At each node the items
+ * are divided among the octants by binary search, so untouched subtrees cost nothing. The new count decides each node's
+ * fate at once: unchanged, edited in place, merged into a leaf, divided, or built anew; no node is split and merged
+ * again within the batch. Nothing is changed yet. Successors are allocated beside the old nodes and entered in a plan
+ * (patches and edits); plan.c carries the plan out, which cannot fail.
+ *
+ * Under OCTREE_REFUSE a leaf takes the first points in the caller's order, as single insertions would.
+ * Cost: O(items * D + points of the changed leaves).
+ */
 #include "division.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Sharing out -------------------------------------------------------------------------------------------- */
+/* ---- Dividing items -------------------------------------------------------------------------------------------- */
 
-unsigned share_out(span all, unsigned depth, span shares[8])
+unsigned divide_items(span all, unsigned depth, span shares[8])
 {
     unsigned octants = 0;
     for (unsigned octant = 0; octant < 8; octant++)
@@ -29,7 +42,7 @@ static int compare_indices(const void *a, const void *b)
     return (p->index > q->index) - (p->index < q->index);
 }
 
-/* Sort the items of a leaf by their index in it. */
+/* Sort leaving items by their index in the leaf. */
 static void sort_by_index(span s)
 {
     if (s.count > POOL_MAX_UNITS) {
@@ -47,7 +60,8 @@ static void sort_by_index(span s)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* Stored points first, then the caller's in their order: so a leaf refuses the same points as one by one. */
+/* Order: stored points first, then the caller's in the given order, so that a leaf refuses the same points as single
+ * insertions would. */
 static int compare_places(const void *a, const void *b)
 {
     const morton_item *p = a, *q = b;
@@ -55,7 +69,7 @@ static int compare_places(const void *a, const void *b)
     return p_new != q_new ? p_new - q_new : (p->place > q->place) - (p->place < q->place);
 }
 
-/* A leaf of the items, or of as many as it takes; the others are refused. */
+/* Make a leaf of the items. Under OCTREE_REFUSE it takes as many as the capacity and refuses the others. */
 static bool make_leaf(batch *b, span items, node *made)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
@@ -83,7 +97,7 @@ static bool make_leaf(batch *b, span items, node *made)
     return true;
 }
 
-/* Copy the points of a leaf but for those that leave, which are sorted by index. */
+/* Copy the points of a leaf except the leaving ones, which are sorted by index. */
 static void put_staying(node *made, const node *leaf, span leaving)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
@@ -113,7 +127,7 @@ static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, 
     return true;
 }
 
-/* Let a leaf be edited in its block, which has room for what will be there. */
+/* Plan to edit a leaf in place: its block has room for the resulting points. */
 static bool plan_edit(batch *b, const node *old, span leaving, span arriving, node *made)
 {
     edit *e = list_append(&b->store->memory, &b->edits, sizeof *e);
@@ -138,11 +152,11 @@ bool inseparable(const octree *tree, cell c, const morton_item *items, size_t co
     return true;
 }
 
-/* An inner node for items alone. */
+/* Build an inner node from items only. */
 static bool build_children(batch *b, cell c, span items, node *made);
 
-/* Under OCTREE_REFUSE most of the items that nothing separates are refused, and nothing is split for refused points.
- * Where items are separated, more of them are stored than one leaf holds, so that the split is needed. */
+/* Under OCTREE_REFUSE inseparable items stay in one leaf, which refuses those beyond its capacity: nodes never split
+ * for refused points. Separable items fill more than one leaf, so that the split is needed. */
 bool becomes_leaf(const batch *b, cell c, span items)
 {
     const octree_def *def = &b->tree->def;
@@ -153,14 +167,14 @@ bool becomes_leaf(const batch *b, cell c, span items)
 bool build_node(batch *b, cell c, span items, node *made)
 {
     if (is_job(b, items.count))
-        return take_job(b, made);
+        return use_job(b, made);
     return becomes_leaf(b, c, items) ? make_leaf(b, items, made) : build_children(b, c, items, made);
 }
 
 static bool build_children(batch *b, cell c, span items, node *made)
 {
     span shares[8];
-    const unsigned octants = share_out(items, c.depth, shares), children = bits_count8(octants);
+    const unsigned octants = divide_items(items, c.depth, shares), children = bits_count8(octants);
     node *group = pool_take(&b->store->nodes, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
@@ -176,12 +190,12 @@ static bool build_children(batch *b, cell c, span items, node *made)
     return true;
 }
 
-/* Divide a leaf: its points that stay, and those that arrive. Where its cell cannot be divided the order does not
- * matter, as for a hashed leaf. */
+/* Divide a leaf: build a node from its staying points and the arriving ones. If the cell is indivisible, the result is
+ * a hashed leaf, whose items need no order. */
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
-    /* unreachable: where size_t has 64 bits, for leaves and batches have at most UINT32_MAX points */
+    /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */
     morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(&b->store->memory, room) : NULL;
     if (!all)
         return false;
@@ -206,9 +220,9 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
 
 /* ---- Changing nodes ----------------------------------------------------------------------------------------- */
 
-static bool leaves(span leaving, uint32_t index)
+static bool is_leaving(span leaving, uint32_t index)
 {
-    size_t low = 0, high = leaving.count; /* the first of at least this index is in [low, high] */
+    size_t low = 0, high = leaving.count; /* the first item with at least this index is in [low, high] */
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (leaving.items[middle].index < index)
@@ -219,14 +233,14 @@ static bool leaves(span leaving, uint32_t index)
     return low < leaving.count && leaving.items[low].index == index;
 }
 
-/* Drop the items that the leaf stores already. */
+/* Drop the arriving items that the leaf already holds and that do not leave it. */
 static void drop_stored(batch *b, const node *leaf, span leaving, span *arriving)
 {
     size_t left = 0;
     for (size_t i = 0; i < arriving->count; i++) {
         const octree_point point = arriving_point(b, &arriving->items[i]);
         const uint32_t index = leaf_find(leaf, point.position, point.id);
-        if (index == LEAF_NONE || leaves(leaving, index)) {
+        if (index == LEAF_NONE || is_leaving(leaving, index)) {
             arriving->items[left++] = arriving->items[i];
         } else {
             set_status(b, &arriving->items[i], OCTREE_DUPLICATE);
@@ -253,7 +267,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
     return remake_leaf(b, old, leaving, arriving, made);
 }
 
-/* Put what stays in and below a node into a leaf. */
+/* Copy the staying points in and below a node into a leaf. */
 static void gather_staying(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {
@@ -262,13 +276,13 @@ static void gather_staying(const node *old, unsigned depth, span leaving, node *
         return;
     }
     span shares[8];
-    share_out(leaving, depth, shares);
+    divide_items(leaving, depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
         if (old->octants >> octant & 1)
             gather_staying(child_at(old, octant), depth + 1, shares[octant], made);
 }
 
-/* Merge a node that fits one leaf. */
+/* Merge a node whose points fit one leaf. */
 static bool merge(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     if (b->to && may_overflow(b, old, c, arriving))
@@ -282,10 +296,9 @@ static bool merge(batch *b, const node *old, cell c, span leaving, span arriving
     return true;
 }
 
-/* Let a child have a successor. False when there is no memory; nothing is allocated then. */
 bool plan_patch(batch *b, node *at, const node *made)
 {
-    if (at->below == made->below && at->count == made->count) /* then their octants and room are the same */
+    if (at->below == made->below && at->count == made->count) /* equal blocks imply equal octants and room */
         return true;
     const patch p = {at, *made};
     if (list_push(&b->store->memory, &b->patches, &p, sizeof p))
@@ -294,7 +307,7 @@ bool plan_patch(batch *b, node *at, const node *made)
     return false;
 }
 
-/* Change the child in an octant into *made, or where it is null into a plan for the child itself. */
+/* Make the successor of the child in an octant in *made; if `made` is null, plan a patch of the child instead. */
 static bool change_child(batch *b, const node *old, cell c, unsigned octant, const span leaving[8],
                          const span arriving[8], node *made, uint32_t *count)
 {
@@ -310,7 +323,7 @@ static bool change_child(batch *b, const node *old, cell c, unsigned octant, con
     return ok && plan_patch(b, child, &successor);
 }
 
-/* The same children, of which some change. */
+/* Change some children of a node whose set of octants stays the same. */
 static bool change_same_children(batch *b, const node *old, cell c, const span leaving[8], const span arriving[8],
                                  node *made)
 {
@@ -326,7 +339,7 @@ static bool change_same_children(batch *b, const node *old, cell c, const span l
     return true;
 }
 
-/* Start loading the leaves in which items arrive, and the first of these. */
+/* Prefetch the leaves in which items arrive, and the first of these items. */
 static void prefetch_leaves(const batch *b, const node *parent, const span arriving[8])
 {
     for (unsigned octant = 0; octant < 8; octant++) {
@@ -342,8 +355,8 @@ static void prefetch_leaves(const batch *b, const node *parent, const span arriv
 static bool change_children(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     span out[8], in[8];
-    share_out(leaving, c.depth, out);
-    unsigned octants = share_out(arriving, c.depth, in);
+    divide_items(leaving, c.depth, out);
+    unsigned octants = divide_items(arriving, c.depth, in);
     for (unsigned octant = 0; octant < 8; octant++)
         if ((old->octants >> octant & 1) && child_at(old, octant)->count > out[octant].count)
             octants |= 1u << octant;
@@ -362,7 +375,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     return true;
 }
 
-/* Where none of its points stays, it is built anew. */
+/* A node of which no point stays is built from the arriving items only. */
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     *made = *old;
@@ -373,7 +386,7 @@ bool change_node(batch *b, const node *old, cell c, span leaving, span arriving,
     if (leaving.count == old->count && arriving.count == 0)
         return true;
     if (is_job(b, leaving.count + arriving.count))
-        return take_job(b, made);
+        return use_job(b, made);
     if (leaving.count == old->count) {
         if (b->to && may_overflow(b, old, c, arriving))
             b->overflow = true;

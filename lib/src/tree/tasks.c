@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
+/* tasks.c - divides work into tasks, and trees into subtrees. See tasks.h. */
 #include "tasks.h"
 
 #include <string.h>
 
 #ifndef OCTREE_LEAST_SHARE
-#define OCTREE_LEAST_SHARE 1024 /* points that are worth a task */
+#define OCTREE_LEAST_SHARE 1024 /* the least number of points per task */
 #endif
 
 unsigned tasks_for(const octree *tree, size_t points)
@@ -16,10 +17,10 @@ unsigned tasks_for(const octree *tree, size_t points)
 typedef struct tasks {
     octree_task *task;
     void *context;
-    bool done[TASKS_AT_MOST]; /* each is written by its task alone */
+    bool done[TASKS_AT_MOST]; /* each element is written by its own task only */
 } tasks;
 
-static void run_here(size_t number, void *context)
+static void run_task(size_t number, void *context)
 {
     tasks *all = context;
     if (!float_mode_is_default())
@@ -33,14 +34,14 @@ void tasks_run(const octree *tree, octree_task *task, unsigned count, void *cont
     const octree_executor *executor = &tree->def.executor;
     tasks all = {task, context, {false}};
     if (executor->run && count > 1)
-        executor->run(run_here, count, &all, executor->context);
+        executor->run(run_task, count, &all, executor->context);
     for (unsigned number = 0; number < count; number++)
         if (!all.done[number])
             task(number, context);
 }
 
-/* Replace a subtree by those of its children. */
-static size_t divide(subtree *subtrees, size_t count, size_t at)
+/* Replace a subtree by those of its children. Returns the new count. */
+static size_t divide_subtree(subtree *subtrees, size_t count, size_t at)
 {
     const subtree whole = subtrees[at];
     const unsigned children = bits_count8(whole.node->octants);
@@ -65,7 +66,7 @@ size_t subtrees_of(const octree *tree, unsigned tasks, subtree_opener *open, voi
         const bool fits = count + 7 <= SUBTREES_AT_MOST;
         const subtree *s = &subtrees[at];
         if (s->node->octants && s->node->count > share && fits && (!open || open(s, context)))
-            count = divide(subtrees, count, at);
+            count = divide_subtree(subtrees, count, at);
         else
             at++;
     }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* tree.c - creates, rebuilds and destroys trees, finds points, and names statuses. */
 #include "tree.h"
 #include "float_rules.h"
 #include "metric.h"
@@ -6,10 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* With fewer points a chosen capacity gains nothing. */
+/* Below this number of points, choosing a capacity gains nothing. */
 #define TUNE_LEAST 1024
 
-/* ---- Making and freeing ------------------------------------------------------------------------------------- */
+/* ---- Creating and destroying ------------------------------------------------------------------------------------- */
 
 octree_def octree_def_default(void)
 {
@@ -40,7 +41,7 @@ static octree_status check_def(const octree_def *def)
 static octree_def clamp_def(octree_def def)
 {
     if (def.leaf_capacity == OCTREE_AUTO)
-        def.leaf_capacity = octree_def_default().leaf_capacity; /* until there are points to choose by */
+        def.leaf_capacity = octree_def_default().leaf_capacity; /* until the tree has points */
     if (def.leaf_capacity > UINT32_MAX)
         def.leaf_capacity = UINT32_MAX;
     if (def.max_depth > OCTREE_MAX_DEPTH)
@@ -125,8 +126,8 @@ void tune_if_due(octree *tree)
 
 /* ---- Rebuilding --------------------------------------------------------------------------------------------- */
 
-/* Insert all into an empty tree, or say why one of them does not fit. */
-static octree_status fill(octree *tree, const octree_point *points, size_t count)
+/* Insert all points into an empty tree. Returns OUTSIDE or FULL if one of them does not fit. */
+static octree_status insert_all(octree *tree, const octree_point *points, size_t count)
 {
     size_t inserted;
     for (size_t i = 0; i < count; i++)
@@ -136,8 +137,8 @@ static octree_status fill(octree *tree, const octree_point *points, size_t count
     return status == OCTREE_OK && inserted < count ? OCTREE_FULL : status;
 }
 
-/* Two trees of one allocator exchange their contents; `tree` keeps its own tuning and counts a change. */
-static void exchange(octree *tree, octree *other)
+/* Swap the contents of two trees with the same allocator. `tree` keeps its tuning, and its version increases. */
+static void swap_contents(octree *tree, octree *other)
 {
     change_log_stop(&tree->changes, &tree->store.memory);
     other->changes.first = other->changes.next = tree->changes.next;
@@ -161,11 +162,11 @@ octree_status rebuild(octree *tree, const octree_def *def)
     status = OCTREE_NO_MEMORY;
     if (points) {
         node_copy_points(&tree->root, points);
-        status = fill(other, points, count);
+        status = insert_all(other, points, count);
     }
     arena_give(&other->store.memory, points, size);
     if (status == OCTREE_OK)
-        exchange(tree, other);
+        swap_contents(tree, other);
     octree_destroy(other);
     return status;
 }
@@ -199,7 +200,7 @@ octree_status check_position(const octree *tree, const double position[3])
 
 path path_to(const octree *tree, uint64_t code)
 {
-    /* The only place where const is cast away: callers that change nodes were given a tree that is not const. */
+    /* const is cast away here only: callers that change nodes have a tree that is not const. */
     path p;
     p.nodes[0] = (node *)(uintptr_t)&tree->root;
     for (p.depth = 0; path_end(&p)->octants; p.depth++) {

@@ -1,5 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* tune.c - the leaf capacity by a cost model: the weighted counts of what operations visit in trial trees. */
+/* tune.c - chooses the leaf capacity by a cost model: octree_tune().
+ *
+ * Problem: the best capacity depends on the points and on their use: small leaves suit searches, large ones suit
+ * changes and ranges. Timing trial trees would choose differently on every machine and every run.
+ *
+ * Idea: count instead of timing. Build trees with capacities 4, 8 ... 256 on a sample, run the operations of the mix on
+ * each, and compare weighted counts of visited inner nodes, leaves and points. The weights are fitted to measured times
+ * once; only their ratios matter. The sample consists of whole cells, copied with all their points, because a random
+ * sample would thin the points out and change their density. Cost: seven bulk builds of at most 40,000 points, 128
+ * operations of each kind per capacity, and one rebuild.
+ */
 #include "tree.h"
 
 #include <math.h>
@@ -7,12 +17,12 @@
 
 /* ---- The model ---------------------------------------------------------------------------------------------- */
 
-/* The cost of entering an inner node, of entering a leaf, and of reading a point. Fitted to the times of all operations
- * on uniform, gaussian, clustered and surface points, 5e4 and 1e6 of them, at capacities from 1 to 128: 30, 15 and 1 ns
- * in the caches, 32, 23 and less than 1 ns beyond them. Only the ratios matter. */
+/* Nanoseconds to enter an inner node, to enter a leaf, and to read a point. Fitted to the times of all operations on
+ * 5e4 and 1e6 uniform, gaussian, clustered and surface points at capacities from 1 to 128: 30, 15 and 1 ns within the
+ * caches, 32, 23 and less than 1 ns beyond them. */
 static const double inner_weight = 30, leaf_weight = 20, point_weight = 1;
 
-static double weigh(const octree_cost *cost)
+static double weighted_cost(const octree_cost *cost)
 {
     return inner_weight * (double)(cost->nodes - cost->leaves) + leaf_weight * (double)cost->leaves +
            point_weight * (double)cost->points;
@@ -20,10 +30,10 @@ static double weigh(const octree_cost *cost)
 
 enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
 
-/* ---- A sample of whole cells, which has the density of the tree --------------------------------------------- */
+/* ---- A sample of whole cells, with the density of the tree --------------------------------------------- */
 
-/* Cells have at least 16 points for each that a query asks for: a range about a point of a cell must not reach far
- * beyond it. The larger the cells, the fewer are taken. */
+/* A cell has at least 16 points for each result of a query, so that a range about a point of a cell stays mostly inside
+ * it. The larger the cells, the fewer are sampled. */
 enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
 
 static size_t cell_points(const octree_mix *mix)
@@ -46,36 +56,37 @@ static bool add_point(const octree_point *point, void *context)
     return s->count < s->room;
 }
 
-/* Which cells are copied: of a tree with more points than there is room for, about every `step`-th point's. */
-typedef struct picking {
+/* Selects the cells of the sample. In a tree with more points than the sample, cells are `step` points apart. */
+typedef struct cell_picker {
     sample *sample;
     const octree *tree;
-    size_t cell; /* points that a cell has at most */
-    size_t met, step;
-} picking;
+    size_t cell; /* the greatest number of points of a cell */
+    size_t points_before, step;
+} cell_picker;
 
-/* A cell is copied with the points on its upper faces, which belong to its neighbours. */
-static octree_walk_order pick_cell(const octree_node *seen, void *context)
+/* Copy a selected cell, with the points on its upper faces, which belong to its neighbours. */
+static octree_walk_order copy_cell(const octree_node *seen, void *context)
 {
-    picking *p = context;
+    cell_picker *p = context;
     if (!seen->leaf && seen->count > p->cell)
         return OCTREE_WALK_ON;
-    const size_t before = p->met;
-    p->met += seen->count;
-    if (before / p->step != p->met / p->step)
+    const size_t before = p->points_before;
+    p->points_before += seen->count;
+    if (before / p->step != p->points_before / p->step)
         octree_range(p->tree, &seen->box, add_point, p->sample);
     return OCTREE_WALK_SKIP;
 }
 
-static bool take_sample(sample *s, octree *tree, const octree_mix *mix)
+static bool make_sample(sample *s, octree *tree, const octree_mix *mix)
 {
     const size_t count = octree_count(tree), cell = cell_points(mix);
     *s = (sample){.room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL};
     s->points = arena_take(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
-    octree_walk(tree, pick_cell, &(picking){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
-    qsort(s->points, s->count, sizeof *s->points, octree_compare_points); /* whatever order the tree holds them in */
+    octree_walk(tree, copy_cell, &(cell_picker){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
+    qsort(s->points, s->count, sizeof *s->points,
+          octree_compare_points); /* makes the sample independent of the order in leaves */
     return true;
 }
 
@@ -86,11 +97,11 @@ static const octree_point *target_of(const sample *s, size_t i)
 
 /* ---- Trials ------------------------------------------------------------------------------------------------- */
 
-/* The cube about a target that is as large as the ball with so many points. */
+/* For each target, find the cube with the volume of the ball that contains `hits` points. */
 static octree_status measure_ranges(sample *s, const octree *trial, size_t hits, octree_neighbor *room)
 {
     octree_status status = OCTREE_OK;
-    /* unreachable: a search of a tree that was made refuses nothing: its target is a point */
+    /* unreachable: a search for a stored point in a valid tree cannot fail */
     for (size_t i = 0; status == OCTREE_OK && i < TARGETS; i++) {
         size_t found = 0;
         status = octree_nearest_k(trial, target_of(s, i)->position, hits, NULL, room, &found);
@@ -115,7 +126,7 @@ static octree_cost cost_of_nearest(const octree *trial, const octree_point *targ
     return cost;
 }
 
-/* A range goes through all that is below a node that it takes whole: that is no part of its cost report. */
+/* A range visits all nodes below a node that it takes whole; octree_cost does not count these, so the tracer does. */
 typedef struct range_cost {
     const octree *trial;
     octree_cost all;
@@ -138,7 +149,7 @@ static void add_taken(octree_address address, octree_trace_kind touch, void *con
     add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
 }
 
-static bool go_on(const octree_point *point, void *context)
+static bool count_only(const octree_point *point, void *context)
 {
     (void)point;
     (void)context;
@@ -151,19 +162,20 @@ static octree_cost cost_of_range(const octree *trial, const octree_point *target
     octree_box box;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
         octree_range_search(trial, &box, &(octree_search){.cost = &r.all, .trace = add_taken, .trace_context = &r},
-                            go_on, NULL);
+                            count_only, NULL);
     return r.all;
 }
 
-/* What the mix costs in a tree of the sample. */
-static double weigh_mix(const sample *s, const octree *trial, const octree_mix *mix, octree_neighbor *room)
+/* The cost of the mix in a trial tree. */
+static double mix_cost(const sample *s, const octree *trial, const octree_mix *mix, octree_neighbor *room)
 {
     double sum = 0;
     for (size_t i = 0; i < TARGETS; i++) {
         const octree_point *target = target_of(s, i);
         const octree_cost costs[3] = {cost_of_change(trial, target), cost_of_nearest(trial, target, mix->k, room),
                                       cost_of_range(trial, target, s->extents[i])};
-        sum += mix->changes * weigh(&costs[0]) + mix->nearest * weigh(&costs[1]) + mix->ranges * weigh(&costs[2]);
+        sum += mix->changes * weighted_cost(&costs[0]) + mix->nearest * weighted_cost(&costs[1]) +
+               mix->ranges * weighted_cost(&costs[2]);
     }
     return sum;
 }
@@ -177,12 +189,13 @@ static octree_status try_capacity(sample *s, octree_def def, const octree_mix *m
     if (status == OCTREE_OK && def.leaf_capacity == LEAST_CAPACITY)
         status = measure_ranges(s, trial, mix->hits, room);
     if (status == OCTREE_OK)
-        *cost = weigh_mix(s, trial, mix, room);
+        *cost = mix_cost(s, trial, mix, room);
     octree_destroy(trial);
     return status;
 }
 
-static octree_status choose(sample *s, octree_def def, const octree_mix *mix, octree_neighbor *room, size_t *capacity)
+static octree_status choose_capacity(sample *s, octree_def def, const octree_mix *mix, octree_neighbor *room,
+                                     size_t *capacity)
 {
     double least = INFINITY, cost = 0;
     octree_status status = OCTREE_OK;
@@ -212,7 +225,7 @@ static octree_status check_mix(const octree_mix *mix)
     return none || mix->changes < 0 || mix->nearest < 0 || mix->ranges < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
 }
 
-/* Shares of their sum, so that none overflows, and numbers of points that the sample can hold. */
+/* Normalize the shares without overflow, and limit k and hits to the size of the sample. */
 static octree_mix clamp_mix(octree_mix mix, size_t most)
 {
     const double sum = mix.changes / 4 + mix.nearest / 4 + mix.ranges / 4;
@@ -231,8 +244,8 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     const octree_mix tried = clamp_mix(*mix, LEAST_CELL);
     const size_t size = ((tried.k > tried.hits ? tried.k : tried.hits) + 1) * sizeof(octree_neighbor);
     octree_neighbor *room = arena_take(&tree->store.memory, size);
-    if (take_sample(&s, tree, &tried) && room)
-        status = choose(&s, tree->def, &tried, room, capacity);
+    if (make_sample(&s, tree, &tried) && room)
+        status = choose_capacity(&s, tree->def, &tried, room, capacity);
     arena_give(&tree->store.memory, room, size);
     arena_give(&tree->store.memory, s.points, s.room * sizeof *s.points);
     return status;

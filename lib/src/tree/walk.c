@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* walk.c - all nodes of a tree, one after the other: for visitors, the validator, statistics and the digest. */
+/* walk.c - traversals of all nodes: octree_walk(), octree_check(), octree_statistics() and octree_digest(). */
 #include "walk.h"
 #include "exact.h"
 #include "float_rules.h"
@@ -24,7 +24,7 @@ typedef struct walk {
     void *context;
 } walk;
 
-/* A large tree does not fit the caches: what is below each child is loaded before it is visited. */
+/* Prefetch the children or points of each child: a large tree does not fit the caches. */
 static void prefetch_children(const node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -37,7 +37,7 @@ static void prefetch_children(const node *n)
     }
 }
 
-/* Where the planes of a cell are. */
+/* The splitting planes of a cell. */
 static inline void find_middle(const octree *tree, cell c, double middle[3])
 {
     for (int i = 0; i < 3; i++)
@@ -52,11 +52,11 @@ static inline octree_box octant_box(const octree_box *box, const double middle[3
     return below;
 }
 
-/* Visit a node and what is below it. False when the visitor has stopped the walk. */
+/* Visit a node and the nodes below it. False when the visitor has stopped the walk. */
 static bool walk_below(walk *w, const node *n, octree_address address, cell c, const octree_box *box)
 {
-    const octree_node seen = describe(n, address, c.depth, box);
-    const octree_walk_order order = w->visit(&seen, w->context);
+    const octree_node description = describe(n, address, c.depth, box);
+    const octree_walk_order order = w->visit(&description, w->context);
     if (order != OCTREE_WALK_ON || !n->octants)
         return order != OCTREE_WALK_STOP;
     prefetch_children(n);
@@ -84,7 +84,7 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
     return OCTREE_OK;
 }
 
-/* The node at a depth of the path to a code. */
+/* Describe the node at a depth of the path to a code. */
 static octree_node describe_on(const octree *tree, const path *p, uint64_t code, unsigned depth)
 {
     const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, depth));
@@ -139,8 +139,8 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
     return NULL;
 }
 
-/* Where the points of a leaf may lie. A cell is open at its upper planes, except at the world's maximum faces, which
- * belong to it. */
+/* The closed box in which the points of a leaf lie. A cell excludes its upper planes, except the world's maximum faces.
+ */
 static octree_box points_box(octree_box box, cell c)
 {
     for (int i = 0; i < 3; i++)
@@ -149,7 +149,7 @@ static octree_box points_box(octree_box box, cell c)
     return box;
 }
 
-/* Whether a leaf holds a point before its own index too. Ids are compared first: they differ sooner than positions. */
+/* Whether a leaf holds a point again before its own index. Ids are compared first, because they usually differ. */
 static bool is_repeated(const node *n, uint32_t index)
 {
     const octree_point *points = leaf_points(n), *point = &points[index];
@@ -181,11 +181,12 @@ static const char *check_leaf(const octree *tree, const node *n, cell c, const o
 
 typedef struct validation {
     const octree *tree;
-    const char *broken; /* the first invariant that does not hold */
+    const char *broken; /* the sentence of the first violation; null: none */
     octree_address where;
 } validation;
 
-/* In the order of a walk, but without a visitor: telling it of a node would take as long as checking the node. */
+/* Check a node and the nodes below it, in the order of octree_walk() but without a visitor, whose calls would double
+ * the time. */
 static void check_below(validation *v, const node *n, octree_address address, cell c, const octree_box *box)
 {
     v->broken = n->octants ? check_inner(v->tree, n, c) : check_leaf(v->tree, n, c, box);
@@ -204,7 +205,7 @@ static void check_below(validation *v, const node *n, octree_address address, ce
     }
 }
 
-/* Keep what is first in the order of the walk. */
+/* Keep the violation that comes first in the order of the walk. */
 static void keep_first(validation *first, const char *broken, octree_address where)
 {
     if (broken && (!first->broken || address_compare(&where, &first->where) < 0)) {
@@ -233,7 +234,7 @@ static void shares_begin(shares *d, const octree *tree, subtree_opener *open)
     d->count = subtrees_of(tree, d->tasks, open, d, d->subtrees);
 }
 
-/* A node that is broken is not entered: its children may be nowhere. */
+/* Returns false for a node that violates an invariant: its children may be invalid pointers. */
 static bool check_opened(const subtree *s, void *context)
 {
     shares *d = context;
@@ -324,7 +325,7 @@ uint64_t digest_node(const node *n, octree_address address)
     return sum;
 }
 
-/* Of an inner node and all below it. */
+/* The sum of the digests of an inner node and the nodes below it. */
 static uint64_t digest_below(const node *n, octree_address address)
 {
     uint64_t sum = digest_node(n, address);

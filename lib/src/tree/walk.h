@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* walk.h - what is added up over all nodes of a tree: its statistics and its digest. */
+/* walk.h - the contributions of one node to the statistics and to the digest of a tree. */
 #ifndef OCTREE_WALK_H
 #define OCTREE_WALK_H
 
 #include "octree/digest.h"
 #include "tree.h"
 
-/* Start loading what is below each child of an inner node. */
+/* Prefetch the blocks below the children of an inner node. */
 static inline void prefetch_below(const node *n)
 {
     for (unsigned i = bits_count8(n->octants); i-- > 0;)
@@ -16,8 +16,8 @@ static inline void prefetch_below(const node *n)
 /* Add one node to the statistics. */
 void count_node(octree_stats *stats, const node *n, unsigned depth);
 
-/* The digest of a tree is made of the sum of what each node adds, so that the order in which nodes and points are
- * visited does not count, and the sum of an unchanged subtree can be kept. A leaf adds its points too. */
+/* The digest of a tree is computed from the sum of the digests of its nodes. So the order of nodes and points does not
+ * matter, and the sum of an unchanged subtree can be reused. The digest of a leaf includes its points. */
 uint64_t digest_node(const node *n, octree_address address);
 uint64_t digest_of_sum(const octree *tree, uint64_t sum);
 
