@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* kind_nearest.c - the kinds "nearest" and "knearest": the point nearest to a target, or the k nearest points. */
 #include "kind.h"
+#include "octree/octree.h"
 
 octree_status ask_knearest(asking *a, octree_answer *answer)
 {

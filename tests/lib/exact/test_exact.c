@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_exact.c - nearest neighbours, collisions and distances against whole-number arithmetic that cannot round. */
+/* test_exact.c - nearest neighbours, collisions and distances compared with exact integer arithmetic. */
 #include "fixture.h"
 
 #include <float.h>
@@ -142,7 +142,7 @@ static void nearest_is_the_true_one_for_targets_far_outside(void **state)
     octree_destroy(tree);
 }
 
-static void points_of_every_magnitude_in_one_tree_are_told_apart(void **state)
+static void nearest_distinguishes_points_of_every_magnitude_in_one_tree(void **state)
 {
     (void)state;
     uint64_t random = 15;
@@ -220,7 +220,7 @@ int main(void)
         cmocka_unit_test(nearest_is_the_true_one_at_the_smallest_scales),
         cmocka_unit_test(nearest_is_the_true_one_on_a_lattice_of_tenths),
         cmocka_unit_test(nearest_is_the_true_one_for_targets_far_outside),
-        cmocka_unit_test(points_of_every_magnitude_in_one_tree_are_told_apart),
+        cmocka_unit_test(nearest_distinguishes_points_of_every_magnitude_in_one_tree),
         cmocka_unit_test(collisions_are_decided_by_whole_numbers),
         cmocka_unit_test(distances_beside_large_coordinates_are_not_rounded),
     };

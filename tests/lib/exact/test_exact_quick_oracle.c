@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_exact_quick_oracle.c - the quick oracle says what the exact one says: at every scale, and where they differ by
- * less than any rounding.
- */
+/* test_exact_quick_oracle.c - the quick oracle agrees with the exact oracle at every scale, near ties included. */
 #include "fixture.h"
 
 #include <float.h>

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_float_mode.c - a thread whose floating-point mode is not the default gets its own status, and never a wrong
- * answer.
- */
+/* test_float_mode.c - a thread with a non-default floating-point mode gets OCTREE_FLOAT_MODE, never a wrong answer. */
 #include "fixture.h"
 
 #include <fenv.h>

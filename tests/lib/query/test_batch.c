@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_batch.c - nearest points in batches: target by target what a single search says, in any order of targets.
- */
+/* test_batch.c - octree_nearest_batch() equals single searches, in any order of targets. */
 #include "fixture.h"
 
 #include <float.h>
@@ -91,7 +90,7 @@ static octree *make_points(brute *all, uint64_t *random, size_t count)
     return brute_tree(all, cube(-10, 10), 2, 12);
 }
 
-static void a_batch_says_what_single_searches_say_under_every_option(void **state)
+static void a_batch_equals_single_searches_under_every_option(void **state)
 {
     (void)state;
     static const octree_skip skips[] = {OCTREE_SKIP_NONE, OCTREE_SKIP_ID, OCTREE_SKIP_COINCIDENT};
@@ -181,7 +180,7 @@ static void worlds_of_every_scale_take_targets_of_every_scale(void **state)
     }
 }
 
-static void an_empty_tree_finds_none_and_leaves_the_neighbors_alone(void **state)
+static void an_empty_tree_finds_none_and_writes_no_neighbors(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -198,7 +197,7 @@ static void an_empty_tree_finds_none_and_leaves_the_neighbors_alone(void **state
     octree_destroy(tree);
 }
 
-static void only_targets_without_a_neighbor_are_left_alone(void **state)
+static void only_results_of_targets_without_a_neighbor_are_not_written(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -285,7 +284,7 @@ static void bad_options_are_refused_as_by_a_single_search(void **state)
     octree_destroy(tree);
 }
 
-static void null_is_refused_but_for_how_and_found(void **state)
+static void null_is_refused_except_for_how_and_found(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -396,16 +395,16 @@ static void a_batch_takes_32_bytes_a_target_and_gives_them_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_batch_says_what_single_searches_say_under_every_option),
+        cmocka_unit_test(a_batch_equals_single_searches_under_every_option),
         cmocka_unit_test(a_batch_is_the_truth_for_whole_numbers),
         cmocka_unit_test(the_order_of_the_targets_changes_nothing),
         cmocka_unit_test(worlds_of_every_scale_take_targets_of_every_scale),
-        cmocka_unit_test(an_empty_tree_finds_none_and_leaves_the_neighbors_alone),
-        cmocka_unit_test(only_targets_without_a_neighbor_are_left_alone),
+        cmocka_unit_test(an_empty_tree_finds_none_and_writes_no_neighbors),
+        cmocka_unit_test(only_results_of_targets_without_a_neighbor_are_not_written),
         cmocka_unit_test(nothing_is_written_past_the_last_target),
         cmocka_unit_test(a_target_that_is_not_finite_leaves_everything_untouched),
         cmocka_unit_test(bad_options_are_refused_as_by_a_single_search),
-        cmocka_unit_test(null_is_refused_but_for_how_and_found),
+        cmocka_unit_test(null_is_refused_except_for_how_and_found),
         cmocka_unit_test(a_batch_is_traced_as_its_searches_are),
         cmocka_unit_test(a_failed_allocation_leaves_everything_untouched),
         cmocka_unit_test(a_batch_takes_32_bytes_a_target_and_gives_them_back),

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_collect.c - the points of a range in an array of the caller's: all that fit, counted, in order where asked.
- */
+/* test_collect.c - range results in an array: those that fit are stored, all are counted, sorted if requested. */
 #include "fixture.h"
 
 #include <float.h>
@@ -90,7 +89,7 @@ static octree_box random_box(uint64_t *random)
     return box;
 }
 
-static void every_room_takes_what_fits_and_counts_all(void **state)
+static void an_array_of_any_size_takes_what_fits_and_all_are_counted(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -250,7 +249,7 @@ static void the_cost_is_that_of_the_search_and_is_added_to(void **state)
     brute_free(&all);
 }
 
-static void bad_questions_are_refused_and_nothing_is_written(void **state)
+static void invalid_queries_are_refused_and_write_nothing(void **state)
 {
     (void)state;
     static const struct {
@@ -287,7 +286,7 @@ static void assert_null_argument(size_t sorted, const octree *tree, const octree
     assert_int_equal(count, 0);
 }
 
-static void null_is_refused_but_for_how(void **state)
+static void null_is_refused_except_for_how(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -329,15 +328,15 @@ static void collecting_needs_no_memory_and_changes_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_room_takes_what_fits_and_counts_all),
+        cmocka_unit_test(an_array_of_any_size_takes_what_fits_and_all_are_counted),
         cmocka_unit_test(equal_ids_are_ordered_by_position),
         cmocka_unit_test(many_points_at_one_place_come_by_id),
         cmocka_unit_test(no_points_are_needed_to_count),
         cmocka_unit_test(a_room_without_end_is_not_counted_through),
         cmocka_unit_test(epsilon_is_respected_with_every_room),
         cmocka_unit_test(the_cost_is_that_of_the_search_and_is_added_to),
-        cmocka_unit_test(bad_questions_are_refused_and_nothing_is_written),
-        cmocka_unit_test(null_is_refused_but_for_how),
+        cmocka_unit_test(invalid_queries_are_refused_and_write_nothing),
+        cmocka_unit_test(null_is_refused_except_for_how),
         cmocka_unit_test(collecting_needs_no_memory_and_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_collide.c - Algorithm 5: who is within the box, decided exactly, the tree unchanged. */
+/* test_collide.c - Algorithm 5: points within the box by exact comparison; the tree stays unchanged. */
 #include "fixture.h"
 
 #include <float.h>

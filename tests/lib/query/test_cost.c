@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cost.c - the cost report: counted by hand on a small tree, added up, the same every time, and free to leave out.
- */
+/* test_cost.c - the cost report equals counts by hand, adds up, is reproducible and optional. */
 #include "fixture.h"
 
 #include <math.h>
@@ -75,7 +74,7 @@ static octree_cost cost_of_nearest(const octree *tree, double target, size_t k)
     return cost;
 }
 
-static void a_box_costs_what_a_hand_counts(void **state)
+static void the_cost_of_a_box_equals_a_count_by_hand(void **state)
 {
     (void)state;
     octree *tree = three_levels();
@@ -96,7 +95,7 @@ static void a_box_costs_what_a_hand_counts(void **state)
     octree_destroy(tree);
 }
 
-static void a_ball_costs_what_a_hand_counts(void **state)
+static void the_cost_of_a_ball_equals_a_count_by_hand(void **state)
 {
     (void)state;
     octree *tree = three_levels();
@@ -106,7 +105,7 @@ static void a_ball_costs_what_a_hand_counts(void **state)
     octree_destroy(tree);
 }
 
-static void neighbors_cost_what_a_hand_counts(void **state)
+static void the_cost_of_neighbors_equals_a_count_by_hand(void **state)
 {
     (void)state;
     octree *tree = three_levels();
@@ -125,7 +124,7 @@ static void neighbors_cost_what_a_hand_counts(void **state)
     octree_destroy(tree);
 }
 
-static void what_covers_the_tree_takes_its_root_and_looks_at_nothing(void **state)
+static void a_range_that_covers_the_tree_takes_its_root_and_compares_no_point(void **state)
 {
     (void)state;
     octree *tree = three_levels();
@@ -304,10 +303,10 @@ static void counts_are_consistent(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_costs_what_a_hand_counts),
-        cmocka_unit_test(a_ball_costs_what_a_hand_counts),
-        cmocka_unit_test(neighbors_cost_what_a_hand_counts),
-        cmocka_unit_test(what_covers_the_tree_takes_its_root_and_looks_at_nothing),
+        cmocka_unit_test(the_cost_of_a_box_equals_a_count_by_hand),
+        cmocka_unit_test(the_cost_of_a_ball_equals_a_count_by_hand),
+        cmocka_unit_test(the_cost_of_neighbors_equals_a_count_by_hand),
+        cmocka_unit_test(a_range_that_covers_the_tree_takes_its_root_and_compares_no_point),
         cmocka_unit_test(a_query_that_is_refused_costs_nothing),
         cmocka_unit_test(counts_are_added_to),
         cmocka_unit_test(a_visitor_that_stops_saves_the_rest),

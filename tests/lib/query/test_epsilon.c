@@ -121,7 +121,7 @@ static void a_large_ratio_holds_between_tiny_distances(void **state)
         }
 }
 
-static void any_finite_ratio_is_taken(void **state)
+static void any_finite_ratio_is_accepted(void **state)
 {
     (void)state;
     static const double epsilons[] = {5e-324, 1e-300, 1e100, 1e154, 1e200, DBL_MAX};
@@ -409,7 +409,7 @@ static void fast_is_exact_where_squares_are(void **state)
     brute_free(&all);
 }
 
-static void fast_sees_that_what_is_far_outside_is_beyond_a_radius(void **state)
+static void fast_excludes_points_far_outside_a_radius(void **state)
 {
     (void)state;
     static const octree_search fast = {.mode = OCTREE_FAST};
@@ -452,7 +452,7 @@ static bool fast_differs(uint64_t *random)
     return exact.point.id != fast.point.id;
 }
 
-static void fast_is_another_answer_on_some_near_ties(void **state)
+static void fast_differs_on_some_near_ties(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -468,7 +468,7 @@ int main(void)
         cmocka_unit_test(neighbors_are_within_their_ratio),
         cmocka_unit_test(the_ratio_squared_is_what_prunes),
         cmocka_unit_test(a_large_ratio_holds_between_tiny_distances),
-        cmocka_unit_test(any_finite_ratio_is_taken),
+        cmocka_unit_test(any_finite_ratio_is_accepted),
         cmocka_unit_test(an_epsilon_does_not_lose_what_is_within_a_radius),
         cmocka_unit_test(the_nearest_within_a_radius_is_within_its_ratio),
         cmocka_unit_test(ranges_miss_nothing_and_stay_within_epsilon),
@@ -477,8 +477,8 @@ int main(void)
         cmocka_unit_test(epsilon_takes_any_box_and_length),
         cmocka_unit_test(epsilon_saves_work_on_clusters),
         cmocka_unit_test(fast_is_exact_where_squares_are),
-        cmocka_unit_test(fast_sees_that_what_is_far_outside_is_beyond_a_radius),
-        cmocka_unit_test(fast_is_another_answer_on_some_near_ties),
+        cmocka_unit_test(fast_excludes_points_far_outside_a_radius),
+        cmocka_unit_test(fast_differs_on_some_near_ties),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_exact_queries.c - k nearest, balls and the nearest within a radius against whole-number arithmetic.
- */
+/* test_exact_queries.c - k nearest, balls and the nearest within a radius compared with exact integer arithmetic. */
 #include "fixture.h"
 
 #include <float.h>
@@ -208,7 +207,7 @@ static void every_magnitude_in_one_tree_is_answered_exactly(void **state)
     brute_free(&all);
 }
 
-static void distances_whose_squares_vanish_are_told_apart(void **state)
+static void distances_whose_squares_underflow_are_distinguished(void **state)
 {
     (void)state;
     uint64_t random = 18;
@@ -274,7 +273,7 @@ int main(void)
         cmocka_unit_test(a_lattice_of_tenths_is_answered_exactly),
         cmocka_unit_test(targets_far_outside_are_answered_exactly),
         cmocka_unit_test(every_magnitude_in_one_tree_is_answered_exactly),
-        cmocka_unit_test(distances_whose_squares_vanish_are_told_apart),
+        cmocka_unit_test(distances_whose_squares_underflow_are_distinguished),
         cmocka_unit_test(a_sphere_is_decided_by_whole_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -126,7 +126,7 @@ static void near_misses_in(const octree_box *places, double largest, size_t tria
     }
 }
 
-static void near_misses_within_an_ulp_are_told_from_hits(void **state)
+static void near_misses_within_an_ulp_are_distinguished_from_hits(void **state)
 {
     (void)state;
     const octree_box small = cube(-1, 1), far = cube(1e15, 1e15 + 8), slab = {{-1e9, -1, -1e-9}, {1e9, 1, 1e-9}};
@@ -136,7 +136,7 @@ static void near_misses_within_an_ulp_are_told_from_hits(void **state)
     near_misses_in(&slab, 1e-9, 40, 4);
 }
 
-static void near_misses_of_extreme_scales_are_told_from_hits(void **state)
+static void near_misses_of_extreme_scales_are_distinguished_from_hits(void **state)
 {
     (void)state;
     const octree_box huge = cube(-DBL_MAX, DBL_MAX), half = cube(-DBL_MAX / 4, DBL_MAX / 4),
@@ -153,7 +153,7 @@ static void near_misses_of_extreme_scales_are_told_from_hits(void **state)
 }
 
 /* Steps so long that the moments of touching are subnormal themselves, and differ by less than one of them. */
-static void moments_that_underflow_are_told_apart(void **state)
+static void moments_that_underflow_are_distinguished(void **state)
 {
     (void)state;
     uint64_t random = 13;
@@ -248,9 +248,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(grazing_is_decided_to_the_last_bit_at_every_scale),
-        cmocka_unit_test(near_misses_within_an_ulp_are_told_from_hits),
-        cmocka_unit_test(near_misses_of_extreme_scales_are_told_from_hits),
-        cmocka_unit_test(moments_that_underflow_are_told_apart),
+        cmocka_unit_test(near_misses_within_an_ulp_are_distinguished_from_hits),
+        cmocka_unit_test(near_misses_of_extreme_scales_are_distinguished_from_hits),
+        cmocka_unit_test(moments_that_underflow_are_distinguished),
         cmocka_unit_test(any_mixture_of_extremes_is_decided_rightly),
         cmocka_unit_test(the_two_ends_tell_all_of_a_step_of_at_most_two_boxes),
     };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_nearest.c - Algorithms 6 and 7: the true nearest point, ties, and who is left out. */
+/* test_nearest.c - Algorithms 6 and 7: the true nearest point, ties, and skipped points. */
 #include "fixture.h"
 
 #include <float.h>
@@ -36,7 +36,7 @@ static void nearest_refuses_bad_targets_and_options(void **state)
     octree_destroy(tree);
 }
 
-static void the_three_skip_rules_leave_out_what_they_say(void **state)
+static void each_skip_rule_leaves_out_its_points(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-8, 8), 2, 10, OCTREE_GROW);
@@ -57,7 +57,7 @@ static void the_three_skip_rules_leave_out_what_they_say(void **state)
     octree_destroy(tree);
 }
 
-static void nothing_but_what_is_skipped_is_not_found(void **state)
+static void a_tree_of_skipped_points_only_returns_not_found(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-8, 8), 1, 3, OCTREE_GROW);
@@ -304,8 +304,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nearest_refuses_bad_targets_and_options),
-        cmocka_unit_test(the_three_skip_rules_leave_out_what_they_say),
-        cmocka_unit_test(nothing_but_what_is_skipped_is_not_found),
+        cmocka_unit_test(each_skip_rule_leaves_out_its_points),
+        cmocka_unit_test(a_tree_of_skipped_points_only_returns_not_found),
         cmocka_unit_test(a_point_whose_squared_distance_underflows_is_not_coincident),
         cmocka_unit_test(ties_go_to_the_lowest_id_wherever_it_lies),
         cmocka_unit_test(the_target_may_lie_anywhere),

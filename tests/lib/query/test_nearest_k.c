@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_nearest_k.c - the k nearest points: how many, in which order, who is left out, whatever the shape of the tree.
- */
+/* test_nearest_k.c - the k nearest points: count, order and skipped points, for any shape of the tree. */
 #include "fixture.h"
 
 #include <float.h>
@@ -48,7 +47,7 @@ static void assert_scan(const octree *tree, const brute *all, const double targe
     free(expected);
 }
 
-static void nearest_k_refuses_what_it_cannot_answer(void **state)
+static void nearest_k_refuses_invalid_arguments(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -344,7 +343,7 @@ static void capacity_and_depth_never_change_an_answer(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nearest_k_refuses_what_it_cannot_answer),
+        cmocka_unit_test(nearest_k_refuses_invalid_arguments),
         cmocka_unit_test(k_is_cut_to_the_points_that_count),
         cmocka_unit_test(an_empty_tree_has_no_neighbors),
         cmocka_unit_test(equal_distances_are_in_order_of_id_then_position),

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_radius.c - the points in a closed ball, and the nearest of them: the sphere itself counts, by the real numbers.
- */
+/* test_radius.c - the points in a closed ball and the nearest within a radius, by exact comparison. */
 #include "fixture.h"
 
 #include <float.h>
@@ -41,7 +40,7 @@ static void assert_within(const octree *tree, const double center[3], double rad
     assert_true(nearest.point.id == truth.point.id && nearest.distance == truth.distance);
 }
 
-static void radius_and_within_refuse_what_they_cannot_answer(void **state)
+static void radius_and_within_refuse_invalid_arguments(void **state)
 {
     (void)state;
     static const struct {
@@ -154,7 +153,7 @@ static void radius_zero_is_the_place_itself(void **state)
     octree_destroy(tree);
 }
 
-static void within_heeds_the_skip_rule_and_a_ball_does_not(void **state)
+static void within_follows_the_skip_rule_and_a_ball_does_not(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-8, 8), 1, 21, OCTREE_GROW);
@@ -174,7 +173,7 @@ static void within_heeds_the_skip_rule_and_a_ball_does_not(void **state)
     octree_destroy(tree);
 }
 
-static void any_finite_radius_and_center_are_taken(void **state)
+static void any_finite_radius_and_center_are_accepted(void **state)
 {
     (void)state;
     static const double worlds[] = {1e-310, 1e-200, 1, 1e200, DBL_MAX};
@@ -305,12 +304,12 @@ static void a_ball_agrees_with_a_scan_for_every_depth_and_capacity(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(radius_and_within_refuse_what_they_cannot_answer),
+        cmocka_unit_test(radius_and_within_refuse_invalid_arguments),
         cmocka_unit_test(the_sphere_itself_is_within),
         cmocka_unit_test(a_radius_that_rounding_would_reach_is_not_reached),
         cmocka_unit_test(radius_zero_is_the_place_itself),
-        cmocka_unit_test(within_heeds_the_skip_rule_and_a_ball_does_not),
-        cmocka_unit_test(any_finite_radius_and_center_are_taken),
+        cmocka_unit_test(within_follows_the_skip_rule_and_a_ball_does_not),
+        cmocka_unit_test(any_finite_radius_and_center_are_accepted),
         cmocka_unit_test(a_radius_and_an_epsilon_may_reach_beyond_doubles),
         cmocka_unit_test(the_center_may_lie_outside),
         cmocka_unit_test(a_visitor_that_stops_is_not_called_again),

@@ -56,7 +56,7 @@ static void range_refuses_nan_and_reversed_boxes(void **state)
     octree_destroy(tree);
 }
 
-static void range_takes_infinite_corners(void **state)
+static void range_accepts_infinite_corners(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -197,7 +197,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(range_refuses_nan_and_reversed_boxes),
-        cmocka_unit_test(range_takes_infinite_corners),
+        cmocka_unit_test(range_accepts_infinite_corners),
         cmocka_unit_test(range_is_closed_on_both_ends),
         cmocka_unit_test(range_of_zero_size_has_the_points_on_it),
         cmocka_unit_test(range_beyond_the_world_is_empty),

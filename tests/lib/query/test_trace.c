@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_trace.c - the trace of a query names each node that it met, once, and why the others were left out. */
+/* test_trace.c - the trace of a query names each visited, pruned or taken node once. */
 #include "fixture.h"
 
 #include <math.h>
@@ -148,7 +148,7 @@ static void a_range_whose_faces_are_planes_takes_all_nodes_within(void **state)
     }
 }
 
-static void a_range_names_what_it_visits_takes_and_leaves_out(void **state)
+static void a_range_traces_visited_taken_and_pruned_nodes(void **state)
 {
     (void)state;
     uint64_t random = 5;
@@ -175,7 +175,7 @@ static void a_range_names_what_it_visits_takes_and_leaves_out(void **state)
     }
 }
 
-static void a_ball_and_neighbors_name_every_node_that_they_count(void **state)
+static void balls_and_neighbors_trace_every_counted_node(void **state)
 {
     (void)state;
     uint64_t random = 6;
@@ -208,7 +208,7 @@ static void a_ball_and_neighbors_name_every_node_that_they_count(void **state)
     }
 }
 
-static void what_lies_apart_from_the_world_prunes_the_root(void **state)
+static void a_range_outside_the_world_prunes_the_root(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 21, OCTREE_REFUSE);
@@ -240,7 +240,7 @@ static void assert_same_traces(const trace *a, octree_cost cost_a, const trace *
 }
 
 /* A collision asks for its box, and on its way along an axis for the box around the whole step. */
-static void collisions_are_traced_as_the_boxes_that_they_ask_for(void **state)
+static void collisions_are_traced_like_their_boxes(void **state)
 {
     (void)state;
     static trace of_collision, of_box;
@@ -280,10 +280,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_range_whose_faces_are_planes_takes_all_nodes_within),
-        cmocka_unit_test(a_range_names_what_it_visits_takes_and_leaves_out),
-        cmocka_unit_test(a_ball_and_neighbors_name_every_node_that_they_count),
-        cmocka_unit_test(what_lies_apart_from_the_world_prunes_the_root),
-        cmocka_unit_test(collisions_are_traced_as_the_boxes_that_they_ask_for),
+        cmocka_unit_test(a_range_traces_visited_taken_and_pruned_nodes),
+        cmocka_unit_test(balls_and_neighbors_trace_every_counted_node),
+        cmocka_unit_test(a_range_outside_the_world_prunes_the_root),
+        cmocka_unit_test(collisions_are_traced_like_their_boxes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

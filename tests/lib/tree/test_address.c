@@ -26,7 +26,7 @@ static void an_address_lists_its_octants_from_the_root_down(void **state)
     assert_string_equal(octree_address_format(address, text), "0/3/7");
 }
 
-static void what_is_no_address_has_depth_zero_and_no_octants(void **state)
+static void an_invalid_address_has_depth_zero_and_no_octants(void **state)
 {
     (void)state;
     octree_address address;
@@ -57,7 +57,7 @@ static void text_and_address_are_inverse(void **state)
     }
 }
 
-static void parse_takes_both_names_of_the_root(void **state)
+static void parse_accepts_both_names_of_the_root(void **state)
 {
     (void)state;
     octree_address address = 0;
@@ -68,7 +68,7 @@ static void parse_takes_both_names_of_the_root(void **state)
     assert_true(address == OCTREE_ROOT);
 }
 
-static void parse_refuses_what_is_no_address(void **state)
+static void parse_refuses_text_that_is_not_an_address(void **state)
 {
     (void)state;
     static const char *const bad[] = {
@@ -112,10 +112,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_root_is_one_and_has_depth_zero),
         cmocka_unit_test(an_address_lists_its_octants_from_the_root_down),
-        cmocka_unit_test(what_is_no_address_has_depth_zero_and_no_octants),
+        cmocka_unit_test(an_invalid_address_has_depth_zero_and_no_octants),
         cmocka_unit_test(text_and_address_are_inverse),
-        cmocka_unit_test(parse_takes_both_names_of_the_root),
-        cmocka_unit_test(parse_refuses_what_is_no_address),
+        cmocka_unit_test(parse_accepts_both_names_of_the_root),
+        cmocka_unit_test(parse_refuses_text_that_is_not_an_address),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

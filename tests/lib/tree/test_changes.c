@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_changes.c - who follows a tree by its changes has its contents, whatever was done to it, or is told to look. */
+/* test_changes.c - a program that follows the change log has the contents of the tree, or is told to read the tree. */
 #include "fixture.h"
 
 #include <stdlib.h>
@@ -149,7 +149,7 @@ static void change_all(play *p)
     }
 }
 
-static void followers_have_the_contents_after_random_changes(void **state)
+static void followers_match_the_contents_after_random_changes(void **state)
 {
     (void)state;
     size_t told = 0, looked = 0;
@@ -177,7 +177,7 @@ static void followers_have_the_contents_after_random_changes(void **state)
 }
 
 /* A refusal by a full leaf is no change, and what a batch refuses neither. */
-static void what_is_refused_is_no_change(void **state)
+static void a_refused_change_is_not_logged(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 0, OCTREE_REFUSE);
@@ -217,7 +217,7 @@ static void a_point_may_be_removed_by_its_place_in_the_tree(void **state)
 
 /* ---- What is not known -------------------------------------------------------------------------------------- */
 
-static void nothing_is_known_without_a_mark_or_a_name(void **state)
+static void changes_are_unknown_without_a_cursor_or_a_log_name(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
@@ -234,7 +234,7 @@ static void nothing_is_known_without_a_mark_or_a_name(void **state)
 }
 
 /* Even where the other tree has as many changes: their logs have different names. */
-static void a_mark_of_another_tree_knows_nothing(void **state)
+static void changes_are_unknown_for_a_cursor_of_another_tree(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW), *other = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
@@ -250,7 +250,7 @@ static void a_mark_of_another_tree_knows_nothing(void **state)
 }
 
 /* Not even where somebody gave the name of the log before it to the log after it. */
-static void no_mark_outlives_a_new_world(void **state)
+static void changes_are_unknown_after_a_new_world(void **state)
 {
     (void)state;
     const octree_box world = cube(-2, 2);
@@ -281,7 +281,7 @@ static size_t memory_of(const octree *tree)
 }
 
 /* And from then on no memory is taken, nor is it while nobody asks. */
-static void too_many_changes_are_not_known(void **state)
+static void changes_are_unknown_after_too_many(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
@@ -309,7 +309,7 @@ static void too_many_changes_are_not_known(void **state)
 }
 
 /* Without memory for the log, a change is made all the same, and is not known. */
-static void a_log_without_memory_stands_in_no_ones_way(void **state)
+static void changes_succeed_when_the_log_has_no_memory(void **state)
 {
     (void)state;
     size_t unknown = 0;
@@ -334,7 +334,7 @@ static void a_log_without_memory_stands_in_no_ones_way(void **state)
     assert_true(unknown >= 1 && unknown < 12);
 }
 
-static void what_is_refused_as_null_is_no_change(void **state)
+static void a_change_refused_as_null_is_not_logged(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
@@ -356,7 +356,7 @@ static void what_is_refused_as_null_is_no_change(void **state)
 enum { LARGE = 2000 };
 
 /* Of which a tree of so few remembers half. */
-static void too_large_a_batch_is_not_known(void **state)
+static void changes_are_unknown_after_too_large_a_batch(void **state)
 {
     (void)state;
     static octree_point points[LARGE];
@@ -376,7 +376,7 @@ static void too_large_a_batch_is_not_known(void **state)
 }
 
 /* A batch is noted by its statuses, which are the first allocation that it makes where the caller wants none. */
-static void a_batch_without_memory_for_its_note_is_made_all_the_same(void **state)
+static void a_batch_succeeds_without_memory_to_log_it(void **state)
 {
     (void)state;
     for (size_t n = 0; n < 2; n++) {
@@ -399,17 +399,17 @@ static void a_batch_without_memory_for_its_note_is_made_all_the_same(void **stat
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(followers_have_the_contents_after_random_changes),
-        cmocka_unit_test(what_is_refused_is_no_change),
+        cmocka_unit_test(followers_match_the_contents_after_random_changes),
+        cmocka_unit_test(a_refused_change_is_not_logged),
         cmocka_unit_test(a_point_may_be_removed_by_its_place_in_the_tree),
-        cmocka_unit_test(nothing_is_known_without_a_mark_or_a_name),
-        cmocka_unit_test(a_mark_of_another_tree_knows_nothing),
-        cmocka_unit_test(no_mark_outlives_a_new_world),
-        cmocka_unit_test(too_many_changes_are_not_known),
-        cmocka_unit_test(a_log_without_memory_stands_in_no_ones_way),
-        cmocka_unit_test(what_is_refused_as_null_is_no_change),
-        cmocka_unit_test(too_large_a_batch_is_not_known),
-        cmocka_unit_test(a_batch_without_memory_for_its_note_is_made_all_the_same),
+        cmocka_unit_test(changes_are_unknown_without_a_cursor_or_a_log_name),
+        cmocka_unit_test(changes_are_unknown_for_a_cursor_of_another_tree),
+        cmocka_unit_test(changes_are_unknown_after_a_new_world),
+        cmocka_unit_test(changes_are_unknown_after_too_many),
+        cmocka_unit_test(changes_succeed_when_the_log_has_no_memory),
+        cmocka_unit_test(a_change_refused_as_null_is_not_logged),
+        cmocka_unit_test(changes_are_unknown_after_too_large_a_batch),
+        cmocka_unit_test(a_batch_succeeds_without_memory_to_log_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

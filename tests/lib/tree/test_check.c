@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_check.c - the validator's sentences, each about a tree that no call of the library can make: a test writes into
- * its nodes. And counts near 2^32, of points that are not there.
- */
+/* test_check.c - octree_check() reports trees that tests corrupt on purpose, and counts near 2^32. */
 #define same_position same_position_of_tree /* fixture.h has one of that name */
 #include "tree.h"
 #undef same_position
@@ -30,7 +28,7 @@ static octree *make_pair(void)
 
 enum { LOWEST = 010 }; /* its address */
 
-static void inner_nodes_are_checked(void **state)
+static void check_reports_broken_inner_nodes(void **state)
 {
     (void)state;
     octree *tree = make_pair();
@@ -50,7 +48,7 @@ static void inner_nodes_are_checked(void **state)
     octree_destroy(tree);
 }
 
-static void leaves_are_checked(void **state)
+static void check_reports_broken_leaves(void **state)
 {
     (void)state;
     static const double places[][3] = {{-0.5, 0, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}};
@@ -65,7 +63,7 @@ static void leaves_are_checked(void **state)
     octree_destroy(tree);
 }
 
-static void places_of_points_are_checked(void **state)
+static void check_reports_misplaced_points(void **state)
 {
     (void)state;
     octree *tree = make_pair();
@@ -79,7 +77,7 @@ static void places_of_points_are_checked(void **state)
     octree_destroy(tree);
 }
 
-static void repeated_points_are_found_in_leaves_of_any_size(void **state)
+static void check_reports_repeated_points_in_leaves_of_any_size(void **state)
 {
     (void)state;
     static const double place[3] = {0.5, 0.5, 0.5}, other[3] = {0.5, 0.5, 0.25};
@@ -119,10 +117,10 @@ static void a_tree_holds_no_more_points_than_32_bits_count(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inner_nodes_are_checked),
-        cmocka_unit_test(leaves_are_checked),
-        cmocka_unit_test(places_of_points_are_checked),
-        cmocka_unit_test(repeated_points_are_found_in_leaves_of_any_size),
+        cmocka_unit_test(check_reports_broken_inner_nodes),
+        cmocka_unit_test(check_reports_broken_leaves),
+        cmocka_unit_test(check_reports_misplaced_points),
+        cmocka_unit_test(check_reports_repeated_points_in_leaves_of_any_size),
         cmocka_unit_test(a_tree_holds_no_more_points_than_32_bits_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_compact.c - a tree that is laid out anew: the same nodes and points, in no more memory than a fresh one. */
+/* test_compact.c - octree_compact() keeps nodes and points and needs no more memory than a new tree. */
 #include "fixture.h"
 
 #include "brute.h"
@@ -30,7 +30,7 @@ static octree *churned_tree(brute *left, counting_allocator *counts, octree_full
     return tree;
 }
 
-static void the_nodes_stay_and_the_memory_is_that_of_a_fresh_tree(void **state)
+static void compact_keeps_the_nodes_and_uses_the_memory_of_a_new_tree(void **state)
 {
     (void)state;
     for (int full_leaf = OCTREE_REFUSE; full_leaf <= OCTREE_GROW; full_leaf++) {
@@ -54,7 +54,7 @@ static void the_nodes_stay_and_the_memory_is_that_of_a_fresh_tree(void **state)
     }
 }
 
-static void without_memory_it_stays_as_it_was(void **state)
+static void compact_without_memory_changes_nothing(void **state)
 {
     (void)state;
     brute left = {0};
@@ -92,8 +92,8 @@ static void an_empty_tree_and_none_are_no_trouble(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_nodes_stay_and_the_memory_is_that_of_a_fresh_tree),
-        cmocka_unit_test(without_memory_it_stays_as_it_was),
+        cmocka_unit_test(compact_keeps_the_nodes_and_uses_the_memory_of_a_new_tree),
+        cmocka_unit_test(compact_without_memory_changes_nothing),
         cmocka_unit_test(an_empty_tree_and_none_are_no_trouble),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

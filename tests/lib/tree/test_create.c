@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_create.c - the definition table, and null for every pointer that a public function requires. */
+/* test_create.c - definitions of trees, and null for every required pointer of a public function. */
 #include "fixture.h"
 
 #include <float.h>
@@ -63,7 +63,7 @@ static void create_refuses_worlds_that_are_empty_or_not_finite(void **state)
             assert_int_equal(status_of_axis(axis, bad[i][0], bad[i][1]), OCTREE_BAD_WORLD);
 }
 
-static void create_takes_any_finite_world(void **state)
+static void create_accepts_any_finite_world(void **state)
 {
     (void)state;
     static const double good[][2] = {
@@ -85,7 +85,7 @@ static octree_def definition_in_force(size_t capacity, size_t depth)
     return def;
 }
 
-static void create_clamps_capacity_and_depth_and_tells(void **state)
+static void create_clamps_and_reports_capacity_and_depth(void **state)
 {
     (void)state;
     static const struct {
@@ -184,7 +184,7 @@ static octree_walk_order visit_node(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-static void null_is_refused_by_what_changes_a_tree(void **state)
+static void functions_that_change_a_tree_refuse_null(void **state)
 {
     (void)state;
     const double at[3] = {0};
@@ -208,7 +208,7 @@ static void null_is_refused_by_what_changes_a_tree(void **state)
     octree_destroy(NULL);
 }
 
-static void null_is_refused_by_what_asks_a_tree(void **state)
+static void functions_that_query_a_tree_refuse_null(void **state)
 {
     (void)state;
     const double at[3] = {0};
@@ -237,7 +237,7 @@ static void null_is_refused_by_what_asks_a_tree(void **state)
     octree_destroy(tree);
 }
 
-static void null_is_refused_by_what_searches_a_tree(void **state)
+static void functions_that_search_a_tree_refuse_null(void **state)
 {
     (void)state;
     const double at[3] = {0};
@@ -291,7 +291,7 @@ static void assert_refused(const octree *tree, const octree_search *how, octree_
     assert_int_equal(octree_nearest_within(tree, at, 1, how, &nearest), status);
 }
 
-static void bad_numbers_are_refused_by_what_searches_a_tree(void **state)
+static void functions_that_search_a_tree_refuse_bad_numbers(void **state)
 {
     (void)state;
     static const struct {
@@ -339,7 +339,7 @@ static void points_are_ordered_by_id_then_position(void **state)
     assert_int_equal(octree_compare_points(&zero, &also_zero), 0);
 }
 
-static void null_is_refused_by_what_looks_at_a_tree(void **state)
+static void functions_that_inspect_a_tree_refuse_null(void **state)
 {
     (void)state;
     const double at[3] = {0};
@@ -434,18 +434,18 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(default_definition_is_the_documented_one),
         cmocka_unit_test(create_refuses_worlds_that_are_empty_or_not_finite),
-        cmocka_unit_test(create_takes_any_finite_world),
-        cmocka_unit_test(create_clamps_capacity_and_depth_and_tells),
+        cmocka_unit_test(create_accepts_any_finite_world),
+        cmocka_unit_test(create_clamps_and_reports_capacity_and_depth),
         cmocka_unit_test(a_capacity_that_is_clamped_still_works),
         cmocka_unit_test(create_refuses_capacity_zero_and_unlisted_options),
         cmocka_unit_test(an_empty_tree_is_one_leaf),
         cmocka_unit_test(clear_makes_a_tree_like_a_new_one),
-        cmocka_unit_test(null_is_refused_by_what_changes_a_tree),
-        cmocka_unit_test(null_is_refused_by_what_asks_a_tree),
-        cmocka_unit_test(null_is_refused_by_what_searches_a_tree),
-        cmocka_unit_test(bad_numbers_are_refused_by_what_searches_a_tree),
+        cmocka_unit_test(functions_that_change_a_tree_refuse_null),
+        cmocka_unit_test(functions_that_query_a_tree_refuse_null),
+        cmocka_unit_test(functions_that_search_a_tree_refuse_null),
+        cmocka_unit_test(functions_that_search_a_tree_refuse_bad_numbers),
         cmocka_unit_test(points_are_ordered_by_id_then_position),
-        cmocka_unit_test(null_is_refused_by_what_looks_at_a_tree),
+        cmocka_unit_test(functions_that_inspect_a_tree_refuse_null),
         cmocka_unit_test(null_is_refused_by_games_and_samples),
         cmocka_unit_test(null_has_nothing_that_could_be_asked_of_a_game),
         cmocka_unit_test(each_status_has_its_own_name_and_sentence),

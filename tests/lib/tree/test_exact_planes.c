@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_exact_planes.c - the planes of cells against the real ones. */
+/* test_exact_planes.c - the planes of cells compared with exact ones. */
 #include "exact_oracle.h"
 #include "extreme_worlds.h"
 
@@ -22,7 +22,7 @@ static void assert_plane(size_t row, uint32_t k, unsigned depth)
         fail_msg("plane %u/2^%u of [%.17g, %.17g] is far off: %.17g", k, depth, low, high, ours);
 }
 
-static void planes_are_the_real_ones_or_close(void **state)
+static void planes_are_exact_or_within_two_steps(void **state)
 {
     (void)state;
     uint64_t random = 6;
@@ -40,7 +40,7 @@ static void planes_are_the_real_ones_or_close(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_are_the_real_ones_or_close),
+        cmocka_unit_test(planes_are_exact_or_within_two_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_few.c - few points inserted or removed at once, in a tree of many, are the same as one by one. */
+/* test_few.c - small batches in a large tree equal single changes. */
 #include "fixture.h"
 
 #include <math.h>
@@ -78,7 +78,7 @@ static void assert_changed_alike(size_t capacity, octree_full_leaf full_leaf)
     assert_all_returned(&counts);
 }
 
-static void few_points_change_as_one_by_one(void **state)
+static void few_changes_equal_single_changes(void **state)
 {
     (void)state;
     static const size_t capacities[] = {1, 3, 8, 64, 200};
@@ -122,7 +122,7 @@ static void a_pair_that_comes_twice_is_removed_once(void **state)
 }
 
 /* That removes nothing is not a change. */
-static void removing_what_is_not_stored_leaves_the_version(void **state)
+static void removing_absent_points_keeps_the_version(void **state)
 {
     (void)state;
     counting_allocator counts = {0};
@@ -264,10 +264,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_allocation_of_many_removals_may_fail),
-        cmocka_unit_test(few_points_change_as_one_by_one),
+        cmocka_unit_test(few_changes_equal_single_changes),
         cmocka_unit_test(a_leaf_that_is_added_moves_its_siblings),
         cmocka_unit_test(a_pair_that_comes_twice_is_removed_once),
-        cmocka_unit_test(removing_what_is_not_stored_leaves_the_version),
+        cmocka_unit_test(removing_absent_points_keeps_the_version),
         cmocka_unit_test(few_removals_survive_the_failure_of_each_allocation),
         cmocka_unit_test(the_points_of_a_leaf_are_given_as_they_are),
     };

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_grid_fill.c - trees that a grid fills, of points that are spread evenly or not, are those of one by one: in
- * statuses, in nodes and in points. */
+/* test_grid_fill.c - trees built by a grid equal trees of single insertions: statuses, nodes and points. */
 #include "fixture.h"
 
 #include <math.h>
@@ -62,7 +61,7 @@ static void assert_inserted_alike(const octree_point points[COUNT], size_t capac
     octree_destroy(stepped);
 }
 
-static void a_tree_that_is_filled_is_that_of_one_by_one(void **state)
+static void a_tree_filled_by_a_grid_equals_one_of_single_insertions(void **state)
 {
     (void)state;
     static octree_point points[COUNT];
@@ -136,7 +135,7 @@ static void assert_moved_alike(const octree_point points[COUNT], const moves *m,
     octree_destroy(stepped);
 }
 
-static void a_tree_that_moves_is_that_of_one_by_one(void **state)
+static void a_tree_rebuilt_by_moves_equals_one_of_single_moves(void **state)
 {
     (void)state;
     static octree_point points[COUNT];
@@ -168,7 +167,7 @@ static void turn_round(moves *m)
 
 /* Some go where others are already, who leave it at the same time: sooner or later, so that the leaf there is full or
  * has room. Or they are the first in their octant. */
-static void a_full_leaf_is_met_in_the_order_given_where_a_tree_moves(void **state)
+static void moves_that_rebuild_meet_full_leaves_in_the_given_order(void **state)
 {
     (void)state;
     static octree_point points[COUNT];
@@ -294,9 +293,9 @@ static void a_crowd_costs_the_same_in_either_corner(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tree_that_is_filled_is_that_of_one_by_one),
-        cmocka_unit_test(a_tree_that_moves_is_that_of_one_by_one),
-        cmocka_unit_test(a_full_leaf_is_met_in_the_order_given_where_a_tree_moves),
+        cmocka_unit_test(a_tree_filled_by_a_grid_equals_one_of_single_insertions),
+        cmocka_unit_test(a_tree_rebuilt_by_moves_equals_one_of_single_moves),
+        cmocka_unit_test(moves_that_rebuild_meet_full_leaves_in_the_given_order),
         cmocka_unit_test(each_point_counts_where_a_leaf_may_be_full),
         cmocka_unit_test(ids_of_any_kind_move),
         cmocka_unit_test(a_crowd_costs_the_same_in_either_corner),

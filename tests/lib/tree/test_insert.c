@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_insert.c - Algorithm 1: what is taken, where it goes, what is refused. */
+/* test_insert.c - Algorithm 1: which points are accepted or refused, and the leaf that receives them. */
 #include "fixture.h"
 
 #include <math.h>
@@ -50,7 +50,7 @@ static void insert_refuses_point_outside_world_by_one_ulp(void **state)
     octree_destroy(tree);
 }
 
-static void insert_takes_the_faces_edges_and_corners_of_the_world(void **state)
+static void insert_accepts_the_faces_edges_and_corners_of_the_world(void **state)
 {
     (void)state;
     static const double values[] = {-7, 2, 11};
@@ -65,7 +65,7 @@ static void insert_takes_the_faces_edges_and_corners_of_the_world(void **state)
     octree_destroy(tree);
 }
 
-static void insert_refuses_a_pair_that_is_stored_and_takes_another_id(void **state)
+static void insert_refuses_a_stored_pair_and_accepts_another_id(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_REFUSE);
@@ -79,7 +79,7 @@ static void insert_refuses_a_pair_that_is_stored_and_takes_another_id(void **sta
     octree_destroy(tree);
 }
 
-static void insert_says_duplicate_rather_than_full(void **state)
+static void insert_returns_duplicate_rather_than_full(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 2, 3, OCTREE_REFUSE);
@@ -91,7 +91,7 @@ static void insert_says_duplicate_rather_than_full(void **state)
     octree_destroy(tree);
 }
 
-static void the_extreme_ids_are_ids_like_others(void **state)
+static void extreme_ids_are_valid(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 21, OCTREE_GROW);
@@ -225,10 +225,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(insert_refuses_every_pattern_of_numbers_that_are_not_finite),
         cmocka_unit_test(insert_refuses_point_outside_world_by_one_ulp),
-        cmocka_unit_test(insert_takes_the_faces_edges_and_corners_of_the_world),
-        cmocka_unit_test(insert_refuses_a_pair_that_is_stored_and_takes_another_id),
-        cmocka_unit_test(insert_says_duplicate_rather_than_full),
-        cmocka_unit_test(the_extreme_ids_are_ids_like_others),
+        cmocka_unit_test(insert_accepts_the_faces_edges_and_corners_of_the_world),
+        cmocka_unit_test(insert_refuses_a_stored_pair_and_accepts_another_id),
+        cmocka_unit_test(insert_returns_duplicate_rather_than_full),
+        cmocka_unit_test(extreme_ids_are_valid),
         cmocka_unit_test(a_leaf_splits_when_it_meets_one_point_too_many),
         cmocka_unit_test(a_point_goes_to_the_octant_of_equation_one),
         cmocka_unit_test(a_full_leaf_at_the_maximum_depth_refuses_or_grows),

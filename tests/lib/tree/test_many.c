@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_many.c - many insertions or removals at once are the same as one after the other, in statuses and in nodes. */
+/* test_many.c - batches of insertions and removals equal single changes: statuses and nodes. */
 #include "fixture.h"
 
 #include <float.h>
@@ -142,7 +142,7 @@ static void play_round(uint64_t seed, octree_box world, size_t capacity, size_t 
     destroy_twins(p.trees);
 }
 
-static void batches_are_the_same_as_one_by_one(void **state)
+static void batches_equal_single_changes(void **state)
 {
     (void)state;
     for (uint64_t seed = 0; seed < 8; seed++)
@@ -163,7 +163,7 @@ static const octree_box extreme_worlds[] = {
     {{-1e200, -1e-200, 1}, {1e200, 1e-200, 1 + DBL_EPSILON}},
 };
 
-static void batches_are_the_same_as_one_by_one_in_extreme_worlds(void **state)
+static void batches_equal_single_changes_in_extreme_worlds(void **state)
 {
     (void)state;
     static const size_t depths[] = {0, 1, 3, 8, 21};
@@ -176,7 +176,7 @@ static void batches_are_the_same_as_one_by_one_in_extreme_worlds(void **state)
             }
 }
 
-static void large_batches_are_the_same_as_one_by_one(void **state)
+static void large_batches_equal_single_changes(void **state)
 {
     (void)state;
     /* Leaves beyond 64 points, and thousands of points on a few places. */
@@ -202,7 +202,7 @@ static void large_batches_are_the_same_as_one_by_one(void **state)
         }
 }
 
-static void a_few_points_are_the_same_as_one_by_one(void **state)
+static void small_batches_equal_single_changes(void **state)
 {
     (void)state;
     static const size_t capacities[] = {1, 2, 8, 64, 200};
@@ -261,7 +261,7 @@ static void what_is_stored_stays_when_a_batch_meets_a_full_leaf(void **state)
     octree_destroy(tree);
 }
 
-static void zeros_of_both_signs_are_one_place_and_the_first_bits_are_kept(void **state)
+static void zeros_of_both_signs_are_one_position_and_the_first_bits_are_kept(void **state)
 {
     (void)state;
     for (int negative = 0; negative < 2; negative++) {
@@ -321,7 +321,7 @@ static void statuses_and_counters_may_be_left_out(void **state)
     octree_destroy(tree);
 }
 
-static void null_and_endless_arrays_are_refused(void **state)
+static void null_and_oversized_arrays_are_refused(void **state)
 {
     (void)state;
     static const octree_point point = {{0, 0, 0}, 2};
@@ -365,7 +365,7 @@ static void insert_in_pieces(octree *tree, uint64_t *random, const brute *all)
     }
 }
 
-static void the_order_and_the_sizes_of_batches_do_not_show_under_grow(void **state)
+static void the_order_and_sizes_of_batches_do_not_matter_under_grow(void **state)
 {
     (void)state;
     for (uint64_t seed = 0; seed < 200; seed++) {
@@ -500,17 +500,17 @@ static void queries_are_right_after_batches(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(batches_are_the_same_as_one_by_one),
-        cmocka_unit_test(batches_are_the_same_as_one_by_one_in_extreme_worlds),
-        cmocka_unit_test(large_batches_are_the_same_as_one_by_one),
-        cmocka_unit_test(a_few_points_are_the_same_as_one_by_one),
+        cmocka_unit_test(batches_equal_single_changes),
+        cmocka_unit_test(batches_equal_single_changes_in_extreme_worlds),
+        cmocka_unit_test(large_batches_equal_single_changes),
+        cmocka_unit_test(small_batches_equal_single_changes),
         cmocka_unit_test(a_full_leaf_takes_the_first_in_input_order),
         cmocka_unit_test(what_is_stored_stays_when_a_batch_meets_a_full_leaf),
-        cmocka_unit_test(zeros_of_both_signs_are_one_place_and_the_first_bits_are_kept),
+        cmocka_unit_test(zeros_of_both_signs_are_one_position_and_the_first_bits_are_kept),
         cmocka_unit_test(a_batch_that_does_nothing_leaves_the_version),
         cmocka_unit_test(statuses_and_counters_may_be_left_out),
-        cmocka_unit_test(null_and_endless_arrays_are_refused),
-        cmocka_unit_test(the_order_and_the_sizes_of_batches_do_not_show_under_grow),
+        cmocka_unit_test(null_and_oversized_arrays_are_refused),
+        cmocka_unit_test(the_order_and_sizes_of_batches_do_not_matter_under_grow),
         cmocka_unit_test(removing_everything_leaves_the_empty_tree),
         cmocka_unit_test(batches_one_after_the_other_take_no_more_memory),
         cmocka_unit_test(queries_are_right_after_batches),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_many_memory.c - memory when many points change at once: failures leave no trace, and a point has its bound. */
+/* test_many_memory.c - memory of batches: a failure changes nothing, and the memory per point is bounded. */
 #include "fixture.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_memory.c - the allocator contract: every byte comes back, and every failure leaves the tree as it was. */
+/* test_memory.c - the allocator contract: all memory is released, and every failure leaves the tree as it was. */
 #include "fixture.h"
 
 #include "brute.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_move.c - a point arrives or stays. */
+/* test_move.c - octree_move(): a point arrives or stays where it was. */
 #include "fixture.h"
 
 #include <math.h>

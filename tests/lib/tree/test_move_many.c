@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_move_many.c - many moves at once are the same as one after the other, in statuses, in nodes and in points. */
+/* test_move_many.c - batches of moves equal single moves: statuses, nodes and points. */
 #include "fixture.h"
 
 #include <float.h>
@@ -148,7 +148,7 @@ static void play_round(uint64_t seed, octree_box world, size_t capacity, size_t 
     octree_destroy(p.stepped);
 }
 
-static void moves_at_once_are_the_same_as_one_by_one(void **state)
+static void batched_moves_equal_single_moves(void **state)
 {
     (void)state;
     static const size_t capacities[] = {1, 2, 3, 5, 8, 64}, depths[] = {0, 1, 2, 4, 21};
@@ -160,7 +160,7 @@ static void moves_at_once_are_the_same_as_one_by_one(void **state)
             }
 }
 
-static void moves_at_once_are_the_same_in_extreme_worlds(void **state)
+static void batched_moves_equal_single_moves_in_extreme_worlds(void **state)
 {
     (void)state;
     static const octree_box worlds[] = {
@@ -271,7 +271,7 @@ static void many_moves_find_their_own_among_points_of_one_id(void **state)
     }
 }
 
-static void a_full_leaf_is_met_in_the_order_given(void **state)
+static void batched_moves_meet_full_leaves_in_the_given_order(void **state)
 {
     (void)state;
     /* One leaf of two: what comes first takes the place that was left before it, and not the one that is left after. */
@@ -331,7 +331,7 @@ static void a_pair_moves_on_within_one_batch(void **state)
     octree_destroy(tree);
 }
 
-static void null_and_endless_arrays_are_refused(void **state)
+static void null_and_oversized_arrays_are_refused(void **state)
 {
     (void)state;
     static const octree_point point = {{0, 0, 0}, 1};
@@ -397,7 +397,7 @@ static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t c
     return failed;
 }
 
-static void moves_of_what_is_absent_leave_a_tree_as_it_was(void **state)
+static void moves_of_absent_points_change_nothing(void **state)
 {
     (void)state;
     enum { STORED = 200 };
@@ -442,15 +442,15 @@ static void moves_survive_the_failure_of_each_allocation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moves_at_once_are_the_same_as_one_by_one),
-        cmocka_unit_test(moves_at_once_are_the_same_in_extreme_worlds),
+        cmocka_unit_test(batched_moves_equal_single_moves),
+        cmocka_unit_test(batched_moves_equal_single_moves_in_extreme_worlds),
         cmocka_unit_test(every_share_moves_the_same),
         cmocka_unit_test(many_moves_find_their_own_among_points_of_one_id),
-        cmocka_unit_test(a_full_leaf_is_met_in_the_order_given),
+        cmocka_unit_test(batched_moves_meet_full_leaves_in_the_given_order),
         cmocka_unit_test(a_leaf_is_full_of_what_moves_within_it_later),
         cmocka_unit_test(a_pair_moves_on_within_one_batch),
-        cmocka_unit_test(null_and_endless_arrays_are_refused),
-        cmocka_unit_test(moves_of_what_is_absent_leave_a_tree_as_it_was),
+        cmocka_unit_test(null_and_oversized_arrays_are_refused),
+        cmocka_unit_test(moves_of_absent_points_change_nothing),
         cmocka_unit_test(moves_survive_the_failure_of_each_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

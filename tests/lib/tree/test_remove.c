@@ -16,7 +16,7 @@ static void assert_not_removed(octree *tree, const double position[3], uint64_t 
     assert_valid(tree);
 }
 
-static void remove_refuses_what_is_not_there(void **state)
+static void remove_refuses_absent_points(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_REFUSE);
@@ -34,7 +34,7 @@ static void remove_refuses_what_is_not_there(void **state)
     octree_destroy(tree);
 }
 
-static void remove_takes_the_named_one_of_coincident_points(void **state)
+static void remove_removes_the_id_given_among_coincident_points(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_REFUSE);
@@ -47,7 +47,7 @@ static void remove_takes_the_named_one_of_coincident_points(void **state)
     octree_destroy(tree);
 }
 
-static void remove_takes_plus_zero_for_minus_zero(void **state)
+static void remove_treats_plus_zero_as_minus_zero(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 21, OCTREE_REFUSE);
@@ -146,9 +146,9 @@ static void removing_all_in_any_order_leaves_an_empty_tree(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(remove_refuses_what_is_not_there),
-        cmocka_unit_test(remove_takes_the_named_one_of_coincident_points),
-        cmocka_unit_test(remove_takes_plus_zero_for_minus_zero),
+        cmocka_unit_test(remove_refuses_absent_points),
+        cmocka_unit_test(remove_removes_the_id_given_among_coincident_points),
+        cmocka_unit_test(remove_treats_plus_zero_as_minus_zero),
         cmocka_unit_test(octants_merge_when_they_fit_one_leaf),
         cmocka_unit_test(a_merge_climbs_through_all_levels),
         cmocka_unit_test(a_grown_leaf_shrinks_and_merges),

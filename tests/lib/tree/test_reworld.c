@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_reworld.c - the same points in another world: as if the tree had been built there, or nothing has happened. */
+/* test_reworld.c - octree_reworld() equals a new tree in that world, or changes nothing. */
 #include "fixture.h"
 
 #include <float.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_tune.c - a leaf capacity chosen for the points and a mix of operations: only the nodes change, never an answer.
- */
+/* test_tune.c - octree_tune() changes the leaf capacity and the nodes, never an answer. */
 #include "fixture.h"
 
 #include <float.h>
@@ -109,7 +108,7 @@ static void the_scale_of_a_mix_does_not_count(void **state)
     brute_free(&all);
 }
 
-static void what_a_mix_cannot_say_is_refused_and_changes_nothing(void **state)
+static void an_invalid_mix_is_refused_and_changes_nothing(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 3, 21, OCTREE_GROW), *refusing = make_tree(cube(-1, 1), 3, 21, OCTREE_REFUSE);
@@ -303,7 +302,7 @@ int main(void)
         cmocka_unit_test(large_ranges_and_many_neighbors_want_larger_leaves_than_finds),
         cmocka_unit_test(the_choice_depends_on_neither_order_nor_the_capacity_before),
         cmocka_unit_test(the_scale_of_a_mix_does_not_count),
-        cmocka_unit_test(what_a_mix_cannot_say_is_refused_and_changes_nothing),
+        cmocka_unit_test(an_invalid_mix_is_refused_and_changes_nothing),
         cmocka_unit_test(trees_of_any_size_and_world_can_be_tuned),
         cmocka_unit_test(equal_points_can_be_tuned),
         cmocka_unit_test(an_automatic_tree_is_tuned_as_it_grows),
