@@ -12,6 +12,7 @@
  * reported. The cost is that of sorting the listed ids, and one judgement for each query that pruned nodes.
  */
 #include "foreign.h"
+#include "octree/octree.h"
 #include "point.h"
 
 #include <stdlib.h>
