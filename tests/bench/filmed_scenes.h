@@ -33,6 +33,7 @@ extern const filmed_scene filmed_scenes[FILMED_SCENES];
 #define GOAL_PAGE_MIB 300.0
 
 /* The goal for what judging the answers adds to a frame, as a share of a frame without queries. */
+#define GOAL_CHECKED 1.03 /* a frame of a checked recording, as a multiple of one without checks */
 #define GOAL_JUDGING 0.3
 
 /* The view of a scene: 1280 x 720, text on. The naive way leaves nothing out. */

@@ -119,9 +119,14 @@ static bool film_in_parts(work *w, playback *p)
             ok = fail(w, error.text);
         spent[0] += worked() - start;
         ok = ok && film_part(w, p, again, spent);
-        if (i == 0)
+        if (i == 0) {
+            w->result->first_ms = spent[0] + spent[1];
             memset(spent, 0, sizeof spent); /* start-up */
+        }
     }
+    const double start = worked();
+    ok = ok && (playback_check_last(p, &error) || fail(w, error.text));
+    spent[0] += worked() - start;
     const double frames = (double)(w->order->frames - 1);
     w->result->draw_ms = spent[0] / frames;
     w->result->encode_ms = spent[1] / frames;
@@ -136,7 +141,9 @@ static bool film_parts(work *w)
     playback p;
     octreel_error error;
     const view v = filmed_view(w->order->scene);
-    const playback_target target = {.frames = FRAMES_SHOW, .every = 1};
+    const draw_fill fill = w->order->who == FILM_CHECKED ? DRAW_FILL_CHECKED : DRAW_FILL_INTEGERS;
+    const playback_target target = {
+        .frames = FRAMES_SHOW, .folder = w->order->folder, .every = 1, .renderer.fill = fill};
     setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
     const bool open = folder_make(w->order->folder, &error) && playback_open(&p, w->session, NULL, &v, &error) &&
                       playback_film(&p, &target, &error);
@@ -239,8 +246,9 @@ static uint64_t count_ticks(const filming_order *order)
 static void do_work(const filming_order *order, double started, int result_end)
 {
     static bool (*const films[FILM_KINDS])(work *) = {
-        [FILM_NAIVE] = film_naive, [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts,
-        [FILM_ASKED] = film_parts, [FILM_ANSWERED] = film_parts,  [FILM_PAGE] = film_page};
+        [FILM_NAIVE] = film_naive,   [FILM_OCTREEL] = film_octreel, [FILM_PARTS] = film_parts,
+        [FILM_CHECKED] = film_parts, [FILM_ASKED] = film_parts,     [FILM_ANSWERED] = film_parts,
+        [FILM_PAGE] = film_page};
     filming result = {0};
     filmed_session made;
     work w = {.order = order, .result = &result, .started = started, .apart = 1};

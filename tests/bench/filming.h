@@ -9,6 +9,7 @@ typedef enum filming_who {
     FILM_NAIVE,    /* see naive.h: one process, one thread */
     FILM_OCTREEL,  /* film_session(), by as many processes as asked for */
     FILM_PARTS,    /* what Octreel does for a frame, part by part: one process */
+    FILM_CHECKED,  /* the same, where OSMesa also draws the first, every 100th and the last frame */
     FILM_ASKED,    /* the same, with the scene's queries */
     FILM_ANSWERED, /* which a program has answered */
     FILM_PAGE,     /* the page of a recording, see page_timing.h: frames are drawn, and none is written */
@@ -26,7 +27,8 @@ typedef struct filming_order {
 
 /* Milliseconds; what a kind does not measure is 0. */
 typedef struct filming {
-    double first_ms;           /* from the start of the process until its first frame is written */
+    double first_ms;           /* from the start of the process until its first frame is written; of FILM_CHECKED: the
+                                  processor time of the first frame, in which Mesa is loaded */
     double frame_ms;           /* a frame, by the clock on the wall, start-up apart; in parts: of a processor */
     double draw_ms, encode_ms; /* of a processor, the two parts of a frame: all up to its pixels, and its file */
     double floor_ms;           /* of a processor: what the encoder alone takes for these pixels */

@@ -55,7 +55,8 @@ static void json_tells_who_filmed_what_how_fast(void **state)
     const char *line = strtok(run.out, "\n");
     for (int i = 0; i < 2; i++, line = strtok(NULL, "\n"))
         assert_figures(line, who[i], positive, sizeof positive / sizeof positive[0]);
-    assert_null(line);
+    assert_figures(line, "checked", (const char *const[]){"fps", "times_plain", "load_ms"}, 3);
+    assert_null(strtok(NULL, "\n"));
     command_release(&run);
 }
 
@@ -80,6 +81,7 @@ static void queries_are_filmed_with_answers_and_without(void **state)
     command_result run = run_bench("--browser no-such-browser --json --folder . --scene M --frames 6 --rounds 1");
     assert_int_equal(run.status, 0);
     strtok(run.out, "\n");
+    strtok(NULL, "\n");
     strtok(NULL, "\n");
     for (int i = 0; i < 2; i++) {
         json_t *told = json_read(strtok(NULL, "\n"));
@@ -109,6 +111,7 @@ static void page_is_timed_beside_what_films(void **state)
         run_script("%s --json " FILM_A_FEW "--folder %s", shell_quote(OCTREEL_BENCH).text, shell_quote(odd.path).text);
     assert_done(&run);
     strtok(run.out, "\n");
+    strtok(NULL, "\n");
     strtok(NULL, "\n");
     assert_figures(strtok(NULL, "\n"), "page", positive, sizeof positive / sizeof positive[0]);
     assert_int_equal(rmdir(odd.path), 0);
