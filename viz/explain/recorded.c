@@ -47,7 +47,7 @@ static bool check_session(recorded *r, octreel_error *error)
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
 {
     *r = (recorded){.side = side};
-    who_drew(side->path, r->drawn_by, sizeof r->drawn_by);
+    describe_recorded_renderer(side->path, r->drawn_by, sizeof r->drawn_by);
     if (!replay_read(&r->replay, side->path, error))
         return false;
     r->view = (cause_view){r->replay.film.view, r->replay.film.every};
@@ -138,7 +138,7 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     if (!text_stream_end(&s, &text))
         return error_no_memory(error);
     const expected_line expected = {text, s.size, tick, &extras};
-    r->reading = line_same(&r->lines, &expected, &finding);
+    r->reading = line_matches(&r->lines, &expected, &finding);
     free(text);
     return r->reading || warn(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
                               r->side->path, tick->number, finding.text);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* film.c - a session, or one tree, becomes pictures in files. */
+/* film.c - records a session, or draws one tree into a file. */
 #include "film.h"
 #include "cores.h"
 #include "file.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A process takes as long to start as some ten small frames take to be filmed. */
+/* Starting a process takes about as long as filming ten small frames. */
 #define FRAMES_WORTH_A_JOB 16
 
 /* ---- A session ---------------------------------------------------------------------------------------------- */
@@ -26,11 +26,12 @@ static bool find_share(const octree_session *session, const film_options *option
     const bool open = options->last == 0 || options->last > total;
     *share = (film_share){.first = options->first, .last = open ? total : options->last};
     return share->first < share->last ||
-           error_set(error, "there is no chunk from tick %" PRIu64 " on: the session's last tick is %" PRIu64,
-                     share->first, total - 1);
+           error_set(error, "no chunk can begin at tick %" PRIu64 ": the session's last tick is %" PRIu64, share->first,
+                     total - 1);
 }
 
-/* The frames by which a share is divided among jobs: one before its first tick counts too, for the ticks after it. */
+/* The number of frames by which a share is divided among jobs. A frame before the first tick counts too, since the
+ * ticks after it belong to the job of that frame. */
 static uint64_t count_frames(const film_share *share, uint64_t every)
 {
     return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
@@ -72,7 +73,7 @@ film_start film_count_start(const octree_session *session, const octree_tick *ti
     return start;
 }
 
-/* What a session needs before its first tick, where it is large: both take about as long. */
+/* The two preparations of a recording run in parallel; for a large session they take about the same time. */
 enum { OPEN_PLAYBACK, MAKE_BYTES, PREPARATIONS };
 
 typedef struct preparation {

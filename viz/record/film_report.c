@@ -14,10 +14,11 @@
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* One line. The command of ffmpeg's is run in the folder, so that it reads no name but its own; with "./" cd does not
- * look elsewhere. Frames are found by a pattern: a numbered sequence would end at the first gap. Every player shows
- * yuv420p, which has even sides. */
-static void put_uses(FILE *out, const film_summary *summary, const char *folder)
+/* Print how to watch the recording. ffmpeg runs inside the folder, so that the folder's name is not part of its
+ * pattern;
+ * "./" keeps cd from searching CDPATH. A glob pattern is used because a numbered sequence would end at the first gap.
+ * yuv420p, which every player shows, needs even sides. */
+static void print_uses(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
         fputs(page_plays() ? "its index.html draws it in a browser, and plays on\n" : "", out);
@@ -32,12 +33,12 @@ static void put_uses(FILE *out, const film_summary *summary, const char *folder)
 
 /* ---- Filmed ------------------------------------------------------------------------------------------------- */
 
-static double rate_of(const film_summary *summary, double seconds)
+static double find_rate(const film_summary *summary, double seconds)
 {
     return seconds > 0 ? (double)(summary->frames - summary->kept) / seconds : 0;
 }
 
-/* The members that both reports have. */
+/* Write the members that both JSON summaries have. */
 static void begin_json(json_writer *w, const film_summary *summary, const char *folder)
 {
     json_write_begin_object(w);
@@ -58,7 +59,7 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
     json_member_integer(w, "below_lod", summary->below_lod);
     json_member_integer(w, "refusals", summary->refusals);
     json_member_number(w, "seconds", seconds);
-    json_member_number(w, "frames_per_second", rate_of(summary, seconds));
+    json_member_number(w, "frames_per_second", find_rate(summary, seconds));
     json_member_begin_object(w, "events");
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         json_member_integer(w, octree_event_name(1u << i), summary->events[i]);
@@ -129,7 +130,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     report_counts(out, summary, options->folder);
     fprintf(out, ", %.1f s", seconds);
     if (summary->frames > summary->kept)
-        fprintf(out, ", %.0f frames a second", rate_of(summary, seconds));
+        fprintf(out, ", %.0f frames a second", find_rate(summary, seconds));
     putc('\n', out);
     if (summary->checks.count)
         fprintf(out, "%" PRIu64 " of %" PRIu64 " frame%s checked with %s\n", summary->checks.count,
@@ -138,7 +139,8 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     report_left_out(out, summary);
     fputs("ticks that", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        if (1u << i != OCTREE_EVENT_WRONG || summary->events[i]) /* of a session without answers it would only puzzle */
+        if (1u << i != OCTREE_EVENT_WRONG ||
+            summary->events[i]) /* 0 wrong answers would be confusing where no answers were given */
             fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
     if (summary->refusals)
@@ -149,11 +151,11 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     if (options->last != 0)
         report_chunk(out, summary, options);
     else
-        put_uses(out, summary, options->folder);
+        print_uses(out, summary, options->folder);
 }
 
-/* The world as a session has it. */
-static void put_world(FILE *out, const octree_session *session)
+/* Print a world that contains all points, as a member of a session. */
+static void print_world(FILE *out, const octree_session *session)
 {
     const octree_body *bodies = session->bodies;
     const octree_box world = point_world(bodies->position, sizeof *bodies, session->body_count);
@@ -167,7 +169,7 @@ void film_report_start(FILE *out, const film_start *start, const octree_session 
             out,
             "octreel: %zu of the session's %zu points lie outside its world and are refused; to have them, give it ",
             start->outside, start->points);
-        put_world(out, session);
+        print_world(out, session);
         putc('\n', out);
     } else if (start->full > start->points / 2) {
         fprintf(out,
@@ -184,7 +186,7 @@ void film_report_empty(FILE *out, const film_summary *summary, const film_option
     if (lacking)
         fprintf(out, "octreel: no point has %s: --color-points %s shows all points alike\n", lacking,
                 view_point_color_name(v->point_color));
-    if (summary->program_nodes > 0)
+    if (summary->foreign_nodes > 0)
         return;
     if (v->tree == TREE_FOREIGN)
         fputs("octreel: no tick has nodes of a program: --tree foreign shows no nodes\n", out);
@@ -216,7 +218,7 @@ void film_report_joined(FILE *out, const film_summary *summary, const film_optio
     report_counts(out, summary, options->folder);
     putc('\n', out);
     report_left_out(out, summary);
-    put_uses(out, summary, options->folder);
+    print_uses(out, summary, options->folder);
 }
 
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options)

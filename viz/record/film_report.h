@@ -7,11 +7,11 @@
 
 #include <stdio.h>
 
-/* "nodes, points and velocity arrows", of bits LEFT_OUT_* of scene.h. */
+/* "nodes, points and velocity arrows", for bits LEFT_OUT_* of scene.h. Returns `text`. */
 #define FILM_LEFT_OUT 48
 const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT]);
 
-/* A few lines for people, with the commands by which ffmpeg makes films of it, or one JSON object on one line. */
+/* Print a few lines for people, with the ffmpeg command that makes a film, or one JSON object on one line. */
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
 
 /* A note where more than half of the session's points were refused at its start, with the member of the session that
@@ -25,10 +25,10 @@ void film_report_empty(FILE *out, const film_summary *summary, const film_option
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session);
 
-/* The same of a recording that was joined from its chunks, of which less is known. */
+/* Print the shorter summary of a recording that join_chunks() made. */
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);
 
-/* One sentence: how many ticks were filmed, and the command that continues. */
+/* Print the number of recorded ticks and the command that continues. */
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* film_stream.c - a session is filmed while it is written. */
+/* film_stream.c - records a session from a stream that may still be written. */
 #include "film.h"
 #include "live.h"
 
@@ -8,8 +8,8 @@ typedef struct streaming {
     live_recording *live;
     const film_options *options;
     octreel_error *error;
-    uint64_t end;  /* the session's last tick, as far as that is known */
-    uint64_t last; /* that was filmed */
+    uint64_t end;  /* the session's last tick, as far as it is known */
+    uint64_t last; /* the last recorded tick */
 } streaming;
 
 static bool keeps_going(const streaming *s)
@@ -17,7 +17,7 @@ static bool keeps_going(const streaming *s)
     return !s->options->keep_going || s->options->keep_going(s->options->context);
 }
 
-/* Film the next tick: with this input, or with nothing but its key. */
+/* Record the next tick, with this input or, if it is null, with its key alone. */
 static film_stream_end film_next(streaming *s, const octree_input *input)
 {
     static const octree_input nothing = {0};
@@ -29,7 +29,7 @@ static film_stream_end film_next(streaming *s, const octree_input *input)
     return FILM_STREAM_WHOLE;
 }
 
-/* Those up to a tick that have no object. */
+/* Record the ticks up to a tick, which have no object in the stream. */
 static film_stream_end film_up_to(streaming *s, uint64_t tick)
 {
     film_stream_end how = FILM_STREAM_WHOLE;
@@ -48,7 +48,7 @@ static film_stream_end film_object(streaming *s, const session_stream_tick *tick
     return live_note(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
 }
 
-/* What the header leaves open is known when all has come: ticks, and keys after the last object. */
+/* At the end of the stream the number of ticks is known, and keys may be left that have no object. */
 static film_stream_end film_rest(streaming *s)
 {
     octree_session session = *session_stream_start(s->from);

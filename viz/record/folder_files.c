@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* folder_files.c - the files of a recording that are written once, and to which recording a folder belongs. */
+/* folder_files.c - writes session.json, recording.json and renderer.json, and decides whether a recording may be
+ * resumed in a folder. */
 #include "folder_files.h"
 #include "frame_file.h"
 #include "png_write.h"
@@ -16,10 +17,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Once --------------------------------------------------------------------------------------------------- */
+/* ---- Shared ------------------------------------------------------------------------------------------------ */
 
-/* Whether the file has these bytes. */
-static bool compare(const char *path, const char *bytes, size_t size, bool *same, octreel_error *error)
+/* *same: whether a file has these bytes. False with an error where it cannot be read. */
+static bool compare_file(const char *path, const char *bytes, size_t size, bool *same, octreel_error *error)
 {
     char reason[FILE_REASON], *there;
     size_t there_size;
@@ -30,9 +31,9 @@ static bool compare(const char *path, const char *bytes, size_t size, bool *same
     return true;
 }
 
-/* A link, unlike a rename, does not replace a file that is there. Where a file system has no links the last writer
- * wins, whole all the same. */
-static bool put_in_place(const char *own, const char *path, octreel_error *error)
+/* Give a finished file its name unless another process was first: unlike rename(), link() does not replace a file. On
+ * file systems without links the last writer wins; its file is whole, too. */
+static bool publish_file(const char *own, const char *path, octreel_error *error)
 {
     if (link(own, path) == 0 || errno == EEXIST) {
         remove(own);
@@ -45,7 +46,7 @@ static bool put_in_place(const char *own, const char *path, octreel_error *error
     return false;
 }
 
-/* By way of a file that has the writer's word in its name. */
+/* Write a file under a name of this writer's own, then publish it. */
 static bool write_once(const folder_place *place, const char *name, const char *path, const char *bytes, size_t size,
                        octreel_error *error)
 {
@@ -53,15 +54,15 @@ static bool write_once(const folder_place *place, const char *name, const char *
     snprintf(own_name, sizeof own_name, "%s.%s", name, place->writer);
     char *own = path_join(place->folder, own_name);
     bool ok = own ? folder_write(place->folder, own_name, bytes, size, error) : error_no_memory(error);
-    ok = ok && put_in_place(own, path, error);
+    ok = ok && publish_file(own, path, error);
     free(own);
     return ok;
 }
 
-/* Into a folder that may hold the recording already. `unlike` is the error for a file with other bytes; null: they are
- * accepted. */
-static bool put_shared(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
-                       octreel_error *error)
+/* Write a file unless it exists. `unlike`: the error where it exists with other bytes; null: other bytes are accepted.
+ */
+static bool write_shared(const folder_place *place, const char *name, const char *bytes, size_t size,
+                         const char *unlike, octreel_error *error)
 {
     bool same = true;
     char *path = path_join(place->folder, name);
@@ -69,16 +70,16 @@ static bool put_shared(const folder_place *place, const char *name, const char *
         return error_no_memory(error);
     const bool there = access(path, F_OK) == 0;
     bool ok = there || place->dry_run || write_once(place, name, path, bytes, size, error);
-    ok = ok && ((!there && place->dry_run) || compare(path, bytes, size, &same, error)) &&
+    ok = ok && ((!there && place->dry_run) || compare_file(path, bytes, size, &same, error)) &&
          (same || !unlike || error_set(error, "%s: %s", path, unlike));
     free(path);
     return ok;
 }
 
-static bool put_file(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
-                     octreel_error *error)
+static bool write_file(const folder_place *place, const char *name, const char *bytes, size_t size, const char *unlike,
+                       octreel_error *error)
 {
-    return place->writer || place->dry_run ? put_shared(place, name, bytes, size, unlike, error)
+    return place->writer || place->dry_run ? write_shared(place, name, bytes, size, unlike, error)
                                            : folder_write(place->folder, name, bytes, size, error);
 }
 
@@ -99,18 +100,18 @@ bool make_session_bytes(const octree_session *session, const point_values *value
 
 bool write_session_file(const folder_place *place, const session_bytes *session, octreel_error *error)
 {
-    return put_file(place, "session.json", session->bytes, session->size, "is another session, or was changed by hand",
-                    error);
+    return write_file(place, "session.json", session->bytes, session->size,
+                      "is another session, or was changed by hand", error);
 }
 
-/* Write what was printed into a stream of text, and end it. */
-static bool put_stream(const folder_place *place, const char *name, text_stream *s, const char *unlike,
-                       octreel_error *error)
+/* End a text stream and write its text as a file. */
+static bool write_stream(const folder_place *place, const char *name, text_stream *s, const char *unlike,
+                         octreel_error *error)
 {
     char *bytes;
     if (!text_stream_end(s, &bytes))
         return error_no_memory(error);
-    const bool ok = put_file(place, name, bytes, s->size, unlike, error);
+    const bool ok = write_file(place, name, bytes, s->size, unlike, error);
     free(bytes);
     return ok;
 }
@@ -120,9 +121,9 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
     text_stream s;
     if (text_stream_begin(&s))
         recording_write(s.stream, v, every);
-    return put_stream(place, "recording.json", &s,
-                      "tells of another view (size, camera, layers, every ...), or is by another version of octreel",
-                      error);
+    return write_stream(
+        place, "recording.json", &s,
+        "has another view (size, camera, layers, every ...), or was written by another version of octreel", error);
 }
 
 static void write_text(json_writer *w, const char *key, const char *text)
@@ -148,14 +149,14 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     json_write_newline(w);
     json_write_end_object(w);
     json_write_end_line(w);
-    return put_stream(place, "renderer.json", &s, NULL, error);
+    return write_stream(place, "renderer.json", &s, NULL, error);
 }
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
 
-char *who_draws(const renderer_info *info, char *text, size_t size)
+char *describe_renderer(const renderer_info *info, char *text, size_t size)
 {
-    enum { LONGEST = 100 }; /* of each of the strings */
+    enum { LONGEST = 100 }; /* characters of each string */
     const char *const words[] = {info->context, info->renderer, info->version};
     size_t length = 0;
     const bool by_gl = !info->fill || strcmp(info->fill, draw_fill_name(DRAW_FILL_GL)) == 0;
@@ -171,9 +172,9 @@ static const char *text_of(const json_t *object, const char *key)
     return json_string_value(json_object_get(object, key));
 }
 
-char *who_drew(const char *folder, char *text, size_t size)
+char *describe_recorded_renderer(const char *folder, char *text, size_t size)
 {
-    enum { LARGEST = 1 << 16 }; /* of those that are written a hundredth */
+    enum { LARGEST = 1 << 16 }; /* bytes; 100 times the size that octreel writes */
     char reason[FILE_REASON], *path = path_join(folder, "renderer.json");
     uint64_t bytes = 0;
     FILE *file = path ? file_open(path, &bytes, reason) : NULL;
@@ -182,7 +183,7 @@ char *who_drew(const char *folder, char *text, size_t size)
                                 .renderer = text_of(object, "renderer"),
                                 .version = text_of(object, "version"),
                                 .fill = text_of(object, "fill")};
-    who_draws(&info, text, size);
+    describe_renderer(&info, text, size);
     json_decref(object);
     if (file)
         fclose(file);
@@ -190,7 +191,7 @@ char *who_drew(const char *folder, char *text, size_t size)
     return text;
 }
 
-/* ---- Whose folder it is ------------------------------------------------------------------------------------- */
+/* ---- Resuming ----------------------------------------------------------------------------------------------- */
 
 static bool is_empty(const char *folder, const char *name)
 {
@@ -201,15 +202,15 @@ static bool is_empty(const char *folder, const char *name)
     return empty;
 }
 
-/* Whether it is a file of a recording that is beyond its first moments: what one leaves that is killed before is at
- * most recording.json, session.json and an empty ticks.jsonl. */
-static bool is_past_beginning(const char *folder, const char *name)
+/* Whether a file shows that a recording got past its start: one that is killed at its start leaves at most
+ * recording.json, session.json and an empty ticks.jsonl. */
+static bool is_past_start(const char *folder, const char *name)
 {
     return folder_is_name(name) && !folder_is_unfinished(name) && strcmp(name, "recording.json") != 0 &&
            strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
 }
 
-/* Whether a program died while it made this session. */
+/* Check that session.json.live, left by a program that died, is this session. */
 static bool check_live_session(const char *folder, uint64_t session_digest, octreel_error *error)
 {
     session_file file;
@@ -223,38 +224,37 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
     return ok;
 }
 
-/* The files are looked for after the folder was read: a recording has them before it has anything else, so that what
- * another process is filming into the folder at the same time is not refused. */
+/* Check that the folder has recording.json and session.json. This comes after the folder was listed: a recording writes
+ * these two first, so a recording that another process has just begun is not refused. */
 static bool check_known(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
     const bool view = folder_has(folder, "recording.json"), session = folder_has(folder, "session.json");
     if (view && !session && folder_has(folder, "session.json.live"))
         return check_live_session(folder, session_digest, error);
     return (view && session) ||
-           error_set(error,
-                     "%s: holds %s, and no recording that could be completed (%s is missing): choose another folder",
-                     folder, past, view ? "session.json" : "recording.json");
+           error_set(error, "%s: cannot resume: %s is there, but %s is missing; choose another folder", folder, past,
+                     view ? "session.json" : "recording.json");
 }
 
-/* The first by name of some files of a folder; "" where there is none. */
+/* The alphabetically first name of some files; "": none yet. */
 typedef char first_name[NAME_MAX + 1];
 
-static void take_first(first_name first, const char *name)
+static void keep_first(first_name first, const char *name)
 {
     if (!*first || strcmp(name, first) < 0)
         snprintf(first, sizeof(first_name), "%s", name);
 }
 
-/* What the first frame says of its session stands for all: where session.json was changed since, none is of it. One
- * that is torn, or that another program has saved, says nothing; and one says 0 that a program has recorded which was
- * killed: it did not know its session yet. */
+/* Check the session digest in the first frame, which stands for all frames. Accepted are frames without a digest, such
+ * as torn frames and frames saved by another program, and digest 0: a program that was killed while it recorded itself
+ * did not know its session yet. */
 static bool check_session(const char *folder, const char *frame, uint64_t session_digest, octreel_error *error)
 {
     uint64_t tick, session;
     return !frame_parse_name(frame, &tick) || !frame_session(folder, tick, &session) || session == 0 ||
            session == session_digest ||
            error_set(error,
-                     "%s/%s: is a frame of another session than session.json: put back what was filmed, or choose "
+                     "%s/%s: shows another session than session.json; restore the original session.json, or choose "
                      "another folder",
                      folder, frame);
 }
@@ -268,14 +268,14 @@ bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(entries));) {
         const char *name = entry->d_name;
-        if (!is_past_beginning(folder, name))
+        if (!is_past_start(folder, name))
             continue;
-        take_first(past, name);
+        keep_first(past, name);
         if (strncmp(name, "frame_", 6) != 0)
             continue;
-        take_first(frame, name);
+        keep_first(frame, name);
         if (!frame_is_name(name, ticks, every))
-            ok = error_set(error, "%s/%s: is no frame of this recording: remove it, or choose another folder", folder,
+            ok = error_set(error, "%s/%s: not a frame of this recording; remove it, or choose another folder", folder,
                            name);
     }
     closedir(entries);

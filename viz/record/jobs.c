@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* jobs.c - a recording by several processes. */
+/* jobs.c - records a session with several processes.
+ *
+ * Drawing and compressing frames takes most of the time, and frames do not depend on each other. Ticks do: each is made
+ * from the one before. So every job plays the whole session, which is cheap, and draws only its share of the frames:
+ * frame i belongs to job i modulo the number of jobs (see share_find_job()). Processes are used rather than threads
+ * since GL contexts in threads of one process do not scale. A job sends the lines of its ticks through a socket, and
+ * the process that started the jobs writes them to ticks.jsonl in the order of ticks. So the files are those of a
+ * single process, and after a stop or a failure a prefix of the ticks is complete, with a few frames beyond it.
+ *
+ * Jobs start to draw at once, while their starter still writes session.json; its digest, which each frame contains, is
+ * sent to them when it is known. A job ends when its socket closes: nothing is left running when the starter is killed.
+ */
 #include "jobs.h"
 
 #include <errno.h>
@@ -14,7 +25,7 @@
 
 /* ---- Pipes -------------------------------------------------------------------------------------------------- */
 
-/* No SIGPIPE where the other end is closed: the job, or the process that started it, may have died. */
+/* MSG_NOSIGNAL: no SIGPIPE where the other end is closed, since the other process may have died. */
 static bool pipe_write(int pipe, const void *bytes, size_t size)
 {
     for (const char *at = bytes; size > 0;) {
@@ -27,7 +38,7 @@ static bool pipe_write(int pipe, const void *bytes, size_t size)
     return true;
 }
 
-/* Exactly so many bytes. False when the other end has closed. */
+/* Read exactly `size` bytes. False when the other end is closed. */
 static bool pipe_read(int pipe, void *bytes, size_t size)
 {
     for (char *at = bytes; size > 0;) {
@@ -40,15 +51,15 @@ static bool pipe_read(int pipe, void *bytes, size_t size)
     return true;
 }
 
-/* Whether within so many milliseconds there is something to read, or the other end has closed. */
+/* Wait up to this many milliseconds. True: there are bytes to read, or the other end is closed. */
 static bool pipe_poll(int pipe, int milliseconds)
 {
     struct pollfd asked = {.fd = pipe, .events = POLLIN};
     return poll(&asked, 1, milliseconds) > 0;
 }
 
-/* What a job writes: after each tick its step, followed by the bytes of its line. A job that fails writes `failed`,
- * followed by an octreel_error. Job 0 ends with the frame_checks of the recording. */
+/* A message of a job. After each tick it has the step, followed by the bytes of its line. A job that fails writes
+ * `failed`, followed by an octreel_error. Job 0 ends with the frame_checks of the recording. */
 typedef struct message {
     film_step step;
     bool failed;
@@ -65,18 +76,18 @@ static bool write_message(int pipe, message m, const void *bytes, size_t size)
 
 typedef struct job {
     pid_t pid;
-    int pipe; /* both ways: in the job its own end, in the process that started it the other */
+    int pipe; /* a socket: the job's own end in the job, the other end in the process that started it */
     const film_options *options;
-    uint64_t session; /* the digest of the session's file: all that a job is told, once that is written */
-    bool told;
+    uint64_t session; /* the digest of session.json, once has_session is true */
+    bool has_session;
 } job;
 
-/* Wait until the job is told the session's digest, or stopped before. */
+/* Wait for the digest of session.json. The job exits if it is stopped before. */
 static void wait_for_session(job *self)
 {
-    if (!self->told && !pipe_read(self->pipe, &self->session, sizeof self->session))
+    if (!self->has_session && !pipe_read(self->pipe, &self->session, sizeof self->session))
         _exit(EXIT_SUCCESS);
-    self->told = true;
+    self->has_session = true;
 }
 
 static void learn_session(uint64_t *digest, void *context)
@@ -86,16 +97,17 @@ static void learn_session(uint64_t *digest, void *context)
     *digest = self->session;
 }
 
-/* Until the caller of the recording says so, or the process that started the job stops it or dies. */
+/* False: the caller of the recording stops it, or the starter of the job stops it or dies. */
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
     const film_options *options = self->options;
-    return (!options->keep_going || options->keep_going(options->context)) && !(self->told && pipe_poll(self->pipe, 0));
+    return (!options->keep_going || options->keep_going(options->context)) &&
+           !(self->has_session && pipe_poll(self->pipe, 0));
 }
 
-/* Sleep until the process that started the job has died, and die with it: the frame in hand has nobody who wants it.
- * Where it only stops the job it has not closed its end. */
+/* A thread that sleeps until the starter has died and then ends the job, since nobody needs its current frame. A
+ * starter that only stops the job keeps its end open. */
 static void *watch_starter(void *context)
 {
     const job *self = context;
@@ -105,7 +117,7 @@ static void *watch_starter(void *context)
     _exit(EXIT_FAILURE);
 }
 
-/* Without that thread the job notices after its frame. Signals go to the job itself. */
+/* Start that thread with all signals blocked. Without it the job notices only after its current frame. */
 static void begin_watch(job *self)
 {
     sigset_t all, before;
@@ -120,17 +132,17 @@ static void begin_watch(job *self)
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     job *self = context;
-    wait_for_session(self); /* nobody reads before */
+    wait_for_session(self); /* the starter reads nothing before */
     return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
-           error_set(error, "nobody collects the ticks");
+           error_set(error, "the process that collects the ticks has ended");
 }
 
-/* All that a job does. It leaves by _exit(): its memory goes with it, and what stdio has buffered is not its own. */
+/* The whole run of a job. It ends with _exit(), since buffers of stdio belong to the process that was forked. */
 static _Noreturn void run_job(job *self, const recording *r, playback *p, const film_share *share)
 {
     octreel_error error;
-    setenv("LP_NUM_THREADS", "0", 0); /* the other cores have jobs of their own */
-    draw_context_set_report(NULL);    /* the process that started it does */
+    setenv("LP_NUM_THREADS", "0", 0); /* other cores are busy with other jobs */
+    draw_context_set_report(NULL);    /* one report is enough: */
     begin_watch(self);
     p->learn_session = learn_session; /* the first frame is drawn meanwhile */
     p->learn_context = self;
@@ -142,14 +154,14 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     _exit(ok ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
-/* ---- Jobs that film together -------------------------------------------------------------------------------- */
+/* ---- All jobs ----------------------------------------------------------------------------------------------- */
 
 typedef struct job_pool {
     recording *recording;
     job *jobs;
-    unsigned wanted, count; /* how many there are to be, and are */
-    bool stopped;           /* no job is to begin another frame */
-    char *bytes;            /* of the last message */
+    unsigned wanted, count; /* the number of jobs to start, and already started */
+    bool stopped;           /* no job begins another frame */
+    char *bytes;            /* the bytes of the last message */
 } job_pool;
 
 static bool start_job(job_pool *pool, playback *p, octreel_error *error)
@@ -158,12 +170,12 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
     recording *r = pool->recording;
     film_share share = r->share;
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
-        return error_set(error, "a pipe to another process cannot be made: %s", strerror(errno));
+        return error_set(error, "cannot create a socket for a job: %s", strerror(errno));
     const pid_t pid = fork();
     if (pid == 0) {
         close(ends[0]);
         for (unsigned i = 0; i < pool->count; i++)
-            close(pool->jobs[i].pipe); /* a pipe ends when all copies of its other end are closed */
+            close(pool->jobs[i].pipe); /* a socket closes when all copies of its other end are closed */
         share.index = pool->count;
         share.count = pool->wanted;
         run_job(&(job){.pipe = ends[1], .options = r->options}, r, p, &share);
@@ -175,10 +187,10 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
         return true;
     }
     close(ends[0]);
-    return error_set(error, "a process cannot be started: %s", strerror(reason));
+    return error_set(error, "cannot start a job: %s", strerror(reason));
 }
 
-/* Let each job finish the frame in hand. */
+/* Stop all jobs after their current frames. */
 static void stop_jobs(job_pool *pool)
 {
     for (unsigned i = 0; i < pool->count && !pool->stopped; i++)
@@ -186,7 +198,7 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Read the next message of a job. Meanwhile the caller may want to stop. */
+/* Read the next message of a job. Stops all jobs if the caller wants to stop meanwhile. */
 static bool read_message(job_pool *pool, const job *j, message *m)
 {
     enum { PATIENCE = 50 }; /* milliseconds */
@@ -203,7 +215,7 @@ static bool read_message(job_pool *pool, const job *j, message *m)
            pipe_read(j->pipe, pool->bytes, m->size);
 }
 
-/* How a job ended before its time. True when it was stopped. */
+/* Find out why a job ended early. True: because it was stopped. */
 static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
 {
     int status = 0;
@@ -214,9 +226,9 @@ static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
     if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS)
         return true;
     if (ended > 0 && WIFSIGNALED(status))
-        return error_set(error, "job %u of %u was killed by signal %d (%s); --resume films what is missing", i + 1,
+        return error_set(error, "job %u of %u was killed by signal %d (%s); --resume records the missing ticks", i + 1,
                          pool->count, WTERMSIG(status), strsignal(WTERMSIG(status)));
-    return error_set(error, "job %u of %u ended early, with status %d; --resume films what is missing", i + 1,
+    return error_set(error, "job %u of %u ended early, with status %d; --resume records the missing ticks", i + 1,
                      pool->count, WEXITSTATUS(status));
 }
 
@@ -246,7 +258,7 @@ static bool collect(job_pool *pool, octreel_error *error)
     return true;
 }
 
-/* Stop the jobs, and wait until they have ended: what they still write must be read, or they would wait. */
+/* Stop the jobs and wait for their end. Their messages are read, since a job would wait for space in its socket. */
 static void end_jobs(job_pool *pool)
 {
     char ignored;
@@ -262,25 +274,25 @@ static void end_jobs(job_pool *pool)
     free(pool->jobs);
 }
 
-/* While the jobs open what draws, this process writes the files that come first. It draws nothing itself. */
+/* Start the jobs, and write the first files of the recording while they begin to draw. */
 static bool begin(job_pool *pool, playback *p, octreel_error *error)
 {
     while (pool->count < pool->wanted)
         if (!start_job(pool, p, error))
             return false;
-    octree_game_destroy(p->game); /* each job has it, and this process plays nothing */
+    octree_game_destroy(p->game); /* each job has a copy, and this process plays nothing */
     p->game = NULL;
     const bool begun = recording_film(pool->recording, p, error) && recording_begin(pool->recording, p, error);
     picture_close(&p->picture);
     return begun;
 }
 
-/* A job that has died is noticed when it is read; one that lives would wait for ever. */
-static bool tell_jobs(const job_pool *pool, uint64_t session, octreel_error *error)
+/* Send the digest of session.json to all jobs. A job that has died is noticed when its messages are read. */
+static bool send_session(const job_pool *pool, uint64_t session, octreel_error *error)
 {
     for (unsigned i = 0; i < pool->count; i++)
         if (!pipe_write(pool->jobs[i].pipe, &session, sizeof session) && errno != EPIPE && errno != ECONNRESET)
-            return error_set(error, "job %u of %u cannot be told what to film: %s", i + 1, pool->count,
+            return error_set(error, "cannot send the session digest to job %u of %u: %s", i + 1, pool->count,
                              strerror(errno));
     return true;
 }
@@ -291,7 +303,7 @@ bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error
     if (!pool.jobs)
         return error_no_memory(error);
     const bool begun = begin(&pool, p, error);
-    const bool ok = begun && tell_jobs(&pool, p->session_digest, error) && collect(&pool, error);
+    const bool ok = begun && send_session(&pool, p->session_digest, error) && collect(&pool, error);
     end_jobs(&pool);
     return begun ? recording_end(r, ok, error) : false;
 }

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* join.c - a recording that was filmed in chunks becomes whole. */
+/* join.c - completes a recording that was made in chunks (octreel record --ticks A:B), perhaps on several machines.
+ *
+ * Each chunk left a file of lines, ticks_A_B.jsonl, and frames. The chunks are sorted by their first tick and copied
+ * one after the other into ticks.jsonl; ticks that an earlier chunk had are skipped. Each line must be that of the next
+ * tick, and its frame must be whole and show this tick, this scene and the session of the folder. So chunks of another
+ * session, view or version are found, and so are gaps between chunks. ticks.jsonl is written under another name and
+ * renamed when everything is checked: until then a failure changes nothing. Then index.html is written and the chunk
+ * files are removed, and the folder has the same bytes as a recording by one process. Nothing is played or drawn:
+ * whether lines and pixels follow from the session is checked by octreel verify. */
 #include "join.h"
 #include "hint.h"
 #include "folder_files.h"
@@ -14,22 +22,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A file with lines of a recording: the ticks [first, last), as far as it got. */
+/* A file with the lines of the ticks [first, last); the last ones may be missing. */
 typedef struct chunk {
     uint64_t first, last;
     char name[CHUNK_NAME];
 } chunk;
 
-/* A recording while its chunks are joined. */
+/* A join in progress. */
 typedef struct joining {
     const film_options *options;
     const octree_session *session;
-    film_summary *summary;   /* the ticks that are joined so far, and all that there are to be */
+    film_summary *summary;   /* ticks: the number joined so far */
     uint64_t session_digest; /* of session.json */
-    chunk *chunks;           /* by their first tick */
+    chunk *chunks;           /* sorted by their first tick */
     size_t count;
-    file_writer ticks; /* ticks.jsonl, as it will be */
-    char *line;        /* of a chunk */
+    file_writer ticks; /* the new ticks.jsonl */
+    char *line;        /* the current line of a chunk */
     size_t line_room;
 } joining;
 
@@ -38,7 +46,7 @@ typedef struct joining {
 static bool add_chunk(joining *j, chunk c, octreel_error *error)
 {
     if (c.last > j->summary->total)
-        return error_set(error, "%s/%s: is no chunk of this session, whose last tick is %" PRIu64, j->options->folder,
+        return error_set(error, "%s/%s: not a chunk of this session, whose last tick is %" PRIu64, j->options->folder,
                          c.name, j->summary->total - 1);
     chunk *more = realloc(j->chunks, (j->count + 1) * sizeof *more);
     if (!more)
@@ -48,13 +56,13 @@ static bool add_chunk(joining *j, chunk c, octreel_error *error)
     return true;
 }
 
-/* A ticks.jsonl is a chunk of all ticks. */
+/* An existing ticks.jsonl counts as a chunk of all ticks. */
 static bool add_entry(joining *j, const char *name, octreel_error *error)
 {
     uint64_t tick;
     chunk c = {.last = j->summary->total};
     if (frame_parse_name(name, &tick) && !frame_is_name(name, j->summary->total, j->options->every))
-        return error_set(error, "%s/%s: is no frame of this recording", j->options->folder, name);
+        return error_set(error, "%s/%s: not a frame of this recording", j->options->folder, name);
     if (!chunk_parse_name(name, &c.first, &c.last) && strcmp(name, "ticks.jsonl") != 0)
         return true;
     snprintf(c.name, sizeof c.name, "%.*s", CHUNK_NAME - 1, name);
@@ -83,7 +91,7 @@ static bool find_chunks(joining *j, octreel_error *error)
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* What the line of a tick ends with: its frame, and the digest of the scene that the frame shows. */
+/* Read the digest of the scene at the end of a line. False: the line does not name the frame of this tick. */
 static bool read_scene(const char *line, size_t size, uint64_t tick, uint64_t *scene)
 {
     char name[FRAME_NAME], expected[FRAME_NAME + DIGEST_TEXT + 32];
@@ -101,8 +109,8 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
     frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
     char name[FRAME_NAME];
     if (!folder_has(j->options->folder, frame_name(origin.tick, name)))
-        return error_set(error, "%s: %s is missing; %s record --resume films what is missing", j->options->folder, name,
-                         hint_program_name());
+        return error_set(error, "%s: %s is missing; complete the recording with %s record --resume", j->options->folder,
+                         name, hint_program_name());
     if (!frame_check(j->options->folder, &origin, error))
         return false;
     j->summary->frames++;
@@ -110,7 +118,7 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
     return true;
 }
 
-/* Check that j->line is that of the next tick, and copy it. */
+/* Check that j->line is the line of the next tick, and copy it. */
 static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *error)
 {
     char begin[48];
@@ -119,8 +127,8 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     const bool gap = octree_session_gap(j->session, tick), filmed = !gap && frame_is_due(tick, j->options->every);
     const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
     if (strncmp(j->line, begin, (size_t)length) != 0 || read_scene(j->line, size, tick, &scene) != filmed)
-        return error_set(error, "%s/%s: has no line of tick %" PRIu64 " where it should be", j->options->folder,
-                         c->name, tick);
+        return error_set(error, "%s/%s: no line of tick %" PRIu64 " where it belongs", j->options->folder, c->name,
+                         tick);
     if (filmed && !check_frame(j, scene, error))
         return false;
     fwrite(j->line, 1, size, j->ticks.stream); /* errors are reported by file_writer_close() */
@@ -136,7 +144,7 @@ static bool is_stopped(const joining *j)
     return j->options->keep_going && !j->options->keep_going(j->options->context);
 }
 
-/* Take the ticks that earlier chunks did not have. A torn last line is ignored. */
+/* Join the lines of a chunk, except ticks that earlier chunks had. A last line without a newline is ignored. */
 static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, octreel_error *error)
 {
     ssize_t size;
@@ -168,18 +176,18 @@ static bool join_chunk(joining *j, const chunk *c, bool *stopped, octreel_error 
     return ok;
 }
 
-/* Chunk after chunk, until there is a gap. */
+/* Join chunk after chunk, up to the first gap between them. */
 static bool join_all(joining *j, bool *stopped, octreel_error *error)
 {
     for (size_t i = 0; i < j->count && !*stopped && j->chunks[i].first <= j->summary->ticks; i++)
         if (!join_chunk(j, &j->chunks[i], stopped, error))
             return false;
     return *stopped || j->summary->ticks == j->summary->total ||
-           error_set(error, "%s: no chunk has tick %" PRIu64 "; %s record --resume films what is missing",
+           error_set(error, "%s: no chunk has tick %" PRIu64 "; complete the recording with %s record --resume",
                      j->options->folder, j->summary->ticks, hint_program_name());
 }
 
-/* ---- All of it ---------------------------------------------------------------------------------------------- */
+/* ---- The recording ------------------------------------------------------------------------------------------ */
 
 static bool write_ticks(joining *j, octreel_error *error)
 {

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* live.c - a session in the making becomes a recording. */
+/* live.c - records a session whose ticks are not known in advance.
+ *
+ * session.json comes first in other recordings, since its digest is written into every frame. Here the session grows
+ * with each tick, so the order is reversed. Each tick is appended to session.json.live and flushed before it is played:
+ * if the process dies, only the current tick is lost, and octreel record --resume makes a recording of the rest. Frames
+ * get the session digest 0 meanwhile. When the recording is closed, session.json is written: a header that knows the
+ * number of ticks, followed by the ticks copied from session.json.live. Then the digest is patched into every frame, in
+ * place, and session.json.live is removed. The result has the same bytes as film_session() makes from that session. */
 #include "live.h"
 #include "array.h"
 #include "film.h"
@@ -21,12 +28,12 @@ struct live_recording {
     playback playback;
     film_summary summary;
     recording recording;
-    size_t key_count;  /* of that session */
-    uint64_t ticks;    /* that were taken, after tick 0 */
-    FILE *stream;      /* session.json.live, open for the whole time; null: it is not there */
-    char *path;        /* of that */
-    off_t head, whole; /* where its ticks begin, and where its last whole one ends */
-    uint64_t *gaps;    /* ticks that have no frame, though they are due one */
+    size_t key_count;  /* keys of start.session */
+    uint64_t ticks;    /* recorded ticks, without tick 0 */
+    FILE *stream;      /* session.json.live; null: it does not exist */
+    char *path;        /* of session.json.live */
+    off_t head, whole; /* offsets: where its ticks begin, and where its last complete tick ends */
+    uint64_t *gaps;    /* ticks that are due a frame and have none, since they are gaps */
     size_t gap_count, gap_room;
     bool begun;  /* tick 0 was filmed */
     bool broken; /* a tick failed */
@@ -39,7 +46,7 @@ static bool fail_to_write(const live_recording *live, octreel_error *error)
     return error_set(error, "%s: cannot be written: %s", live->path, strerror(errno));
 }
 
-/* What was written survives the death of the process. */
+/* Flushed bytes survive the death of the process. */
 static bool flush(live_recording *live, octreel_error *error)
 {
     if (fflush(live->stream) != 0 || ferror(live->stream))
@@ -48,8 +55,8 @@ static bool flush(live_recording *live, octreel_error *error)
     return true;
 }
 
-/* What there is of tick 0; queries and shapes of every tick are in the header. */
-static octree_input first_tick(const octree_session *session)
+/* The input of tick 0. Queries and shapes of every tick are in the header instead. */
+static octree_input make_first_input(const octree_session *session)
 {
     octree_input input = {
         .queries = session->queries, .shapes = session->shapes, .gap = octree_session_gap(session, 0)};
@@ -67,7 +74,7 @@ static bool open_session(live_recording *live, octreel_error *error)
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
-    unlink(live->path); /* a pipe would wait, and a link lead elsewhere */
+    unlink(live->path); /* it may be a pipe or a link */
     live->stream = fopen(live->path, "w+bx");
     return live->stream || fail_to_write(live, error);
 }
@@ -79,7 +86,7 @@ static bool begin_session(live_recording *live, octreel_error *error)
     if (!flush(live, error))
         return false;
     live->head = live->whole;
-    const octree_input input = first_tick(&header);
+    const octree_input input = make_first_input(&header);
     session_write_tick(0, &input, live->options.values, live->stream);
     return flush(live, error);
 }
@@ -103,7 +110,7 @@ static void remove_live_file(live_recording *live)
 
 /* ---- session.json ------------------------------------------------------------------------------------------- */
 
-/* Copy the ticks after a header that knows how many there are. */
+/* Copy the ticks of session.json.live. */
 static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
 {
     char buffer[1 << 16];
@@ -121,9 +128,9 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
     return true;
 }
 
-/* The session as it came out: one that was to be longer ends with the last tick. Keys that were to come stay: frames
- * show them. */
-static octree_session end_header(live_recording *live, uint64_t ticks)
+/* The header of the finished session. One that was meant to be longer ends with the last recorded tick. Keys that were
+ * not played stay, since frames show them. */
+static octree_session make_final_header(live_recording *live, uint64_t ticks)
 {
     octree_session header = live->start.session;
     header.ticks = ticks;
@@ -138,14 +145,14 @@ static octree_session end_header(live_recording *live, uint64_t ticks)
 static bool write_session(live_recording *live, uint64_t ticks, const char *path, octreel_error *error)
 {
     file_writer file;
-    const octree_session header = end_header(live, ticks);
+    const octree_session header = make_final_header(live, ticks);
     if (!file_writer_open_replacing(&file, path, error))
         return false;
     session_write_header(&header, live->options.values, file.stream);
     return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
 }
 
-/* As octree_digest_bytes(), in pieces of whole words: a session may be large. */
+/* Like octree_digest_bytes() for the bytes of a file, which is read in pieces since a session may be large. */
 static bool digest_file(const char *path, uint64_t *digest, octreel_error *error)
 {
     unsigned char bytes[1 << 13];
@@ -162,7 +169,7 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
     return ok || error_set(error, "%s: cannot be read", path);
 }
 
-/* The session's digest is only known now. */
+/* Write the digest of session.json, which is only known now, into every frame. */
 static bool sign_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
     size_t gap = 0;

@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* live.h - a session in the making becomes a recording: each tick is drawn and written when it comes, and the session
- * is written last. The recording is that of film_session() with the session that came out.
+/* live.h - records a session whose ticks are not known in advance, such as that of a running program.
  *
- * While it goes on, what is known of the session is in session.json.live, a session file too: when the process dies,
- * nothing but the tick in hand is lost, and octreel record --resume makes a recording of the others. One thread films,
- * from open to close.
+ * Use a live recording from one thread only, from open to close.
  */
 #ifndef RECORD_LIVE_H
 #define RECORD_LIVE_H
@@ -13,28 +10,29 @@
 
 typedef struct live_recording live_recording;
 
-/* Play tick 0 and open what draws it: the session has its start, its keys, and the queries and shapes of tick 0 or of
- * every tick, but no edits, and no gap but that of tick 0; its ticks are SESSION_ENDLESS where nobody knows how many
- * come. All arguments are copied. Of the options, chunk, jobs and resume are not read. Null with an error on failure.
- */
+/* Play tick 0 and open a renderer. `start` has the points, the keys, and the queries and shapes of tick 0 and of every
+ * tick, but no edits, and no gap except at tick 0. start->ticks is SESSION_ENDLESS where the number of ticks is
+ * unknown. All arguments are copied. The options first, last, jobs and resume are not read. Null with an error. */
 live_recording *live_open(const octree_session *start, const film_options *options, octreel_error *error);
 
-/* Make the folder and begin its files. Where it fails no files are left, and only live_close() is. */
+/* Create the folder and its first files. After a failure no files are left, and only live_close() may be called. */
 bool live_begin(live_recording *live, octreel_error *error);
 
-/* Film tick 0. Where it fails the same holds. */
+/* Record tick 0. After a failure the same holds. */
 bool live_first(live_recording *live, octreel_error *error);
 
-/* Film the next tick; with key 0 its key is the session's. After a failure only live_close() is left. */
+/* Record the next tick. If input->key is 0, the key is that of the session. After a failure only live_close() may be
+ * called. */
 bool live_tick(live_recording *live, const octree_input *input, octreel_error *error);
 
-/* A tick after the session's end, which is not played, and is in session.json alone. */
+/* Add a tick after the end of the session: it is written to session.json but not played. */
 bool live_note(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error);
 
-/* Write what comes last, and free all memory: session.json with all ticks that were taken, and the page. `ticks` are
- * those of the session's header; *summary, which may be null, becomes the summary of all ticks that were filmed; a
- * session that would then be longer than what was taken ends with that. Where a tick failed, the files are those of a
- * recording that broke off, which --resume completes. False with an error when that cannot be written. */
+/* Check the last frame, write session.json with all ticks and the page, and free all memory. `ticks` is the number of
+ * ticks in the session's header; a session that would be longer than what was recorded ends with the last recorded
+ * tick. *summary, which may be null, becomes the summary. After a tick that failed, the files are those of an
+ * interrupted recording, which --resume completes. False with an error where the last frame is wrong or a file cannot
+ * be written. */
 bool live_close(live_recording *live, uint64_t ticks, film_summary *summary, octreel_error *error);
 
 #endif

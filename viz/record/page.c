@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* page.c - index.html: a recording as a page to scrub through. */
+/* page.c - writes the page of a recording or session. */
 #include "page.h"
 #include "file.h"
 #include "json_read.h"
@@ -15,19 +15,19 @@
 
 /* ---- Long lists --------------------------------------------------------------------------------------------- */
 
-#define DEPTH 64 /* of lists and objects in each other */
+#define DEPTH 64 /* the deepest nesting of lists and objects */
 
-/* A text of JSON while it is copied without the entries that are too many. */
+/* The state of a copy of JSON text that drops entries from long lists. */
 typedef struct cutter {
     FILE *out;
     unsigned depth;
-    unsigned cut;         /* the depth of the list whose entries are being left out, or 0 */
-    bool lists[DEPTH];    /* whether a list or an object is open at each depth */
-    size_t commas[DEPTH]; /* in it */
+    unsigned cut;         /* the depth of the list whose entries are being dropped; 0: none */
+    bool lists[DEPTH];    /* for each depth: a list, not an object, is open */
+    size_t commas[DEPTH]; /* the number of commas in it so far */
     bool quoted, escaped;
 } cutter;
 
-/* Whether the character belongs to a string, its quotes included. */
+/* Whether the character belongs to a string, including its quotes. */
 static bool pass_string(cutter *c, char at)
 {
     const bool was = c->quoted;
@@ -58,15 +58,15 @@ static bool pass_bracket(cutter *c, char at)
     return true;
 }
 
-/* Copy a text with at most PAGE_LIST entries of each list, so that what is parsed is small: a tick may have refused a
- * million points. The caller frees the copy. Null where there is no memory, or brackets do not match. */
+/* Copy JSON text with at most PAGE_LIST entries of each list, before it is parsed: a tick may have refused a million
+ * points. The caller frees the copy. Null: out of memory, or brackets do not match. */
 static char *cut_lists(const char *text, size_t size, size_t *left)
 {
     char *copy;
     text_stream s;
     bool ok = text_stream_begin(&s);
     cutter c = {.out = s.stream};
-    size_t from = 0; /* of what is not written yet */
+    size_t from = 0; /* where the text begins that is not written yet */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
         ok = pass_string(&c, text[i]) || pass_bracket(&c, text[i]);
@@ -84,10 +84,10 @@ static char *cut_lists(const char *text, size_t size, size_t *left)
     return NULL;
 }
 
-/* ---- Facts -------------------------------------------------------------------------------------------------- */
+/* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* '<', which ends a script element, can only be in a string. */
-static void put_escaped(FILE *page, const char *text, size_t size)
+/* Escape '<', which could end the script element; in JSON it occurs in strings only. */
+static void write_escaped_json(FILE *page, const char *text, size_t size)
 {
     const char *end = text + size, *found;
     for (; (found = memchr(text, '<', (size_t)(end - text))); text = found + 1) {
@@ -97,20 +97,20 @@ static void put_escaped(FILE *page, const char *text, size_t size)
     fwrite(text, 1, (size_t)(end - text), page);
 }
 
-/* An object as one line of ASCII. */
+/* Write an object as one line of ASCII. */
 static bool write_object(const json_t *object, FILE *page)
 {
     char *text = json_dumps(object, JSON_COMPACT | JSON_ENSURE_ASCII);
     if (text)
-        put_escaped(page, text, strlen(text));
+        write_escaped_json(page, text, strlen(text));
     putc('\n', page);
     free(text);
     return text != NULL;
 }
 
-/* `path` and `line` say where the text is from. */
-static bool write_facts(const char *text, size_t size, FILE *page, const char *path, uintmax_t line,
-                        octreel_error *error)
+/* Write a JSON object. `path` and `line` name its source in errors. */
+static bool write_json_text(const char *text, size_t size, FILE *page, const char *path, uintmax_t line,
+                            octreel_error *error)
 {
     size_t left;
     char *cut = cut_lists(text, size, &left);
@@ -119,7 +119,7 @@ static bool write_facts(const char *text, size_t size, FILE *page, const char *p
     const bool ok = json_is_object(object) && write_object(object, page);
     json_decref(object);
     free(cut);
-    return ok || error_set(error, "%s:%ju: is no JSON object, so index.html cannot be written", path, line);
+    return ok || error_set(error, "%s:%ju: not a JSON object; index.html cannot be written", path, line);
 }
 
 /* ---- A page ------------------------------------------------------------------------------------------------- */
@@ -132,12 +132,12 @@ bool page_plays(void)
 bool page_begin(FILE *page, const char *path, const char *recording, size_t size, octreel_error *error)
 {
     fwrite(page_html_head, 1, page_html_head_size, page);
-    return write_facts(recording, size, page, path, 1, error);
+    return write_json_text(recording, size, page, path, 1, error);
 }
 
 bool page_add(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error)
 {
-    return write_facts(line, size, page, path, number, error);
+    return write_json_text(line, size, page, path, number, error);
 }
 
 static void begin_session(FILE *page)
@@ -154,11 +154,11 @@ void page_end(FILE *page, const char *session, size_t size)
 {
     begin_session(page);
     if (size <= PAGE_MOST_SESSION)
-        put_escaped(page, session, size);
+        write_escaped_json(page, session, size);
     end_session(page);
 }
 
-/* ---- That of a folder --------------------------------------------------------------------------------------- */
+/* ---- The page of a folder ----------------------------------------------------------------------------------- */
 
 static bool read_file(const char *path, char **text, size_t *size, octreel_error *error)
 {
@@ -177,7 +177,7 @@ static bool begin(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
-/* A last line that was torn when the recording broke off is not a tick. */
+/* A last line without a newline was interrupted and is not a tick. */
 static bool add_ticks(FILE *page, const char *path, octreel_error *error)
 {
     char *line = NULL;
@@ -197,7 +197,7 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
-/* In pieces: the session of a long recording is large. */
+/* In pieces, since the session of a long recording is large. */
 static bool copy_session(FILE *page, const char *path, octreel_error *error)
 {
     char piece[1 << 14];
@@ -206,7 +206,7 @@ static bool copy_session(FILE *page, const char *path, octreel_error *error)
     if (!in)
         return error_set(error, "%s: %s", path, reason);
     for (size_t size; (size = fread(piece, 1, sizeof piece, in)) > 0;)
-        put_escaped(page, piece, size);
+        write_escaped_json(page, piece, size);
     const bool ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     fclose(in);
     return ok;

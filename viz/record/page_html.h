@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* page_html.h - the page of page/index.html, its style and scripts inside, as CMake makes bytes of it: what comes
- * before a recording's facts, and what comes after them. */
+/* page_html.h - viz/page/viewer/index.html with its style and scripts, as bytes made by CMake: the part before the data
+ * of a recording, and the part after it. */
 #ifndef RECORD_PAGE_HTML_H
 #define RECORD_PAGE_HTML_H
 
@@ -10,7 +10,7 @@
 extern const unsigned char page_html_head[], page_html_tail[];
 extern const size_t page_html_head_size, page_html_tail_size;
 
-/* Whether the program is in the page. */
+/* Whether the page contains the program as WebAssembly. */
 extern const bool page_html_plays;
 
 #endif

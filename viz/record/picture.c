@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* picture.c - draws scenes into an image. */
 #include "picture.h"
 #include "filter.h"
 #include "camera.h"

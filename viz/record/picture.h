@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* picture.h - one scene becomes one image: a renderer, the frame's pixels and the theme's palette. */
+/* picture.h - draws scenes into an image: a renderer, the pixels of the frame and the palette of the theme. */
 #ifndef RECORD_PICTURE_H
 #define RECORD_PICTURE_H
 
@@ -10,14 +10,15 @@
 
 typedef struct picture {
     renderer *renderer;
-    image frame;   /* the scene that was drawn last: indices of the theme's table, or RGB: view_is_rgb() */
-    image samples; /* of RGB what the frame is made of; else empty */
+    image frame;   /* the last scene: indices of the theme's table, or RGB where view_is_rgb() */
+    image samples; /* for RGB: the indices from which the frame is made; else empty */
 } picture;
 
-/* Fit a view to the tree that it shows first. False with the reason where there is nothing in it to be seen. */
+/* Fit a view to the first tree that it shows. False with an error where the filter can show nothing of it. */
 bool picture_fit(view *v, const octree *tree, const point_values *values, octreel_error *error);
 
-/* For scenes of this view's size and anti-aliasing. What is too large is refused before memory is spent. */
+/* Open a picture for scenes with this view's size and anti-aliasing. Too large a size is refused before memory is used.
+ */
 bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error);
 void picture_close(picture *p);
 

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* playback.c - a session played: each of its ticks becomes a scene, a frame and a line of ticks.jsonl. */
+/* playback.c - plays a session and makes a scene, a frame and a line of ticks.jsonl from each tick.
+ *
+ * A tick goes through four steps: the game plays it; tick_scene_build() makes a draw list from the game and the history
+ * of earlier ticks; picture_draw() turns the list into pixels; frame_write() writes them with the digests that trace
+ * the frame to its session and scene. The line of ticks.jsonl is made last, in memory: it names the frame and the
+ * digest of the scene, and jobs send it through a pipe before anyone writes it.
+ *
+ * All ticks are played and enter the history, even those without a frame, since trails, heat and events depend on
+ * earlier ticks. So a chunk, a job and a resumed recording, which film only some ticks, make the same frames as a
+ * recording of all ticks. */
 #include "playback.h"
 #include "frame_file.h"
 #include "octree/octree.h"
@@ -9,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Played ------------------------------------------------------------------------------------------------- */
+/* ---- Playing ------------------------------------------------------------------------------------------------ */
 
 static bool add_history(playback *p, octreel_error *error)
 {
@@ -54,7 +63,7 @@ bool playback_play(playback *p, const octree_input *input, octreel_error *error)
     return end_tick(p, octree_game_play(p->game, input), error);
 }
 
-/* ---- Filmed ------------------------------------------------------------------------------------------------- */
+/* ---- Filming ------------------------------------------------------------------------------------------------ */
 
 bool playback_film(playback *p, const playback_target *target, octreel_error *error)
 {
@@ -67,7 +76,7 @@ bool playback_scene(playback *p, octreel_error *error)
     return tick_scene_build(&p->scene, &p->view, p->game, &p->history, p->values) || error_no_memory(error);
 }
 
-static uint64_t session_of(playback *p)
+static uint64_t find_session_digest(playback *p)
 {
     if (p->learn_session)
         p->learn_session(&p->session_digest, p->learn_context);
@@ -118,7 +127,7 @@ static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_er
 {
     octreel_error unlike;
     const playback_target *target = &p->target;
-    origin->session = target->frames == FRAMES_KEEP ? session_of(p) : 0;
+    origin->session = target->frames == FRAMES_KEEP ? find_session_digest(p) : 0;
     *kept = target->frames == FRAMES_KEEP && frame_check(target->folder, origin, &unlike);
     if (*kept)
         return true;
@@ -127,7 +136,7 @@ static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_er
     if (!check_frame(p, origin->tick, error))
         return false;
     origin->left_out = renderer_left_out(p->picture.renderer);
-    origin->session = session_of(p);
+    origin->session = find_session_digest(p);
     return target->frames == FRAMES_SHOW || frame_write(target->folder, &p->picture.frame, origin, error);
 }
 
@@ -144,7 +153,7 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     return done;
 }
 
-/* In memory: a line is written in one piece, and may be sent or compared instead. */
+/* Make the line in memory, since callers write it in one piece, send it or compare it. */
 static bool make_line(playback *p, film_step *step, octreel_error *error)
 {
     text_stream s;
@@ -166,7 +175,7 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
                         .events = tick->events,
                         .refusals = tick->refusal_count,
                         .gap = tick->gap,
-                        .program_nodes = tick->foreign.given,
+                        .foreign_nodes = tick->foreign.given,
                         .filmed = !tick->gap && frame_is_due(tick->number, p->target.every)};
     p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
     return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);

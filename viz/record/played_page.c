@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* played_page.c - writes a page that plays a session in a browser. */
 #include "played_page.h"
 #include "film.h"
 #include "folder_files.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A page while its session is played. */
+/* A page in progress. */
 typedef struct playing {
     const film_options *options;
     film_summary *summary;
@@ -35,7 +36,7 @@ static bool keeps_going(void *context)
     return !o->keep_going || o->keep_going(o->context);
 }
 
-/* With recording.json as it is where no tick has a frame. */
+/* Begin with the recording.json of a recording without frames. */
 static bool begin_page(FILE *page, const view *v, octreel_error *error)
 {
     text_stream s;
@@ -70,8 +71,8 @@ static bool check_size(size_t size, octreel_error *error)
                      PAGE_MOST_SESSION / 1000000);
 }
 
-/* Nothing has to be written to see that a session is far too large. */
-static size_t least_size(const octree_session *session)
+/* A lower bound of the size of session.json, so that a far too large session is refused before it is written. */
+static size_t find_least_size(const octree_session *session)
 {
     return (session->keys ? strlen(session->keys) : 0) + session->body_count * strlen("[0,0,0],");
 }
@@ -84,7 +85,7 @@ bool write_played_page(const octree_session *session, const film_options *option
     if (!page_plays())
         return error_set(error, "this octreel was built without WebAssembly (clang, lld, wasi-libc), so no page of its "
                                 "own plays: octreel record films the session");
-    if (!check_size(least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
+    if (!check_size(find_least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
         return false;
     const bool ok = check_size(written.size, error) && play(&(playing){options, summary, page}, session, error);
     if (ok)

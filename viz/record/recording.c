@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* recording.c - a recording while it is made, by one process or several. */
+/* recording.c - writes the files of a recording other than frames. */
 #include "recording.h"
 #include "page.h"
 
 #include <stdlib.h>
 
-/* ---- Begun -------------------------------------------------------------------------------------------------- */
+/* ---- The start ---------------------------------------------------------------------------------------------- */
 
 static bool is_chunk(const recording *r)
 {
@@ -24,10 +24,10 @@ bool recording_film(const recording *r, playback *p, octreel_error *error)
     return playback_film(p, &target, error);
 }
 
-/* What is known of a recording before its first tick. */
+/* The facts of a recording that are known before its first tick. */
 typedef struct beginning {
     const view *view;
-    renderer_info info; /* where there are frames */
+    renderer_info info; /* set if there are frames */
 } beginning;
 
 static bool write_files(const recording *r, const folder_place *place, const beginning *b, octreel_error *error)
@@ -45,7 +45,8 @@ static bool open_log(recording *r, octreel_error *error)
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
-/* Into a folder without a recording, or in place of one. The log comes first: its lock is the folder's. */
+/* Begin in a folder without a recording, or replace one. ticks.jsonl comes first, since its lock protects the folder.
+ */
 static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
@@ -65,17 +66,16 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
     return false;
 }
 
-/* A chunk is not filmed twice unless it is resumed. */
+/* Refuse a chunk whose file exists, unless it is resumed. */
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
     return !folder_has(r->options->folder, chunk_name(r->share.first, r->share.last, name)) ||
-           error_set(error, "%s: already holds this chunk (%s); --resume completes what is there of it",
-                     r->options->folder, name);
+           error_set(error, "%s: already holds this chunk (%s); use --resume to complete it", r->options->folder, name);
 }
 
-/* Into a folder that may hold some of this recording, and that others may be filming into. The log comes last: nothing
- * is changed in a folder that holds another recording. */
+/* Begin in a folder that may hold part of this recording, and into which other processes may be recording. The dry run
+ * and the checks come first, so that a folder with another recording is not changed. */
 static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
 {
     char writer[CHUNK_NAME];
@@ -113,7 +113,7 @@ static void add_to_summary(film_summary *summary, const film_step *step)
     summary->below_lod += step->below_lod != 0;
     summary->beyond |= step->over_budget;
     summary->small |= step->below_lod;
-    summary->program_nodes += step->program_nodes;
+    summary->foreign_nodes += step->foreign_nodes;
     summary->refusals += step->refusals;
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
         summary->events[i] += step->events >> i & 1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recording.h - a recording while it is made, by one process or several: its folder, the files that are written once,
- * its lines, and what they add up to. Private to this folder. */
+/* recording.h - writes the files of a recording other than frames: the files at its start, the lines of ticks.jsonl,
+ * and the page at its end; sums up its ticks. Private to this folder. */
 #ifndef RECORD_RECORDING_H
 #define RECORD_RECORDING_H
 
@@ -13,25 +13,24 @@
 typedef struct recording {
     const film_options *options;
     film_summary *summary;
-    film_share share;              /* the ticks that there are to record */
-    const octree_session *session; /* null where it is not known yet, */
-    session_bytes bytes;           /* without bytes then */
+    film_share share;              /* the ticks to record */
+    const octree_session *session; /* null: not known yet */
+    session_bytes bytes;           /* of session.json; without bytes if it is not known yet */
     tick_log log;
-    replacement replaced; /* until a tick is filmed */
+    replacement replaced; /* the recording that is replaced, until a tick is filmed */
 } recording;
 
-/* Open what draws a playback of the session into the folder. */
+/* Call playback_film() with the options of the recording. */
 bool recording_film(const recording *r, playback *p, octreel_error *error);
 
-/* Make the folder, with what is known before the first tick of that playback; a session that is not known yet is not
- * written, and of one that is the bytes are released. Sets p->session_digest. Where it fails nothing is left but what
- * was there. */
+/* Create the folder and write the files that come before the first tick; session.json only if the session is known.
+ * Frees r->bytes and sets p->session_digest. A failure leaves the folder as it was. */
 bool recording_begin(recording *r, playback *p, octreel_error *error);
 
-/* Add the next tick: a film_sink, whose context is the recording. */
+/* Write the line of the next tick. A film_sink, with the recording as its context. */
 bool recording_add(void *context, const film_step *step, octreel_error *error);
 
-/* Write what comes last, also of a recording that broke off (`ok` is false, and stays the result) or was stopped. */
+/* Close ticks.jsonl and write the page, also after a failure (`ok` is false, and so is the result) or a stop. */
 bool recording_end(recording *r, bool ok, octreel_error *error);
 
 #endif

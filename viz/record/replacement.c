@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* replacement.c - a recording makes room for another one in its folder.
+/* replacement.c - replaces the recording in a folder by a new one (octreel record --replace).
  *
- * recording.json is the first file that is set aside, the first that is removed and the last that is put back. So
- * whatever is interrupted: where the folder aside has one, its files are to be put back; where it has none, they are to
- * be removed. */
+ * The problem: the old recording must survive if the new one fails at its first tick, or if the process is killed at
+ * any moment. A recording is thousands of files, and no system call renames or removes them all at once.
+ *
+ * The idea: one file, recording.json, is the mark that decides. The old files are moved into a folder inside the folder
+ * (FOLDER_ASIDE), and the mark is the first to move. When a tick of the new recording is filmed, the old files are
+ * removed, the mark first. If the new recording fails, they are moved back, the mark last. So after a crash the folder
+ * aside tells what was going on: if it has a mark, its files are a complete promise and are moved back; if it has none,
+ * they were being removed, or moved back completely, and the rest is removed. The next replacement begins with this
+ * recovery. A lock on the folder aside keeps two processes from replacing at the same time. */
 #include "replacement.h"
 #include "frame_file.h"
 #include "tick_log.h"
@@ -40,15 +46,15 @@ static bool is_frame(const char *name)
     return frame_parse_name(whole, &tick);
 }
 
-/* Whether a recording has files of this name; FOLDER_ASIDE is none of them. */
-static bool is_of_recording(const char *name)
+/* Whether a recording uses a file name; FOLDER_ASIDE does not count. */
+static bool is_recording_file(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
         return is_frame(name);
     return strcmp(name, FOLDER_ASIDE) != 0 && (folder_is_name(name) || folder_is_unfinished(name));
 }
 
-/* ---- Checked ------------------------------------------------------------------------------------------------ */
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
 
 static bool is_recording(const char *folder)
 {
@@ -71,14 +77,15 @@ static bool has_recording_aside(const char *folder)
     return has;
 }
 
-/* *past: there is more than the first moment of a recording leaves, which is an empty log. */
+/* Check one entry of a folder. *past: set if the entry is more than an empty ticks.jsonl, which a recording that was
+ * killed at its start leaves. */
 static bool check_entry(const char *folder, const char *name, bool *past, octreel_error *error)
 {
     struct stat status;
-    if (!is_of_recording(name))
+    if (!is_recording_file(name))
         return !folder_is_name(name) || strcmp(name, FOLDER_ASIDE) == 0 ||
                error_set(error,
-                         "%s/%s: is no file of a recording, which would not be replaced: move it away, or choose "
+                         "%s/%s: not a file of a recording, but has the name of one; move it away, or choose "
                          "another folder (-o)",
                          folder, name);
     char *path = path_join(folder, name);
@@ -86,10 +93,9 @@ static bool check_entry(const char *folder, const char *name, bool *past, octree
         return error_no_memory(error);
     bool ok = lstat(path, &status) == 0 && S_ISREG(status.st_mode);
     if (!ok)
-        error_set(error, "%s: is not a regular file, so what is there is not replaced: choose another folder (-o)",
-                  path);
+        error_set(error, "%s: not a regular file; cannot replace it; choose another folder (-o)", path);
     else if (is_log(name) && file_is_locked(path))
-        ok = error_set(error, "%s: another process is filming into it", path);
+        ok = error_set(error, "%s: another process is recording into this folder", path);
     else
         *past |= strcmp(name, "ticks.jsonl") != 0 || status.st_size > 0;
     free(path);
@@ -107,14 +113,14 @@ bool replacement_check(const char *folder, octreel_error *error)
     closedir(entries);
     return ok && (!past || is_recording(folder) || has_recording_aside(folder) ||
                   error_set(error,
-                            "%s: what it holds is not replaced, since its recording.json is missing or is no "
-                            "recording's: choose another folder (-o)",
+                            "%s: cannot replace its files: recording.json is missing or belongs to another "
+                            "program; choose another folder (-o)",
                             folder));
 }
 
-/* ---- Moved and removed -------------------------------------------------------------------------------------- */
+/* ---- Moving and removing ------------------------------------------------------------------------------------ */
 
-static bool move_one(const char *from, const char *to, const char *name)
+static bool move_file(const char *from, const char *to, const char *name)
 {
     char *old = path_join(from, name), *new = path_join(to, name);
     const bool moved = old && new && (rename(old, new) == 0 || errno == ENOENT);
@@ -123,50 +129,50 @@ static bool move_one(const char *from, const char *to, const char *name)
     return moved;
 }
 
-/* To null: they are removed. */
-static bool take_one(const char *from, const char *to, const char *name)
+/* Move a file; if `to` is null, remove it. A missing file is fine. */
+static bool move_or_remove(const char *from, const char *to, const char *name)
 {
     if (to)
-        return move_one(from, to, name);
+        return move_file(from, to, name);
     char *path = path_join(from, name);
     const bool removed = path && (unlink(path) == 0 || errno == ENOENT);
     free(path);
     return removed;
 }
 
-/* Of all files of a recording but its mark. */
-static bool take_rest(const char *from, const char *to)
+/* Move or remove all files of a recording except its mark. */
+static bool move_or_remove_rest(const char *from, const char *to)
 {
     DIR *entries = opendir(from);
     bool ok = entries;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (is_of_recording(entry->d_name) && strcmp(entry->d_name, mark) != 0)
-            ok = take_one(from, to, entry->d_name);
+        if (is_recording_file(entry->d_name) && strcmp(entry->d_name, mark) != 0)
+            ok = move_or_remove(from, to, entry->d_name);
     if (entries)
         closedir(entries);
     return ok;
 }
 
-static bool put_back(const replacement *r)
+static bool restore(const replacement *r)
 {
-    return take_rest(r->aside, r->folder) && move_one(r->aside, r->folder, mark);
+    return move_or_remove_rest(r->aside, r->folder) && move_file(r->aside, r->folder, mark);
 }
 
 static bool remove_all(const char *folder)
 {
-    return take_one(folder, NULL, mark) && take_rest(folder, NULL);
+    return move_or_remove(folder, NULL, mark) && move_or_remove_rest(folder, NULL);
 }
 
-/* What a process has left that was killed; the folder aside is empty then. Where the new recording has its mark it
- * has begun, and was in its first tick; before that it has but an empty log. */
+/* Complete what a killed process left unfinished, so that the folder aside is empty. If the new recording has its mark,
+ * it was in its first tick; otherwise it has at most an empty ticks.jsonl and an unfinished mark. */
 static bool recover(const replacement *r, octreel_error *error)
 {
     bool ok = true;
     if (!is_recording(r->aside))
         ok = remove_all(r->aside);
     else
-        ok = (folder_has(r->folder, mark) ? remove_all(r->folder) : take_one(r->folder, NULL, unfinished_mark)) &&
-             put_back(r);
+        ok = (folder_has(r->folder, mark) ? remove_all(r->folder) : move_or_remove(r->folder, NULL, unfinished_mark)) &&
+             restore(r);
     return ok || error_set(error, "%s: what is there cannot be put back: %s", r->aside, strerror(errno));
 }
 
@@ -183,8 +189,8 @@ static void release(replacement *r)
     *r = (replacement){0};
 }
 
-/* Whether the folder that is open is still there: who had it before may have removed it. */
-static bool is_there(const replacement *r)
+/* Whether the open folder aside still exists: the process that had it before may have removed it. */
+static bool still_exists(const replacement *r)
 {
     struct stat open, named;
     return fstat(r->lock, &open) == 0 && stat(r->aside, &named) == 0 && is_same_file(&open, &named);
@@ -193,11 +199,11 @@ static bool is_there(const replacement *r)
 static bool make_aside(replacement *r, octreel_error *error)
 {
     if (mkdir(r->aside, 0777) != 0 && errno != EEXIST)
-        return error_set(error, "%s: the folder cannot be made: %s", r->aside, strerror(errno));
+        return error_set(error, "%s: cannot create the folder: %s", r->aside, strerror(errno));
     r->lock = open(r->aside, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (r->lock < 0 && errno != ENOENT)
-        return error_set(error, "%s: the folder cannot be opened: %s", r->aside, strerror(errno));
-    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && is_there(r))
+        return error_set(error, "%s: cannot open the folder: %s", r->aside, strerror(errno));
+    if (r->lock >= 0 && (flock(r->lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) && still_exists(r))
         return true;
     if (r->lock >= 0)
         close(r->lock);
@@ -207,10 +213,10 @@ static bool make_aside(replacement *r, octreel_error *error)
 
 static bool set_aside(replacement *r, octreel_error *error)
 {
-    if (move_one(r->folder, r->aside, mark) && take_rest(r->folder, r->aside))
+    if (move_file(r->folder, r->aside, mark) && move_or_remove_rest(r->folder, r->aside))
         return true;
-    error_set(error, "%s: what is there cannot be replaced: %s", r->folder, strerror(errno));
-    put_back(r);
+    error_set(error, "%s: cannot move the old recording aside: %s", r->folder, strerror(errno));
+    restore(r);
     return false;
 }
 
@@ -219,7 +225,7 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     *r = (replacement){.folder = strdup(folder), .aside = path_join(folder, FOLDER_ASIDE), .lock = -1};
     bool ok = (r->folder && r->aside) || error_no_memory(error);
     ok = ok && folder_make(folder, error) && replacement_check(folder, error);
-    ok = ok && make_aside(r, error) && replacement_check(folder, error); /* others may have been faster */
+    ok = ok && make_aside(r, error) && replacement_check(folder, error); /* another process may have been faster */
     ok = ok && recover(r, error) && set_aside(r, error);
     if (!ok)
         release(r);
@@ -237,7 +243,7 @@ bool replacement_undo(replacement *r)
 {
     const bool set = r->aside;
     if (set && remove_all(r->folder))
-        put_back(r);
+        restore(r);
     release(r);
     return set;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* tick_log.c - appends to ticks.jsonl so that it has whole lines only. */
 #include "tick_log.h"
 
 #include <errno.h>
@@ -13,11 +14,11 @@ static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
     return error_set(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
 }
 
-/* Emptied only after the lock is taken: the lines of another process stay. */
+/* Empties the file only after locking it, so that the lines of another process stay. */
 static bool begin(tick_log *log, int file, bool keep, octreel_error *error)
 {
     if (!file_lock(file))
-        return error_set(error, "%s: another process is filming into it", log->path);
+        return error_set(error, "%s: another process is recording into this folder", log->path);
     log->kept = keep ? lseek(file, 0, SEEK_END) : 0;
     if (log->kept >= 0 && lseek(file, 0, SEEK_SET) == 0 && (keep || ftruncate(file, 0) == 0))
         log->stream = fdopen(file, "r+b");
@@ -49,7 +50,7 @@ static bool give_up(tick_log *log, octreel_error *error)
     return fail_to_write(log, error, cut ? "" : "; its last line is torn");
 }
 
-/* Whether this is the next line of the earlier log. */
+/* Whether a line equals the next line of the earlier log. */
 static bool is_kept(const tick_log *log, const char *line, size_t size)
 {
     if (log->kept - log->whole < (off_t)size)
@@ -60,8 +61,8 @@ static bool is_kept(const tick_log *log, const char *line, size_t size)
     return true;
 }
 
-/* The earlier log differs from here on: drop the rest of it. */
-static bool forget(tick_log *log)
+/* Remove the rest of the earlier log, which differs from here on. */
+static bool drop_rest(tick_log *log)
 {
     log->kept = 0;
     return fseeko(log->stream, log->whole, SEEK_SET) == 0 && ftruncate(fileno(log->stream), log->whole) == 0;
@@ -73,7 +74,7 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *e
         log->whole += (off_t)size;
         return true;
     }
-    if (log->kept > 0 && !forget(log))
+    if (log->kept > 0 && !drop_rest(log))
         return give_up(log, error);
     if (fwrite(line, 1, size, log->stream) != size || fflush(log->stream) != 0)
         return give_up(log, error);
@@ -83,7 +84,7 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *e
 
 bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
-    const bool cut = !log->stream || !whole || log->kept == 0 || forget(log) || fail_to_write(log, error, "");
+    const bool cut = !log->stream || !whole || log->kept == 0 || drop_rest(log) || fail_to_write(log, error, "");
     if (log->stream)
         flock(fileno(log->stream), LOCK_UN); /* a child of the program may have the file open, too */
     const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* verify.c - plays a recording again and compares it tick by tick; prints what was found. */
+/* verify.c - replays the session of a recording, compares ticks and frames, and prints the findings. */
 #include "verify.h"
 #include "frame_file.h"
 #include "json_write.h"
@@ -26,7 +26,7 @@ typedef struct verifying {
     const char *folder;
     const verify_options *options;
     replay replay;
-    uint64_t filmed_session; /* the digest of the session that the frames are of */
+    uint64_t filmed_session; /* the session digest in the first frame */
     line_reader lines;
     bool stopped; /* at the first tick that differs */
     verify_report *report;
@@ -78,8 +78,8 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* Check the first frame before a renderer of the size in recording.json is opened. What else is wrong with it is found
- * at its tick. */
+/* Check the session and the size in the first frame, before a renderer of the size in recording.json is opened. Other
+ * errors of this frame are found at its tick. */
 static bool check_first_frame(verifying *v, octreel_error *error)
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_name(0, name));
@@ -96,7 +96,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* What a recording lacks at its end, it lacks because its filming broke off. */
+/* Appended where the end of a recording is missing, because recording was interrupted. */
 #define COMPLETED "; octreel record --resume completes what broke off"
 
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
@@ -110,7 +110,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     verify_finding differs = {.kind = VERIFY_LINES, .has_tick = true, .tick = step->tick};
     if (state == LINE_TROUBLE)
         return error_set(error, "%s/ticks.jsonl: cannot be read: %s", v->folder, strerror(errno));
-    if (state == LINE_WHOLE && line_same(&v->lines, &expected, &differs))
+    if (state == LINE_WHOLE && line_matches(&v->lines, &expected, &differs))
         return true;
     if (state == LINE_WHOLE)
         v->report->findings[v->report->count++] = differs;
@@ -126,7 +126,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     return true;
 }
 
-static void find_pixels(verifying *v, const char *path, uint64_t tick)
+static void report_pixels(verifying *v, const char *path, uint64_t tick)
 {
     image_tally unlike = {0};
     octreel_error ignored;
@@ -143,8 +143,8 @@ static void find_pixels(verifying *v, const char *path, uint64_t tick)
                 r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
-/* `drawn`: for all that, it shows what is drawn. */
-static void find_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
+/* `drawn`: the frame is wrong but has the pixels that are drawn now. */
+static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
 {
     const size_t length = strlen(v->folder);
     const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
@@ -152,7 +152,7 @@ static void find_frame(verifying *v, const char *sentence, uint64_t tick, bool d
                 drawn ? "; its pixels are those that are drawn now" : "");
 }
 
-/* A file that cannot be read for its permissions or the disk is trouble, not a difference. */
+/* A file that cannot be read because of permissions or the disk is an error, not a difference. */
 static bool check_readable(const char *path, octreel_error *error)
 {
     char reason[FILE_REASON];
@@ -163,7 +163,7 @@ static bool check_readable(const char *path, octreel_error *error)
     return true;
 }
 
-/* Whether these pixels are drawn now. */
+/* Whether the digest of a frame is that of the pixels drawn now. */
 static bool is_drawn(const verifying *v, const frame_origin *origin)
 {
     return origin->pixels == image_digest_by(origin->kind, &v->replay.playback.picture.frame);
@@ -186,16 +186,16 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     else if (!check_readable(path, error))
         v->stopped = ok = false;
     else if (!frame_check(v->folder, &origin, &unlike))
-        find_frame(v, unlike.text, step->tick, is_drawn(v, &origin));
+        report_frame(v, unlike.text, step->tick, is_drawn(v, &origin));
     else if (!is_drawn(v, &origin))
-        find_pixels(v, path, step->tick);
+        report_pixels(v, path, step->tick);
     else
         v->stopped = false;
     free(path);
     return ok;
 }
 
-/* A film_sink: false also at the first tick that differs. */
+/* A film_sink. Returns false at the first tick that differs, too. */
 static bool check_tick(void *context, const film_step *step, octreel_error *error)
 {
     verifying *v = context;
@@ -227,7 +227,7 @@ static void check_end_of_lines(verifying *v)
                 plural(v->replay.ticks));
 }
 
-/* Whether a file has a frame's name that this recording does not have. */
+/* Whether a file is named like a frame, but this recording has no such frame. */
 static bool is_extra_frame(const verifying *v, const char *name)
 {
     uint64_t tick;
@@ -263,10 +263,10 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
 
 /* ---- The recording ------------------------------------------------------------------------------------------ */
 
-static void tell_renderer(verifying *v)
+static void report_renderer(verifying *v)
 {
     const renderer_info info = renderer_about(v->replay.playback.picture.renderer);
-    who_draws(&info, v->report->drawn_now, sizeof v->report->drawn_now);
+    describe_renderer(&info, v->report->drawn_now, sizeof v->report->drawn_now);
     v->report->fill = info.fill;
 }
 
@@ -285,7 +285,7 @@ static bool open_renderer(verifying *v, octreel_error *error)
     return playback_film(p, &target, error);
 }
 
-static bool play_again(verifying *v, octreel_error *error)
+static bool replay_ticks(verifying *v, octreel_error *error)
 {
     const film_share all = {.last = v->replay.ticks};
     if (!playback_open(&v->replay.playback, &v->replay.session.session, &v->replay.session.values, &v->replay.film.view,
@@ -293,7 +293,7 @@ static bool play_again(verifying *v, octreel_error *error)
         !open_renderer(v, error))
         return false;
     if (v->replay.playback.picture.renderer)
-        tell_renderer(v);
+        report_renderer(v);
     if (!playback_run(&v->replay.playback, &all, check_tick, NULL, v, error))
         return v->stopped;
     check_end_of_lines(v);
@@ -308,9 +308,9 @@ static bool verify_all(verifying *v, octreel_error *error)
     v->report->has_frames = v->replay.film.every > 0;
     errno = 0;
     if (v->report->has_frames)
-        who_drew(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
+        describe_recorded_renderer(v->folder, v->report->drawn_by, sizeof v->report->drawn_by);
     return check_system_resources(error) && (!v->report->has_frames || check_first_frame(v, error)) &&
-           (v->stopped || play_again(v, error)) && check_extra_frames(v, error);
+           (v->stopped || replay_ticks(v, error)) && check_extra_frames(v, error);
 }
 
 bool verify_recording(const char *folder, const verify_options *options, verify_report *report, octreel_error *error)

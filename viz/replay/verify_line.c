@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* verify_line.c - reads ticks.jsonl line by line and finds the first difference of a line. */
 #include "verify_line.h"
 #include "array.h"
 #include "file.h"
@@ -58,8 +59,8 @@ line_state lines_next(line_reader *reader, size_t limit)
 
 #define VALUE_TEXT 96
 
-/* A value as JSON in ASCII, cut where it is long. */
-static const char *value_text(const json_t *value, char text[VALUE_TEXT])
+/* A value as JSON in ASCII, shortened if it is long. */
+static const char *format_value(const json_t *value, char text[VALUE_TEXT])
 {
     char *whole = value ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
     if (!whole)
@@ -70,14 +71,14 @@ static const char *value_text(const json_t *value, char text[VALUE_TEXT])
     return text;
 }
 
-/* Say that these two values are the first that differ. */
-static void say_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
+/* Report the first two values that differ. */
+static void report_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     char place[128], texts[2][VALUE_TEXT];
     json_place_format(at, place, sizeof place);
     const bool scene = strcmp(place, "scene") == 0;
     snprintf(finding->text, sizeof finding->text, "%s is %s in ticks.jsonl, and %s when it is played again%s",
-             scene ? "the digest of its scene" : place, value_text(found, texts[0]), value_text(expected, texts[1]),
+             scene ? "the digest of its scene" : place, format_value(found, texts[0]), format_value(expected, texts[1]),
              scene ? " (or it is by another version of octreel)" : "");
 }
 
@@ -94,12 +95,12 @@ static bool compare_arrays(const json_place *at, const json_t *found, const json
     return false;
 }
 
-/* Compare members in the order in which they are written; then those that only the line that was read has. */
+/* Compare the expected members in their order, then members that only the found object has. */
 static bool compare_objects(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     const json_t *const both[] = {expected, found};
     for (int i = 0; i < 2; i++) {
-        /* jansson iterates over no const object; it changes nothing */
+        /* jansson's iterators take no const object, but change nothing */
         for (void *member = json_object_iter((json_t *)both[i]); member;
              member = json_object_iter_next((json_t *)both[i], member)) {
             const char *key = json_object_iter_key(member);
@@ -114,7 +115,7 @@ static bool compare_objects(const json_place *at, const json_t *found, const jso
     return false;
 }
 
-/* False where there is no difference. */
+/* Report the first difference of two values. False: they are equal. */
 static bool find_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     if (json_equal(found, expected))
@@ -123,20 +124,20 @@ static bool find_difference(const json_place *at, const json_t *found, const jso
         return compare_objects(at, found, expected, finding);
     if (json_is_array(found) && json_is_array(expected))
         return compare_arrays(at, found, expected, finding);
-    say_values(at, found, expected, finding);
+    report_values(at, found, expected, finding);
     return true;
 }
 
-/* ---- A line against a line ---------------------------------------------------------------------------------- */
+/* ---- Comparing lines ---------------------------------------------------------------------------------------- */
 
-static void say_line(verify_finding *finding, const char *what)
+static void report_line(verify_finding *finding, const char *what)
 {
     finding->kind = VERIFY_LINES;
     snprintf(finding->text, sizeof finding->text, "%s", what);
 }
 
-/* Whether the line is that of another tick: lines were lost, doubled or exchanged. */
-static bool is_of_another(const json_t *found, uint64_t tick, verify_finding *finding)
+/* Report a line of another tick: lines were lost, repeated or exchanged. False: it is the line of this tick. */
+static bool report_other_tick(const json_t *found, uint64_t tick, verify_finding *finding)
 {
     const json_t *number = json_object_get(found, "tick");
     if (!json_is_integer(number) || json_integer_value(number) < 0 || (uint64_t)json_integer_value(number) == tick)
@@ -151,11 +152,11 @@ static bool is_of_another(const json_t *found, uint64_t tick, verify_finding *fi
 static void compare_lines(const json_t *found, const json_t *expected, uint64_t tick, verify_finding *finding)
 {
     if (!json_is_object(found)) {
-        say_line(finding, "its line in ticks.jsonl is no JSON object");
-    } else if (!is_of_another(found, tick, finding)) {
+        report_line(finding, "its line in ticks.jsonl is no JSON object");
+    } else if (!report_other_tick(found, tick, finding)) {
         finding->kind = VERIFY_FACTS;
         if (!compare_objects(NULL, found, expected, finding))
-            say_line(finding, "its line in ticks.jsonl says the same, but is not written as octreel writes it");
+            report_line(finding, "its line in ticks.jsonl says the same, but is not written as octreel writes it");
         else if (strcmp(finding->fact, "scene") == 0)
             finding->kind = VERIFY_SCENE;
     }
@@ -166,7 +167,7 @@ static bool is_line(const line_reader *found, const char *text, size_t size)
     return found->size == size && memcmp(found->line, text, size) == 0;
 }
 
-/* A line of ticks.jsonl is read up to so many times the size of the one that is expected, and so many bytes more. */
+/* A line is read up to LINE_FACTOR times the expected size plus LINE_SLACK bytes. */
 #define LINE_FACTOR 16
 #define LINE_SLACK 65536
 
@@ -176,8 +177,8 @@ size_t line_limit(const expected_line *expected)
     return LINE_FACTOR * expected->size + LINE_SLACK + (tick->split_count + tick->merge_count) * OCTREE_ADDRESS_TEXT;
 }
 
-/* Whether it lists all nodes that split or merged, and is right for the rest. */
-static bool is_whole_line(const line_reader *found, const expected_line *expected)
+/* Whether a line lists all nodes that split or merged, as earlier versions wrote it, and is otherwise as expected. */
+static bool is_earlier_line(const line_reader *found, const expected_line *expected)
 {
     tick_extras extras = *expected->extras;
     text_stream s;
@@ -194,9 +195,9 @@ static bool is_whole_line(const line_reader *found, const expected_line *expecte
     return same;
 }
 
-bool line_same(const line_reader *found, const expected_line *expected, verify_finding *finding)
+bool line_matches(const line_reader *found, const expected_line *expected, verify_finding *finding)
 {
-    if (is_line(found, expected->text, expected->size) || is_whole_line(found, expected))
+    if (is_line(found, expected->text, expected->size) || is_earlier_line(found, expected))
         return true;
     const size_t flags = JSON_REJECT_DUPLICATES;
     json_error_t why;
@@ -205,7 +206,7 @@ bool line_same(const line_reader *found, const expected_line *expected, verify_f
     if (a)
         compare_lines(a, b, expected->tick->number, finding);
     else
-        say_line(finding, "its line in ticks.jsonl is no JSON");
+        report_line(finding, "its line in ticks.jsonl is no JSON");
     json_decref(a);
     json_decref(b);
     return false;

@@ -153,7 +153,7 @@ static void a_recording_that_is_being_made_is_not_replaced(void **state)
     def.replace = true;
     octreel_recorder *early = open_recorder(&def), *recorder = open_recorder(&def);
     record_steps(recorder, &m, 3);
-    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "is filming into it");
+    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "is recording into this folder");
     assert_int_equal(octreel_recorder_tick(early, m.tree, NULL), OCTREEL_BAD_FOLDER);
     octreel_recorder_destroy(early);
     record_steps(recorder, &m, 2);

@@ -148,7 +148,7 @@ static void job_that_is_killed_is_named(void **state)
     }
     kill(job, SIGKILL);
     command_result result = end_of(&b);
-    assert_non_null(strstr(result.err, " of 2 was killed by signal 9 (Killed); --resume films what is missing"));
+    assert_non_null(strstr(result.err, " of 2 was killed by signal 9 (Killed); --resume records the missing ticks"));
     assert_trouble(&result, "job ");
     const size_t lines = for_each_line(folder.path, NULL, NULL);
     assert_true(lines >= 1 && lines < 4000);
@@ -302,7 +302,7 @@ static void jobs_that_cannot_be_told_what_to_film_are_not_waited_for(void **stat
     assert_false(film_session(&session, &options, &summary, &error));
     alarm(0);
     fails_in = 0;
-    assert_string_equal(error.text, "job 1 of 2 cannot be told what to film: No buffer space available");
+    assert_string_equal(error.text, "cannot send the session digest to job 1 of 2: No buffer space available");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)

@@ -103,7 +103,7 @@ static void frames_are_not_added_later(void **state)
     options.every = 1;
     options.resume = true;
     assert_false(film_session(&session, &options, &summary, &error));
-    assert_non_null(strstr(error.text, "tells of another view"));
+    assert_non_null(strstr(error.text, "has another view"));
 }
 
 /* Nothing is written of a session of which a page would not play. */

@@ -227,14 +227,14 @@ static void recording_that_cannot_be_read_gets_no_page(void **state)
     const place lines = place_below(folder.path, "ticks.jsonl"), about = place_below(folder.path, "recording.json");
     for (size_t i = 0; i < sizeof ticks / sizeof ticks[0]; i++) {
         file_write_text(lines.path, ticks[i][0]);
-        assert_no_page(folder.path, ticks[i][1], "is no JSON object");
+        assert_no_page(folder.path, ticks[i][1], "not a JSON object");
     }
     remove(lines.path);
     assert_no_page(folder.path, lines.path, "No such file or directory");
     assert_int_equal(mkdir(lines.path, 0777), 0);
     assert_no_page(folder.path, lines.path, "is not a regular file");
     file_write_text(about.path, "");
-    assert_no_page(folder.path, about.path, "is no JSON object");
+    assert_no_page(folder.path, about.path, "not a JSON object");
     remove(about.path);
     assert_no_page(folder.path, about.path, "No such file or directory");
     assert_no_page(place_in(*state, "nowhere").path, "nowhere/index.html", "No such file or directory");

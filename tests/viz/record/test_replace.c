@@ -110,7 +110,7 @@ static void frames_without_a_recording_are_left_alone(void **state)
     assert_int_equal(remove(place_below(f.copy.path, "recording.json").path), 0);
     assert_not_replaced(&f, "recording.json is missing");
     put(&f, "recording.json", "{\"artist\": \"somebody\"}");
-    assert_not_replaced(&f, "is no recording's");
+    assert_not_replaced(&f, "belongs to another program");
 }
 
 static void what_only_looks_like_a_file_of_a_recording_is_left_alone(void **state)
@@ -133,11 +133,11 @@ static void links_and_folders_among_its_files_are_left_alone(void **state)
     file_write_text(mine.path, "mine");
     assert_int_equal(symlink(mine.path, link.path), 0);
     command_result result = run_octreel(NULL, "record " SMALL " --keys en --replace -o %s", f.old.path);
-    assert_trouble(&result, "frame_000009.png: is not a regular file");
+    assert_trouble(&result, "frame_000009.png: not a regular file");
     assert_int_equal(remove(link.path), 0);
     assert_int_equal(mkdir(link.path, 0777), 0);
     result = run_octreel(NULL, "record " SMALL " --keys en --replace -o %s", f.old.path);
-    assert_trouble(&result, "frame_000009.png: is not a regular file");
+    assert_trouble(&result, "frame_000009.png: not a regular file");
     assert_int_equal(rmdir(link.path), 0);
     assert_same_folders(f.old.path, f.copy.path, NULL);
 }
@@ -164,7 +164,7 @@ static void a_recording_that_is_being_filmed_is_left_alone(void **state)
         assert_true(file >= 0);
         if (flock(file, LOCK_EX | LOCK_NB) != 0)
             skip(); /* a file system without locks */
-        assert_not_replaced(&f, "another process is filming into it");
+        assert_not_replaced(&f, "another process is recording into this folder");
         close(file);
     }
 }

@@ -302,7 +302,7 @@ static void another_session_or_view_is_refused_and_changes_nothing(void **state)
     assert_non_null(strstr(error.text, "session.json: is another session"));
     options.view.width = 161;
     assert_false(film_session(&session, &options, &summary, &error));
-    assert_non_null(strstr(error.text, "recording.json: tells of another view"));
+    assert_non_null(strstr(error.text, "recording.json: has another view"));
     assert_same_folders(whole.path, folder.path, NULL);
 }
 
@@ -316,7 +316,7 @@ static void folder_that_another_process_films_into_is_refused(void **state)
     command_result result = run_octreel(NULL, "record --resume -o %s", whole.path);
     close(file);
     assert_non_null(strstr(result.err, log.path));
-    assert_trouble(&result, "another process is filming into it");
+    assert_trouble(&result, "another process is recording into this folder");
 }
 
 /* ---- The program -------------------------------------------------------------------------------------------- */

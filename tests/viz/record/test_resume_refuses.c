@@ -98,7 +98,7 @@ static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
         char sentence[64];
         const place film = recorded(state, i == 0 ? "viewless" : "sessionless");
         remove(place_below(film.path, names[i]).path);
-        snprintf(sentence, sizeof sentence, "could be completed (%s is missing)", names[i]);
+        snprintf(sentence, sizeof sentence, "%s is missing; choose another folder", names[i]);
         assert_refused(state, "--resume " SMALL, film.path, sentence);
         assert_refused(state, "--ticks 0:2 " SMALL, film.path, sentence);
     }
@@ -131,7 +131,7 @@ static void session_that_was_changed_after_it_was_filmed_is_refused(void **state
     assert_done(&result);
     command_release(&result);
     static const char sentence[] =
-        "is a frame of another session than session.json: put back what was filmed, or choose another folder";
+        "shows another session than session.json; restore the original session.json, or choose another folder";
     assert_refused(state, "--resume", film.path, sentence);
     assert_refused(state, "--resume --jobs 2", film.path, sentence);
     assert_refused(state, "--ticks 0:2 --size 64x48 --keys wwddeend", film.path, sentence);
@@ -146,7 +146,7 @@ static void surplus_frame_is_refused(void **state)
         const place film = recorded(state, name);
         file_write_text(place_below(film.path, names[i]).path, "mine");
         assert_refused(state, "--resume", film.path,
-                       "is no frame of this recording: remove it, or choose another folder");
+                       "not a frame of this recording; remove it, or choose another folder");
     }
 }
 
@@ -158,7 +158,7 @@ static void files_of_somebody_else_are_not_replaced(void **state)
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char name[16], sentence[64];
         snprintf(name, sizeof name, "site%zu", i);
-        snprintf(sentence, sizeof sentence, "holds %s, and no recording that could be completed", names[i]);
+        snprintf(sentence, sizeof sentence, "cannot resume: %s is there", names[i]);
         const place site = place_in(*state, name);
         make_folder(site.path);
         file_write_text(place_below(site.path, names[i]).path, "mine");
