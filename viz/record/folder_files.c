@@ -157,11 +157,11 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
 char *describe_renderer(const renderer_info *info, char *text, size_t size)
 {
     enum { LONGEST = 100 }; /* characters of each string */
-    const char *const words[] = {info->context, info->renderer, info->version};
-    size_t length = 0;
     const bool by_gl = !info->fill || strcmp(info->fill, draw_fill_name(DRAW_FILL_GL)) == 0;
-    snprintf(text, size, by_gl ? "an unknown renderer" : "the integer rasterizer");
-    for (size_t i = 0; by_gl && i < sizeof words / sizeof words[0] && length < size; i++)
+    const char *const words[] = {by_gl ? NULL : "the integer rasterizer", info->context, info->renderer, info->version};
+    size_t length = 0;
+    snprintf(text, size, "an unknown renderer");
+    for (size_t i = 0; i < sizeof words / sizeof words[0] && length < size; i++)
         if (words[i])
             length += (size_t)snprintf(text + length, size - length, "%s%.*s", length ? ", " : "", LONGEST, words[i]);
     return make_printable(text);

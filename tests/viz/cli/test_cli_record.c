@@ -241,7 +241,7 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
     json_t *summary = json_read(result.out);
     assert_members(summary,
-                   "folder ticks frames gaps left_out over_budget below_lod refusals seconds frames_per_second events");
+                   "folder ticks frames gaps left_out checked checked_by over_budget below_lod refusals seconds frames_per_second events");
     assert_string_equal(json_string_value(json_member(summary, "folder")), folder.path);
     assert_whole_number(json_member(summary, "ticks"), 253);
     assert_whole_number(json_member(summary, "frames"), 6);

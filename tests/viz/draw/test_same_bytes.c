@@ -177,7 +177,7 @@ static void what_a_machine_has_does_reach_each_context(void **state)
         const command_setting machine = {.environment = {rows[i / DRAW_CONTEXTS].set}};
         char name[16], options[64];
         snprintf(name, sizeof name, "film%zu", i);
-        snprintf(options, sizeof options, "--keys w --size 16x16 --context %s",
+        snprintf(options, sizeof options, "--keys w --size 16x16 --fill gl --context %s",
                  draw_context_name((draw_context)(i % DRAW_CONTEXTS)));
         if (!can_draw(&machine, (draw_context)(i % DRAW_CONTEXTS)))
             continue;

@@ -20,7 +20,7 @@ static void the_same_scene_drawn_otherwise_is_a_difference_of_rendering(void **s
     const place a = film_twins(*state, KEYS, &b);
     spoil_frame(b.path, 1, 77, true);
     spoil_frame(b.path, 3, 77, true);
-    edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
+    edit_file(b.path, "renderer.json", "\"renderer\": null", "\"renderer\": \"other \"");
     comparison_of made = assert_explained(&a, &b, 10);
     const char *cause = cause_of(&made, "frame_000003.png");
     assert_holds(made.why.headline, "rendering differs: the scene digests are equal; reference drawn by ");
@@ -39,7 +39,7 @@ static void another_renderer_alone_is_no_difference(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
-    edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
+    edit_file(b.path, "renderer.json", "\"renderer\": null", "\"renderer\": \"other \"");
     comparison_of made = assert_explained(&a, &b, 10);
     assert_int_equal(made.result.verdict, DIFF_SAME);
     assert_null(made.why.headline);
@@ -135,7 +135,7 @@ static void another_anti_aliasing_is_no_other_renderer(void **state)
     assert_string_equal(cause_of(&made, "frame_000001.png"), "tick 1: another anti-aliasing (2, was 1)");
     assert_false(made.why.pairs[1].only_drawn);
     comparison_release(&made);
-    edit_file(b.path, "renderer.json", "\"renderer\": \"", "\"renderer\": \"other ");
+    edit_file(b.path, "renderer.json", "\"renderer\": null", "\"renderer\": \"other \"");
     made = assert_explained(&a, &b, 10);
     assert_holds(cause_of(&made, "frame_000001.png"), "tick 1: another anti-aliasing (2, was 1); reference drawn by ");
     comparison_release(&made);

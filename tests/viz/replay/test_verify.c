@@ -48,7 +48,7 @@ static void session_with_edits_motion_and_queries_is_identical(void **state)
 static void neither_renderer_nor_page_is_asked_for(void **state)
 {
     const place folder = film_short(*state);
-    edit_file(folder.path, "renderer.json", "llvmpipe", "abacus");
+    edit_file(folder.path, "renderer.json", "\"renderer\": null", "\"renderer\": \"abacus\"");
     remove(place_below(folder.path, "index.html").path);
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
     remove(place_below(folder.path, "renderer.json").path);
