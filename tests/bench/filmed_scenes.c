@@ -3,6 +3,7 @@
 #include "filmed_scenes.h"
 #include "octree/octree.h"
 #include "octree/sample.h"
+#include "recording_file.h"
 
 #include <stdlib.h>
 #include <string.h>

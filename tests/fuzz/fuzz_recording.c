@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 /* ---- What is filmed ----------------------------------------------------------------------------------------- */
 
 #define SESSION "{\"octreel\": \"session\", \"version\": 1, "
-#define VIEW "{\"octreel\": \"recording\", \"version\": 3, \"theme\": \"night\", "
+#define VIEW "{\"octreel\": \"recording\", \"version\": 4, \"theme\": \"night\", "
 
 typedef struct filmed {
     const char *session, *view;
@@ -60,18 +60,18 @@ static const filmed films[] = {
      "{\"tick\": 2, \"gap\": \"no room\"}\n"
      "{\"tick\": 3, \"nodes\": []}\n",
      VIEW
-     "\"width\": 96, \"height\": 64, \"camera\": \"orbit\", \"layers\": [\"world\", \"nodes\", \"visited\", "
+     "\"size\": [96, 64], \"camera\": \"orbit\", \"layers\": [\"world\", \"nodes\", \"visited\", "
      "\"points\", \"velocities\", \"radius\", \"knearest\", \"player\", \"box\", \"shapes\", \"wrong\", \"text\"], "
      "\"color_by\": \"depth\", \"color_points\": \"class\", \"labels\": true, \"diagram\": \"beside\", "
      "\"slice\": {\"z\": 5}, \"depths\": [0, 4], \"lod\": 1, \"budget\": 1000, \"aa\": 1, \"every\": 1}"},
     {SESSION "\"tree\": {\"capacity\": 1, \"depth\": 3}, \"points\": [[1, 1, 1], [-1, -1, -1], [500, 500, 500], [500, "
              "500, 500], [5000, 0, 0]], \"keys\": \"ddnaw.\", \"queries\": [{\"nearest\": \"player\", \"answer\": "
              "[2]}]}",
-     VIEW "\"width\": 64, \"height\": 48, \"camera\": \"iso\", \"color_by\": \"depth\", \"lod\": 0, \"budget\": 100, "
+     VIEW "\"size\": [64, 48], \"camera\": \"iso\", \"color_by\": \"depth\", \"lod\": 0, \"budget\": 100, "
           "\"aa\": 1, \"layers\": [\"nodes\", \"points\", \"text\"], \"every\": 0}"},
     {SESSION "\"points\": {\"sample\": \"uniform\", \"count\": 9, \"seed\": 1}, \"velocities\": {\"speed\": 90, "
              "\"seed\": 1}, \"player\": null, \"ticks\": 2}",
-     VIEW "\"width\": 48, \"height\": 48, \"camera\": \"top\", \"color_by\": \"plain\", \"lod\": 0, \"budget\": 100, "
+     VIEW "\"size\": [48, 48], \"camera\": \"top\", \"color_by\": \"plain\", \"lod\": 0, \"budget\": 100, "
           "\"aa\": 2, \"shade\": \"edl\", \"layers\": [\"world\", \"points\"], \"every\": 2}"},
 };
 

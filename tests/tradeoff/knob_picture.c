@@ -10,6 +10,7 @@
 #include "picture.h"
 #include "timing.h"
 #include "must.h"
+#include "recording_file.h"
 
 static const column columns[] = {
     {"setting", "--lod: boxes that appear smaller, in pixels, are left out under a drawn one", NULL},

@@ -12,6 +12,7 @@
 #include "timing.h"
 #include "measuring.h"
 #include "program.h"
+#include "recording_file.h"
 
 static const column columns[] = {
     {"setting", "zlib's level", NULL},

@@ -12,6 +12,7 @@
 #include "fixture.h"
 #include "tick_scene.h"
 #include "timing.h"
+#include "recording_file.h"
 
 static const column columns[] = {
     {"setting", "points are moved at random by up to so many pixels: `depth` away or nearer, `place` across", NULL},

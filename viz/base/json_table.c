@@ -33,6 +33,8 @@ static bool read_member(json_reader *r, json_t *object, const json_place *at, co
     json_t *value = json_object_get(object, row->name);
     if (!value)
         return !row->required || json_fail(r, at, "the member \"%s\" is missing", row->name);
+    if (row->nullable && json_is_null(value))
+        return true;
     const json_place place = {at, row->name, 0};
     r->row = row;
     if (!row->codec->read(r, value, &place, (char *)into + row->offset))
@@ -73,14 +75,18 @@ void json_write_members(json_writer *w, const json_member *table, const void *fr
 {
     for (; table->name; table++) {
         const void *value = (const char *)from + table->offset;
-        if (!table->codec->write || (table->codec->is_set && !table->codec->is_set(value)) ||
-            (table->given && !*(const bool *)((const char *)from + table->given)))
+        const bool set = (!table->codec->is_set || table->codec->is_set(value)) &&
+                         (!table->given || *(const bool *)((const char *)from + table->given));
+        if (!table->codec->write || !(set || table->nullable))
             continue;
         if (table->line)
             json_write_newline(w);
         json_write_key(w, table->name);
         w->row = table;
-        table->codec->write(w, value);
+        if (set)
+            table->codec->write(w, value);
+        else
+            json_write_null(w);
     }
 }
 
@@ -247,20 +253,19 @@ bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, 
 
 static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    const uint64_t own = (uint64_t)r->row->max, oldest = r->row->min > 0 ? (uint64_t)r->row->min : own;
+    const uint64_t own = (uint64_t)r->row->max;
     uint64_t version = 0;
     (void)into;
     if (!json_read_whole(r, value, at, 1, JSON_LARGEST_WHOLE, &version))
         return false;
     if (version > own)
         return json_fail(r, at,
-                         "the %s was made by a newer Octreel, of version %" PRIu64
-                         ", and this one reads version %" PRIu64 ": use that one",
-                         r->row->about, version, own);
-    return version >= oldest || json_fail(r, at,
-                                          "the %s was made by an older Octreel, of version %" PRIu64
-                                          ": film its session.json again, or use that one",
-                                          r->row->about, version);
+                         "%s version %" PRIu64 " is newer than version %" PRIu64
+                         ", which this Octreel reads; use a newer Octreel",
+                         (const char *)r->row->about, version, own);
+    return version == own ||
+           json_fail(r, at, "%s version %" PRIu64 " is not supported; record it again with this Octreel",
+                     (const char *)r->row->about, version);
 }
 
 static void write_version(json_writer *w, const void *from)

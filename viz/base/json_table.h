@@ -27,6 +27,7 @@ typedef struct json_member {
     size_t offset;    /* of the value in the structure */
     size_t given;     /* of a bool in it: reading sets it, and it is written where it is set; 0: none */
     bool required;    /* when it is read */
+    bool nullable;    /* null stands for a value that is not set, instead of leaving the member out */
     bool line;        /* it is written on a line of its own */
     double min, max;  /* of numbers */
     json_name *names; /* of a choice */
@@ -87,12 +88,12 @@ extern const json_codec json_uint64, json_size, json_int; /* whole numbers from 
 extern const json_codec json_number, json_positive;       /* double */
 extern const json_codec json_interval;                    /* double from row->min to row->max */
 extern const json_codec json_constant;                    /* the text row->about: no other is read */
-extern const json_codec json_version;        /* of a file: row->max is written, and what is older than row->min (0: than
-                                                row->max) is not read; row->about is what it is */
-extern const json_codec json_bool;           /* left out when false */
-extern const json_codec json_choice;         /* an enumeration: the number of one of row->names */
-extern const json_codec json_later_choice;   /* the same, left out when it is the first */
-extern const json_codec json_vector;         /* double[3] */
+extern const json_codec json_version;      /* the format version of a file, row->max, and no other; row->about names the
+                                              file in errors: "recording" */
+extern const json_codec json_bool;         /* left out when false */
+extern const json_codec json_choice;       /* an enumeration: the number of one of row->names */
+extern const json_codec json_later_choice; /* the same, left out when it is the first */
+extern const json_codec json_vector;       /* double[3] */
 extern const json_codec json_nonzero_vector; /* the same, left out when all its bits are 0 */
 extern const json_codec json_box;            /* octree_box */
 extern const json_codec json_structure;      /* a structure of row->members */

@@ -16,6 +16,7 @@
 #include "progress.h"
 #include "query_options.h"
 #include "text.h"
+#include "recording_file.h"
 
 #include <inttypes.h>
 #include <limits.h>

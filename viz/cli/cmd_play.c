@@ -8,6 +8,7 @@
 #include "progress.h"
 #include "session_file.h"
 #include "text.h"
+#include "recording_file.h"
 
 #include <ctype.h>
 #include <inttypes.h>

@@ -11,6 +11,7 @@
 #include "ring.h"
 #include "session_file.h"
 #include "status.h"
+#include "recording_file.h"
 #include "view_options.h"
 
 #include <inttypes.h>

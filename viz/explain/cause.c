@@ -175,7 +175,7 @@ static bool same_rules(const octree *a, const octree *b)
 /* Layers of which neither session can have anything show nothing, whether or not a view has them: one recorded before
  * there was such a layer is looked at in the same way. */
 static void compare_views(const octree_session *a, const octree_session *b, const cause_view views[2],
-                          cause_facts *facts)
+                          bool same_session, cause_facts *facts)
 {
     cause_view shown[2] = {views[0], views[1]};
     for (int i = 0; i < LAYER_COUNT; i++) {
@@ -185,7 +185,7 @@ static void compare_views(const octree_session *a, const octree_session *b, cons
             shown[1].view.layers &= ~(1u << i);
         }
     }
-    cause_compare_views(&shown[0], &shown[1], facts);
+    cause_compare_views(&shown[0], &shown[1], same_session, facts);
 }
 
 bool cause_find(const session_file *a, const session_file *b, const cause_view views[2], const cause_watcher *watcher,
@@ -196,7 +196,7 @@ bool cause_find(const session_file *a, const session_file *b, const cause_view v
     cause_compare_sessions(a, b, &c->session);
     p.same_session = c->session.count == 0;
     if (views)
-        compare_views(&a->session, &b->session, views, &c->view);
+        compare_views(&a->session, &b->session, views, p.same_session, &c->view);
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
     bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) || error_no_memory(error);
     ok = ok && open_game(&p, 0, &a->session, error) && open_game(&p, 1, &b->session, error);

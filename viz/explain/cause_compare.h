@@ -50,7 +50,9 @@ typedef struct cause_view {
     uint64_t every;
 } cause_view;
 
-void cause_compare_views(const cause_view *a, const cause_view *b, cause_facts *facts);
+/* Compare every option. Derived values follow from the options and the session: they are compared only if both are the
+ * same, which happens if --camera-from has copied those of another session. */
+void cause_compare_views(const cause_view *a, const cause_view *b, bool same_session, cause_facts *facts);
 
 /* Nodes and points of the trees of two games, except the player, which is compared with the tick; of trees in different
  * worlds only the points. Nodes below one that split or merged are not reported. Cost: a sort of the

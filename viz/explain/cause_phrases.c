@@ -44,6 +44,8 @@ static const phrase phrases[] = {
     {"nodes", "node of the program", .plural = "nodes of the program"},
     /* Views; the nouns of their options are in view_options.c. */
     {"every", "interval of frames", PLAIN},
+    {"focus", "box around the points", PLAIN},
+    {"point_scale", "scale of points", PLAIN},
     /* Trees. */
     {"nodes.split", "node", .added = "split"},
     {"nodes.merged", "node", .added = "merged"},
@@ -99,7 +101,7 @@ phrase cause_phrase(const cause_group *group)
             return phrases[i];
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
-        if (option->noun && strcmp(option->member.name, group->where) == 0)
+        if (option->noun && option->member.name && strcmp(option->member.name, group->where) == 0)
             return (phrase){.where = group->where, .noun = option->noun};
     }
     const char *last = strrchr(group->where, '.');

@@ -281,17 +281,7 @@ void cause_compare_sessions(const session_file *a, const session_file *b, cause_
 
 /* ---- Views --------------------------------------------------------------------------------------------------- */
 
-/* A switch that is off is left out of recording.json. */
-static void add_switches(json_t *object)
-{
-    for (size_t i = 0; view_option_at(i); i++) {
-        const json_member *member = &view_option_at(i)->member;
-        if (member->name && member->codec == &json_bool && !json_object_get(object, member->name))
-            json_object_set_new(object, member->name, json_false());
-    }
-}
-
-/* As recording.json has it, and switches that are off. */
+/* The object of recording.json. It holds every option. */
 static json_t *view_object(const cause_view *v)
 {
     text_stream s;
@@ -301,16 +291,40 @@ static json_t *view_object(const cause_view *v)
         recording_write(s.stream, &v->view, v->every);
     json_t *object = text_stream_end(&s, &text) && text ? json_parse(text, strlen(text), PARSE_FLAGS, &error) : NULL;
     free(text);
-    add_switches(object);
     return object;
 }
 
-void cause_compare_views(const cause_view *a, const cause_view *b, cause_facts *facts)
+/* Compare two options as a whole, so that each is one cause. Lists of layers are compared element by element. */
+static void compare_option(const cause_place *place, const view_option *option, json_t *a, json_t *b)
+{
+    const char *name = option->member.name;
+    json_t *x = json_object_get(a, name), *y = json_object_get(b, name);
+    if (cause_same(x, y, place->exact))
+        return;
+    if (!option->by_element) {
+        cause_add(place->facts, name, "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, x, y});
+        return;
+    }
+    json_t *lists[2] = {json_pack("{sO}", name, x), json_pack("{sO}", name, y)};
+    place->facts->out_of_memory |= !lists[0] || !lists[1];
+    cause_compare_members(place, lists[0], lists[1]);
+    json_decref(lists[0]);
+    json_decref(lists[1]);
+}
+
+void cause_compare_views(const cause_view *a, const cause_view *b, bool same_session, cause_facts *facts)
 {
     const cause_place place = {facts, "", "", CAUSE_NO_TICK, false};
     json_t *objects[2] = {view_object(a), view_object(b)};
     facts->out_of_memory |= !objects[0] || !objects[1];
-    cause_compare_members(&place, objects[0], objects[1]);
+    for (size_t i = 0; objects[0] && objects[1] && view_option_at(i); i++)
+        if (view_option_at(i)->member.name)
+            compare_option(&place, view_option_at(i), objects[0], objects[1]);
+    if (a->every != b->every)
+        add(facts, "every", CAUSE_OTHER,
+            (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, json_real((double)a->every), json_real((double)b->every)});
+    if (same_session && facts->count == 0)
+        cause_compare_members(&place, json_object_get(objects[0], "derived"), json_object_get(objects[1], "derived"));
     json_decref(objects[0]);
     json_decref(objects[1]);
 }

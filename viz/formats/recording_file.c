@@ -9,33 +9,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the file holds: the view comes first, so that offsets in it are offsets in this. */
+/* The contents of the file. The view comes first, so that offsets in it are also offsets in this structure. */
 typedef struct recorded {
     view view;
     uint64_t every;
 } recorded;
 
-/* The options of the view stand between the first two and the others. */
+/* The members around the options of the view: two before them, the others after them. */
 static const json_member own_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
-    {"version", &json_version, .required = true, .min = RECORDING_OLDEST, .max = RECORDING_VERSION,
-     .about = "recording"},
+    {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
+    {"derived", &json_structure, .offset = 0, .members = view_derived_members},
     {"theme", &json_constant, .about = THEME_NAME},
     {"every", &json_uint64, offsetof(recorded, every), .max = SESSION_LAST_TICK},
 };
 
+#define OWN_BEFORE 2
+#define OWN_MEMBERS (sizeof own_members / sizeof own_members[0])
 #define MOST_MEMBERS 32
 
+/* All members of the file in their order, each on a line of its own. */
 static void list_members(json_member members[MOST_MEMBERS])
 {
     size_t count = 0;
-    members[count++] = own_members[0];
-    members[count++] = own_members[1];
-    for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - 3; i++)
+    for (size_t i = 0; i < OWN_BEFORE; i++)
+        members[count++] = own_members[i];
+    for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - OWN_MEMBERS; i++)
         if (view_option_at(i)->member.name)
             members[count++] = view_option_at(i)->member;
-    members[count++] = own_members[2];
-    members[count++] = own_members[3];
+    for (size_t i = OWN_BEFORE; i < OWN_MEMBERS; i++)
+        members[count++] = own_members[i];
     members[count] = (json_member){0};
     while (count > 0)
         members[--count].line = true;
@@ -63,7 +66,7 @@ static bool read_object(json_reader *r, json_t *object)
 
 bool recording_parse(const char *name, const char *text, size_t size, view *v, uint64_t *every, octreel_error *error)
 {
-    recorded found = {.every = 1};
+    recorded found = {.view = view_default(), .every = 1};
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &found, .error = error};
     json_next_object(&r);
     const bool done = json_read_object(&r, true, read_object);
@@ -89,7 +92,7 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
 
 /* ---- session.json --------------------------------------------------------------------------------------------- */
 
-/* `live`: a last line that is torn is left out. */
+/* `live`: ignore a last line that does not end in a newline, because its writer died while writing it. */
 static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
                          octreel_error *error)
 {

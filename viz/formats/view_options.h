@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* view_options.h - the options of a view, one row each, by which the command line, recording.json and programs that
- * record themselves go; comparisons go by recording.json. A new option is a member of `view` and a row in
- * view_options.c.
+/* view_options.h - the table of view options, one row each. The command line, recording.json, the recorder of embedding
+ * programs and `octreel diff` all use these rows. To add an option: a member of `view`, a row in view_options.c, and a
+ * row in viz/page/viewer/view.js if the page shall offer it.
  */
 #ifndef FORMATS_VIEW_OPTIONS_H
 #define FORMATS_VIEW_OPTIONS_H
@@ -12,25 +12,31 @@
 typedef struct view_option view_option;
 
 struct view_option {
-    const char *name;  /* on the command line, without dashes; null: it is in recording.json alone */
-    const char *value; /* what stands for its value in the help; null: it takes none */
-    const char *takes; /* what fits, in words: "pixels as in 1280x720"; of a choice what it is one of: "camera" */
-    const char *help;  /* followed by the names, where member.names has some */
+    const char *name;  /* on the command line, without dashes */
+    const char *value; /* placeholder for its value in the help; null: it takes no value */
+    const char *takes; /* the values it accepts, for errors: "pixels as in 1280x720"; of a choice its noun: "camera" */
+    const char *help;  /* followed by the names of the choices, if there are any */
 
-    /* Change a view by the text of a value. False, with a sentence, where it does not fit. */
+    /* Set the option in a view from a text. False, with a sentence, if the text is not a value of the option. */
     bool (*parse)(const view_option *option, const char *text, view *v, octreel_error *error);
-    json_member member; /* of recording.json; its name is null where it has none */
-    const char *noun;   /* in sentences about a difference: "level of detail"; null: the member's name */
-    json_name *words;   /* what each of member.names is, in the help */
+    json_member member;   /* of recording.json; without a name for an option that is not recorded */
+    const char *standard; /* the default, as parse() reads it; null: the option is not set by default */
+    const char *noun;     /* in sentences about a difference: "level of detail"; null: the member's name */
+    json_name *words;     /* descriptions of member.names, for the help */
+    bool by_element;      /* `octreel diff` reports which elements of the list were added and removed */
 };
 
-/* The n-th option; null beyond the last. Those of recording.json come in its order. */
+/* The n-th option, in the order of recording.json; null beyond the last. */
 const view_option *view_option_at(size_t n);
 
-/* The option of this name on the command line; null when there is none. */
+/* The option of this name on the command line; null if there is no such option. */
 const view_option *view_option_named(const char *name);
 
-/* The n-th name of a layer; null beyond the last. */
+/* The members of "derived" in recording.json: values that follow from the options and from the points of tick 0. They
+ * are recorded so that a later session can be filmed with the same camera and colours (--camera-from). */
+extern const json_member view_derived_members[];
+
+/* The name of the n-th layer; null beyond the last. */
 const char *view_layer_at(int n);
 
 #endif

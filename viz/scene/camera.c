@@ -162,7 +162,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     c.zoom = v->camera == CAMERA_FOLLOW  ? FOCAL * smaller / 2
              : v->camera == CAMERA_ORBIT ? fit_turning(&c, window, &lift)
                                          : fit(&c, window);
-    c.zoom *= v->zoom.given ? v->zoom.times : 1;
+    c.zoom *= view_zoom(v);
     stand(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2 - (placed ? 0 : lift);

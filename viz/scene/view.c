@@ -1,20 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "view.h"
-#include "layer.h"
 
 #include <stddef.h>
-
-view view_default(void)
-{
-    return (view){.width = VIEW_DEFAULT_WIDTH,
-                  .height = VIEW_DEFAULT_HEIGHT,
-                  .camera = CAMERA_ISO,
-                  .layers = VIEW_DEFAULT_LAYERS,
-                  .closeup = true,
-                  .aa = 1,
-                  .lod = VIEW_DEFAULT_LOD,
-                  .budget = VIEW_DEFAULT_BUDGET};
-}
 
 int view_height_in_wide(const view *v)
 {

@@ -128,11 +128,8 @@ typedef struct view {
         bool given;
         double place[3]; /* in world coordinates */
     } center;            /* what the camera looks at, in place of the middle of what it frames, or of the player */
-    struct {
-        bool given;
-        double times; /* the size that the camera gives to everything; above 0 */
-    } zoom;
-    unsigned layers; /* bit 1 << view_layer: layer.h */
+    double zoom;         /* magnification of the camera's picture; 0 is 1 */
+    unsigned layers;     /* bit 1 << view_layer: layer.h */
     view_coloring coloring;
     view_point_color point_color;
     view_shade shade;
@@ -154,15 +151,6 @@ typedef struct view {
 /* The longest side of a picture, samples counted: what llvmpipe draws without clamping it. */
 #define VIEW_MAX_SIDE 16384
 
-/* Defaults. */
-#define VIEW_DEFAULT_WIDTH 1280
-#define VIEW_DEFAULT_HEIGHT 720
-#define VIEW_DEFAULT_LOD 2         /* smaller boxes are specks: at 100,000 points values up to 4 look the same */
-#define VIEW_DEFAULT_BUDGET 250000 /* some 300 MB and a few seconds a frame at worst */
-
-/* These, the iso camera, the default layers, a close-up, no anti-aliasing, and nodes coloured by depth. */
-view view_default(void);
-
 /* The height of a picture, or of its 16:9 part where it is narrower than that. */
 int view_height_in_wide(const view *v);
 
@@ -174,6 +162,11 @@ int view_unit(const view *v);
 static inline bool view_paints_points(const view *v)
 {
     return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
+}
+
+static inline double view_zoom(const view *v)
+{
+    return v->zoom > 0 ? v->zoom : 1;
 }
 
 /* Samples a pixel on each axis. */

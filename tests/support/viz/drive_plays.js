@@ -14,7 +14,7 @@ function sayPicks()
 {
     const {engine} = player();
     for (let i = 0; i < 40; i++) {
-        const x = random(engine.view.width), y = random(engine.view.height);
+        const x = random(engine.view.size[0]), y = random(engine.view.size[1]);
         engine.pick(x, y, 3);
         say(`pick ${x} ${y}`, engine.text().trim());
     }

@@ -17,7 +17,7 @@ async function sayPlayed({name, session, view, ticks, clicks})
         const tick = wanted[i * 101 % wanted.length];
         await sayTick(name, tick);
         for (let click = 0; click < clicks; click++) {
-            const x = random(view.width), y = random(view.height);
+            const x = random(view.size[0]), y = random(view.size[1]);
             player().engine.pick(x, y, PICK_RADIUS_ASKED);
             say(`pick ${name} ${tick} ${x} ${y}`, player().engine.text().trim());
         }

@@ -13,6 +13,7 @@
 #include "session_file.h"
 #include "theme.h"
 #include "tick_lines.h"
+#include "recording_file.h"
 
 film_options small_film(const char *folder)
 {

@@ -8,6 +8,7 @@
 #include "game_fixture.h"
 #include "layer.h"
 #include "tick_scene.h"
+#include "recording_file.h"
 
 /* A view with these layers. */
 view view_of(int width, int height, view_camera camera, unsigned layers);

@@ -114,8 +114,7 @@ static void what_is_large_or_not_wanted_has_none(void **state)
     v.height = 120;
     assert_false(has_closeup(&session, &v));
     v = view_default();
-    v.zoom.given = true;
-    v.zoom.times = 10;
+    v.zoom = 10;
     assert_false(has_closeup(&session, &v));
     v = view_default();
     session.player.box_size = 200;

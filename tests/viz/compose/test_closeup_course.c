@@ -243,11 +243,10 @@ static void views_change_while_it_is_followed(void **state)
     v.closeup = false;
     assert_true(tick_scene_build(&f.scene, &v, f.game, &f.history, NULL) && !f.scene.has_closeup);
     v = f.view;
-    v.zoom.given = true;
-    v.zoom.times = 2;
+    v.zoom = 2;
     assert_true(tick_scene_build(&f.scene, &v, f.game, &f.history, NULL));
     assert_true(f.scene.has_closeup && f.scene.closeup->times < times);
-    v.zoom.times = 50;
+    v.zoom = 50;
     assert_true(tick_scene_build(&f.scene, &v, f.game, &f.history, NULL) && !f.scene.has_closeup);
     film_end(&f);
 }

@@ -119,8 +119,9 @@ static view some_view(uint64_t *random)
     const int *size = sizes[random_below(random, sizeof sizes / sizeof *sizes)];
     view v = view_of(size[0], size[1], (view_camera)random_below(random, CAMERA_COUNT), VIEW_ALL_LAYERS);
     v.aa = 1 + (int)random_below(random, 2);
-    v.zoom.given = random_below(random, 2);
-    v.zoom.times = (double)(1 + random_below(random, 16)) * (random_below(random, 4) ? 0.25 : 1000);
+    const bool zooms = random_below(random, 2);
+    const double times = (double)(1 + random_below(random, 16)) * (random_below(random, 4) ? 0.25 : 1000);
+    v.zoom = zooms ? times : 1;
     v.look.given = random_below(random, 3) == 0;
     v.look.azimuth = (double)random_below(random, 720) / 2;
     v.look.elevation = (double)random_below(random, 361) / 2 - 90;
@@ -207,8 +208,7 @@ static void sessions_with_all_layers_are_drawn_alike(void **state)
         v.aa = 1 + i % 2;
         v.labels = true;
         v.diagram = i / 2 % 2 ? DIAGRAM_BESIDE : DIAGRAM_NONE;
-        v.zoom.given = i % 3 == 0; /* most of the tree is outside */
-        v.zoom.times = 7;
+        v.zoom = i % 3 == 0 ? 7 : 1; /* at 7 most of the tree is outside */
         v.point_color = (view_point_color)(i % POINTS_BY_COUNT);
         v.shade = (view_shade)(i % SHADE_COUNT);
         check_session(&session, v, 21);

@@ -4,6 +4,7 @@
 #include "frames.h"
 #include "layer.h"
 #include "pixel.h"
+#include "recording_file.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -10,6 +10,7 @@
 #include "game_fixture.h"
 #include "layer.h"
 #include "text.h"
+#include "recording_file.h"
 
 enum { TICKS = 6 };
 

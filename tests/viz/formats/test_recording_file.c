@@ -41,8 +41,7 @@ static view random_view(uint64_t *random)
     v.center.given = random_below(random, 2);
     for (int i = 0; v.center.given && i < 3; i++)
         v.center.place[i] = random_between(random, -1e6, 1e6);
-    v.zoom.given = random_below(random, 2);
-    v.zoom.times = v.zoom.given ? random_between(random, 0.001, 1e6) : 0;
+    v.zoom = random_below(random, 2) ? random_between(random, 0.001, 1e6) : 1;
     v.point_color = (view_point_color)random_below(random, POINTS_BY_COUNT);
     v.shade = (view_shade)random_below(random, SHADE_COUNT);
     v.point_scale.given = random_below(random, 2);
@@ -84,7 +83,7 @@ static void assert_same_view(const view *a, const view *b)
     assert_memory_equal(&a->focus, &b->focus, sizeof a->focus);
     assert_true(a->look.given == b->look.given && a->look.azimuth == b->look.azimuth &&
                 a->look.elevation == b->look.elevation);
-    assert_true(a->zoom.given == b->zoom.given && a->zoom.times == b->zoom.times);
+    assert_true(a->zoom == b->zoom);
     assert_true(a->center.given == b->center.given && same_position(a->center.place, b->center.place));
     const view_filter *f = &a->filter, *g = &b->filter;
     assert_true(f->slice == g->slice && f->slice_at == g->slice_at && f->leaves == g->leaves);
@@ -109,7 +108,7 @@ static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
     }
 }
 
-#define START "{\"octreel\": \"recording\", \"version\": 3,\n\"width\": 160, \"height\": 90,\n"
+#define START "{\"octreel\": \"recording\", \"version\": 4,\n\"size\": [160, 90],\n"
 #define VIEW START "\"camera\": \"top\", \"layers\": [\"nodes\"]"
 
 static void write_text(const view *v, char text[2048])
@@ -120,31 +119,32 @@ static void write_text(const view *v, char text[2048])
     assert_int_equal(fclose(stream), 0);
 }
 
-/* Two options say nothing of their own in the file: one takes all others over, one is resolved before it is written. */
+/* --camera-from has no member of its own: it sets all others. */
 static void every_option_of_the_command_line_is_kept(void **state)
 {
     static const char *const samples[][2] = {
-        {"size", "640x360"}, {"camera", "top"},    {"layers", "nodes"},       {"color-by", "plain"},
-        {"tree", "both"},    {"diagram", "only"},  {"slice", "z=7"},          {"depths", "2:3"},
-        {"leaves", ""},      {"labels", ""},       {"region", "0,0,0,1,2,3"}, {"lod", "9"},
-        {"budget", "77"},    {"aa", "4"},          {"camera-from", NULL},     {"fit", NULL},
-        {"look", "10,-5"},   {"center", "1,2,3"},  {"zoom", "2.5"},           {"color-points", "leaf"},
-        {"shade", "edl"},    {"no-closeup", NULL},
+        {"size", "640x360"}, {"camera", "top"},   {"layers", "nodes"},       {"color-by", "plain"},
+        {"tree", "both"},    {"diagram", "only"}, {"slice", "z=7"},          {"depths", "2:3"},
+        {"leaves", ""},      {"labels", ""},      {"region", "0,0,0,1,2,3"}, {"lod", "9"},
+        {"budget", "77"},    {"aa", "4"},         {"camera-from", NULL},     {"fit", "points"},
+        {"look", "10,-5"},   {"center", "1,2,3"}, {"zoom", "2.5"},           {"color-points", "leaf"},
+        {"shade", "edl"},    {"no-closeup", ""},
     };
     const temp_folder *folder = *state;
     char unchanged[2048], written[2048], again[2048];
-    write_text(&(view){.width = 1, .height = 1}, unchanged);
+    const view usual = view_default();
+    write_text(&usual, unchanged);
     for (size_t i = 0; view_option_at(i); i++) {
         const char *name = view_option_at(i)->name;
-        view v = {.width = 1, .height = 1}, read;
+        view v = usual, read;
         uint64_t every;
         octreel_error error = {""};
         size_t n = 0;
-        while (name && n < sizeof samples / sizeof samples[0] && strcmp(samples[n][0], name) != 0)
+        while (n < sizeof samples / sizeof samples[0] && strcmp(samples[n][0], name) != 0)
             n++;
         if (n == sizeof samples / sizeof samples[0])
             fail_msg("no sample of --%s", name);
-        if (!name || !samples[n][1])
+        if (!samples[n][1])
             continue;
         assert_true(view_option_at(i)->parse(view_option_at(i), samples[n][1], &v, &error));
         write_text(&v, written);
@@ -157,13 +157,17 @@ static void every_option_of_the_command_line_is_kept(void **state)
     }
 }
 
-static void members_that_are_missing_are_off(void **state)
+static void a_missing_option_has_its_default(void **state)
 {
     const temp_folder *folder = *state;
     view read;
     uint64_t every;
     octreel_error error = {""};
-    const view expected = {.width = 160, .height = 90, .camera = CAMERA_TOP, .layers = 1u << LAYER_NODES};
+    view expected = view_default();
+    expected.width = 160;
+    expected.height = 90;
+    expected.camera = CAMERA_TOP;
+    expected.layers = 1u << LAYER_NODES;
     file_write_text(place_in(folder, "recording.json").path, VIEW "}\n");
     assert_true(recording_read(folder->name, &read, &every, &error));
     assert_same_view(&expected, &read);
@@ -176,19 +180,21 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {"[]", "recording.json:1: "},
         {"{}", "the member \"octreel\" is missing"},
         {"{\"octreel\": \"session\", \"version\": 1}", "octreel: expected \"recording\", found \"session\""},
-        {START "\"theme\": \"night\"}", "the member \"camera\" is missing"},
         {VIEW, "recording.json:3: "},
         {VIEW "} x", "recording.json:3: "},
         {VIEW ",\n\"tilt\": 3}", "recording.json:4: unknown member \"tilt\""},
-        {VIEW ", \"version\": 3}", "duplicate"},
-        {"{\"octreel\": \"recording\", \"version\": 4}", "version: the recording was made by a newer Octreel, of "
-                                                         "version 4, and this one reads version 3: use that one"},
-        {"{\"octreel\": \"recording\", \"version\": 4, \"zoom\": 3}", "made by a newer Octreel, of version 4"},
+        {VIEW ", \"version\": 4}", "duplicate"},
+        {"{\"octreel\": \"recording\", \"version\": 5}",
+         "version: recording version 5 is newer than version 4, which this Octreel reads; use a newer Octreel"},
+        {"{\"octreel\": \"recording\", \"version\": 5, \"tilt\": 3}", "recording version 5 is newer than version 4"},
         {"{\"octreel\": \"recording\", \"version\": 0}", "version: expected a whole number from 1"},
-        {"{\"octreel\": \"recording\", \"version\": 1}", "version: the recording was made by an older Octreel, of "
-                                                         "version 1: film its session.json again, or use that one"},
-        {"{\"octreel\": \"recording\", \"version\": 3, \"width\": 0}",
-         "width: expected a whole number from 1 to 16384"},
+        {"{\"octreel\": \"recording\", \"version\": 3, \"width\": 160}",
+         "version: recording version 3 is not supported; record it again with this Octreel"},
+        {"{\"octreel\": \"recording\", \"version\": 4, \"size\": [0, 90]}",
+         "size[0]: expected a whole number from 1 to 16384, found 0"},
+        {"{\"octreel\": \"recording\", \"version\": 4, \"size\": 160}",
+         "size: expected a width and a height in pixels"},
+        {START "\"camera\": null}", "recording.json:3: camera: expected one of iso, "},
         {START "\"camera\": \"up\"}",
          "recording.json:3: camera: expected one of iso, top, front, side, follow, orbit, found \"up\""},
         {START "\"camera\": \"iso\", \"layers\": [\"nodes\", \"walls\"]}", "layers[1]: expected the name of a layer"},
@@ -208,21 +214,26 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {VIEW ", \"slice\": {\"x\": true}}", "slice.x: expected a number, found true"},
         {VIEW ", \"depths\": 1}", "depths: expected two depths as in [2, 5], found 1"},
         {VIEW ", \"depths\": [1]}", "depths: expected two depths"},
-        {VIEW ", \"depths\": [3, 2]}", "depths[1]: expected a whole number from 3 to 21, found 2"},
+        {VIEW ", \"depths\": [3, 2]}", "depths: the first depth must not be above the second"},
         {VIEW ", \"depths\": [0, 22]}", "depths[1]"},
         {VIEW ", \"leaves\": 1}", "leaves: expected true or false, found 1"},
         {VIEW ", \"region\": {\"min\": [0, 0, 0]}}", "region: the member \"max\" is missing"},
         {VIEW ", \"region\": {\"min\": [0, 2, 0], \"max\": [1, 1, 1]}}", "region: min is above max on y"},
-        {VIEW ", \"fit\": \"world\"}", "fit: expected an object, found \"world\""},
-        {VIEW ", \"point_scale\": 5}", "point_scale: expected eleven numbers"},
-        {VIEW ", \"point_scale\": [1, 2]}", "point_scale: expected eleven numbers"},
-        {VIEW ", \"point_scale\": [0, 0, 0, 1, 1, 1, 0, 1, 0, 1, null]}",
-         "point_scale[10]: expected a number, found null"},
-        {VIEW ", \"point_scale\": [0, 2, 0, 1, 1, 1, 0, 1, 0, 1, 0]}",
-         "point_scale: the lowest place is above the highest"},
-        {VIEW ", \"point_scale\": [0, 0, 0, 1, 1, 1, 0, 1, 0, 1, -1]}", "point_scale: the spacing is below 0"},
-        {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [0, 0, 0]}}", "fit: the box has no extent"},
-        {VIEW ", \"fit\": {\"min\": [0, 0, 0], \"max\": [1e999, 0, 0]}}", "recording.json:"},
+        {VIEW ", \"fit\": \"box\"}", "fit: expected one of world, points, found \"box\""},
+        {VIEW ", \"derived\": 5}", "derived: expected an object, found 5"},
+        {VIEW ", \"derived\": {\"point_scale\": 5}}", "derived.point_scale: expected eleven numbers"},
+        {VIEW ", \"derived\": {\"point_scale\": [1, 2]}}", "derived.point_scale: expected eleven numbers"},
+        {VIEW ", \"derived\": {\"point_scale\": [0, 0, 0, 1, 1, 1, 0, 1, 0, 1, null]}}",
+         "derived.point_scale[10]: expected a number, found null"},
+        {VIEW ", \"derived\": {\"point_scale\": [0, 2, 0, 1, 1, 1, 0, 1, 0, 1, 0]}}",
+         "derived.point_scale: the lowest corner is above the highest"},
+        {VIEW ", \"derived\": {\"point_scale\": [0, 0, 0, 1, 1, 1, 0, 1, 0, 1, -1]}}",
+         "derived.point_scale: the spacing is below 0"},
+        {VIEW ", \"derived\": {\"focus\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1]}}}",
+         "derived.focus: needs \"fit\": \"points\""},
+        {VIEW ", \"fit\": \"points\", \"derived\": {\"focus\": {\"min\": [0, 0, 0], \"max\": [0, 0, 0]}}}",
+         "derived.focus: the box has no extent"},
+        {VIEW ", \"derived\": {\"focus\": {\"min\": [0, 0, 0], \"max\": [1e999, 0, 0]}}}", "recording.json:"},
         {VIEW ", \"lod\": -1}", "lod: expected a number from 0 to 16384, found -1"},
         {VIEW ", \"aa\": \"2\"}", "aa: expected a whole number from 1 to 4, found \"2\""},
         {VIEW ", \"aa\": 3}", "aa: expected 1, 2 or 4, found 3"},
@@ -313,7 +324,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(a_view_that_is_written_is_read_back_to_the_bit),
-        IN_FOLDER(members_that_are_missing_are_off),
+        IN_FOLDER(a_missing_option_has_its_default),
         IN_FOLDER(every_option_of_the_command_line_is_kept),
         IN_FOLDER(what_is_no_view_is_refused_with_line_and_reason),
         IN_FOLDER(what_is_no_recording_is_refused),

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* test_view_options.c - the rows of the options of a view. */
+#include <stdio.h>
 #include <string.h>
 
 #include "fixture.h"
 #include "layer.h"
+#include "recording_file.h"
 #include "view_options.h"
 
 static bool parses(const view_option *option, const char *text, view *v, const char *part)
@@ -20,15 +22,45 @@ static void every_row_is_whole_and_found_by_its_name(void **state)
     (void)state;
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
-        assert_true(option->name || option->member.name);
+        assert_non_null(option->name);
         assert_true(!option->member.name || (option->member.codec->read && option->member.codec->write));
-        if (!option->name)
-            continue;
         assert_ptr_equal(view_option_named(option->name), option);
         assert_non_null(option->help);
         assert_non_null(option->parse);
     }
     assert_null(view_option_named("camera-at"));
+}
+
+/* The help names the default in words; the row's `standard` is the value itself. */
+static void the_help_names_the_default_of_its_row(void **state)
+{
+    static const char *const elsewhere[] = {"fit", "layers", "aa"}; /* their help or their choices say it otherwise */
+    (void)state;
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        char expected[48];
+        bool skip = !option->standard || !option->value;
+        for (size_t n = 0; n < sizeof elsewhere / sizeof elsewhere[0]; n++)
+            skip = skip || strcmp(option->name, elsewhere[n]) == 0;
+        snprintf(expected, sizeof expected, "(default %s", option->standard ? option->standard : "");
+        if (!skip && !strstr(option->help, expected))
+            fail_msg("the help of --%s does not say \"%s\"", option->name, expected);
+    }
+}
+
+static void every_default_is_a_value_of_its_option(void **state)
+{
+    (void)state;
+    const view usual = view_default();
+    for (size_t i = 0; view_option_at(i); i++) {
+        const view_option *option = view_option_at(i);
+        view v = usual;
+        if (option->standard)
+            assert_true(parses(option, option->standard, &v, ""));
+        assert_memory_equal(&v, &usual, sizeof v);
+    }
+    assert_true(usual.width == 1280 && usual.height == 720 && usual.camera == CAMERA_ISO && usual.closeup);
+    assert_true(usual.layers == VIEW_DEFAULT_LAYERS && usual.lod == 2 && usual.budget == 250000 && usual.aa == 1);
 }
 
 /* Names are taken as they are, and no others. */
@@ -41,8 +73,7 @@ static void every_choice_is_made_by_its_name(void **state)
         view v = view_default();
         if (!option->member.names || strcmp(option->name, "layers") == 0)
             continue;
-        const bool fit = strcmp(option->name, "fit") == 0; /* whose member is all of the view: it has a box too */
-        const int *chosen = fit ? (const int *)&v.fit : (const int *)((const char *)&v + option->member.offset);
+        const int *chosen = (const int *)((const char *)&v + option->member.offset);
         for (int n = 0; option->member.names(n); n++) {
             assert_true(parses(option, option->member.names(n), &v, ""));
             assert_int_equal(*chosen, n);
@@ -77,7 +108,7 @@ static void values_that_do_not_fit_are_refused(void **state)
         {"depths", "22", "--depths"},
         {"depths", "2:5x", "--depths"},
         {"region", "0,0,0,1,1", "--region takes six numbers"},
-        {"region", "0,0,2,1,1,1", "--region: min must be below max"},
+        {"region", "0,0,2,1,1,1", "--region: min must not be above max on any axis, but z is"},
         {"lod", "-1", "--lod takes pixels from 0 to 16384, not \"-1\""},
         {"lod", "nan", "--lod"},
         {"budget", "9007199254740992", "--budget takes a whole number below 2^53"},
@@ -108,6 +139,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_row_is_whole_and_found_by_its_name),
+        cmocka_unit_test(the_help_names_the_default_of_its_row),
+        cmocka_unit_test(every_default_is_a_value_of_its_option),
         cmocka_unit_test(every_choice_is_made_by_its_name),
         cmocka_unit_test(values_that_do_not_fit_are_refused),
         cmocka_unit_test(the_ends_of_what_fits_are_taken),

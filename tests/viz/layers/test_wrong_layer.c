@@ -104,8 +104,7 @@ static void a_ring_is_as_large_wherever_the_camera_is(void **state)
         view v = view_of(1280, 720, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
         const scene_marker *ring = NULL;
         scene s = {0};
-        v.zoom.given = true;
-        v.zoom.times = zoom;
+        v.zoom = zoom;
         build_tick(&s, &v, game);
         assert_int_equal(count_shape(&s, SHAPE_RING, &ring), 1);
         assert_int_equal(ring->style.width, 28);

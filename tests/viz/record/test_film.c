@@ -236,9 +236,10 @@ static void recording_json_keeps_the_view(void **state)
     assert_filmed(&session, &options);
     char *text = file_read(place_below(folder.path, "recording.json").path, NULL);
     json_t *object = json_read(text);
-    assert_whole_number(json_member(object, "version"), 3);
-    assert_whole_number(json_member(object, "width"), SMALL_WIDTH);
-    assert_whole_number(json_member(object, "height"), SMALL_HEIGHT);
+    assert_whole_number(json_member(object, "version"), 4);
+    const json_t *size = json_member(object, "size");
+    assert_whole_number(json_array_get(size, 0), SMALL_WIDTH);
+    assert_whole_number(json_array_get(size, 1), SMALL_HEIGHT);
     assert_whole_number(json_member(object, "every"), 7);
     assert_string_equal(json_string_value(json_member(object, "camera")), "orbit");
     const json_t *layers = json_member(object, "layers");

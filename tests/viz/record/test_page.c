@@ -18,7 +18,7 @@
 /* The user that owns nothing, for tests that run as root, whom no permission stops. */
 enum { NOBODY = 65534 };
 
-static const char ABOUT[] = "{\"octreel\": \"recording\",\n\"width\": 160, \"height\": 90, \"every\": 1\n}\n";
+static const char ABOUT[] = "{\"octreel\": \"recording\",\n\"size\": [160, 90], \"every\": 1\n}\n";
 static const char TICK[] = "{\"tick\": 0, \"key\": null, \"events\": [], \"tree\": {\"nodes\": 1}}\n";
 
 /* A recording by hand. */
@@ -94,7 +94,7 @@ static void page_has_the_facts_of_every_tick(void **state)
     assert_filmed(&session, &options);
     char *facts = facts_of(folder.path), *at = facts;
     json_t *about = json_read(next_line(&at));
-    assert_whole_number(json_member(about, "width"), SMALL_WIDTH);
+    assert_whole_number(json_array_get(json_member(about, "size"), 0), SMALL_WIDTH);
     assert_whole_number(json_member(about, "every"), 50);
     json_decref(about);
     assert_int_equal(for_each_line(folder.path, assert_embedded, &at), 253);

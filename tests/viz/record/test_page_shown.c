@@ -304,7 +304,7 @@ static place recording_by_hand(const driven *d, const char *name, const char *ti
     octreel_error error = {""};
     const place folder = place_in(d->folder, name);
     assert_int_equal(mkdir(folder.path, 0777), 0);
-    file_write_text(place_below(folder.path, "recording.json").path, "{\"width\": 160, \"height\": 90}\n");
+    file_write_text(place_below(folder.path, "recording.json").path, "{\"size\": [160, 90]}\n");
     file_write_text(place_below(folder.path, "ticks.jsonl").path, ticks);
     if (!page_write(folder.path, &error))
         fail_msg("%s", error.text);

@@ -18,6 +18,7 @@
 #include "random_session.h"
 #include "tick_scene.h"
 #include "ticks_write.h"
+#include "recording_file.h"
 
 /* What a tick has a digest of each: its line, and from every camera its view and the arrays of its scene. */
 enum { LINE, VIEW, BOXES, SEGMENTS, MARKERS, PANELS, LABELS, COLUMNS };

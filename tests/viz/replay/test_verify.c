@@ -112,7 +112,8 @@ static void session_that_is_longer_or_shorter_is_found(void **state)
 
 static void view_of_another_size_is_found_without_drawing(void **state)
 {
-    static const char *const sizes[][2] = {{"\"width\": 160", "\"width\": 16384"}, {"\"height\": 90", "\"height\": 1"}};
+    static const char *const sizes[][2] = {{"\"size\": [160, 90]", "\"size\": [16384, 90]"},
+                                           {"\"size\": [160, 90]", "\"size\": [160, 1]"}};
     for (int i = 0; i < 2; i++) {
         const place folder = film_short(*state);
         edit_file(folder.path, "recording.json", sizes[i][0], sizes[i][1]);
@@ -169,10 +170,11 @@ static void what_cannot_be_read_or_played_is_trouble(void **state)
         {"recording.json", "\"iso\"", "\"isometric\"",
          "camera: expected one of iso, top, front, side, follow, orbit, found \"isometric\""},
         {"recording.json", "\"every\": 3", "\"every\": -1", "every: expected a whole number from 0"},
-        {"recording.json", "\"width\": 160", "\"width\": 16385", "width: expected a whole number from 1 to 16384"},
-        {"recording.json", "\"width\": 160", "\"width\": 1e9", "width"},
-        {"recording.json", "\"version\": 3", "\"version\": 4", "version"},
-        {"recording.json", "\"version\": 3", "\"version\": 1", "was made by an older Octreel"},
+        {"recording.json", "\"size\": [160, 90]", "\"size\": [16385, 90]",
+         "size[0]: expected a whole number from 1 to 16384"},
+        {"recording.json", "\"size\": [160, 90]", "\"size\": [1e9, 90]", "size"},
+        {"recording.json", "\"version\": 4", "\"version\": 5", "version"},
+        {"recording.json", "\"version\": 4", "\"version\": 1", "recording version 1 is not supported"},
         {"recording.json", "\"recording\"", "\"session\"", "\"recording\""},
         {"session.json", "{", "", "session.json:"},
         {"session.json", "\"step\": 50", "\"step\": -50", "step"},

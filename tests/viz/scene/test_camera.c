@@ -239,8 +239,7 @@ static void a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own(void **
         assert_true(same_position(camera_make(&v, window, &world, player, 77).forward, (double[3]){0, 0, -1}));
         v.look.elevation = 0;
         assert_true(camera_pixel(&c, other, near));
-        v.zoom.given = true;
-        v.zoom.times = 3;
+        v.zoom = 3;
         const camera closer = camera_make(&v, window, &world, player, 0);
         assert_in_the_middle(&closer, v.center.place);
         assert_true(camera_pixel(&closer, other, far));

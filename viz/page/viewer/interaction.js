@@ -11,7 +11,7 @@ const FEW = 4; /* elements at a pixel that are shown without asking for more */
 /* The view of a session that has none: that of a recording without what depends on its world. */
 function plainView(about)
 {
-    const {fit, look, center, zoom, slice, region, depths, ...view} = about;
+    const {fit, look, center, zoom, slice, region, depths, derived, ...view} = about;
     return view;
 }
 

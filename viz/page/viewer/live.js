@@ -168,7 +168,7 @@ class Live {
     /* A place on the page as a pixel of the picture, which lies in the middle of the stage as large as it can. */
     pixelAt(event)
     {
-        const box = this.stage.getBoundingClientRect(), {width, height} = this.view;
+        const box = this.stage.getBoundingClientRect(), [width, height] = this.view.size;
         const scale = Math.min(box.width / width, box.height / height);
         return [(event.clientX - box.left - (box.width - width * scale) / 2) / scale,
                 (event.clientY - box.top - (box.height - height * scale) / 2) / scale, scale];
@@ -228,7 +228,7 @@ class Live {
     /* At a place on the page; without one, in the middle of what the camera looks at. */
     pickAt(event)
     {
-        const [x, y] = (event ? this.pixelAt(event) : this.camera.middle).map(Math.floor), {width, height} = this.view;
+        const [x, y] = (event ? this.pixelAt(event) : this.camera.middle).map(Math.floor), [width, height] = this.view.size;
         if (x < 0 || y < 0 || x >= width || y >= height)
             return;
         const pick = this.engine.pick(x, y, PICK_RADIUS);
@@ -267,7 +267,7 @@ class Live {
     /* Mark what was picked, where it is at this tick. */
     mark()
     {
-        const {width, height} = this.view, point = this.subject?.point && this.engine.point(this.subject.point.id);
+        const [width, height] = this.view.size, point = this.subject?.point && this.engine.point(this.subject.point.id);
         this.marks.width = width;
         this.marks.height = height;
         const context = this.marks.getContext("2d");

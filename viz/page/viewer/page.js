@@ -358,7 +358,7 @@ function recordingName()
 
 function describeRecording(recording)
 {
-    const {width, height, camera} = recording.about, name = recordingName();
+    const {size: [width, height], camera} = recording.about, name = recordingName();
     const frames = recording.filmed.reduce((count, filmed, i) => count + (filmed === i ? 1 : 0), 0);
     const parts = [counted(recording.length, "tick"), frames && counted(frames, "frame"), `${width} × ${height}`, camera];
     byId("about").append(element("strong", name), " ", parts.filter(Boolean).join(" · "));

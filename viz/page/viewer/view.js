@@ -8,7 +8,7 @@ const AXES = ["x", "y", "z"];
 const numbersOf = text => text.trim() === "" ? [] : text.split(/[\s,]+/).map(Number);
 
 /* Members of the view, their names for people, and how they are entered: as one of the program's choices, a switch, a
- * number, or a text that is read and written by two functions. Empty is off. */
+ * number, or a text that is read and written by two functions. An empty entry removes the member, which gives the option its default. */
 const VIEW_ROWS = [
     ["camera", "camera", "choice"],
     ["look", "look from", "text", {hint: "30,22", read: numbersOf, write: look => look.join(",")}],
@@ -69,9 +69,9 @@ class ViewControls {
         for (const name of this.choices[member] ?? [])
             select.append(new Option(name, name));
         select.addEventListener("change", () => {
-            /* Another camera is to be seen from where it stands; other colours have another scale. */
+            /* A camera has its own direction, centre and zoom; each colouring of points has its own scale. */
             const own = {camera: {look: undefined, center: undefined, zoom: undefined},
-                         color_points: {point_scale: undefined}};
+                         color_points: {derived: {...this.view.derived, point_scale: undefined}}};
             this.change({[member]: select.value, ...own[member]});
             select.blur();
         });
@@ -81,7 +81,7 @@ class ViewControls {
     switch(member)
     {
         const box = element("input", "", {type: "checkbox"});
-        box.addEventListener("change", () => this.change({[member]: box.checked || undefined}));
+        box.addEventListener("change", () => this.change({[member]: box.checked}));
         return {element: box, show: value => box.checked = value ?? false};
     }
 
@@ -114,6 +114,7 @@ class ViewControls {
 
     show(view)
     {
+        this.view = view;
         for (const {member, show} of this.rows)
             show(view[member]);
         for (const box of this.boxes)
@@ -127,7 +128,8 @@ function optionsOf(view, recorded)
     const written = {
         camera: value => `--camera ${value}`, color_by: value => `--color-by ${value}`,
         color_points: value => `--color-points ${value}`, shade: value => `--shade ${value}`,
-        tree: value => `--tree ${value}`, diagram: value => `--diagram ${value}`, labels: () => "--labels", leaves: () => "--leaves",
+        tree: value => `--tree ${value}`, diagram: value => `--diagram ${value}`, 
+        labels: value => value ? "--labels" : "", leaves: value => value ? "--leaves" : "",
         depths: ([from, to]) => `--depths ${from}:${to}`,
         slice: slice => `--slice ${Object.entries(slice)[0].join("=")}`,
         region: ({min, max}) => `--region ${[...min, ...max].join(",")}`,
@@ -136,8 +138,8 @@ function optionsOf(view, recorded)
         closeup: value => value ? "" : "--no-closeup",
         zoom: value => `--zoom ${value}`, layers: value => `--layers ${value.join(",") || "none"}`,
     };
-    const of = ({closeup = false, ...others}) => ({closeup, ...others});
-    return Object.entries(of(view))
-        .filter(([name, value]) => written[name] && JSON.stringify(value) !== JSON.stringify(of(recorded)[name]))
-        .map(([name, value]) => written[name](value)).join(" ");
+    return Object.entries(view)
+        .filter(([name, value]) => written[name] && value !== null &&
+                JSON.stringify(value) !== JSON.stringify(recorded[name]))
+        .map(([name, value]) => written[name](value)).filter(option => option).join(" ");
 }
