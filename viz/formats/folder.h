@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* folder.h - the folder of a recording: made, checked, and filled with files written whole or not at all. */
+/* folder.h - the folder of a recording: creating it, checking it, and writing its files whole or not at all. */
 #ifndef FORMATS_FOLDER_H
 #define FORMATS_FOLDER_H
 
@@ -7,41 +7,40 @@
 
 #include <stdint.h>
 
-/* Make the folder and its parents where they are missing. */
+/* Create the folder and its parents if they do not exist. */
 bool folder_make(const char *folder, octreel_error *error);
 
-/* The same for a recording. An existing folder must hold no recording and no frames. */
+/* Create the folder for a recording. An existing folder must not contain a recording or frames. */
 bool folder_prepare(const char *folder, octreel_error *error);
 
 /* Remove the files of a recording that failed before its first frame. */
 void folder_abandon(const char *folder);
 
-/* The lines of the ticks [first, last) alone, of a recording that is filmed in chunks: "ticks_10_20.jsonl". */
+/* The file name of the lines of ticks [first, last) of a recording made in chunks: "ticks_10_20.jsonl". */
 #define CHUNK_NAME 56
 char *chunk_name(uint64_t first, uint64_t last, char name[CHUNK_NAME]);
 
-/* The ticks of such a name; false for any other name. */
+/* Parse such a name. False for any other name. */
 bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 
-/* The names of a recording's files beside its frames; null beyond the last. */
+/* The name of the i-th file of a recording that is not a frame; null beyond the last. */
 const char *folder_fact_name(size_t i);
 
-/* Where a recording that is being replaced is for the moment. */
+/* The folder that holds the old recording while a new one replaces it. */
 #define FOLDER_ASIDE "octreel-replaced"
 
-/* Whether a name is that of one of these files, of a chunk's lines, or begins as a frame's: what tells a folder that
- * was filmed into. */
+/* Whether a file of this name shows that its folder holds a recording: one of these files, the lines of a chunk, or a
+ * name that begins like a frame. */
 bool folder_is_name(const char *name);
 
-/* Whether a name is that of a file that was half written when something killed who wrote it: "session.json.part" and
- * the like, and the session of a program that died. */
+/* Whether a file of this name is incomplete because its writer was killed: "session.json.part" and similar names, and
+ * session.json.live of a program that ended early. */
 bool folder_is_unfinished(const char *name);
 
-/* Remove what a recording that is whole has no more use for: the lines of its chunks, and files that were half written
- * when something killed who wrote them. */
+/* Remove the files that a complete recording does not need: the lines of its chunks, and incomplete files. */
 bool folder_sweep(const char *folder, octreel_error *error);
 
-/* Write a file of the folder, whole or not at all. */
+/* Write a file in the folder, whole or not at all. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error);
 
 #endif

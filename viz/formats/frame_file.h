@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* frame_file.h - the frame of a tick as a file of a recording: its name, what traces it to the tick that made it, and
- * whether the one that is there is that one. */
+/* frame_file.h - the PNG file of a frame: its name, the texts in it that name its tick, session and scene, and checks
+ * that a file is the expected frame. */
 #ifndef FORMATS_FRAME_FILE_H
 #define FORMATS_FRAME_FILE_H
 
@@ -9,53 +9,55 @@
 
 #include <stdint.h>
 
-/* Keywords of texts that the pictures of trees alone have too: the digests of the scene, and of the pixels. */
+/* Keywords of the PNG texts with the digests of the scene and of the pixels. `octreel inspect` also writes these two.
+ */
 #define FRAME_SCENE_KEYWORD "octreel-scene"
 #define FRAME_PIXELS_KEYWORD "octreel-pixels"
 
 #define FRAME_NAME 40
 char *frame_name(uint64_t tick, char name[FRAME_NAME]);
 
-/* The tick of a frame's name; false for any other name. */
+/* Parse the name of a frame. False for any other name. */
 bool frame_parse_name(const char *name, uint64_t *tick);
 
-/* Whether a tick has a frame in a recording of which each every-th tick is filmed; with 0, none is. */
+/* Whether a tick has a frame in a recording with this interval of frames. 0: no tick has a frame. */
 bool frame_is_due(uint64_t tick, uint64_t every);
 
-/* Whether it is the name of a frame of such a recording with so many ticks. */
+/* Whether a name is that of a frame of a recording with this number of ticks and this interval. */
 bool frame_is_name(const char *name, uint64_t ticks, uint64_t every);
 
-/* Where a frame comes from; its texts say so. */
+/* The origin of a frame, as its texts state it. */
 typedef struct frame_origin {
     uint64_t tick, session, scene; /* its number, and the digests of session.json and of the tick's scene */
-    uint64_t left_out;             /* elements of the scene that could not be drawn; said where there are any */
-    image_digest_kind kind;        /* of a frame that was checked, the digest of its pixels: */
-    uint64_t pixels;
+    uint64_t left_out;             /* count of elements of the scene that could not be drawn; no text if it is 0 */
+    image_digest_kind kind;        /* how `pixels` is computed */
+    uint64_t pixels;               /* the digest of the pixels; set by checks */
 } frame_origin;
 
 /* Write a picture as the frame of its tick. */
 bool frame_write(const char *folder, const image *picture, const frame_origin *origin, octreel_error *error);
 
-/* The tick that a file says it is the frame of. False, with a sentence, for the picture of a tree that octreel inspect
- * drew, and for what is none of octreel's. */
+/* Read the tick of a frame from its text. False, with a sentence, for a picture by `octreel inspect` and for a file
+ * that is not from Octreel. */
 bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error);
 
-/* The session that the frame of a tick says it is of. False where it is not there or says nothing. */
+/* Read the session digest from the frame of a tick. False if the file or its text is missing. */
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session);
 
-/* The same for the digest of the scene that it shows. */
+/* Read the scene digest from the frame of a tick. False if the file or its text is missing. */
 bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene);
 
-/* What a frame of any name says of itself: its tick, and the digests of its session, its scene and its pixels. False
- * where something of it is missing. */
+/* Read all of a frame's texts: its tick, and the digests of its session, scene and pixels. The file may have any name.
+ * False if a text is missing. */
 bool frame_read_origin(const char *path, frame_origin *origin);
 
-/* Let the frame of a tick say that it is of another session: what one is like may be known at its end alone. */
+/* Replace the session digest in the frame of a tick. A session that is still being written has its digest only at its
+ * end. */
 bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error);
 
-/* True when the file is there, whole, and the frame of this tick, session and scene: its texts say so, and the digest
- * among them is that of the pixels that are decoded. left_out is read from it. Else one sentence. In any case pixels
- * becomes the digest of the pixels, of the kind that the text is, where they can be decoded. */
+/* Check that the file of a tick exists, is complete, and states this tick, session and scene, and that its decoded
+ * pixels have the stated digest. Sets left_out from its text. False with a sentence otherwise. If the pixels can be
+ * decoded, `pixels` becomes their digest in either case, of the kind that the text has. */
 bool frame_check(const char *folder, frame_origin *origin, octreel_error *error);
 
 /* frame_check() for a file of any name. */

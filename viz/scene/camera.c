@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* No libm beyond sqrt, fabs, floor, fmod and fmax: the same camera on every machine. */
+/* camera.c - see camera.h. Only sqrt, fabs, floor, fmod and fmax come from libm: they are exact or correctly rounded,
+ * so that every machine computes the same camera. */
 #include "camera.h"
 #include "filter.h"
 #include "octree/octree.h"
@@ -8,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-/* The window divided by the world's picture: room for labels. */
+/* The size of the window divided by the size of the world's picture: leaves room for labels. */
 #define MARGIN 1.1
-#define THINNEST 1e-3   /* a world that looks thinner, seen end on, is not enlarged to fill the window */
+#define THINNEST 1e-3   /* a world that appears thinner than this is not enlarged further */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* of the following camera: focal length in half windows */
 
@@ -67,14 +68,14 @@ static void aim(camera *c, double azimuth, double elevation)
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
 }
 
-/* Stand back from a point, in unit coordinates. */
-static void stand(camera *c, const double target[3], double distance)
+/* Place the eye at a distance from a target, in unit coordinates. */
+static void place_eye(camera *c, const double target[3], double distance)
 {
     for (int i = 0; i < 3; i++)
         c->eye[i] = target[i] - distance * c->forward[i];
 }
 
-/* Half the extent of the framed box in unit coordinates, along an axis of the camera. */
+/* Half the extent of a box with these half sizes, along an axis of the camera. */
 static double half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
@@ -93,15 +94,15 @@ static const struct {
     [CAMERA_ORBIT] = {30.0 / 360, 22.0 / 360, true},
 };
 
-/* Fit a box that turns round its upright axis, in perspective, into the window: at any tick of an orbit it is within
- * the upright cylinder around it. Of each rim that is widest where the line of sight touches it, and reaches farthest
- * up and down where it is nearest and farthest. It reaches farther down than up: *lift is the way that brings it into
- * the middle, in pixels. */
+/* Zoom of the orbiting camera. The box turns about its vertical axis, and every tick must have the same zoom, so the
+ * vertical cylinder around the box is fitted into the window. Each rim of the cylinder appears widest where the line of
+ * sight touches it, and reaches highest and lowest at its nearest and farthest points. In perspective it reaches
+ * farther down than up: *lift is the shift, in pixels, that centres it. */
 static double fit_turning(const camera *c, camera_window window, double *lift)
 {
     const double radius = sqrt(c->half[0] * c->half[0] + c->half[1] * c->half[1]), rise = c->up[2];
     const double fall = -c->forward[2];
-    double across = THINNEST, up = THINNEST, down = THINNEST; /* what is seen, from the middle on, at distance 1 */
+    double across = THINNEST, up = THINNEST, down = THINNEST; /* from the axis of view, at distance 1 */
     for (int top = -1; top <= 1; top += 2) {
         const double height = top * c->half[2], depth = c->distance - height * fall;
         across = fmax(across, radius / sqrt(depth * depth - radius * radius * rise * rise));
@@ -117,7 +118,7 @@ static double fit_turning(const camera *c, camera_window window, double *lift)
     return zoom;
 }
 
-/* Fit the world into the window by its outline, under orthographic projection. */
+/* Zoom of an orthographic camera: the framed box just fits into the window. */
 static double fit(const camera *c, camera_window window)
 {
     const double across = fmax(half_span(c->right, c->half), THINNEST),
@@ -163,7 +164,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
              : v->camera == CAMERA_ORBIT ? fit_turning(&c, window, &lift)
                                          : fit(&c, window);
     c.zoom *= view_zoom(v);
-    stand(&c, target, c.distance);
+    place_eye(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2 - (placed ? 0 : lift);
     const double middle = -camera_dot(c.eye, c.forward), span = half_span(c.forward, c.half);
@@ -172,15 +173,15 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     return c;
 }
 
-/* Pixels a unit at the distance of what the camera looks at. */
-static double zoom_there(const camera *c)
+/* Pixels for each unit of length at the camera's center. */
+static double zoom_at_center(const camera *c)
 {
     return c->perspective ? c->zoom / c->distance : c->zoom;
 }
 
 double camera_pixel_length(const camera *c)
 {
-    return c->size / 2 / c->scale / zoom_there(c);
+    return c->size / 2 / c->scale / zoom_at_center(c);
 }
 
 camera camera_close_up(const camera *c, camera_window window, const double place[3], double times)
@@ -190,10 +191,10 @@ camera camera_close_up(const camera *c, camera_window window, const double place
     camera_unit(c, place, target);
     memcpy(close.center, place, sizeof close.center);
     close.zoom *= times;
-    stand(&close, target, c->distance);
+    place_eye(&close, target, c->distance);
     close.middle[0] = window.x + window.width / 2;
     close.middle[1] = window.y + window.height / 2;
-    const double reach = (window.width > window.height ? window.width : window.height) / 2 / zoom_there(&close);
+    const double reach = (window.width > window.height ? window.width : window.height) / 2 / zoom_at_center(&close);
     close.near_depth = fmax(c->distance - reach, c->near);
     close.far_depth = c->distance + reach;
     close.clips_depth = true;
@@ -275,9 +276,9 @@ bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
     return c->perspective ? is_seen_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
 }
 
-/* ---- Views that fit ------------------------------------------------------------------------------------------ */
+/* ---- Framing points ------------------------------------------------------------------------------------------ */
 
-/* A fitted box is at least this thick, relative to its longest side, so that points on a line or a plane are shown with
+/* The least extent of a fitted box relative to its longest side, so that points on a line or a plane are shown with
  * some of their surroundings. */
 #define THINNEST_FIT (1.0 / 16)
 
@@ -287,7 +288,7 @@ typedef struct bounds {
     size_t count;
 } bounds;
 
-static void take_in(bounds *b, const double position[3])
+static void include_point(bounds *b, const double position[3])
 {
     for (int i = 0; i < 3; i++) {
         b->box.min[i] = b->count == 0 || position[i] < b->box.min[i] ? position[i] : b->box.min[i];
@@ -305,7 +306,7 @@ static octree_walk_order bound_node(const octree_node *node, void *context)
         return OCTREE_WALK_ON;
     for (size_t i = 0; i < node->count; i++)
         if (filter_shows_point(b->filter, node->points[i].position))
-            take_in(b, node->points[i].position);
+            include_point(b, node->points[i].position);
     return OCTREE_WALK_ON;
 }
 
@@ -329,7 +330,7 @@ static void widen(octree_box *box)
     }
 }
 
-static bool is_a_place(const octree_box *box)
+static bool is_single_position(const octree_box *box)
 {
     return box->min[0] == box->max[0] && box->min[1] == box->max[1] && box->min[2] == box->max[2];
 }
@@ -342,7 +343,7 @@ void camera_fit(view *v, const octree *tree)
     octree_walk(tree, bound_node, &b);
     v->fit = b.count ? FIT_BOX : FIT_WORLD;
     octree_node leaf;
-    if (b.count && is_a_place(&b.box) && octree_locate(tree, b.box.min, &leaf) == OCTREE_OK)
+    if (b.count && is_single_position(&b.box) && octree_locate(tree, b.box.min, &leaf) == OCTREE_OK)
         b.box = leaf.box;
     widen(&b.box);
     v->focus = b.box;

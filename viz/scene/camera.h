@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* camera.h - from world coordinates to pixels, in doubles.
  *
- * A camera frames a box: the world, or the box that its view fits. Positions are first taken relative to the lowest
- * corner of that box and divided by its size, so that a scene at 1e15 or of extent 1e-300 looks like the same scene
- * about 0. In those units the box lies within [-1, 1] on every axis.
+ * A camera frames a box: the world, or the box that --fit points computes. A position takes three steps to its pixel:
+ *   unit coordinates    (camera_unit) relative to the lowest corner of the box and divided by its size, so that the box
+ *                       lies within [-1, 1] on every axis. Subtracting first keeps precision: a scene at 1e15, or with
+ *                       an extent of 1e-300, looks like the same scene at 0.
+ *   camera coordinates  (camera_transform) relative to the eye, along the axes right, up and forward (depth)
+ *   pixels              (camera_project) scaled by the zoom, in perspective also divided by the depth; y points down
+ * All steps are in double precision and use no function that differs between machines.
  */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
@@ -11,7 +15,7 @@
 #include "octree/types.h"
 #include "view.h"
 
-/* The part of the frame that the world is drawn in; pixels, y down. */
+/* The area of the frame in which the world is drawn, in pixels; y points down. */
 typedef struct camera_window {
     double x, y, width, height;
 } camera_window;
@@ -25,23 +29,24 @@ typedef struct camera {
     double eye[3];                      /* in unit coordinates */
     bool perspective;
     double zoom;                  /* pixels a unit; under perspective, at distance 1 */
-    double middle[2];             /* the pixel that the axis of view passes through */
-    double center[3];             /* what it looks at, at that pixel, in world coordinates */
-    double distance;              /* from the eye to it */
-    double near;                  /* what is nearer than this (along forward, from the eye) is clipped */
-    double near_depth, far_depth; /* the box's range of view depth, which is cut into bands */
-    bool clips_depth;             /* what is outside that range is clipped */
+    double middle[2];             /* the pixel on the axis of view */
+    double center[3];             /* the world position at that pixel that the camera looks at */
+    double distance;              /* from the eye to the center, in unit coordinates */
+    double near;                  /* geometry at a smaller depth is clipped */
+    double near_depth, far_depth; /* the box's range of depth, which the depth bands divide */
+    bool clips_depth;             /* geometry outside of that range is clipped */
 } camera;
 
-/* The camera of a tick, with the view's look, center and zoom in place of its own: it depends on nothing but the view,
- * the world, the player and the number of the tick. */
+/* The camera of a tick. The view's look, center and zoom replace the camera's own if they are given. The result depends
+ * only on the view, the world, the player's position and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
-/* The camera of a close-up: in the direction of c, into another window, of a place in its middle and what is about as
- * far before and behind it as beside it, so many times as large as c shows what it looks at. */
+/* The camera of a close-up: it looks in the direction of c at `place`, which it shows in the middle of `window`,
+ * `times` as large as c shows its center. It clips geometry that is farther before or behind the place than the window
+ * reaches to the side. */
 camera camera_close_up(const camera *c, camera_window window, const double place[3], double times);
 
-/* How long a pixel is, in world units, at the distance of what the camera looks at. */
+/* The length of a pixel in world units, at the camera's center. */
 double camera_pixel_length(const camera *c);
 
 static inline double camera_dot(const double a[3], const double b[3])
@@ -49,7 +54,7 @@ static inline double camera_dot(const double a[3], const double b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* To unit coordinates: 2 (p - origin) / size - half; and on one axis. */
+/* Convert to unit coordinates: 2 (p - origin) / size - half. The first function converts one axis. */
 static inline double camera_unit_on(const camera *c, int axis, double at)
 {
     return 2 * ((at * c->scale - c->origin[axis]) / c->size) - c->half[axis];
@@ -61,7 +66,7 @@ static inline void camera_unit(const camera *c, const double position[3], double
         result[i] = camera_unit_on(c, i, position[i]);
 }
 
-/* To camera coordinates: right, up, and depth along forward, from the eye; unit lengths. */
+/* Convert to camera coordinates: distances from the eye along right, up and forward, in units of unit coordinates. */
 static inline void camera_transform(const camera *c, const double position[3], double result[3])
 {
     double from_eye[3];
@@ -84,19 +89,19 @@ static inline void camera_project(const camera *c, const double seen[3], double 
 /* The pixel of a position; false when it is not before the camera. */
 bool camera_pixel(const camera *c, const double position[3], double pixel[2]);
 
-/* A box's size on screen: the longer side, in pixels, of the upright rectangle around its projection; infinite when a
- * part of it is nearer than `near`. Nothing inside the box appears larger. */
+/* The size of a box on screen: the longer side, in pixels, of the axis-aligned rectangle around its projection.
+ * Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
 double camera_box_pixels(const camera *c, const octree_box *box);
 
-/* Whether that is less than `pixels`; faster unless the size is close to it. */
+/* Whether camera_box_pixels() is below `pixels`. Faster than computing it, unless the size is close to `pixels`. */
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
 
-/* Under FIT_POINTS, make the view frame the points that it shows of the tree of tick 0, so that the camera does not
- * move from tick to tick: FIT_BOX around them, around their leaf when they are all equal, or FIT_WORLD when there are
- * none. Other views do not change. */
+/* If the view has FIT_POINTS, replace that by FIT_BOX with the box of the points that the view shows in the tree of
+ * tick 0; by the box of their leaf if all of them are equal; by FIT_WORLD if there are none. Using tick 0 alone keeps
+ * the camera from moving between ticks. Other views do not change. Cost: O(points). */
 void camera_fit(view *v, const octree *tree);
 
-/* The cosine and sine of a fraction of a full turn, from polynomials: the same on every machine. */
+/* The cosine and sine of a fraction of a full turn, from polynomials, so that every machine computes the same bits. */
 void camera_turn(double turns, double *cosine, double *sine);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* filter.c - the rules of view filters; see filter.h. */
 #include "filter.h"
 #include "number.h"
 

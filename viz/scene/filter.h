@@ -9,7 +9,8 @@
  *   leaves   it is a leaf.
  *   region   its box meets the region; both are closed.
  * A point is shown when it lies in the region, in a leaf that the slice's plane runs through, and in some node of the
- * range of depths: that is, in a leaf at least as deep as the range begins; of leaves alone, in one of the range.
+ * range of depths, which means in a leaf at least as deep as the range begins. With `leaves` its leaf must be in the
+ * range.
  */
 #ifndef SCENE_FILTER_H
 #define SCENE_FILTER_H
@@ -35,18 +36,19 @@ bool filter_shows_node(const view_filter *f, const octree_box *world, const octr
 /* Whether a node or anything below it may be shown: slice and region cut off whole branches. */
 bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* Whether a box of a program's own tree is shown. The slice's plane is then to meet the closed box, which may be flat;
- * and a range of depths that ends at OCTREE_MAX_DEPTH has no end. */
+/* Whether a foreign node's box is shown. Unlike nodes of the tree, its box is closed and may be flat: the slice's plane
+ * must meet the closed box. A range of depths that ends at OCTREE_MAX_DEPTH includes all greater depths. */
 bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf);
 
-/* Whether a leaf's points may be shown, judged by the leaf alone; and then one of its points. */
+/* A point is shown if both are true: filter_shows_points_of() for its leaf, filter_shows_point() for its position. */
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 
-/* Whether a filter leaves anything out at all. */
+/* Whether any part of the filter is set. */
 bool filter_is_on(const view_filter *f);
 
-/* Null when a filter can show something of a tree of this world and depth; else the reason, one sentence, in `text`. */
+/* Null if the filter can show some node of a tree with this world and depth; else a sentence, in `text`, why it shows
+ * none. */
 #define FILTER_TEXT 256
 const char *filter_refusal(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* heat.c - see heat.h. */
 #include "heat.h"
 #include "array.h"
 #include "octree/octree.h"

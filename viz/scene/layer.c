@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* layer.c - the table of layers, and lists of them as people type them. */
+/* layer.c - the table of layers, and parsing of lists such as "default,-text". */
 #include "layer.h"
 
 #include <string.h>
@@ -7,7 +7,7 @@
 #define LAYER_ROW(layer, name, words, help, role, fades, shown) {name, words, help, role, fades},
 const layer_row layer_rows[LAYER_ALL] = {LAYER_MAP(LAYER_ROW)};
 
-/* The bits that a name of this length stands for; false when it is unknown. */
+/* Find the layer bits of a name, which need not end in a zero. False if the name is unknown. */
 static bool find_layers(const char *name, size_t length, unsigned *bits)
 {
     static const struct {

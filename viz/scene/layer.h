@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* layer.h - the layers of a scene, one row each.
  *
- * To add a layer: a row here, a file in viz/layers with its layer_type (layer_type.h), its test, a row in the tables of
- * test_describe, test_legend and golden_frames. Data that a tick lacks is added to octree_tick first; a new colour is a
- * row of theme.h; a curve of a recording's page is a line of CURVES in viz/page/viewer/facts.js.
+ * To add a layer:
+ *   1. a row in LAYER_MAP below, in painter's order
+ *   2. a file in viz/layers with its layer_type, and a row in the table of layer types (layer_type.h)
+ *   3. a test of the file in tests/viz/layers
+ *   4. a row in the tables of test_describe.c, test_legend.c and test_picture.c (tests/viz), and of
+ *      tests/support/viz/golden_frames.c with its golden frame
+ * If a tick lacks the data, add them to octree_tick first. A new colour is a row of theme.h. A curve in the page of a
+ * recording is a line of CURVES in viz/page/viewer/facts.js.
  */
 #ifndef SCENE_LAYER_H
 #define SCENE_LAYER_H
@@ -66,8 +71,8 @@ extern const layer_row layer_rows[LAYER_ALL];
 #define LAYER_DEFAULT_BIT(layer, name, words, help, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
 #define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
 
-/* Layers by a list of names with commas between, or "all", "default" or "none"; "-text" removes one, and a list that
- * begins so starts from the default. On failure *bad points at the name that is unknown. */
+/* Read a list of layer names separated by commas; "all", "default" and "none" also count as names. "-text" removes a
+ * layer; a list that begins with "-" starts from the default layers. On failure *bad points at the unknown name. */
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 
 static inline bool view_shows(const view *v, view_layer layer)
@@ -77,7 +82,7 @@ static inline bool view_shows(const view *v, view_layer layer)
                                     : v->layers >> layer & 1;
 }
 
-/* How a layer's elements look, in its colour. */
+/* The style of an element in its layer's own colour. */
 static inline scene_style layer_style(view_layer layer, scene_stroke stroke, unsigned width)
 {
     return (scene_style){(uint8_t)layer, layer_rows[layer].role, (uint8_t)stroke, (uint8_t)width};

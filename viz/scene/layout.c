@@ -7,16 +7,18 @@
 
 #define CLOSEUP_PART 0.32    /* of the space, along its longer side */
 #define CLOSEUP_RATIO 1.3333 /* of its sides, the longer one along the strip */
-#define CLOSEUP_MARGIN 8     /* units around it */
-#define CLOSEUP_LEAST 90     /* units of a side, for letters in it */
-#define CAMERA_MARGIN 0.045  /* of a width, that the camera leaves at both sides of the world */
-#define MOST_NUMBERS 0.1     /* of a width, for numbers at a side */
+#define CLOSEUP_MARGIN 8     /* units of the frame around the close-up */
+#define CLOSEUP_LEAST 90     /* the shortest side, in units: smaller ones have no room for letters */
+#define CAMERA_MARGIN 0.045  /* the part of the width that the camera leaves free at each side of the world */
+#define MOST_NUMBERS 0.1     /* the largest part of the width for numbers at a side */
 
 int panel_width(const view *v)
 {
     const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_of_text(v).width;
     return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
 }
+
+/* layout.c - the areas of a picture; see layout.h. */
 
 /* The picture without the column of text. */
 static camera_window rest_of(const view *v)
@@ -25,7 +27,7 @@ static camera_window rest_of(const view *v)
     return (camera_window){column, 0, v->width - column, v->height};
 }
 
-/* And without the diagram beside the world. */
+/* The picture without the column of text and the diagram. */
 static camera_window whole_space(const view *v)
 {
     camera_window w = rest_of(v);
@@ -37,7 +39,7 @@ static camera_window whole_space(const view *v)
     return w;
 }
 
-/* What a close-up takes of the longer side of the space. */
+/* The pixels that a close-up takes from the longer side of the space. */
 static double closeup_strip(const camera_window *space)
 {
     return floor(fmax(space->width, space->height) * CLOSEUP_PART);
@@ -56,7 +58,12 @@ camera_window layout_space(const scene *s)
 
 int layout_number_letters(const octree_box *box)
 {
-    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 }; /* than its digits: a sign or a margin, and the tick */
+    enum {
+        FEW_DIGITS = 4,
+        LEAST = 6,
+        MOST = 9,
+        MORE = 3
+    }; /* MORE than the digits: a sign or a margin, and the tick mark */
     double most = 0;
     int digits = 1;
     for (int i = 0; i < 3; i++)

@@ -13,24 +13,25 @@
 /* The width of the column in pixels; 0 when the view has no text or the picture is too small for it. */
 int panel_width(const view *v);
 
-/* Where the world is drawn. */
+/* The area in which the world is drawn. */
 camera_window layout_space(const scene *s);
 
-/* Letters of a number of an axis along a box, and of its tick: 6, or what the digits of large coordinates need. */
+/* The number of letters to reserve for the numbers along an axis of a box, tick mark included: 6, or more for large
+ * coordinates. */
 int layout_number_letters(const octree_box *box);
 
-/* The part of it that the camera frames the world in: with room for numbers at both sides. */
+/* The part of layout_space() in which the camera frames the world, with room for numbers at both sides. */
 camera_window layout_camera(const scene *s, const octree_box *world);
 
-/* The area of a close-up, in whole pixels, beside the world or, where that is higher than wide, below it; empty in a
- * picture that is too small for one. */
+/* The area of a close-up, in whole pixels: beside the world, or below it if the space is higher than wide. Empty if the
+ * picture is too small for a close-up. */
 camera_window layout_closeup(const view *v);
 
-/* The area of the diagram; empty when the view shows none. Beside the space view it has half of what the column leaves:
- * the right half, or the lower one when that is higher than wide. */
+/* The area of the diagram; empty if the view shows no diagram. With DIAGRAM_BESIDE it is half of the picture without
+ * the text column: the right half, or the lower half if that area is higher than wide. */
 camera_window layout_diagram(const view *v);
 
-/* ---- Words among the lines ---------------------------------------------------------------------------------- */
+/* ---- Placement of labels ------------------------------------------------------------------------------------ */
 
 #define TEXT_SPACE_MOST 400 /* more labels than that are unreadable */
 
@@ -40,18 +41,18 @@ typedef struct text_space {
     size_t count;
 } text_space;
 
-/* Room beside the texts that stand at pixels already. */
+/* Start with the rectangles of all labels at pixels that the scene already has. */
 text_space text_space_of(const scene *s);
 
 /* Reserve room for a text centred on a pixel, and write its top left corner. False when it would leave the space view
  * or cover another text. */
 bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2]);
 
-/* Keep clear of a mark at a place of the world, so many half units wide to each side. */
+/* Reserve the area of a mark at a world position; `half` is half its width, in half units of the frame. */
 void text_space_keep_mark(text_space *t, const scene *s, const double at[3], unsigned half);
 
-/* Add a label on its ground beside such a mark, on the side where there is room. False where there is none; true also
- * where the mark is not in the space view. */
+/* Add a label beside such a mark, on the first side with room, on a background of its own. False if no side has room.
+ * True also if the mark is outside of the space view, where it gets no label. */
 bool text_add_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half);
 
 /* Add a label on a filled rectangle, so that lines and points do not make it hard to read. The rectangle has the

@@ -3,9 +3,10 @@
 
 #include <stddef.h>
 
-/* Pictures of at least this height, as high as 16:9 at most. Leading grows with the face. */
+/* lettering.c - one row for each range of heights of a picture, by view_height_in_wide(). Leading grows with the face.
+ */
 static const struct lettering_row {
-    int from;
+    int from; /* the least height of the range */
     text_face text;
     int leading;
     text_face title;
@@ -15,7 +16,7 @@ static const struct lettering_row {
     {900, FACE_12X24, 4, FACE_12X24, 2}, {1280, FACE_16X32, 6, FACE_16X32, 2},
 };
 
-/* From here on 12x24 is multiplied, once for each 1080 lines. */
+/* From this height on, face 12x24 is enlarged, by one multiple for each 1080 lines. */
 enum { MULTIPLIED = 1700, LINES_A_MULTIPLE = 1080, MULTIPLE_LEADING = 4 };
 
 static lettering of_face(text_face face, int multiple, int leading)

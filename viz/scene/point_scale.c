@@ -1,4 +1,17 @@
 /* SPDX-License-Identifier: MIT */
+/* point_scale.c - one walk over the points of tick 0 measures the ranges for colours and the spacing for sizes.
+ *
+ * Ranges: a single outlier would take most colours from all other points, so that a range is that from the first to the
+ * last percentile. Percentiles of all points would need memory for all of them; a sample of at most MOST_SAMPLES points
+ * is enough. A point is in the sample if the lowest bits of a hash of its id and position are zero, and the number of
+ * bits grows when the sample is full. The sample depends only on the set of points, not on their order or on the tree,
+ * so that frames with other leaf capacities have the same colours.
+ *
+ * Spacing: points of a scan lie on surfaces. Within a leaf they are taken as a square grid spread over the two longer
+ * sides of their box. The result is the median over the leaves, weighted by their points.
+ *
+ * Percentiles and the median come from quickselect with random pivots: O(n) on average, whatever the order.
+ */
 #include "point_scale.h"
 #include "array.h"
 #include "octree/digest.h"
@@ -7,16 +20,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* One point in so many may be an outlier at either end. */
+/* One in OUTLIERS points is cut off at each end of a range. */
 #define OUTLIERS 100
 
-/* The points of a leaf that tell how far they are apart. */
+/* Leaves with fewer points have no spacing. */
 #define FEWEST 4
 
-/* A sample of at most so many points stands for all: a hundredth of them is known to a tenth of itself. */
+/* The most points in the sample: enough to know the rank of a percentile to about a tenth of itself. */
 #define MOST_SAMPLES ((size_t)1 << 16)
 
-/* The points that are shown of one leaf. */
+/* The visible points of one leaf. */
 typedef struct leaf_spacing {
     double spacing;
     size_t count;
@@ -24,14 +37,14 @@ typedef struct leaf_spacing {
 
 typedef struct sample {
     uint64_t hash;
-    double values[4]; /* a position and the intensity; that of a point without one is NaN */
+    double values[4]; /* the position and the intensity; NaN if the point has no intensity */
 } sample;
 
-/* The points whose hash has its lowest bits clear: neither the order of points nor the tree has a say in which. */
+/* The points whose hash & mask is 0. */
 typedef struct samples {
     sample *items;
     size_t count, room;
-    uint64_t mask; /* those bits: as few as leave room for all */
+    uint64_t mask; /* the fewest low bits with which the sample fits MOST_SAMPLES */
 } samples;
 
 typedef struct gathering {
@@ -41,7 +54,7 @@ typedef struct gathering {
     size_t count, room, points;
     samples samples;
     double ids[2];
-    const point_values *values; /* null: intensities are not asked for */
+    const point_values *values; /* null: intensities are not needed */
     bool out_of_memory;
 } gathering;
 
@@ -55,8 +68,8 @@ static double most(double a, double b)
     return a > b ? a : b;
 }
 
-/* Of k x k points on a grid k - 1 spaces lie along a side. The shortest side of the three is the way through the
- * surface that the points are on. Few points are on no surface that could be seen. */
+/* The spacing of points in a box: a grid of k x k points has k - 1 spaces along each side. The shortest of the three
+ * sides is taken for the thickness of the surface, and ignored. 0 for fewer than FEWEST points. */
 static double spacing_of(const double low[3], const double high[3], size_t count)
 {
     const double a = high[0] - low[0], b = high[1] - low[1], c = high[2] - low[2];
@@ -144,7 +157,7 @@ static octree_walk_order gather(const octree_node *node, void *context)
 
 /* ---- Quantiles ---------------------------------------------------------------------------------------------- */
 
-/* A value, and the points that it stands for. */
+/* A value, and the number of points that have it. */
 typedef struct weighted {
     double value;
     size_t weight;
@@ -157,8 +170,8 @@ static void swap(weighted *a, weighted *b)
     *b = kept;
 }
 
-/* Bring what is below the pivot to [0, *low), what is above it to [*high, count). Returns the weight of the former; the
- * others' is added to *equal. */
+/* Partition: values below the pivot go to [0, *low), values above it to [*high, count). Returns the weight of the
+ * values below; adds the weight of the values equal to the pivot to *equal. */
 static size_t divide(weighted *values, size_t count, double pivot, size_t *low, size_t *high, size_t *equal)
 {
     size_t below = 0;
@@ -177,8 +190,8 @@ static size_t divide(weighted *values, size_t count, double pivot, size_t *low, 
     return below;
 }
 
-/* The value that points of this weight are not above; the last where they have less. The values are left in another
- * order. Cost: O(count) on average, whatever their order is: the pivots are drawn. */
+/* Quickselect: the value at a rank, counted in weight from the smallest; the largest value if the rank is beyond the
+ * total weight. Reorders the values. Cost: O(count) on average. */
 static double select_value(weighted *values, size_t count, size_t rank)
 {
     uint64_t state = 1;
@@ -199,7 +212,7 @@ static double select_value(weighted *values, size_t count, size_t rank)
     }
 }
 
-/* Where nearly all samples have one of their values. `room` is for all of them. */
+/* The percentiles that end the range of one of the four values. `room` has space for all samples. */
 static void measure_ends(const samples *s, int which, weighted *room, double *low, double *high)
 {
     size_t count = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* point_scale.h - what the points of tick 0 are like, so that colours and sizes of painted points stay the same through
- * a recording. */
+/* point_scale.h - the ranges of position, id and intensity of the points of tick 0, and their spacing. They map values
+ * to colours and sizes of painted points, and stay the same through a recording. */
 #ifndef SCENE_POINT_SCALE_H
 #define SCENE_POINT_SCALE_H
 
@@ -9,19 +9,16 @@
 #include "point_values.h"
 #include "view.h"
 
-/* Where the view paints points and has no scale yet, give it that of the points that it shows of the tree of tick 0. A
- * few outliers on either side are left out, so that they do not take the colours from all others: what remains does not
- * depend on the tree, so that pictures of other leaf capacities have the same colours. The spacing is the median of the
- * leaves', by the extent of the points in each. The values of the points may be null; of those that no
- * point of the tree has none counts: a session that is filmed while it is written has them later. False when there is
- * no memory. Cost: O(n). */
+/* If the view paints points and has no scale yet, compute it from the points that the view shows in the tree of tick 0.
+ * `values` may be null; values of ids that the tree does not hold are ignored, because a session that is still being
+ * written gets them later. False if there is no memory. Cost: O(points). point_scale.c explains the method. */
 bool point_scale_fit(view *v, const octree *tree, const point_values *values);
 
-/* What the view colours points by and none of them has: "a class"; null where that is nothing. */
+/* The value by which the view colours points if no point has it, as in "a class"; null if some point has it. */
 const char *point_scale_lacks(const view *v, const point_values *values);
 
-/* A painted point is this much wider than it is from one point to the next: more than the diagonal of a grid, so that
- * surfaces are closed; but no wider than so many units of the frame. */
+/* The width of a painted point relative to the spacing: more than the diagonal of a grid cell, so that surfaces have no
+ * holes. And its greatest width, in units of the frame. */
 #define POINT_OVERLAP 1.5
 #define POINT_WIDEST 8
 

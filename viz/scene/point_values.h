@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* point_values.h - what points have beside their positions: colours, intensities and classes, found by a point's id.
+/* point_values.h - the values of points (colour, intensity, class), found by a point's id.
  *
- * Whoever draws a point asks
+ * Code that draws a point does
  *   const size_t row = point_values_row(values, point->id);
  *   if (point_values_has(values, row, POINT_COLOR)) ... values->colors[row] ...
  *
- * The game knows nothing of them: an id keeps its values through a session, wherever its point is.
+ * The game does not know values: an id keeps its values through a session, wherever its point moves.
  */
 #ifndef SCENE_POINT_VALUES_H
 #define SCENE_POINT_VALUES_H
@@ -16,28 +16,30 @@
 
 typedef enum point_value_kind { POINT_COLOR, POINT_INTENSITY, POINT_CLASS, POINT_VALUE_KINDS } point_value_kind;
 
-/* Those of one point; what it has not is zero. */
+/* The values of one point. Missing values are zero. */
 typedef struct point_value {
     unsigned char color[3]; /* red, green, blue */
-    uint16_t class;         /* of LAS 2 is ground, 6 a building ...; of other files a label */
+    uint16_t class;         /* in LAS 2 is ground, 6 a building; in other files any label */
     float intensity;        /* finite; in the file's own units */
     bool has[POINT_VALUE_KINDS];
 } point_value;
 
-/* Those of many, a row each: at most 10 bytes a point where the ids are dense, else 18. A zeroed one is empty. */
+/* The values of many points, one row for each: at most 10 bytes for each point if ids are dense, else 18. Zeroed:
+ * empty.
+ */
 typedef struct point_values {
     size_t count;               /* rows; 0 where no point has any values */
-    uint64_t first;             /* row n is of the id first + n, */
-    uint64_t *ids;              /* unless this lists the id of each, ascending; owned */
-    unsigned char (*colors)[3]; /* `count` of each of the three; null where no point has one; owned */
+    uint64_t first;             /* row n belongs to the id first + n, */
+    uint64_t *ids;              /* unless this array, ascending and owned, holds the id of each row */
+    unsigned char (*colors)[3]; /* this and the next two: `count` items; null if no point has the value; owned */
     float *intensities;
     uint16_t *classes;
-    unsigned char *given; /* bits 1 << point_value_kind of each row, which may be none; null: each row has all that the
-                             three arrays hold; owned */
+    unsigned char *given; /* for each row, bits 1 << point_value_kind of the values it has; null: each row has a value
+                             in every array that is not null; owned */
     size_t color_room, intensity_room, class_room, given_room, id_room;
 } point_values;
 
-/* A point by its id, to make a table of. */
+/* An id and its values, to build a table from. */
 typedef struct point_entry {
     uint64_t id;
     point_value value;
@@ -58,7 +60,7 @@ static inline size_t point_values_row(const point_values *v, uint64_t id)
     return id - v->first < v->count ? (size_t)(id - v->first) : POINT_VALUES_NONE;
 }
 
-/* Bits 1 << point_value_kind: what any point has; `v` may be null. */
+/* The kinds of values that any point has, as bits 1 << point_value_kind. `v` may be null. */
 static inline unsigned point_values_kinds(const point_values *v)
 {
     return !v ? 0U

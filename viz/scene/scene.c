@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* scene.c - appending elements to the arrays of a scene, and numbering them. */
 #include "scene.h"
 #include "array.h"
 #include "kept_tree.h"
@@ -36,7 +37,7 @@ void scene_release(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Room for so many items. Null, and out_of_memory set, when there is none. */
+/* Reserve room for `count` items. Null, with out_of_memory set, if there is no memory. */
 static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
 {
     void *grown = array_reserve(items, count, room, size);
@@ -101,7 +102,8 @@ void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape
     scene_add_marker(s, (scene_marker){.id = id, .at = {at[0], at[1], at[2]}, .style = style, .shape = (uint8_t)shape});
 }
 
-/* Room is made once for all: one call a point took 2 % more instructions for the picture of a cloud. */
+/* Reserve room once: a call of scene_add_marker() for each point took 2 % more instructions for the picture of a cloud.
+ */
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style)
 {
     if (count == 0 || !view_shows(&s->view, style.layer))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scene.h - the draw list of one tick: what a frame shows, as plain arrays, without any GPU.
+/* scene.h - the draw list of one tick: the elements of a frame as plain arrays, which tests can check without a GPU.
  *
  * World geometry (boxes, segments, markers, letters) is in world coordinates and is drawn through the camera; panels
  * and labels, and segments that say so, are in pixels. Every element has a layer, a role (its colour) and a stable id,
@@ -30,7 +30,7 @@ typedef struct scene_style {
     uint8_t width;  /* of lines, half the size of markers, and the size of text: 1 is 12 units a line */
 } scene_style;
 
-/* What every element begins with. */
+/* The first members of every element. */
 typedef struct scene_head {
     uint64_t id;
     scene_style style;
@@ -39,7 +39,7 @@ typedef struct scene_head {
 typedef struct scene_box {
     uint64_t id; /* a node's address in LAYER_NODES */
     scene_style style;
-    uint8_t depth; /* a node's; of two boxes that share an edge the shallower gives it its colour */
+    uint8_t depth; /* of the node; an edge shared by two boxes has the colour of the shallower one */
     octree_box box;
 } scene_box;
 
@@ -96,23 +96,23 @@ typedef struct scene_panel {
         size_t count, room;                                                                                            \
     }
 
-/* Velocity arrows that a scene leaves out. */
+/* Counts of velocity arrows that a scene leaves out. */
 typedef struct scene_arrows {
     size_t thinned;  /* beyond the view's budget */
-    uint64_t one_in; /* about one arrow in so many is kept */
-    size_t small;    /* of the others, below the view's lod */
+    uint64_t one_in; /* about one arrow in `one_in` is kept */
+    size_t small;    /* shorter than the view's lod, among the others */
 } scene_arrows;
 
-/* How much of a tree a scene shows. */
+/* Counts of the nodes and points that a scene shows and leaves out. */
 typedef struct scene_tally {
     size_t nodes, points; /* shown */
     size_t labels;        /* nodes with their path on them */
     size_t small;         /* nodes below the view's lod */
-    size_t small_met;     /* and boxes and planes of nodes that the tick visited, split or merged */
+    size_t small_met;     /* below the lod: boxes and planes of nodes that the tick visited, split or merged */
     size_t beyond;        /* nodes beyond its budget: all below `deepest` */
     int deepest;          /* the greatest depth that fits the budget */
     size_t thinned;       /* points beyond the budget */
-    uint64_t one_in;      /* about one point in so many is kept */
+    uint64_t one_in;      /* about one point in `one_in` is kept */
     scene_arrows arrows;
     size_t drawn, folded;                 /* nodes in the diagram: one by one, and in its bars */
     unsigned folded_from, folded_to;      /* the depths that are bars */
@@ -120,10 +120,10 @@ typedef struct scene_tally {
     size_t marked_visited, marked_pruned; /* nodes that it marks as visited or pruned by the tick */
 } scene_tally;
 
-/* What a frame may leave out, as bits. */
+/* Kinds of elements that a frame can leave out, as bits. */
 enum { LEFT_OUT_NODES = 1, LEFT_OUT_POINTS = 2, LEFT_OUT_ARROWS = 4 };
 
-/* What the view's budget leaves out; and what its lod does. */
+/* The kinds that the view's budget leaves out, and those that its lod leaves out. */
 static inline unsigned scene_left_out_beyond(const scene_tally *tally)
 {
     return (tally->beyond ? LEFT_OUT_NODES : 0u) | (tally->thinned ? LEFT_OUT_POINTS : 0u) |
@@ -149,14 +149,14 @@ typedef struct scene {
     scene_tally tally;
     struct scene *closeup; /* a scene of its own, drawn into a part of the picture; read where has_closeup */
     bool has_closeup;
-    int place[2];           /* of a close-up: the picture's pixel that its own top left one is, */
-    double times;           /* and how much larger it shows what is in its middle; 0 in other scenes */
-    struct kept_tree *kept; /* from the scene before this one in the same memory; may be null */
+    int place[2];           /* of a close-up: the pixel of the picture at which its top left pixel lies */
+    double times;           /* of a close-up: its magnification at its middle; 0 in other scenes */
+    struct kept_tree *kept; /* cache from the scene of the tick before; may be null */
     size_t refused;         /* elements with NaN or infinite geometry: counted, never drawn */
     bool out_of_memory;     /* set by scene_add_*: the scene is incomplete */
 } scene;
 
-/* The letters that a label has. */
+/* The letters in which a label is drawn. */
 static inline const lettering *scene_lettering(const scene *s, const scene_label *label)
 {
     return label->style.width > 1 ? &s->title : &s->text;
@@ -166,10 +166,10 @@ static inline const lettering *scene_lettering(const scene *s, const scene_label
 void scene_clear(scene *s);
 void scene_release(scene *s);
 
-/* Set the view, and the sizes that follow from it. The camera is another's. */
+/* Set the view, and the sizes that follow from it. The caller sets the camera. */
 void scene_set_view(scene *s, const view *v);
 
-/* Append an element, unless the view does not show its layer: nothing else tests that. */
+/* Append an element if the view shows its layer. This is the only test of that. */
 void scene_add_box(scene *s, scene_box box);
 void scene_add_segment(scene *s, scene_segment segment);
 void scene_add_marker(scene *s, scene_marker marker);
@@ -198,7 +198,7 @@ static inline void scene_box_middle(const octree_box *box, double middle[3])
 /* The arrays of a scene, in the order in which their elements are numbered. */
 typedef enum scene_kind { SCENE_BOX, SCENE_SEGMENT, SCENE_MARKER, SCENE_PANEL, SCENE_LABEL, SCENE_KINDS } scene_kind;
 
-/* One element: that of this index in the array of its kind, of the scene or of its close-up. */
+/* The position of an element: its kind, its index in the array of that kind, and whether it is in the close-up. */
 typedef struct scene_element {
     scene_kind kind;
     size_t index;
@@ -208,15 +208,15 @@ typedef struct scene_element {
 /* "box", "segment", "marker", "panel", "label". */
 const char *scene_kind_name(scene_kind kind);
 
-/* Elements are numbered from 1 on, kind by kind, and then those of the close-up. 0 is the background, which is no
- * element. */
+/* Elements have numbers from 1 on: kind by kind, first those of the scene, then those of its close-up. 0 is the
+ * background. */
 size_t scene_count(const scene *s); /* without those of the close-up */
 scene_element scene_element_at(const scene *s, uint32_t number);
 uint32_t scene_number_of(const scene *s, scene_element element);
 
 scene_head scene_head_of(const scene *s, scene_element element);
 
-/* The scene that an element's index counts in: this, or its close-up. */
+/* The scene that holds an element: `s` or its close-up. */
 static inline const scene *scene_with(const scene *s, scene_element element)
 {
     return element.in_closeup ? s->closeup : s;

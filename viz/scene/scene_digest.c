@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* scene_digest.c - see scene_digest.h, which explains the digest. */
 #include "scene_digest.h"
 #include "kept_tree.h"
 #include "layer.h"
@@ -35,7 +36,7 @@ static uint64_t digest_style(const digest_names *n, uint64_t id, scene_style sty
     return octree_digest_word(digest, n->layers[style.layer] + n->roles[style.role] + how);
 }
 
-/* Where points are painted, how. */
+/* The colouring and shade of painted points; nothing if points are not painted. */
 static uint64_t digest_painting(const scene *s, uint64_t digest)
 {
     if (!view_paints_points(&s->view))
@@ -81,7 +82,7 @@ static uint64_t digest_segment(const digest_names *n, const scene_segment *segme
     return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
 }
 
-/* 0 where an element has no colour of its own. */
+/* 0 if the element has no colour of its own. */
 static unsigned word_of(theme_color color)
 {
     return (unsigned)color.r << 16 | (unsigned)color.g << 8 | color.b;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* theme.c - the tables of colours; see theme.h. */
 #include "theme.h"
 
 #define ROLE_NAME(role, name, r, g, b) name,
@@ -11,7 +12,7 @@ const char *theme_role_name(theme_role role)
     return role == ROLE_OWN ? "own" : role_names[role];
 }
 
-/* The part of the role's own colour in each shade, in 256ths. */
+/* The weight of the role's own colour in each shade, in 256ths; the rest is background. */
 static const int strength[THEME_SHADES] = {256, 236, 216, 196, 176, 156, 136, 116};
 
 static uint8_t mix(uint8_t color, uint8_t ground, int part)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* theme.h - what the colours mean, and the fixed table of 256 that a frame is made of.
+/* theme.h - the meanings of colours, and the fixed table of at most 256 colours of a frame.
  *
- * A role has eight shades, from 0 (near, full colour) to 7 (far, towards the background), each with an index of its
- * own; kinds of nodes, for which the table has no more room, share one in two. Red means collision and nothing else.
+ * A role is a meaning with a colour. Each role has eight shades from 0 (near, full colour) to 7 (far, towards the
+ * background), and each shade has an index in the table. Kinds of nodes use four indices each, two shades sharing one,
+ * because the table has no more room. Red means collision and nothing else.
  */
 #ifndef SCENE_THEME_H
 #define SCENE_THEME_H
@@ -14,12 +15,12 @@
 
 #define THEME_SHADES 8
 
-/* Each role, its name and its colour on the dark ground. Single meanings are near the set of Okabe and Ito (2008),
- * and were searched for so that they survive each kind of colour blindness; depth is a ramp of growing lightness
- * from blue to pale yellow, after cividis (Nunez et al. 2018), so that it survives grey. Kinds of nodes were searched
- * for so that any eye tells them from each other, first of all, and from what is drawn upon them. A new role is a row
- * before these: `test_theme --propose` prints colours that differ visibly from all others, on every background and
- * under colour blindness. Scene digests hash the names. */
+/* Each role, its name and its colour on the dark ground. Colours of single
+ * meanings are close to the set of Okabe and Ito (2008); a search chose them so that they differ under every kind of
+ * colour blindness. Depth is a ramp of growing lightness from blue to pale yellow, after cividis (Nunez et al. 2018),
+ * so that it also works in grey. A search chose the kinds of nodes so that they differ from each other, and from what
+ * is drawn over them, for every kind of vision. To add a role, add a row before the kinds: `test_theme --propose`
+ * prints colours that differ visibly from all others. Scene digests hash the names. */
 #define THEME_ROLE_MAP(X)                                                                                              \
     X(BACKGROUND, "background", 13, 17, 26)                                                                            \
     X(PANEL, "panel", 24, 30, 43)                                                                                      \
@@ -95,17 +96,17 @@ static inline uint8_t theme_index(unsigned role, unsigned shade)
 #define ROLE_OWN ROLE_COUNT
 #define THEME_OWN THEME_COLORS
 
-/* A colour that fades to the background: 256 parts of it are the colour itself, 0 the background. */
+/* A colour mixed with the background: 256 parts are the colour itself, 0 the background. */
 theme_color theme_fade(theme_color full, int parts);
 
-/* The colours of an amount from 0 to 1, beyond which they stay: viridis (van der Walt and Smith 2015) without its
- * darkest sixth, which would be lost on the background; in equal steps to the eye, and lighter with each. */
+/* The colour of an amount, which is clamped to 0 to 1: viridis (van der Walt and Smith 2015) without its darkest sixth,
+ * which would be invisible on the background. Equal steps look equal, and lightness grows. */
 theme_color theme_ramp(double part);
 
-/* The most points of a pixel that have a colour of their own: a power of two. */
+/* The number of points on a pixel from which on density has one colour: a power of two. */
 #define THEME_MOST_DENSITY 64
 
-/* Colours that any eye tells apart: those of Okabe and Ito without their red, and two greys. */
+/* Colours that differ for every kind of vision: those of Okabe and Ito without their red, and two greys. */
 #define THEME_KINDS 8
 theme_color theme_kind(unsigned kind);
 

@@ -15,7 +15,7 @@ int view_unit(const view *v)
     return height < 640 ? 1 : (height + 180) / 360;
 }
 
-/* The names and the words of one of view.h's maps: TYPE_name() and TYPE_words(). */
+/* Define TYPE_name() and TYPE_words() from one of the maps of view.h. */
 #define VIEW_ROW(name, ...) {__VA_ARGS__},
 #define VIEW_NAMES(type, map, count)                                                                                   \
     static const char *const type##_rows[count][2] = {map(VIEW_ROW)};                                                  \

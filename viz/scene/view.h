@@ -8,54 +8,55 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Each camera, the name that people type, and what it shows, in --help. */
+/* The cameras: enumerator, name on the command line, description in --help. */
 #define VIEW_CAMERA_MAP(X)                                                                                             \
     X(ISO, "iso", "from above, a three-quarter view, orthographic")                                                    \
     X(TOP, "top", "along -z, x to the right, y up, orthographic")                                                      \
     X(FRONT, "front", "along +y, x to the right, z up, orthographic")                                                  \
     X(SIDE, "side", "along -x, y to the right, z up, orthographic")                                                    \
     X(FOLLOW, "follow", "from behind and above the player, in perspective")                                            \
-    X(ORBIT, "orbit", "round the world by a fixed angle a tick, in perspective")
+    X(ORBIT, "orbit", "circling the world by a fixed angle each tick, in perspective")
 
-/* What the colour of a node means: the same of each choice. */
+/* The meanings of a node's colour, with the same columns. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
-    X(DEPTH, "depth", "how deep it lies")                                                                              \
-    X(OCCUPANCY, "occupancy", "how many points are in a leaf, up to its capacity; of a program's, in powers of two")   \
-    X(PLAIN, "plain", "nothing: all have one colour")                                                                  \
-    X(KIND, "kind", "what a node of a program's own tree is, by its word")
+    X(DEPTH, "depth", "its depth in the tree")                                                                         \
+    X(OCCUPANCY, "occupancy",                                                                                          \
+      "the number of points of a leaf relative to its capacity; of a foreign leaf, in powers of two")                  \
+    X(PLAIN, "plain", "no meaning: all nodes have one colour")                                                         \
+    X(KIND, "kind", "the kind of a foreign node, by its word")
 
-/* Whose nodes are shown, where a program's session has nodes of its own tree: the same of each choice. */
+/* The trees whose nodes are shown if the session has foreign nodes, with the same columns. */
 #define VIEW_TREE_MAP(X)                                                                                               \
-    X(AUTO, "auto", "the program's, from the tick on that has any; Octreel's without")                                 \
-    X(OWN, "own", "Octreel's alone")                                                                                   \
-    X(FOREIGN, "foreign", "the program's alone")                                                                       \
+    X(AUTO, "auto", "foreign nodes from the first tick that has any; Octreel's nodes before")                          \
+    X(OWN, "own", "only Octreel's nodes")                                                                              \
+    X(FOREIGN, "foreign", "only foreign nodes")                                                                        \
     X(BOTH, "both", "both")
 
-/* What the colour of a point means. */
+/* The meanings of a point's colour, with the same columns. */
 #define VIEW_POINT_COLOR_MAP(ROW)                                                                                      \
-    ROW(PLAIN, "plain", "nothing: all have one colour")                                                                \
-    ROW(HEIGHT, "height", "how high it lies, which is z")                                                              \
+    ROW(PLAIN, "plain", "no meaning: all points have one colour")                                                      \
+    ROW(HEIGHT, "height", "its height, which is z")                                                                    \
     ROW(X, "x", "its x")                                                                                               \
     ROW(Y, "y", "its y")                                                                                               \
     ROW(Z, "z", "its z")                                                                                               \
-    ROW(FILE, "file", "its own colour, that its file gives it")                                                        \
-    ROW(LEAF, "leaf", "its leaf: dark and light by turns, in its own colour or that of height")                        \
-    ROW(DEPTH, "depth", "how deep its leaf lies in the tree")                                                          \
-    ROW(DENSITY, "density", "how many points share its pixel")                                                         \
-    ROW(CLASS, "class", "its class, as of LAS: ground, vegetation, buildings, water")                                  \
+    ROW(FILE, "file", "its own colour from its file or session")                                                       \
+    ROW(LEAF, "leaf", "its leaf: alternately dark and light, in the point's own colour or that of height")             \
+    ROW(DEPTH, "depth", "the depth of its leaf in the tree")                                                           \
+    ROW(DENSITY, "density", "the number of points on its pixel")                                                       \
+    ROW(CLASS, "class", "its class, as in LAS: ground, vegetation, buildings, water")                                  \
     ROW(INTENSITY, "intensity", "its intensity")                                                                       \
-    ROW(ID, "id", "its id: of a cloud, its place in the file")
+    ROW(ID, "id", "its id; in a cloud, its row in the file")
 
-/* What tells how far away a point is. */
+/* How points show their distance from the eye, with the same columns. */
 #define VIEW_SHADE_MAP(X)                                                                                              \
-    X(BANDS, "bands", "eight bands, darker with depth")                                                                \
-    X(EDL, "edl", "eye-dome lighting: darker behind what is nearer, which shows surfaces")                             \
-    X(NONE, "none", "nothing")
+    X(BANDS, "bands", "eight bands, darker with distance")                                                             \
+    X(EDL, "edl", "eye-dome lighting: points behind nearer ones are darker, which shows surfaces")                     \
+    X(NONE, "none", "not at all")
 
-/* Where the diagram of the tree is drawn: the same of each choice. */
+/* Where the diagram of the tree is drawn, with the same columns. */
 #define VIEW_DIAGRAM_MAP(X)                                                                                            \
     X(NONE, "none", "nowhere")                                                                                         \
-    X(BESIDE, "beside", "beside the space view; below it in a picture that is higher than wide")                       \
+    X(BESIDE, "beside", "beside the space view, or below it if the picture is higher than wide")                       \
     X(ONLY, "only", "in place of the space view")
 
 typedef enum view_camera {
@@ -100,65 +101,66 @@ typedef enum view_shade {
         SHADE_COUNT
 } view_shade;
 
-/* What the points shown at tick 0 are like: point_scale.h. */
+/* Ranges and spacing of the points shown at tick 0, for colours and sizes: point_scale.h. */
 typedef struct point_scale {
-    double low[3], high[3]; /* where nearly all of them are */
-    double ids[2];          /* the least and the greatest */
-    double intensities[2];  /* nearly all of them; of POINTS_BY_INTENSITY alone */
-    double spacing;         /* from one to the next on a surface, about; 0: not known */
+    double low[3], high[3]; /* the range of nearly all positions */
+    double ids[2];          /* the least and the greatest id */
+    double intensities[2];  /* the range of nearly all intensities; only for POINTS_BY_INTENSITY */
+    double spacing;         /* typical distance between neighbours on a surface, in world units; 0: unknown */
 } point_scale;
 
-/* What the camera frames. */
+/* The box that the camera frames. */
 typedef enum view_fit {
     FIT_WORLD,
-    FIT_POINTS, /* the points shown at tick 0; camera_fit() turns this into FIT_BOX */
-    FIT_BOX,
+    FIT_POINTS, /* around the points shown at tick 0; camera_fit() replaces it by FIT_BOX */
+    FIT_BOX,    /* view.focus, the result of FIT_POINTS */
 } view_fit;
 
 typedef struct view {
     int width, height; /* pixels */
     view_camera camera;
     view_fit fit;
-    octree_box focus; /* under FIT_BOX: the box */
+    octree_box focus; /* the framed box, only with FIT_BOX */
     struct {
         bool given;
-        double azimuth, elevation; /* degrees, of the eye: azimuth from -y towards +x, elevation from -90 to 90 */
-    } look;                        /* in place of the camera's own direction */
+        double azimuth,
+            elevation; /* degrees, from the center to the eye: azimuth from -y towards +x, elevation -90 to 90 */
+    } look;            /* replaces the camera's own direction */
     struct {
         bool given;
         double place[3]; /* in world coordinates */
-    } center;            /* what the camera looks at, in place of the middle of what it frames, or of the player */
-    double zoom;         /* magnification of the camera's picture; 0 is 1 */
-    unsigned layers;     /* bit 1 << view_layer: layer.h */
+    } center;        /* the position that the camera looks at; replaces the middle of the framed box, or the player */
+    double zoom;     /* magnification; 0 means 1 */
+    unsigned layers; /* bit 1 << view_layer: layer.h */
     view_coloring coloring;
     view_point_color point_color;
     view_shade shade;
     struct {
         bool given;
         point_scale of;
-    } point_scale; /* of painted points */
+    } point_scale; /* only if the view paints points */
     view_tree tree;
-    view_diagram diagram; /* of Octreel's tree, whichever the space view shows */
+    view_diagram diagram; /* always of Octreel's tree, even if the space view shows foreign nodes */
     view_filter filter;
-    bool labels;  /* the paths of nodes on their boxes */
-    bool closeup; /* what appears small is shown larger in a part of the picture: compose/closeup_course.h says what */
-    double lod;   /* pixels: boxes of nodes that appear smaller are left out when an ancestor's is drawn; 0: none are */
-    int aa;       /* samples a pixel on each axis, 1, 2 or 4; 0 is 1 */
-    uint64_t budget; /* the most boxes of nodes of each tree, and the most points, of a frame, and 1000 times the most
-                        arrows of moving points; 0: any number */
+    bool labels;     /* write the paths of nodes on their boxes */
+    bool closeup;    /* enlarge a small region in a part of the picture; compose/closeup_course.h chooses it */
+    double lod;      /* pixels: leave out smaller boxes of nodes if an ancestor's box is drawn; 0: leave out none */
+    int aa;          /* samples for each pixel on each axis: 1, 2 or 4; 0 means 1 */
+    uint64_t budget; /* limits of a frame: boxes of nodes of each tree, points, and thousandths of this number of
+                        velocity arrows; 0: no limits */
 } view;
 
-/* The longest side of a picture, samples counted: what llvmpipe draws without clamping it. */
+/* The longest side of a picture in samples: llvmpipe clamps longer ones. */
 #define VIEW_MAX_SIDE 16384
 
-/* The height of a picture, or of its 16:9 part where it is narrower than that. */
+/* The height of a picture, at most that of a 16:9 picture of its width. Sizes of lines and letters follow from it. */
 int view_height_in_wide(const view *v);
 
-/* The unit of the widths of lines and marks, in whole pixels so that they stay crisp: 1 below that height of 640, 2
- * from there, 6 at 2160. */
+/* The unit of the widths of lines and marks, in whole pixels so that edges stay sharp: 1 if view_height_in_wide() is
+ * below 640, 2 from 640 on, 6 at 2160. */
 int view_unit(const view *v);
 
-/* Whether points are painted one by one, with colours of their own: not as marks of the theme's table. */
+/* Whether points are painted one by one in RGB colours, instead of as markers in colours of the theme. */
 static inline bool view_paints_points(const view *v)
 {
     return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
@@ -169,19 +171,19 @@ static inline double view_zoom(const view *v)
     return v->zoom > 0 ? v->zoom : 1;
 }
 
-/* Samples a pixel on each axis. */
+/* Samples for each pixel on each axis. */
 static inline int view_samples(const view *v)
 {
     return v->aa > 1 ? v->aa : 1;
 }
 
-/* Whether its frames are RGB, for colours that the theme's table does not have. */
+/* Whether the frames are RGB, because they need colours that the table of the theme lacks. */
 static inline bool view_is_rgb(const view *v)
 {
     return view_samples(v) > 1 || view_paints_points(v);
 }
 
-/* The name; null beyond the last. */
+/* The name of a choice; null beyond the last. */
 const char *view_camera_name(view_camera camera);
 const char *view_coloring_name(view_coloring coloring);
 const char *view_tree_name(view_tree tree);
@@ -189,7 +191,7 @@ const char *view_diagram_name(view_diagram diagram);
 const char *view_point_color_name(view_point_color color);
 const char *view_shade_name(view_shade shade);
 
-/* What a choice is, in some words; null beyond the last. */
+/* The description of a choice; null beyond the last. */
 const char *view_camera_words(view_camera camera);
 const char *view_coloring_words(view_coloring coloring);
 const char *view_tree_words(view_tree tree);
