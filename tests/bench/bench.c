@@ -26,24 +26,24 @@ static void print_help(void)
     puts("octree-bench - every operation of the octree, timed beside nanoflann and Boost.Geometry where those are\n"
          "installed: in one process, in turn, on the same points, the answers compared\n\n"
          "usage: octree-bench [OPTION ...]\n\n"
-         "      --n LIST      numbers of points, with commas between (default 1e4,1e5,1e6; from 100 to 1e8)");
+         "      --n LIST      numbers of points, separated by commas (100 to 1e8; default 1e4,1e5,1e6)");
     fputs("      --set LIST    of", stdout);
     for (int i = 0; i < OCTREE_SAMPLE_KINDS; i++)
         printf(" %s", octree_sample_name((octree_sample_kind)i));
     fputs(" (default all)\n      --op LIST     of", stdout);
     for (int i = 0; i < OPS; i++)
         printf("%s%s", i % 6 == 5 ? "\n                    " : " ", all_ops[i].name);
-    printf(
-        " (default all)\n"
-        "      --rounds N    measure each N times and take the median (default 5; at most %d)\n"
-        "      --json        a line for each operation and tree, for programs\n"
-        "  -h, --help\n\n"
-        "A ratio is the best other's time to the octree's. nearest_batch asks %d targets a call, nearest_all all of\n"
-        "them; those two, nearest_fast and nearest_churned compare the octree with itself, and the auto_ operations "
-        "one\n"
-        "that has chosen its leaf capacity by the operation with fixed capacities from 8 to 256.\n"
-        "Exit status: 0 done, 1 two trees answer differently, 2 trouble.\n",
-        ROUNDS_AT_MOST, PEER_BATCH);
+    printf(" (default all)\n"
+           "      --rounds N    measure each N times and take the median (default 5; at most %d)\n"
+           "      --json        print one JSON object per operation and tree\n"
+           "  -h, --help\n\n"
+           "A ratio is the fastest peer's time divided by the octree's. nearest_batch asks %d targets a call, "
+           "nearest_all all of\n"
+           "them; those two, nearest_fast and nearest_churned compare the octree with itself, and the auto_ operations "
+           "one\n"
+           "that has chosen its leaf capacity by the operation with fixed capacities from 8 to 256.\n"
+           "Exit status: 0 done, 1 two trees answer differently, 2 trouble.\n",
+           ROUNDS_AT_MOST, PEER_BATCH);
 }
 
 static void take_count(void *to, const char *entry)

@@ -44,9 +44,9 @@ static void print_help(void)
         "those are installed: whole programs, in turn, on the same frames\n\n"
         "Each time is a median: by the clock on the wall / of the processors, in all threads.\n\n"
         "usage: octreel-diff-bench [OPTION ...]\n\n"
-        "      --odiff PATH  the program itself, not npm's script around it (default: odiff)\n"
+        "      --odiff PATH  the odiff binary, not npm's wrapper script (default: odiff)\n"
         "      --rounds N    run each N times and take the median (default 15; at most %d)\n"
-        "      --quick       small frames: the times mean nothing, the verdicts are checked all the same\n"
+        "      --quick       use small frames: times are meaningless, verdicts are still checked\n"
         "  -h, --help\n\n"
         "Exit status: 0 done, 1 a verdict of octreel diff is wrong, 2 trouble.\n",
         ROUNDS_AT_MOST);

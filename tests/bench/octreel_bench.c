@@ -32,19 +32,18 @@ static void print_help(void)
         "OSMesa with GL_LINES for every box and libpng's defaults, in one thread. In turn, each time in processes of\n"
         "their own, 1280 x 720, text on\n\n"
         "usage: octreel-bench [OPTION ...]\n\n"
-        "      --scene LIST   with commas between (default all):\n",
+        "      --scene LIST   scenes, separated by commas (default all):\n",
         JOBS);
     for (int i = 0; i < FILMED_SCENES; i++)
         printf("                       %-8s %s\n", filmed_scenes[i].name, filmed_scenes[i].about);
     printf(
-        "      --frames N     film so many of S and M, and fewer of the others and the naive way (default 600; from "
-        "%d\n"
-        "                     to %d)\n"
+        "      --frames N     frames of S and M; the other scenes and the naive way get fewer (default 600;\n"
+        "                     %d to %d)\n"
         "      --rounds N     film each N times and take the medians (default 3; at most %d)\n"
-        "      --folder DIR   where frames are written, and removed again (default: /dev/shm where there is one, else\n"
-        "                     the current folder; a disk is measured with them)\n"
-        "      --browser NAME plays the pages of S, M and L (default chromium; another of its kind will do)\n"
-        "      --json         a line for each scene and who films it, for programs\n"
+        "      --folder DIR   write frames here and remove them again (default /dev/shm if it exists, else the\n"
+        "                     current folder; then the times include the disk)\n"
+        "      --browser NAME play the pages of S, M and L in this browser (default chromium)\n"
+        "      --json         print one JSON object per scene and recorder\n"
         "  -h, --help\n\n"
         "naive, octreel: what films. asked, answered: octreel, with 100 queries a tick, and with a program's answers "
         "to\n"

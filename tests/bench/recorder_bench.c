@@ -136,12 +136,12 @@ int main(int argc, char **argv)
                  "its\n"
                  "tree over, by that thread's processor time: medians of ticks, after the first few\n\n"
                  "usage: octreel-recorder-bench [--quick]\n\n"
-                 "      --quick   the smallest program alone: the times mean nothing\n"
+                 "      --quick   measure only the smallest program: times are meaningless\n"
                  "  -h, --help\n\n"
-                 "own us        the program's own tick: single moves\n"
-                 "recorder us   handing the tree over, and the slowest such tick\n"
-                 "first ms      tick 0, by the clock on the wall\n"
-                 "Exit status: 0 done, whether or not goals were reached, 2 trouble.");
+                 "own us        time of the program's own work in a tick: single moves\n"
+                 "recorder us   time to hand the tree to the recorder, and the slowest tick\n"
+                 "first ms      wall-clock time of tick 0\n"
+                 "Exit status: 0 done, even if goals were missed; 2 trouble.");
             finish(EXIT_DONE);
         }
         count = 1;

@@ -68,10 +68,10 @@ static void print_help(void)
         "kind of query, on ordinary and on extreme points; each answer is held against a scan of all points that\n"
         "decides by the real numbers, and the nodes against the validator and against a tree built anew\n\n"
         "usage: octree-campaign [OPTION ...]\n\n"
-        "      --operations N   how many (default 1e6)\n"
-        "      --seed S         a whole number (default 1); each gives another campaign\n"
-        "      --from N         begin at operation N (default 0): a campaign can be shared out among processes\n"
-        "      --scene NAME     on points of this kind alone, of",
+        "      --operations N   number of operations (default 1e6)\n"
+        "      --seed S         a whole number (default 1); each gives a different campaign\n"
+        "      --from N         begin at operation N (default 0), to split a campaign among processes\n"
+        "      --scene NAME     use only point sets of this kind:",
         stdout);
     for (size_t i = 0, width = 0; i < scene_kinds(); i++) {
         width += strlen(scene_name(i)) + 1;
@@ -79,8 +79,9 @@ static void print_help(void)
         width = width > 90 ? strlen(scene_name(i)) + 1 : width;
     }
     printf("\n  -h, --help\n\n"
-           "Every %d operations are the life of one tree, which follows from the seed and its place alone: operations\n"
-           "begin and end with one. The first wrong answer ends the campaign, and how to replay it is said.\n"
+           "Each %d operations work on one new tree, which depends only on the seed and on its first operation. The "
+           "first\n"
+           "wrong answer ends the campaign; a message says how to replay it.\n"
            "Exit status: 0 all answers were right, 1 one was wrong, 2 trouble.\n",
            OPERATIONS_A_TREE);
 }

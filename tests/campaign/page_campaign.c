@@ -45,7 +45,8 @@ static options read_options(int argc, char **argv)
             break;
         case 'h':
             puts("usage: octreel-page-campaign [--seed N] [--inputs N]\n"
-                 "Random inputs to the page of the default session: by seed 1, and a million of them.");
+                 "Sends random inputs to the page of the default session in a browser (default: seed 1, a million "
+                 "inputs).");
             finish(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */

@@ -216,14 +216,14 @@ static void print_help(void)
          "point with real numbers. Then faults are planted in the indexes, one at a time and from some tick on: each\n"
          "is to be found in the first tick in which it makes an answer wrong.\n\n"
          "usage: octree-peer-campaign [OPTION ...]\n\n"
-         "      --answers N   of indexes without faults, at least so many (default 1e6)\n"
+         "      --answers N   check at least N answers of indexes without faults (default 1e6)\n"
          "      --rounds N    trials of each fault on each set (default 20)\n"
-         "      --seed S      a whole number (default 1); each gives another campaign\n"
+         "      --seed S      a whole number (default 1); each gives a different campaign\n"
          "  -h, --help\n\n"
          "The sets:");
     for (int i = 0; i < POINT_SETS; i++)
         printf("      %-8s %s%s\n", point_sets[i].name, point_sets[i].about,
-               point_sets[i].in_floats ? "" : "; doubles alone");
+               point_sets[i].in_floats ? "" : "; only in double precision");
     puts("The faults:");
 #define PLANTED_FAULT_HELP(name, word, meaning) printf("      %-8s %s\n", word, meaning);
     PLANTED_FAULT_MAP(PLANTED_FAULT_HELP)

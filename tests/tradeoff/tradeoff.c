@@ -30,20 +30,20 @@ static void print_help(void)
         "octree-tradeoff - what speed costs in accuracy, and accuracy in speed: every knob of Octreel that trades the "
         "two,\nmeasured against a truth that is exact, on scenes from ordinary to extreme\n\n"
         "usage: octree-tradeoff [OPTION ...]\n\n"
-        "  -o, --output FOLDER   where tradeoff.html and, for each knob, its CSV file and its plot go (default\n"
-        "                        tradeoff); a folder that is missing is made, files in it are replaced\n"
-        "      --knob LIST       only some, with commas between, of",
+        "  -o, --output FOLDER   write tradeoff.html and, for each knob, a CSV file and a plot here (default\n"
+        "                        tradeoff); a missing folder is created, existing files are replaced\n"
+        "      --knob LIST       measure only these knobs, separated by commas:",
         stdout);
     for (int i = 0; i < KNOBS; i++)
         printf("%s %s", i % 5 == 0 ? "\n                       " : "", all_knobs[i]->name);
-    fputs("\n      --cloud FILE      one more scene: a point cloud (x y z text, PLY, PCD or LAS)\n"
-          "      --session FILE    a recorded session instead of the one that is made up\n"
-          "      --quick           few points, one round: the bounds are checked, the times mean little\n"
-          "      --json            print a line a row, for programs, instead of the headlines\n"
-          "      --tighten F       multiply every bound by F: to see that what is beyond one is found\n"
+    fputs("\n      --cloud FILE      add a point cloud as a scene (x y z text, PLY, PCD or LAS)\n"
+          "      --session FILE    use this session instead of a generated one\n"
+          "      --quick           few points, one round: bounds are checked, times are rough\n"
+          "      --json            print one JSON object per row instead of a summary\n"
+          "      --tighten F       multiply every bound by F, to show that exceeded bounds are detected\n"
           "  -h, --help\n\n"
-          "Plots are drawn by gnuplot; where it is missing, the page is without them and says so.\n"
-          "Exit status: 0 all is within its bound, 1 a worst case is beyond its bound, 2 trouble.\n",
+          "gnuplot draws the plots; if it is missing, the page has none and says so.\n"
+          "Exit status: 0 all worst cases are within their bounds, 1 one is not, 2 trouble.\n",
           stdout);
 }
 
