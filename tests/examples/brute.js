@@ -9,7 +9,7 @@ const place = () => [0, 0, 0].map(() => (seed = (seed * 16807) % 2147483647) % 1
 const say = (thing) => console.log(JSON.stringify(thing));
 
 const points = new Map(Array.from({length: 100}, (_, n) => [n + 1, place()]));
-say({octreel: "session", version: 1, player: null, points: [...points].map(([i, p]) => [...p, i])});
+say({octreel: "session", version: 2, player: null, points: [...points].map(([i, p]) => [...p, i])});
 for (let tick = 1; tick <= 30; tick++) {
     const index = process.argv.length > 2 ? new Map(points) : points;
     const moved = [...points.keys()].filter((i) => i % 10 === tick % 10);

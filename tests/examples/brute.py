@@ -21,7 +21,7 @@ def say(thing):
     print(json.dumps(thing, separators=(",", ":")), flush=True)
 
 points = {i: place() for i in range(1, 101)}
-say({"octreel": "session", "version": 1, "player": None, "points": [p + [i] for i, p in points.items()]})
+say({"octreel": "session", "version": 2, "player": None, "points": [p + [i] for i, p in points.items()]})
 for tick in range(1, 31):
     index = dict(points) if len(sys.argv) > 1 else points
     moved = [i for i in points if i % 10 == tick % 10]

@@ -21,7 +21,7 @@ BEGIN {
             lines = lines "{\"tick\": " tick ", \"edits\": [" edits "]}\n"
         keys = keys hunt(tick)
     }
-    printf "{\"octreel\": \"session\", \"version\": 1,\n"
+    printf "{\"octreel\": \"session\", \"version\": 2,\n"
     printf " \"world\": {\"min\": [-100, -100, -100], \"max\": [100, 100, 100]},\n"
     printf " \"tree\": {\"capacity\": 16, \"depth\": 8, \"full\": \"grow\"},\n"
     printf " \"player\": {\"id\": 0, \"position\": [0, 0, 0], \"step\": %d, \"box_size\": %d},\n", step, reach

@@ -30,7 +30,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* ---- What is filmed ----------------------------------------------------------------------------------------- */
 
-#define SESSION "{\"octreel\": \"session\", \"version\": 1, "
+#define SESSION "{\"octreel\": \"session\", \"version\": 2, "
 #define VIEW "{\"octreel\": \"recording\", \"version\": 4, \"theme\": \"night\", "
 
 typedef struct filmed {
@@ -47,7 +47,8 @@ static const filmed films[] = {
      "{\"id\": 40, \"position\": [0, 0, 30], \"velocity\": [0, 0, 1.5]}], \"velocities\": [[17, 0.5, 0, 0]], "
      "\"keys\": \"wdnq\", \"ticks\": 4, \"queries\": [{\"knearest\": 2, \"at\": \"player\"}], "
      "\"shapes\": [{\"box\": {\"min\": [-40, -40, -40], \"max\": [40, 40, 40]}}], "
-     "\"nodes\": [{\"id\": 1, \"box\": {\"min\": [-50, -50, -50], \"max\": [50, 50, 50]}, \"kind\": \"inner\"}, "
+     "\"foreign_nodes\": [{\"id\": 1, \"box\": {\"min\": [-50, -50, -50], \"max\": [50, 50, 50]}, \"kind\": "
+     "\"inner\"}, "
      "{\"id\": 2, \"parent\": 1, \"box\": {\"min\": [0, 0, 0], \"max\": [50, 50, 50]}, \"points\": [1, 3], "
      "\"kind\": \"leaf\", \"mode\": \"float\"}]}\n"
      "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 99, \"position\": [5, 5, 5], \"velocity\": [1, 0, 0], \"class\": "
@@ -58,7 +59,7 @@ static const filmed films[] = {
      "\"shapes\": [{\"label\": \"first\", \"at\": [5, 5, 5]}, {\"segment\": [[0, 0, 0], [9, 9, 9]]}, {\"point\": [1, "
      "1, 1]}]}\n"
      "{\"tick\": 2, \"gap\": \"no room\"}\n"
-     "{\"tick\": 3, \"nodes\": []}\n",
+     "{\"tick\": 3, \"foreign_nodes\": []}\n",
      VIEW
      "\"size\": [96, 64], \"camera\": \"orbit\", \"layers\": [\"world\", \"nodes\", \"visited\", "
      "\"points\", \"velocities\", \"radius\", \"knearest\", \"player\", \"box\", \"shapes\", \"wrong\", \"text\"], "

@@ -105,8 +105,8 @@ static _Noreturn void accuse(const trial *t, uint64_t tick, size_t number, const
            "judged: %s, %zu missed, %zu extra, rank %zu, ratio %.17g\n",
            what, t->peer->name, fault_names[t->fault], t->set->name, t->seed, tick, number, octree_query_name(q->kind),
            q->k, q->radius, q->target[0], q->target[1], q->target[2], q->box.min[0], q->box.min[1], q->box.min[2],
-           q->box.max[0], q->box.max[1], q->box.max[2], t->count, q->answer_count, octree_fault_name(made->fault),
-           made->missed_count, made->extra_count, made->rank, made->ratio);
+           q->box.max[0], q->box.max[1], q->box.max[2], t->count, q->answer_count, octree_wrong_name(made->wrong),
+           made->missing_count, made->extra_count, made->rank, made->ratio);
     finish(EXIT_FINDING);
 }
 
@@ -117,7 +117,7 @@ static bool compare(const trial *t, uint64_t tick, tally *sum)
     bool any = false, open = false;
     for (size_t i = 0; i < QUERIES; i++) {
         const truth right = truth_of(&t->queries[i], t->points, t->count);
-        const bool accused = played->answers[i].judgement.fault != OCTREE_FAULT_NONE;
+        const bool accused = played->answers[i].judgement.wrong != OCTREE_WRONG_NONE;
         sum->answers++;
         sum->wrong += right == TRUTH_WRONG;
         sum->open += right == TRUTH_OPEN;

@@ -263,9 +263,9 @@ static bool read_version(json_reader *r, json_t *value, const json_place *at, vo
                          "%s version %" PRIu64 " is newer than version %" PRIu64
                          ", which this Octreel reads; use a newer Octreel",
                          (const char *)r->row->about, version, own);
-    return version == own ||
-           json_fail(r, at, "%s version %" PRIu64 " is not supported; record it again with this Octreel",
-                     (const char *)r->row->about, version);
+    const char *advice = r->row->advice ? r->row->advice : "record it again with this Octreel";
+    return version == own || json_fail(r, at, "%s version %" PRIu64 " is not supported; %s",
+                                       (const char *)r->row->about, version, advice);
 }
 
 static void write_version(json_writer *w, const void *from)

@@ -33,6 +33,7 @@ typedef struct json_member {
     json_name *names; /* of a choice */
     const struct json_member *members; /* of an object */
     const void *about;                 /* the text of a constant, or what else its type needs */
+    const char *advice;                /* of a version: what to do with an older file; null: film it again */
 } json_member;
 
 /* A type for one row. */

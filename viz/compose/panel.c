@@ -171,10 +171,10 @@ static void write_wrong(pen *p, const layer_source *in)
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
     char text[FOREIGN_WORDS];
-    if (!shows_foreign_tree(in) || in->tick->foreign.fault_count == 0)
+    if (!shows_foreign_tree(in) || in->tick->foreign.wrong_count == 0)
         return;
     p->name = ROLE_WRONG;
-    write_row(p, "wrong in nodes", "%zu", in->tick->foreign.fault_count);
+    write_row(p, "wrong in nodes", "%zu", in->tick->foreign.wrong_count);
     p->name = ROLE_FAINT;
     write_wrapped(p, ROLE_WARNING, foreign_fault_text(&in->tick->foreign, text));
 }

@@ -56,8 +56,8 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
         octree_query *query = &b->queries[i];
         query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
         whole = whole && (query->answer || query->answer_count == 0);
-        for (int met = 0; met < OCTREE_MET_KINDS; met++) {
-            octree_ids *ids = &query->met[met];
+        for (int met = 0; met < OCTREE_NODE_VISITS; met++) {
+            octree_ids *ids = &query->visits[met];
             ids->ids = whole ? copy(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
             whole = whole && (ids->ids || ids->count == 0);
         }

@@ -92,7 +92,7 @@ static bool same_faults(const octree_tick *a, const octree_tick *b)
     const size_t both = a->answer_count < b->answer_count ? a->answer_count : b->answer_count;
     for (size_t i = 0; i < both; i++) {
         const octree_judgement *x = &a->answers[i].judgement, *y = &b->answers[i].judgement;
-        if (x->fault != y->fault || x->fault_id != y->fault_id)
+        if (x->wrong != y->wrong || x->wrong_id != y->wrong_id)
             return false;
     }
     return true;

@@ -134,8 +134,8 @@ static json_t *untold(json_t *query)
 {
     json_t *asked = json_copy(query);
     json_object_del(asked, "answer");
-    for (int met = 0; met < OCTREE_MET_KINDS; met++)
-        json_object_del(asked, octree_met_name((octree_met)met));
+    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
+        json_object_del(asked, octree_node_visit_name((octree_node_visit)met));
     return asked;
 }
 
@@ -158,8 +158,8 @@ static void compare_told(const cause_place *place, json_t *a, json_t *b)
 {
     json_t *counts[2] = {json_object(), json_object()};
     bool other = false, counted = false;
-    for (int met = 0; met < OCTREE_MET_KINDS; met++) {
-        const char *name = octree_met_name((octree_met)met);
+    for (int met = 0; met < OCTREE_NODE_VISITS; met++) {
+        const char *name = octree_node_visit_name((octree_node_visit)met);
         json_t *const lists[2] = {json_object_get(a, name), json_object_get(b, name)};
         if (is_same(place, lists[0], lists[1]))
             continue;
@@ -169,7 +169,7 @@ static void compare_told(const cause_place *place, json_t *a, json_t *b)
             json_object_set_new(counts[i], name, json_integer((json_int_t)json_array_size(lists[i])));
     }
     if (other)
-        add(place, "queries.met", CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
+        add(place, "queries.visits", CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
     json_decref(counts[0]);
     json_decref(counts[1]);
     json_t *const answers[2] = {json_object_get(a, "answer"), json_object_get(b, "answer")};

@@ -3,7 +3,7 @@
  *
  * A fact says where: the path of a member of a session file, of recording.json or of a line of ticks.jsonl, such as
  * "tree.capacity" or "edits"; or, of what only the trees tell, "nodes.split", "nodes.merged", "nodes.born",
- * "nodes.gone" and "tree.points"; "queries.met" are the nodes that a program says its query met, by their numbers;
+ * "nodes.gone" and "tree.points"; "queries.visits" are the nodes that a program says its query met, by their numbers;
  * "velocities", "hit_from", "visited" and "heat" are what is drawn and in no file. Values are JSON as in those files. A
  * fact is data; cause_words.h makes sentences of it, and cause_json.h JSON.
  */

@@ -38,10 +38,10 @@ static const phrase phrases[] = {
     {"sampled.velocities.seed", "seed of the velocities", OPTION},
     {"edits", "edit", PLAIN},
     {"queries", "query", .plural = "queries", EVERY},
-    {"queries.met", "query", .plural = "queries", .moved = "met other nodes"},
+    {"queries.visits", "query", .plural = "queries", .moved = "met other nodes"},
     {"queries.answer", "answer of the program", .plural = "answers of the program", .moved = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
-    {"nodes", "node of the program", .plural = "nodes of the program"},
+    {"foreign_nodes", "foreign node", PLAIN},
     /* Views; the nouns of their options are in view_options.c. */
     {"every", "interval of frames", PLAIN},
     {"focus", "box around the points", PLAIN},
@@ -69,20 +69,20 @@ static const phrase phrases[] = {
     {"answers.judged.answer", "answer of the program", .plural = "answers of the program"},
     {"answers.judged.wrong", "judgement of the program's answer", .plural = "judgements of the program's answers"},
     {"answers.judged.wrong_id", "id that is wrong", .plural = "ids that are wrong", MINOR},
-    {"answers.judged.missed", "point that the program missed", .plural = "points that the program missed", MINOR},
+    {"answers.judged.missing", "point that the program missed", .plural = "points that the program missed", MINOR},
     {"answers.judged.extra", "point that the program named wrongly", .plural = "points that the program named wrongly",
      MINOR},
     {"answers.judged.rank", "first wrong rank", MINOR},
     {"answers.judged.ratio", "ratio of distances", .plural = "ratios of distances", MINOR},
-    {"program_nodes.count", "number of the program's nodes", MINOR},
-    {"program_nodes.leaves", "number of the program's leaves", MINOR},
-    {"program_nodes.depth", "depth of the program's tree", MINOR},
-    {"program_nodes.digest", "tree of the program", MINOR},
-    {"program_nodes.visited", "number of the program's nodes visited", MINOR},
-    {"program_nodes.pruned", "number of the program's nodes pruned", MINOR},
-    {"program_nodes.hit", "number of the program's nodes hit", MINOR},
-    {"program_nodes.wrong.count", "number of faults in the program's nodes", MINOR},
-    {"program_nodes.wrong.first", "fault in the program's nodes", .plural = "faults in the program's nodes"},
+    {"foreign_nodes.count", "number of the program's nodes", MINOR},
+    {"foreign_nodes.leaves", "number of the program's leaves", MINOR},
+    {"foreign_nodes.depth", "depth of the program's tree", MINOR},
+    {"foreign_nodes.digest", "tree of the program", MINOR},
+    {"foreign_nodes.visited", "number of the program's nodes visited", MINOR},
+    {"foreign_nodes.pruned", "number of the program's nodes pruned", MINOR},
+    {"foreign_nodes.hit", "number of the program's nodes hit", MINOR},
+    {"foreign_nodes.wrong.count", "number of faults in the program's nodes", MINOR},
+    {"foreign_nodes.wrong.first", "fault in the program's nodes", .plural = "faults in the program's nodes"},
     {"refusals", "refusal", PLAIN},
     {"splits", "node", .added = "split at this tick", .gone = "not split at this tick", MINOR},
     {"merges", "node", .added = "merged at this tick", .gone = "not merged at this tick", MINOR},
@@ -105,7 +105,7 @@ phrase cause_phrase(const cause_group *group)
             return (phrase){.where = group->where, .noun = option->noun};
     }
     const char *last = strrchr(group->where, '.');
-    const bool answer = *group->query != 0, counted = strncmp(group->where, "program_nodes.wrong.", 20) == 0;
+    const bool answer = *group->query != 0, counted = strncmp(group->where, "foreign_nodes.wrong.", 20) == 0;
     return (phrase){.where = group->where,
                     .noun = last && (answer || counted) ? last + 1 : group->where,
                     .minor = answer || counted};

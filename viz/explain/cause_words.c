@@ -245,7 +245,7 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
     fprintf(out, "%" PRIu64 " %s%s%s", group->found, words[group->change], p->plural ? p->plural : p->noun,
             p->plural ? "" : "s");
     print_query(out, group);
-    const bool of_nodes = strcmp(group->where, "nodes") == 0;
+    const bool of_nodes = strcmp(group->where, "foreign_nodes") == 0;
     fputs(first->id != CAUSE_NO_ID       ? of_nodes ? " (nodes " : " (points "
           : first->tick != CAUSE_NO_TICK ? " (ticks "
                                          : " (",

@@ -39,16 +39,16 @@ static bool duplicate_ids(const uint64_t **ids, size_t *count)
 bool query_copy_ids(octree_query *query)
 {
     bool whole = duplicate_ids(&query->answer, &query->answer_count);
-    for (int met = 0; met < OCTREE_MET_KINDS; met++)
-        whole = duplicate_ids(&query->met[met].ids, &query->met[met].count) && whole;
+    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
+        whole = duplicate_ids(&query->visits[met].ids, &query->visits[met].count) && whole;
     return whole;
 }
 
 void query_release_ids(octree_query *query)
 {
     free((uint64_t *)query->answer);
-    for (int met = 0; met < OCTREE_MET_KINDS; met++)
-        free((uint64_t *)query->met[met].ids);
+    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
+        free((uint64_t *)query->visits[met].ids);
 }
 
 /* Free what the items of two arrays own. */

@@ -184,7 +184,7 @@ static const char *precision_name(int n)
 
 static bool is_promised(const octree_query *query)
 {
-    return query->answered || query->met[OCTREE_MET_PRUNED].count > 0;
+    return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
 /* Read after the answer and the nodes that were pruned, of which it speaks. */
@@ -243,10 +243,10 @@ static const json_member epsilon_member = {"epsilon", JSON_CODEC(json_read_posit
 static const json_member answer_member = {"answer", JSON_CODEC(read_answer, write_answer, is_answered), .offset = 0};
 #define MET(name, how)                                                                                                 \
     {                                                                                                                  \
-        name, JSON_CODEC(read_met, write_met, has_met), .offset = offsetof(octree_query, met[how])                     \
+        name, JSON_CODEC(read_met, write_met, has_met), .offset = offsetof(octree_query, visits[how])                  \
     }
-static const json_member met_members[OCTREE_MET_KINDS] = {MET("visited", OCTREE_MET_VISITED),
-                                                          MET("pruned", OCTREE_MET_PRUNED), MET("hit", OCTREE_MET_HIT)};
+static const json_member met_members[OCTREE_NODE_VISITS] = {
+    MET("visited", OCTREE_NODE_VISITED), MET("pruned", OCTREE_NODE_PRUNED), MET("hit", OCTREE_NODE_HIT)};
 static const json_member mode_member = {"mode", JSON_CODEC(read_mode, write_mode, has_mode), .names = precision_name};
 
 /* The members that the kind reads, by its traits. A box without a target can be relative to the player. */
@@ -268,7 +268,7 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
     table[count++] = skip_member;
     table[count++] = epsilon_member;
     table[count++] = answer_member;
-    for (int met = 0; met < OCTREE_MET_KINDS; met++)
+    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
         table[count++] = met_members[met];
     table[count] = mode_member;
 }

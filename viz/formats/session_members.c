@@ -269,7 +269,8 @@ octree_session session_default_header(void)
 /* Positions need the world, points the player, and velocities the points. */
 const json_member session_header_members[] = {
     {"octreel", &json_constant, .required = true, .about = "session"},
-    {"version", &json_version, .required = true, .max = 1, .about = "session"},
+    {"version", &json_version, .required = true, .max = 2, .about = "session",
+     .advice = "rename \"nodes\" to \"foreign_nodes\" and set \"version\": 2"},
     {"world", JSON_CODEC(read_world, json_write_box, NULL), HEADER(session.tree.world)},
     {"tree", &json_structure, HEADER(session.tree), .members = tree_members},
     {"player", JSON_CODEC(read_player, write_player, NULL), HEADER(session.player)},
@@ -279,7 +280,7 @@ const json_member session_header_members[] = {
      .max = SESSION_LAST_TICK},
     {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
     {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},
-    {"nodes", &session_nodes_codec, HEADER(standing.foreign)},
+    {"foreign_nodes", &session_nodes_codec, HEADER(standing.foreign)},
     {"sampled", &json_structure, HEADER(session.sampled), .given = offsetof(session_header, session.sampled.known),
      .members = session_sampled_members},
     {"columns", &session_columns_codec, HEADER(values)},
@@ -295,7 +296,7 @@ const json_member session_tick_members[] = {
     {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits},
     {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries},
     {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes},
-    {"nodes", &session_nodes_codec, TICK(input.foreign)},
+    {"foreign_nodes", &session_nodes_codec, TICK(input.foreign)},
     {"gap", JSON_CODEC(read_gap, write_gap, is_gap), TICK(input.gap)},
     {0},
 };

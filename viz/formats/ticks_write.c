@@ -190,11 +190,11 @@ static void write_judgement(json_writer *w, const octree_answer *answer, const o
     json_write_end_array(w);
     if (answer->precision != OCTREE_DOUBLES)
         json_member_text(w, "mode", octree_precision_name(answer->precision));
-    json_member_text(w, "wrong", octree_fault_name(made->fault));
-    if (made->fault && made->fault <= OCTREE_FAULT_SKIPPED)
-        json_member_integer(w, "wrong_id", made->fault_id);
+    json_member_text(w, "wrong", octree_wrong_name(made->wrong));
+    if (made->wrong && made->wrong <= OCTREE_WRONG_SKIPPED)
+        json_member_integer(w, "wrong_id", made->wrong_id);
     json_member_integer(w, "expected", made->expected);
-    write_all_points(w, "missed", made->missed, made->missed_count);
+    write_all_points(w, "missing", made->missing, made->missing_count);
     write_all_points(w, "extra", made->extra, made->extra_count);
     if (made->rank)
         json_member_integer(w, "rank", made->rank);
@@ -277,10 +277,10 @@ static bool has_foreign(const void *from)
     return ((const octree_tick *)from)->foreign.given;
 }
 
-static void write_node_fault(json_writer *w, const octree_node_fault *fault)
+static void write_node_fault(json_writer *w, const octree_wrong_node *fault)
 {
     json_write_begin_object(w);
-    json_member_text(w, "fault", octree_node_fault_name(fault->kind));
+    json_member_text(w, "wrong", octree_wrong_node_name(fault->kind));
     if (fault->kind != OCTREE_NODE_LOST_POINT)
         json_member_integer(w, "node", fault->node);
     if (fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE)
@@ -294,10 +294,10 @@ static void write_node_fault(json_writer *w, const octree_node_fault *fault)
 static void write_node_faults(json_writer *w, const octree_foreign_state *foreign)
 {
     json_member_begin_object(w, "wrong");
-    json_member_integer(w, "count", foreign->fault_count);
-    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
-        if (foreign->faults[kind])
-            json_member_integer(w, octree_node_fault_name((octree_node_fault_kind)kind), foreign->faults[kind]);
+    json_member_integer(w, "count", foreign->wrong_count);
+    for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
+        if (foreign->wrong[kind])
+            json_member_integer(w, octree_wrong_node_name((octree_wrong_node_kind)kind), foreign->wrong[kind]);
     json_member_begin_array(w, "first");
     for (size_t i = 0; i < foreign->listed_count; i++)
         write_node_fault(w, &foreign->listed[i]);
@@ -314,8 +314,8 @@ static void write_foreign(json_writer *w, const void *from)
     json_member_integer(w, "depth", foreign->depth);
     json_write_key(w, "digest");
     write_digest(w, &foreign->digest);
-    for (int met = 0; met < OCTREE_MET_KINDS; met++)
-        json_member_integer(w, octree_met_name((octree_met)met), foreign->met[met]);
+    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
+        json_member_integer(w, octree_node_visit_name((octree_node_visit)met), foreign->visits[met]);
     write_node_faults(w, foreign);
     json_write_end_object(w);
 }
@@ -352,7 +352,7 @@ static const json_member line_members[] = {
     {"hit_cost", &json_structure, .offset = offsetof(octree_tick, hit_cost), .members = cost_members},
     {"answers", JSON_CODEC(NULL, write_answers, NULL), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
-    {"program_nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
+    {"foreign_nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
     {"refusals", JSON_CODEC(NULL, write_refusals, NULL), .offset = 0},
     {0},
 };

@@ -97,10 +97,10 @@ void add_foreign_nodes(scene *s, const layer_source *in)
 /* The strongest of how queries met a node: what was looked into was not left out. */
 static bool is_met_so(const octree_foreign_place *place, view_layer layer)
 {
-    const unsigned visited = 1u << OCTREE_MET_VISITED, pruned = 1u << OCTREE_MET_PRUNED, hit = 1u << OCTREE_MET_HIT;
+    const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
     if (layer == LAYER_PRUNED)
-        return (place->met & pruned) && !(place->met & visited);
-    return place->met & (layer == LAYER_VISITED ? visited : hit);
+        return (place->visits & pruned) && !(place->visits & visited);
+    return place->visits & (layer == LAYER_VISITED ? visited : hit);
 }
 
 void add_foreign_met(scene *s, const layer_source *in, view_layer own)
@@ -122,9 +122,9 @@ void add_foreign_met(scene *s, const layer_source *in, view_layer own)
 }
 
 /* The words for a fault beside what it is about. */
-static const char *short_words(octree_node_fault_kind kind)
+static const char *short_words(octree_wrong_node_kind kind)
 {
-    static const char *const words[OCTREE_NODE_FAULTS] = {
+    static const char *const words[OCTREE_WRONG_NODE_KINDS] = {
         [OCTREE_NODE_OUTSIDE_PARENT] = "outside parent", [OCTREE_NODE_UNKNOWN_POINT] = "unknown point",
         [OCTREE_NODE_OUTSIDE_POINT] = "point outside",   [OCTREE_NODE_REPEATED_POINT] = "point twice",
         [OCTREE_NODE_LOST_POINT] = "in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
@@ -139,14 +139,14 @@ static const char *short_words(octree_node_fault_kind kind)
 /* The first of the nodes from a place on that has a fault, of those that are marked; node_count where there is none. */
 static size_t next_fault(const octree_foreign_state *foreign, size_t place, size_t marked)
 {
-    while (place < foreign->node_count && !foreign->nodes[place].faults)
+    while (place < foreign->node_count && !foreign->nodes[place].wrong)
         place++;
-    return marked < OCTREE_LISTED_NODE_FAULTS ? place : foreign->node_count;
+    return marked < OCTREE_LISTED_WRONG_NODES ? place : foreign->node_count;
 }
 
 static bool find_lost_point(const layer_source *in, size_t listed, octree_point *point)
 {
-    const octree_node_fault *fault = &in->tick->foreign.listed[listed];
+    const octree_wrong_node *fault = &in->tick->foreign.listed[listed];
     return fault->kind == OCTREE_NODE_LOST_POINT && octree_game_find(in->game, fault->point, point);
 }
 
@@ -167,7 +167,7 @@ void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_
 }
 
 /* Whether there was room. */
-static bool add_fault_words(scene *s, uint64_t id, const double at[3], octree_node_fault_kind kind, view_layer own,
+static bool add_fault_words(scene *s, uint64_t id, const double at[3], octree_wrong_node_kind kind, view_layer own,
                             text_space *taken)
 {
     scene_label label = {.id = id, .style = layer_style(own, STROKE_SOLID, 1)};
@@ -182,8 +182,8 @@ size_t name_foreign_faults(scene *s, const layer_source *in, view_layer own, tex
     size_t left_out = 0;
     for (size_t i = next_fault(foreign, 0, 0), marked = 1; i < foreign->node_count;
          i = next_fault(foreign, i + 1, marked++)) {
-        octree_node_fault_kind kind = 0;
-        while (!(foreign->nodes[i].faults >> kind & 1))
+        octree_wrong_node_kind kind = 0;
+        while (!(foreign->nodes[i].wrong >> kind & 1))
             kind++;
         const octree_foreign_node *node = foreign->nodes[i].node;
         left_out += !add_fault_words(s, foreign_element(node->id), node->box.max, kind, own, taken);
@@ -220,9 +220,9 @@ void say_foreign_node(description *d, uint64_t element)
         say(d, " under node %" PRIu64, node->parent);
     say(d, ", %zu point%s listed, box ", place->points, plural(place->points));
     say_box(d, &node->box);
-    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
-        if (place->faults >> kind & 1)
-            say(d, "; wrong: %s", octree_node_fault_words((octree_node_fault_kind)kind));
+    for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
+        if (place->wrong >> kind & 1)
+            say(d, "; wrong: %s", octree_wrong_node_words((octree_wrong_node_kind)kind));
 }
 
 void say_foreign_fault(description *d, const described *element)
@@ -242,7 +242,7 @@ void say_foreign_fault(description *d, const described *element)
 
 const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_WORDS])
 {
-    const octree_node_fault *fault = foreign->listed;
+    const octree_wrong_node *fault = foreign->listed;
     char node[32] = "", point[32] = "";
     *text = 0;
     if (foreign->listed_count == 0)
@@ -251,7 +251,7 @@ const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FO
     snprintf(point, sizeof point, " (%" PRIu64 ")", fault->point);
     const bool has_node = fault->kind != OCTREE_NODE_LOST_POINT;
     const bool has_point = fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE;
-    snprintf(text, FOREIGN_WORDS, "%s%s%s", has_node ? node : "", octree_node_fault_words(fault->kind),
+    snprintf(text, FOREIGN_WORDS, "%s%s%s", has_node ? node : "", octree_wrong_node_words(fault->kind),
              has_point ? point : "");
     return text;
 }

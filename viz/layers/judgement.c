@@ -22,34 +22,34 @@ static void print_ratio(double ratio, char text[JUDGEMENT_WORDS])
 
 static void print_points(const octree_judgement *made, char text[JUDGEMENT_WORDS])
 {
-    if (made->missed_count && made->extra_count)
-        snprintf(text, JUDGEMENT_WORDS, "%zu missed, %zu extra", made->missed_count, made->extra_count);
-    else if (made->missed_count)
-        snprintf(text, JUDGEMENT_WORDS, "%zu missed", made->missed_count);
+    if (made->missing_count && made->extra_count)
+        snprintf(text, JUDGEMENT_WORDS, "%zu missed, %zu extra", made->missing_count, made->extra_count);
+    else if (made->missing_count)
+        snprintf(text, JUDGEMENT_WORDS, "%zu missed", made->missing_count);
     else
         snprintf(text, JUDGEMENT_WORDS, "%zu extra", made->extra_count);
 }
 
 const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WORDS])
 {
-    switch (made->fault) {
-    case OCTREE_FAULT_UNKNOWN:
-        snprintf(text, JUDGEMENT_WORDS, "no point has id %" PRIu64, made->fault_id);
+    switch (made->wrong) {
+    case OCTREE_WRONG_UNKNOWN:
+        snprintf(text, JUDGEMENT_WORDS, "no point has id %" PRIu64, made->wrong_id);
         break;
-    case OCTREE_FAULT_DUPLICATE:
-        snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is named twice", made->fault_id);
+    case OCTREE_WRONG_DUPLICATE:
+        snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is named twice", made->wrong_id);
         break;
-    case OCTREE_FAULT_SKIPPED:
-        snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is left out", made->fault_id);
+    case OCTREE_WRONG_SKIPPED:
+        snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is left out", made->wrong_id);
         break;
-    case OCTREE_FAULT_COUNT:
+    case OCTREE_WRONG_COUNT:
         snprintf(text, JUDGEMENT_WORDS, "%zu named, not %zu", made->given_count, made->expected);
         break;
-    case OCTREE_FAULT_FARTHER:
+    case OCTREE_WRONG_FARTHER:
         print_ratio(made->ratio, text);
         break;
-    case OCTREE_FAULT_MISSED:
-    case OCTREE_FAULT_EXTRA:
+    case OCTREE_WRONG_MISSING:
+    case OCTREE_WRONG_EXTRA:
         print_points(made, text);
         break;
     default:
@@ -61,21 +61,21 @@ const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WO
 
 const octree_point *judgement_point(const octree_judgement *made)
 {
-    return made->missed_count ? made->missed : made->extra_count ? made->extra : NULL;
+    return made->missing_count ? made->missing : made->extra_count ? made->extra : NULL;
 }
 
 bool judgement_is_worse(const octree_judgement *made, const octree_judgement *than)
 {
     if (made->ratio != than->ratio)
         return made->ratio > than->ratio;
-    return made->missed_count + made->extra_count > than->missed_count + than->extra_count;
+    return made->missing_count + made->extra_count > than->missing_count + than->extra_count;
 }
 
 size_t judgement_count(const octree_answer *answers, size_t count, size_t *worst)
 {
     size_t wrong = 0;
     for (size_t i = 0; i < count; i++)
-        if (answers[i].judgement.fault &&
+        if (answers[i].judgement.wrong &&
             (wrong++ == 0 || judgement_is_worse(&answers[i].judgement, &answers[*worst].judgement)))
             *worst = i;
     return wrong;

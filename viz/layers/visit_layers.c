@@ -62,7 +62,7 @@ static size_t count_met(const layer_source *in, size_t own, octree_met met)
 
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    const size_t pruned = count_met(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_MET_PRUNED);
+    const size_t pruned = count_met(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_NODE_PRUNED);
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
@@ -70,7 +70,7 @@ static void add_pruned_legend(legend *l, const layer_source *in)
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
-    const size_t visited = count_met(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_MET_VISITED);
+    const size_t visited = count_met(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken whole", taken);
@@ -82,7 +82,7 @@ static void add_visited_legend(legend *l, const layer_source *in)
 
 static void add_hit_legend(legend *l, const layer_source *in)
 {
-    const size_t leaves = count_met(in, in->tick->hit_leaf_count, OCTREE_MET_HIT);
+    const size_t leaves = count_met(in, in->tick->hit_leaf_count, OCTREE_NODE_HIT);
     legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
 }
 

@@ -70,7 +70,7 @@ static void mark_points(scene *s, const octree_point *points, size_t count, scen
 static void mark_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *taken)
 {
     const octree_judgement *made = &answer->judgement;
-    const unsigned size = made->missed_count + made->extra_count <= FEW_MARKS ? MARK : MARK / 2;
+    const unsigned size = made->missing_count + made->extra_count <= FEW_MARKS ? MARK : MARK / 2;
     const scene_style extra = layer_style(LAYER_WRONG, STROKE_SOLID, size);
     scene_style missed = extra;
     double at[3];
@@ -78,7 +78,7 @@ static void mark_answer(scene *s, const octree_answer *answer, size_t place, uns
     for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < made->extra_count; i++)
         scene_add_line(s, line_id(place, i), answer->target, made->extra[i].position,
                        layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
-    mark_points(s, made->missed, made->missed_count, SHAPE_TRIANGLE, missed, taken);
+    mark_points(s, made->missing, made->missing_count, SHAPE_TRIANGLE, missed, taken);
     mark_points(s, made->extra, made->extra_count, SHAPE_WEDGE, extra, taken);
     place_of(answer, at);
     scene_add_mark(s, ring_id(place), at, SHAPE_RING, layer_style(LAYER_WRONG, STROKE_SOLID, ring));
@@ -115,12 +115,12 @@ static void add(scene *s, const layer_source *in, view_layer own)
     const bool few = judgement_count(in->answers, in->answer_count, &worst) <= FEW_RINGS;
     text_space taken = {.count = 0};
     for (size_t i = 0; i < in->answer_count; i++)
-        if (in->answers[i].judgement.fault)
+        if (in->answers[i].judgement.wrong)
             mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &taken);
     if (shows_foreign_tree(in))
         mark_foreign_faults(s, in, own, &taken);
     for (size_t i = 0; i < in->answer_count; i++)
-        if (in->answers[i].judgement.fault && (few || i == worst))
+        if (in->answers[i].judgement.wrong && (few || i == worst))
             left_out += !add_words(s, &in->answers[i], i, &taken);
     if (shows_foreign_tree(in))
         left_out += name_foreign_faults(s, in, own, &taken);
@@ -152,7 +152,7 @@ static size_t find_answer(const octree_tick *tick, uint64_t id, bool missed)
     size_t i = 0;
     for (; i < tick->answer_count; i++) {
         const octree_judgement *made = &tick->answers[i].judgement;
-        if (missed ? has_point(made->missed, made->missed_count, id) : has_point(made->extra, made->extra_count, id))
+        if (missed ? has_point(made->missing, made->missing_count, id) : has_point(made->extra, made->extra_count, id))
             break;
     }
     return i;

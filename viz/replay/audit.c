@@ -37,9 +37,9 @@ static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from,
  * points. Nothing allows any other. */
 static bool is_inexact(const octree_judgement *made)
 {
-    return made->fault == OCTREE_FAULT_FARTHER ||
-           (made->fault == OCTREE_FAULT_COUNT && made->given_count < made->expected) ||
-           (made->fault == OCTREE_FAULT_MISSED && made->extra_count == 0);
+    return made->wrong == OCTREE_WRONG_FARTHER ||
+           (made->wrong == OCTREE_WRONG_COUNT && made->given_count < made->expected) ||
+           (made->wrong == OCTREE_WRONG_MISSING && made->extra_count == 0);
 }
 
 /* Whether a wrong answer is allowed, unless there are too many. */
@@ -47,7 +47,7 @@ static bool is_allowed(const octree_judgement *made, const audit_limits *limits)
 {
     if (limits->by_ratio && made->ratio > limits->ratio)
         return false;
-    return (limits->by_recall && is_inexact(made)) || (limits->by_ratio && made->fault == OCTREE_FAULT_FARTHER);
+    return (limits->by_recall && is_inexact(made)) || (limits->by_ratio && made->wrong == OCTREE_WRONG_FARTHER);
 }
 
 static bool is_worse(const audit_case *c, const audit_case *than)
@@ -69,10 +69,10 @@ static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answ
         return true;
     if (!write_answer(answer, &c.answer))
         return false;
-    copy_points(c.missed, c.made.missed, c.made.missed_count);
+    copy_points(c.missed, c.made.missing, c.made.missing_count);
     copy_points(c.extra, c.made.extra, c.made.extra_count);
     c.made.given = NULL;
-    c.made.missed = c.made.extra = NULL;
+    c.made.missing = c.made.extra = NULL;
     if (kind->worst_count == AUDIT_WORST)
         free(kind->worst[--kind->worst_count].answer);
     memmove(&kind->worst[at + 1], &kind->worst[at], (kind->worst_count - at) * sizeof c);
@@ -111,9 +111,9 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     if (!row)
         return false;
     row->asked++;
-    row->wrong += made->fault != OCTREE_FAULT_NONE;
+    row->wrong += made->wrong != OCTREE_WRONG_NONE;
     row->expected += made->expected;
-    row->missed += made->missed_count;
+    row->missed += made->missing_count;
     row->ratio = made->ratio > row->ratio ? made->ratio : row->ratio;
     return true;
 }
@@ -134,13 +134,13 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     kind->asked++;
     report->asked++;
     kind->expected += made->expected;
-    kind->missed += made->missed_count;
+    kind->missed += made->missing_count;
     kind->extra += made->extra_count;
-    kind->faults[made->fault]++;
+    kind->faults[made->wrong]++;
     if (!count_in_tick(kind, tick, made) ||
         (octree_query_about(answer->kind)->neighbors && !keep_ratio(kind, made->ratio)))
         return false;
-    if (!made->fault)
+    if (!made->wrong)
         return true;
     report->wrong++;
     return count_wrong(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
@@ -149,7 +149,7 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
 static void keep_first(audit_nodes *nodes, const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->foreign.listed_count; i++) {
-        const octree_node_fault *fault = &tick->foreign.listed[i];
+        const octree_wrong_node *fault = &tick->foreign.listed[i];
         if (nodes->first[fault->kind].known)
             continue;
         nodes->first[fault->kind].known = true;
@@ -161,13 +161,13 @@ static void keep_first(audit_nodes *nodes, const octree_tick *tick)
 static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
 {
     nodes->given |= tick->foreign.given;
-    if (tick->foreign.fault_count == 0)
+    if (tick->foreign.wrong_count == 0)
         return;
     if (nodes->ticks++ == 0)
         nodes->first_wrong = tick->number;
-    nodes->faults += tick->foreign.fault_count;
-    for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
-        nodes->kinds[i] += tick->foreign.faults[i];
+    nodes->faults += tick->foreign.wrong_count;
+    for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
+        nodes->kinds[i] += tick->foreign.wrong[i];
     keep_first(nodes, tick);
 }
 

@@ -41,10 +41,10 @@ typedef struct audit_kind {
     uint64_t asked, wrong;
     uint64_t expected, missed; /* points of the true answers, and those of them that were missed */
     uint64_t extra;
-    uint64_t faults[OCTREE_FAULTS]; /* answers, by what is wrong first */
-    uint64_t beyond;                /* wrong answers that the limits do not allow by themselves */
-    uint64_t first_wrong;           /* tick; where one is wrong */
-    double *ratios;                 /* neighbours: of each answer, ascending */
+    uint64_t faults[OCTREE_WRONG_KINDS]; /* answers, by what is wrong first */
+    uint64_t beyond;                     /* wrong answers that the limits do not allow by themselves */
+    uint64_t first_wrong;                /* tick; where one is wrong */
+    double *ratios;                      /* neighbours: of each answer, ascending */
     size_t ratio_count, ratio_room;
     audit_case
         worst[AUDIT_WORST]; /* the worst first: those beyond, what nothing allows, by judgement_is_worse(), by time */
@@ -57,12 +57,12 @@ typedef struct audit_kind {
 typedef struct audit_nodes {
     bool given;
     uint64_t faults, ticks, first_wrong; /* in so many ticks, from this one on */
-    uint64_t kinds[OCTREE_NODE_FAULTS];
+    uint64_t kinds[OCTREE_WRONG_NODE_KINDS];
     struct {
         bool known; /* that of a kind may be among those that a tick counts and does not list */
         uint64_t tick;
-        octree_node_fault fault;
-    } first[OCTREE_NODE_FAULTS]; /* of each kind */
+        octree_wrong_node fault;
+    } first[OCTREE_WRONG_NODE_KINDS]; /* of each kind */
 } audit_nodes;
 
 typedef struct audit_report {

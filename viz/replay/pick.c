@@ -290,9 +290,9 @@ static void write_foreign_node(json_writer *w, const octree_foreign_place *place
     json_member_integer(w, "points", place->points);
     json_member_box(w, "box", &node->box);
     json_member_begin_array(w, "wrong");
-    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
-        if (place->faults >> kind & 1)
-            json_write_string(w, octree_node_fault_name((octree_node_fault_kind)kind));
+    for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
+        if (place->wrong >> kind & 1)
+            json_write_string(w, octree_wrong_node_name((octree_wrong_node_kind)kind));
     json_write_end_array(w);
     json_write_end_object(w);
 }

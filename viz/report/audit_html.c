@@ -281,11 +281,11 @@ static void write_nodes(const page *p, const audit_nodes *nodes)
     fprintf(p->out, "<section%s><h2>nodes</h2>\n<p>", nodes->faults ? " class=\"fails\"" : "");
     audit_print_nodes_head(p->out, nodes);
     fputs(nodes->faults ? "</p>\n<ul>\n" : "</p>\n", p->out);
-    for (int i = 0; i < OCTREE_NODE_FAULTS; i++) {
+    for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++) {
         if (!nodes->kinds[i])
             continue;
         fputs("<li>", p->out);
-        audit_print_fault(p->out, nodes, (octree_node_fault_kind)i);
+        audit_print_fault(p->out, nodes, (octree_wrong_node_kind)i);
         if (nodes->first[i].known)
             write_links(p, nodes->first[i].tick);
         fputs("</li>\n", p->out);

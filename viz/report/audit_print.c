@@ -26,17 +26,17 @@ static const char *share_text(double share, char text[NUMBER_TEXT])
     return text;
 }
 
-static const char *reason_words(octree_fault fault)
+static const char *reason_words(octree_wrong_kind fault)
 {
-    static const char *const words[OCTREE_FAULTS] = {
-        [OCTREE_FAULT_NONE] = "right",
-        [OCTREE_FAULT_UNKNOWN] = "names an id that no point has",
-        [OCTREE_FAULT_DUPLICATE] = "names a point twice",
-        [OCTREE_FAULT_SKIPPED] = "names a point that is left out",
-        [OCTREE_FAULT_COUNT] = "a wrong number of neighbours",
-        [OCTREE_FAULT_FARTHER] = "a neighbour too far away",
-        [OCTREE_FAULT_MISSED] = "points are missing",
-        [OCTREE_FAULT_EXTRA] = "points that are outside",
+    static const char *const words[OCTREE_WRONG_KINDS] = {
+        [OCTREE_WRONG_NONE] = "right",
+        [OCTREE_WRONG_UNKNOWN] = "names an id that no point has",
+        [OCTREE_WRONG_DUPLICATE] = "names a point twice",
+        [OCTREE_WRONG_SKIPPED] = "names a point that is left out",
+        [OCTREE_WRONG_COUNT] = "a wrong number of neighbours",
+        [OCTREE_WRONG_FARTHER] = "a neighbour too far away",
+        [OCTREE_WRONG_MISSING] = "points are missing",
+        [OCTREE_WRONG_EXTRA] = "points that are outside",
     };
     return words[fault];
 }
@@ -59,17 +59,17 @@ static void print_points(FILE *out, const char *what, const octree_point *points
 void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
 {
     char text[AUDIT_RATIO_TEXT];
-    fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.fault));
-    if (c->made.fault <= OCTREE_FAULT_SKIPPED)
-        fprintf(out, " (%" PRIu64 ")", c->made.fault_id);
-    if (c->made.fault == OCTREE_FAULT_COUNT)
+    fprintf(out, "answers[%zu]: %s", c->place, reason_words(c->made.wrong));
+    if (c->made.wrong <= OCTREE_WRONG_SKIPPED)
+        fprintf(out, " (%" PRIu64 ")", c->made.wrong_id);
+    if (c->made.wrong == OCTREE_WRONG_COUNT)
         fprintf(out, " (%zu named, %zu expected)", c->made.given_count, c->made.expected);
     if (c->made.rank)
         fprintf(out, "; wrong from rank %zu on", c->made.rank);
     if (neighbors)
         fprintf(out, "; ratio of distances %s", audit_ratio_text(c->made.ratio, text));
-    fprintf(out, "; %zu missed, %zu extra", c->made.missed_count, c->made.extra_count);
-    print_points(out, "; missed", c->missed, c->made.missed_count);
+    fprintf(out, "; %zu missed, %zu extra", c->made.missing_count, c->made.extra_count);
+    print_points(out, "; missed", c->missed, c->made.missing_count);
     print_points(out, "; extra", c->extra, c->made.extra_count);
 }
 
@@ -123,10 +123,10 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     if (kind->wrong)
         fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
     print_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
-    for (int i = OCTREE_FAULT_NONE + 1; i < OCTREE_FAULTS; i++)
+    for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->faults[i])
             fprintf(out, "; %" PRIu64 " time%s: %s", kind->faults[i], plural(kind->faults[i]),
-                    reason_words((octree_fault)i));
+                    reason_words((octree_wrong_kind)i));
 }
 
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
@@ -137,11 +137,11 @@ void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
                 nodes->first_wrong);
 }
 
-void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind)
+void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind)
 {
-    const octree_node_fault *fault = &nodes->first[kind].fault;
+    const octree_wrong_node *fault = &nodes->first[kind].fault;
     fprintf(out, "%" PRIu64 " time%s: %s", nodes->kinds[kind], plural(nodes->kinds[kind]),
-            octree_node_fault_words(kind));
+            octree_wrong_node_words(kind));
     if (!nodes->first[kind].known)
         return;
     fprintf(out, " (tick %" PRIu64, nodes->first[kind].tick);
@@ -155,10 +155,10 @@ void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_node_fault_ki
 void audit_print_nodes(FILE *out, const audit_nodes *nodes)
 {
     audit_print_nodes_head(out, nodes);
-    for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
+    for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
         if (nodes->kinds[i]) {
             fputs("; ", out);
-            audit_print_fault(out, nodes, (octree_node_fault_kind)i);
+            audit_print_fault(out, nodes, (octree_wrong_node_kind)i);
         }
 }
 
@@ -216,14 +216,14 @@ static void write_case(json_writer *w, const audit_case *c, bool neighbors)
     json_write_begin_object(w);
     json_member_integer(w, "tick", c->tick);
     json_member_integer(w, "place", c->place);
-    json_member_text(w, "wrong", octree_fault_name(c->made.fault));
+    json_member_text(w, "wrong", octree_wrong_name(c->made.wrong));
     if (c->made.rank)
         json_member_integer(w, "rank", c->made.rank);
     if (neighbors)
         json_member_number(w, "ratio", c->made.ratio);
-    json_member_integer(w, "missed", c->made.missed_count);
+    json_member_integer(w, "missing", c->made.missing_count);
     json_member_integer(w, "extra", c->made.extra_count);
-    write_points(w, "missed_points", c->missed, c->made.missed_count);
+    write_points(w, "missing_points", c->missed, c->made.missing_count);
     write_points(w, "extra_points", c->extra, c->made.extra_count);
     json_write_key(w, "answer");
     fputs(c->answer, w->out);
@@ -240,7 +240,7 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
     json_member_integer(w, "wrong", kind->wrong);
     json_member_bool(w, "passes", audit_kind_passes(kind, &v->report->limits));
     json_member_number(w, "recall", audit_recall(kind));
-    json_member_integer(w, "missed", kind->missed);
+    json_member_integer(w, "missing", kind->missed);
     json_member_integer(w, "extra", kind->extra);
     if (about->neighbors) {
         json_member_number(w, "worst_ratio", audit_ratio(kind, 1));
@@ -249,9 +249,9 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
     if (kind->wrong)
         json_member_integer(w, "first_wrong_tick", kind->first_wrong);
     json_member_begin_object(w, "faults");
-    for (int i = OCTREE_FAULT_NONE + 1; i < OCTREE_FAULTS; i++)
+    for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->faults[i])
-            json_member_integer(w, octree_fault_name((octree_fault)i), kind->faults[i]);
+            json_member_integer(w, octree_wrong_name((octree_wrong_kind)i), kind->faults[i]);
     json_write_end_object(w);
     json_member_begin_array(w, "worst");
     for (size_t i = 0; i < kind->worst_count; i++)
@@ -268,9 +268,9 @@ static void write_nodes(json_writer *w, const audit_nodes *nodes)
     json_member_integer(w, "faults", nodes->faults);
     if (nodes->faults)
         json_member_integer(w, "first_wrong_tick", nodes->first_wrong);
-    for (int i = 0; i < OCTREE_NODE_FAULTS; i++)
+    for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
         if (nodes->kinds[i])
-            json_member_integer(w, octree_node_fault_name((octree_node_fault_kind)i), nodes->kinds[i]);
+            json_member_integer(w, octree_wrong_node_name((octree_wrong_node_kind)i), nodes->kinds[i]);
     json_write_end_object(w);
 }
 

@@ -41,7 +41,7 @@ void audit_print_all(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);                         /* "nodes: 3 faults" */
-void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_node_fault_kind kind); /* how often, and the first */
+void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind); /* how often, and the first */
 void audit_print_limits(FILE *out, const audit_limits *limits);
 
 /* Which of the tick's answers a case is, as in ticks.jsonl, what is wrong with it, and the points that it missed and

@@ -122,8 +122,8 @@ typedef struct octree_query {
     octree_precision precision; /* answered: the precision that the foreign index promises */
     const uint64_t *answer;     /* answered: the ids that the foreign index returned, in any order; null for none */
     size_t answer_count;
-    octree_ids met[OCTREE_MET_KINDS]; /* the foreign nodes that the query visited, pruned and hit, by their ids. Pruned
-                                         nodes are judged by the exact answer, with precision and epsilon */
+    octree_ids visits[OCTREE_NODE_VISITS]; /* the foreign nodes that the query visited, pruned and hit, by their ids.
+                                         Pruned nodes are judged by the exact answer, with precision and epsilon */
 } octree_query;
 
 /* Check whether a query can be asked; its tick is not read. Errors: NULL_ARGUMENT (also for an id array that is
@@ -135,20 +135,21 @@ octree_status octree_query_check(const octree_query *query);
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
 /* How the answer of a foreign index is wrong. The values are ordered: where several apply, the lowest is reported. */
-typedef enum octree_fault {
-    OCTREE_FAULT_NONE,
-    OCTREE_FAULT_UNKNOWN,   /* it contains an id that no point has at this tick, such as that of a removed point */
-    OCTREE_FAULT_DUPLICATE, /* it contains a point twice */
-    OCTREE_FAULT_SKIPPED,   /* it contains a point that the query skips */
-    OCTREE_FAULT_COUNT,     /* neighbours: it has more or fewer than k, or than the tree has points */
-    OCTREE_FAULT_FARTHER,   /* neighbours: a point is farther than the exact neighbour of its rank */
-    OCTREE_FAULT_MISSED,    /* regions: a point in the region is not in the answer */
-    OCTREE_FAULT_EXTRA,     /* regions: a point of the answer is outside the region */
-    OCTREE_FAULTS
-} octree_fault;
+typedef enum octree_wrong_kind {
+    OCTREE_WRONG_NONE,
+    OCTREE_WRONG_UNKNOWN,   /* it contains an id that no point has at this tick, such as that of a removed point */
+    OCTREE_WRONG_DUPLICATE, /* it contains a point twice */
+    OCTREE_WRONG_SKIPPED,   /* it contains a point that the query skips */
+    OCTREE_WRONG_COUNT,     /* neighbours: it has more or fewer than k, or than the tree has points */
+    OCTREE_WRONG_FARTHER,   /* neighbours: a point is farther than the exact neighbour of its rank */
+    OCTREE_WRONG_MISSING,   /* regions: a point in the region is not in the answer */
+    OCTREE_WRONG_EXTRA,     /* regions: a point of the answer is outside the region */
+    OCTREE_WRONG_KINDS
+} octree_wrong_kind;
 
-/* "none", "unknown", "duplicate", "skipped", "count", "farther", "missed", "extra". Null for fault >= OCTREE_FAULTS. */
-const char *octree_fault_name(octree_fault fault);
+/* "none", "unknown", "duplicate", "skipped", "count", "farther", "missing", "extra". Null for wrong >=
+ * OCTREE_WRONG_KINDS. */
+const char *octree_wrong_name(octree_wrong_kind wrong);
 
 /* The answer of a foreign index, judged by the exact answer.
  *
@@ -158,16 +159,16 @@ const char *octree_fault_name(octree_fault fault);
  * 1 + epsilon times as far as the exact ones; a ratio within 2^-46 of that limit counts as right. */
 typedef struct octree_judgement {
     bool judged; /* false: there was no foreign answer, and the other members are 0 */
-    octree_fault fault;
-    uint64_t fault_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest such id */
+    octree_wrong_kind wrong;
+    uint64_t wrong_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest such id */
     const uint64_t *given; /* the ids of the foreign answer, in its order */
     size_t given_count;
-    size_t expected;            /* the number of points in the exact answer */
-    const octree_point *missed; /* points that every right answer contains and this one does not. Regions: by id;
+    size_t expected;             /* the number of points in the exact answer */
+    const octree_point *missing; /* points that every right answer contains and this one does not. Regions: by id;
                                    neighbours: by distance */
-    size_t missed_count;        /* recall is 1 - missed_count / expected */
-    const octree_point *extra;  /* points that no right answer contains and this one does, by id or by distance. Points
-                                   of  UNKNOWN and SKIPPED are not among them */
+    size_t missing_count;        /* recall is 1 - missing_count / expected */
+    const octree_point *extra;   /* points that no right answer contains and this one does, by id or by distance. Points
+                                    of  UNKNOWN and SKIPPED are not among them */
     size_t extra_count;
     size_t rank;  /* neighbours: the first wrong rank; the nearest has rank 1; 0: no rank is wrong */
     double ratio; /* neighbours: the largest quotient of the distance at a rank and the exact distance at this rank. 1

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *octree_met_name(octree_met met)
+const char *octree_node_visit_name(octree_node_visit visit)
 {
-    static const char *const names[OCTREE_MET_KINDS] = {"visited", "pruned", "hit"};
-    return (unsigned)met < OCTREE_MET_KINDS ? names[met] : NULL;
+    static const char *const names[OCTREE_NODE_VISITS] = {"visited", "pruned", "hit"};
+    return (unsigned)visit < OCTREE_NODE_VISITS ? names[visit] : NULL;
 }
 
 #define DEPTH_UNKNOWN UINT_MAX
@@ -254,7 +254,7 @@ octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
     octree_foreign_state *state = &f->state;
     size_t fault;
     arena_give(f->memory, f->nodes, f->size);
-    f->places.count = f->keys.count = f->marks.count = f->met.count = 0;
+    f->places.count = f->keys.count = f->marks.count = f->visits.count = 0;
     if (!copy_nodes(f, tree))
         return OCTREE_NO_MEMORY;
     const octree_foreign_tree copy = {.nodes = f->nodes, .node_count = tree->node_count};
@@ -287,8 +287,8 @@ void foreign_release(foreign *f)
     list_release(f->memory, &f->holdings, sizeof(foreign_holding));
     list_release(f->memory, &f->kinds, OCTREE_NODE_KIND);
     list_release(f->memory, &f->repeated, sizeof(foreign_holding));
-    list_release(f->memory, &f->faults, sizeof(octree_node_fault));
-    list_release(f->memory, &f->met, sizeof(size_t));
+    list_release(f->memory, &f->wrong, sizeof(octree_wrong_node));
+    list_release(f->memory, &f->visits, sizeof(size_t));
     list_release(f->memory, &f->unlisted, sizeof(unlisted_point));
 }
 
@@ -309,11 +309,11 @@ void foreign_publish(foreign *f)
         return;
     state->nodes = f->places.items;
     state->node_count = f->places.count;
-    state->listed = f->faults.items;
-    state->listed_count = f->faults.count;
+    state->listed = f->wrong.items;
+    state->listed_count = f->wrong.count;
     state->kinds = f->kinds.items;
     state->kind_count = f->kinds.count;
-    state->fault_count = 0;
-    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
-        state->fault_count += state->faults[kind];
+    state->wrong_count = 0;
+    for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
+        state->wrong_count += state->wrong[kind];
 }

@@ -29,7 +29,7 @@ typedef struct unlisted_point {
 /* What the current query did with a node. */
 typedef struct foreign_mark {
     uint64_t query; /* the other members count only if this is foreign.query */
-    octree_met met;
+    octree_node_visit visit;
     bool reported;
 } foreign_mark;
 
@@ -45,11 +45,11 @@ typedef struct foreign {
     list holdings;              /* foreign_holding, by point and then by node index */
     list kinds;                 /* char[OCTREE_NODE_KIND] */
     list repeated;              /* foreign_holding: points that a node lists more than once */
-    list faults;                /* octree_node_fault */
-    list met;                   /* size_t: the nodes that the tick's queries name, some several times */
+    list wrong;                 /* octree_wrong_node */
+    list visits;                /* size_t: the nodes that the tick's queries name, some several times */
     list unlisted;              /* unlisted_point: points that no node lists, by id */
     size_t standing;            /* the number of first faults that do not come from queries */
-    size_t standing_counts[OCTREE_NODE_FAULTS];
+    size_t standing_counts[OCTREE_WRONG_NODE_KINDS];
     uint64_t query;   /* the number of queries that named nodes so far */
     uint64_t version; /* of the tree for which the standing faults were found */
     bool checked;

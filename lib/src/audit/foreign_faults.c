@@ -25,24 +25,24 @@ const char *octree_precision_name(octree_precision precision)
 
 static const struct {
     const char *name, *words;
-} fault_rows[OCTREE_NODE_FAULTS] = {
+} wrong_node_rows[OCTREE_WRONG_NODE_KINDS] = {
     [OCTREE_NODE_OUTSIDE_PARENT] = {"outside_parent", "its box leaves its parent's"},
     [OCTREE_NODE_UNKNOWN_POINT] = {"unknown_point", "it lists a point that is not there"},
     [OCTREE_NODE_OUTSIDE_POINT] = {"outside_point", "it lists a point outside its box"},
     [OCTREE_NODE_REPEATED_POINT] = {"repeated_point", "it lists a point more than once"},
     [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
-    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query met it, and it is not there"},
+    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query visit it, and it is not there"},
     [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
 };
 
-const char *octree_node_fault_name(octree_node_fault_kind kind)
+const char *octree_wrong_node_name(octree_wrong_node_kind kind)
 {
-    return (unsigned)kind < OCTREE_NODE_FAULTS ? fault_rows[kind].name : NULL;
+    return (unsigned)kind < OCTREE_WRONG_NODE_KINDS ? wrong_node_rows[kind].name : NULL;
 }
 
-const char *octree_node_fault_words(octree_node_fault_kind kind)
+const char *octree_wrong_node_words(octree_wrong_node_kind kind)
 {
-    return (unsigned)kind < OCTREE_NODE_FAULTS ? fault_rows[kind].words : NULL;
+    return (unsigned)kind < OCTREE_WRONG_NODE_KINDS ? wrong_node_rows[kind].words : NULL;
 }
 
 static octree_foreign_place *places_of(const foreign *f)
@@ -52,14 +52,14 @@ static octree_foreign_place *places_of(const foreign *f)
 
 /* Count what is wrong with a node, and list it while there is room. `place` is SIZE_MAX where it is not about a node of
  * the tree. False when there is no memory. */
-static bool report_wrong(foreign *f, size_t place, octree_node_fault fault)
+static bool report_wrong(foreign *f, size_t place, octree_wrong_node wrong)
 {
-    f->state.faults[fault.kind]++;
+    f->state.wrong[wrong.kind]++;
     if (place != SIZE_MAX) {
-        fault.node = places_of(f)[place].node->id;
-        places_of(f)[place].faults |= 1u << fault.kind;
+        wrong.node = places_of(f)[place].node->id;
+        places_of(f)[place].wrong |= 1u << wrong.kind;
     }
-    return f->faults.count == OCTREE_LISTED_NODE_FAULTS || list_push(f->memory, &f->faults, &fault, sizeof fault);
+    return f->wrong.count == OCTREE_LISTED_WRONG_NODES || list_push(f->memory, &f->wrong, &wrong, sizeof wrong);
 }
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
@@ -102,7 +102,7 @@ static bool check_parents(foreign *f)
     bool whole = true;
     for (size_t i = 0; whole && i < f->places.count; i++)
         if (places[i].parent != SIZE_MAX && !is_within_parent(places[i].node, places[places[i].parent].node))
-            whole = report_wrong(f, i, (octree_node_fault){.kind = OCTREE_NODE_OUTSIDE_PARENT});
+            whole = report_wrong(f, i, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_PARENT});
     return whole;
 }
 
@@ -115,9 +115,9 @@ static bool check_points(foreign *f, const audited_points *points, size_t place)
         octree_point point;
         const uint64_t id = node->points.ids[i];
         if (!points->find(points->context, id, &point))
-            whole = report_wrong(f, place, (octree_node_fault){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
+            whole = report_wrong(f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
         else if (!foreign_contains(node, point.position))
-            whole = report_wrong(f, place, (octree_node_fault){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
+            whole = report_wrong(f, place, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
         whole = whole && list_push(f->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
     }
     return whole;
@@ -148,7 +148,7 @@ static bool report_repeated(foreign *f)
         qsort(f->repeated.items, f->repeated.count, sizeof *repeated, compare_by_place);
     for (size_t i = 0; whole && i < f->repeated.count; i++)
         whole = report_wrong(f, repeated[i].place,
-                             (octree_node_fault){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
+                             (octree_wrong_node){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
     return whole;
 }
 
@@ -248,7 +248,7 @@ static octree_status find_lost_points(foreign *f, const audited_points *points)
     for (size_t i = 0; whole && search.lost > 0 && i < f->unlisted.count; i++)
         if (!unlisted[i].held)
             whole =
-                report_wrong(f, SIZE_MAX, (octree_node_fault){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
+                report_wrong(f, SIZE_MAX, (octree_wrong_node){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
     return whole ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
@@ -260,25 +260,25 @@ void foreign_begin_tick(foreign *f)
     octree_foreign_state *state = &f->state;
     if (!state->given)
         return;
-    const size_t *met = f->met.items;
-    for (size_t i = 0; i < f->met.count; i++) {
-        places_of(f)[met[i]].met = 0;
-        places_of(f)[met[i]].faults &= ~(unsigned)FROM_QUERIES;
+    const size_t *visit = f->visits.items;
+    for (size_t i = 0; i < f->visits.count; i++) {
+        places_of(f)[visit[i]].visits = 0;
+        places_of(f)[visit[i]].wrong &= ~(unsigned)FROM_QUERIES;
     }
-    f->met.count = 0;
+    f->visits.count = 0;
     state->fresh = false;
-    for (int kind = 0; kind < OCTREE_MET_KINDS; kind++)
-        state->met[kind] = 0;
+    for (int kind = 0; kind < OCTREE_NODE_VISITS; kind++)
+        state->visits[kind] = 0;
 }
 
 /* Find what is wrong with the nodes apart from queries. */
 static octree_status find_standing(foreign *f, const audited_points *points)
 {
     octree_foreign_state *state = &f->state;
-    memset(state->faults, 0, sizeof state->faults);
-    f->faults.count = f->holdings.count = 0;
+    memset(state->wrong, 0, sizeof state->wrong);
+    f->wrong.count = f->holdings.count = 0;
     for (size_t i = 0; i < f->places.count; i++)
-        places_of(f)[i].faults = 0;
+        places_of(f)[i].wrong = 0;
     bool whole = check_parents(f);
     for (size_t i = 0; whole && i < f->places.count; i++)
         whole = check_points(f, points, i);
@@ -287,8 +287,8 @@ static octree_status find_standing(foreign *f, const audited_points *points)
     if (f->holdings.count > 1)
         qsort(f->holdings.items, f->holdings.count, sizeof(foreign_holding), foreign_compare_keys);
     const octree_status status = report_repeated(f) ? find_lost_points(f, points) : OCTREE_NO_MEMORY;
-    f->standing = f->faults.count;
-    memcpy(f->standing_counts, state->faults, sizeof state->faults);
+    f->standing = f->wrong.count;
+    memcpy(f->standing_counts, state->wrong, sizeof state->wrong);
     f->checked = status == OCTREE_OK;
     f->version = octree_version(points->tree);
     return status;
@@ -300,8 +300,8 @@ octree_status foreign_check(foreign *f, const audited_points *points)
         return OCTREE_OK;
     if (!f->checked || f->version != octree_version(points->tree))
         return find_standing(f, points);
-    f->faults.count = f->standing;
-    memcpy(f->state.faults, f->standing_counts, sizeof f->standing_counts);
+    f->wrong.count = f->standing;
+    memcpy(f->state.wrong, f->standing_counts, sizeof f->standing_counts);
     return OCTREE_OK;
 }
 
@@ -320,21 +320,21 @@ static foreign_mark *marks_of(const foreign *f)
 }
 
 /* Record that the query visited, pruned or hit a node. */
-static bool note_node(const node_query *q, octree_met met, uint64_t id)
+static bool note_node(const node_query *q, octree_node_visit visit, uint64_t id)
 {
     foreign *f = q->foreign;
     const size_t place = foreign_find(f, id);
     if (place == SIZE_MAX)
         return report_wrong(f, place,
-                            (octree_node_fault){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});
+                            (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});
     octree_foreign_place *node = &places_of(f)[place];
-    f->state.met[met] += !(node->met >> met & 1);
-    node->met |= 1u << met;
+    f->state.visits[visit] += !(node->visits >> visit & 1);
+    node->visits |= 1u << visit;
     foreign_mark *mark = &marks_of(f)[place];
     const bool first = mark->query != f->query;
-    if (first || mark->met == OCTREE_MET_PRUNED) /* a node that the query also visited is not pruned */
-        *mark = (foreign_mark){.query = f->query, .met = met};
-    return list_push(f->memory, &f->met, &place, sizeof place);
+    if (first || mark->visit == OCTREE_NODE_PRUNED) /* a node that the query also visited is not pruned */
+        *mark = (foreign_mark){.query = f->query, .visit = visit};
+    return list_push(f->memory, &f->visits, &place, sizeof place);
 }
 
 /* The pruned node that excludes a node: the first node from `place` upwards that the query named, if the query pruned
@@ -343,7 +343,7 @@ static size_t pruned_above(const foreign *f, size_t place)
 {
     while (place != SIZE_MAX && marks_of(f)[place].query != f->query)
         place = places_of(f)[place].parent;
-    return place != SIZE_MAX && marks_of(f)[place].met == OCTREE_MET_PRUNED ? place : SIZE_MAX;
+    return place != SIZE_MAX && marks_of(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
 }
 
 /* Call `visit` for each node that holds a point, until it returns false. */
@@ -401,7 +401,7 @@ static bool report_holder(size_t place, void *context)
     foreign *f = r->query->foreign;
     const size_t pruned = pruned_above(f, place);
     foreign_mark *mark = &marks_of(f)[pruned];
-    const octree_node_fault wrong = {
+    const octree_wrong_node wrong = {
         .kind = OCTREE_NODE_PRUNED_POINT, .point = r->point->id, .answer = r->query->answer};
     if (!mark->reported)
         r->failed |= !report_wrong(f, pruned, wrong);
@@ -422,10 +422,10 @@ octree_status foreign_note_query(foreign *f, judge *j, const judging *about, siz
     node_query q = {f, about->points, answer};
     bool whole = true;
     f->query++;
-    for (int met = 0; met < OCTREE_MET_KINDS; met++)
-        for (size_t i = 0; whole && i < query->met[met].count; i++)
-            whole = note_node(&q, (octree_met)met, query->met[met].ids[i]);
+    for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
+        for (size_t i = 0; whole && i < query->visits[visit].count; i++)
+            whole = note_node(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
     if (!whole)
         return OCTREE_NO_MEMORY;
-    return query->met[OCTREE_MET_PRUNED].count ? judge_without(j, about, is_pruned, report_pruned, &q) : OCTREE_OK;
+    return query->visits[OCTREE_NODE_PRUNED].count ? judge_without(j, about, is_pruned, report_pruned, &q) : OCTREE_OK;
 }

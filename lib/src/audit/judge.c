@@ -21,11 +21,11 @@
 
 #include <stdlib.h>
 
-const char *octree_fault_name(octree_fault fault)
+const char *octree_wrong_name(octree_wrong_kind wrong)
 {
-    static const char *const names[OCTREE_FAULTS] = {"none",  "unknown", "duplicate", "skipped",
-                                                     "count", "farther", "missed",    "extra"};
-    return (unsigned)fault < OCTREE_FAULTS ? names[fault] : NULL;
+    static const char *const names[OCTREE_WRONG_KINDS] = {"none",  "unknown", "duplicate", "skipped",
+                                                          "count", "farther", "missing",   "extra"};
+    return (unsigned)wrong < OCTREE_WRONG_KINDS ? names[wrong] : NULL;
 }
 
 typedef struct judge_state {
@@ -111,13 +111,13 @@ static void sort(list *l, int (*compare)(const void *, const void *))
 
 /* Record how the answer is wrong, unless a lower kind of wrong is recorded already. `id` counts only for the kinds that
  * name one. */
-static void record_wrong(judge_state *s, octree_fault fault, uint64_t id)
+static void record_wrong(judge_state *s, octree_wrong_kind wrong, uint64_t id)
 {
     octree_judgement *made = s->made;
-    if (made->fault && (fault > made->fault || (fault == made->fault && id >= made->fault_id)))
+    if (made->wrong && (wrong > made->wrong || (wrong == made->wrong && id >= made->wrong_id)))
         return;
-    made->fault = fault;
-    made->fault_id = fault <= OCTREE_FAULT_SKIPPED ? id : 0;
+    made->wrong = wrong;
+    made->wrong_id = wrong <= OCTREE_WRONG_SKIPPED ? id : 0;
 }
 
 /* Remove repeated points from the foreign answer, which is sorted by id. */
@@ -127,7 +127,7 @@ static void remove_duplicates(judge_state *s, list *points)
     size_t kept = 0;
     for (size_t i = 0; i < points->count; i++) {
         if (kept > 0 && items[i].point.id == items[kept - 1].point.id)
-            record_wrong(s, OCTREE_FAULT_DUPLICATE, items[i].point.id);
+            record_wrong(s, OCTREE_WRONG_DUPLICATE, items[i].point.id);
         else
             items[kept++] = items[i];
     }
@@ -144,12 +144,12 @@ static void list_named(judge_state *s)
         octree_point point;
         s->failed |= !list_push(j->memory, &j->given, &query->answer[i], sizeof *query->answer);
         if (!points->find(points->context, query->answer[i], &point)) {
-            record_wrong(s, OCTREE_FAULT_UNKNOWN, query->answer[i]);
+            record_wrong(s, OCTREE_WRONG_UNKNOWN, query->answer[i]);
             continue;
         }
         judged_point p = judge_point(s, &point);
         if (is_skipped(s, &p))
-            record_wrong(s, OCTREE_FAULT_SKIPPED, point.id);
+            record_wrong(s, OCTREE_WRONG_SKIPPED, point.id);
         else
             keep(s, &j->named, &p);
     }
@@ -284,12 +284,12 @@ static void judge_region(judge_state *s)
 {
     judge *j = s->judge;
     sort(&j->truth, compare_ids);
-    list_difference(s, &j->truth, &j->named, 0, &s->made->missed_count);
+    list_difference(s, &j->truth, &j->named, 0, &s->made->missing_count);
     list_difference(s, &j->named, &j->truth, s->asked.epsilon, &s->made->extra_count);
-    if (s->made->missed_count)
-        record_wrong(s, OCTREE_FAULT_MISSED, 0);
+    if (s->made->missing_count)
+        record_wrong(s, OCTREE_WRONG_MISSING, 0);
     if (s->made->extra_count)
-        record_wrong(s, OCTREE_FAULT_EXTRA, 0);
+        record_wrong(s, OCTREE_WRONG_EXTRA, 0);
 }
 
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
@@ -317,7 +317,7 @@ static void judge_ranks(judge_state *s, const judged_point *named, const judged_
             made->rank = i + 1;
     }
     if (made->rank)
-        record_wrong(s, OCTREE_FAULT_FARTHER, 0);
+        record_wrong(s, OCTREE_WRONG_FARTHER, 0);
 }
 
 /* List what is wrong in a wrong answer. Every right answer contains all points that are nearer than the last exact
@@ -335,9 +335,9 @@ static void list_wrong_neighbors(judge_state *s)
         while (n < in_reach && compare_ranks(&named[n], &truth[i]) < 0)
             n++;
         const bool lacks = n == in_reach || named[n].point.id != truth[i].point.id;
-        const bool needed = compare_distances(&truth[i], last) < 0 || made->missed_count + in_reach < j->truth.count;
+        const bool needed = compare_distances(&truth[i], last) < 0 || made->missing_count + in_reach < j->truth.count;
         if (lacks && needed)
-            list_wrong(s, &truth[i], &made->missed_count);
+            list_wrong(s, &truth[i], &made->missing_count);
     }
     for (size_t i = in_reach; !s->failed && i < j->named.count; i++)
         if (!last || is_farther(s, &named[i], last))
@@ -352,10 +352,10 @@ static void judge_neighbors(judge_state *s, size_t given)
     sort(&j->named, compare_ranks);
     judge_ranks(s, j->named.items, j->truth.items, ranks);
     if (given != truth)
-        record_wrong(s, OCTREE_FAULT_COUNT, 0);
+        record_wrong(s, OCTREE_WRONG_COUNT, 0);
     if (named != truth && s->made->rank == 0)
         s->made->rank = ranks + 1;
-    if (s->made->fault)
+    if (s->made->wrong)
         list_wrong_neighbors(s);
 }
 
@@ -437,7 +437,7 @@ octree_status judge_without(judge *j, const judging *about, point_test *is_lost,
     if (status == OCTREE_OK)
         status = compare(&s, j->named.count);
     const octree_point *missed = j->wrong.items;
-    for (size_t i = 0; status == OCTREE_OK && made.fault && i < made.missed_count; i++)
+    for (size_t i = 0; status == OCTREE_OK && made.wrong && i < made.missing_count; i++)
         status =
             report(&missed[listed + i], context); /* it misses only lost points: the others are the best there are */
     j->wrong.count = listed;
@@ -454,10 +454,10 @@ void judge_assign(const judge *j, octree_answer *answers, size_t count)
     for (size_t i = 0; i < count; i++) {
         octree_judgement *made = &answers[i].judgement;
         made->given = made->given_count ? given + ids : NULL;
-        made->missed = made->missed_count ? wrong + points : NULL;
-        made->extra = made->extra_count ? wrong + points + made->missed_count : NULL;
+        made->missing = made->missing_count ? wrong + points : NULL;
+        made->extra = made->extra_count ? wrong + points + made->missing_count : NULL;
         ids += made->given_count;
-        points += made->missed_count + made->extra_count;
+        points += made->missing_count + made->extra_count;
     }
 }
 

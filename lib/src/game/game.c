@@ -269,7 +269,7 @@ static void publish(octree_game *game)
     game->tick.hit_from = game->tick.swept ? game->hit_from.items : NULL;
     foreign_publish(&game->foreign);
     game->tick.foreign = game->foreign.state;
-    if (game->tick.foreign.fault_count)
+    if (game->tick.foreign.wrong_count)
         game->tick.events |= OCTREE_EVENT_WRONG;
 }
 

@@ -27,7 +27,7 @@ static octree_status judge_foreign(octree_game *game, const octree_query *query,
                            .skip_id = near ? how->skip_id : query->skip_id};
     game->tick.judged |= query->answered;
     const octree_status status = query->answered ? judge_answer(&game->judge, &about, &answer->judgement) : OCTREE_OK;
-    if (answer->judgement.fault)
+    if (answer->judgement.wrong)
         game->tick.events |= OCTREE_EVENT_WRONG;
     return status == OCTREE_OK ? foreign_note_query(&game->foreign, &game->judge, &about, game->answers.count - 1)
                                : status;

@@ -69,12 +69,12 @@ static octree_status check_answer(const octree_query *query)
     return (unsigned)query->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
 }
 
-static octree_status check_met(const octree_ids *met)
+static octree_status check_visits(const octree_ids *visit)
 {
-    if (met->count && !met->ids)
+    if (visit->count && !visit->ids)
         return OCTREE_NULL_ARGUMENT;
-    for (size_t i = 0; i < met->count; i++)
-        if (met->ids[i] >= OCTREE_NODE_ID_LIMIT)
+    for (size_t i = 0; i < visit->count; i++)
+        if (visit->ids[i] >= OCTREE_NODE_ID_LIMIT)
             return OCTREE_BAD_SIZE;
     return OCTREE_OK;
 }
@@ -94,8 +94,8 @@ octree_status octree_query_check(const octree_query *query)
             status = check_member(query, octree_query_member_at(i));
     if (status == OCTREE_OK && query_is_judged(query))
         status = check_answer(query);
-    for (int met = 0; status == OCTREE_OK && met < OCTREE_MET_KINDS; met++)
-        status = check_met(&query->met[met]);
+    for (int visit = 0; status == OCTREE_OK && visit < OCTREE_NODE_VISITS; visit++)
+        status = check_visits(&query->visits[visit]);
     return status;
 }
 

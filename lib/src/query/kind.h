@@ -56,7 +56,7 @@ const query_rules *query_rules_of(octree_query_kind kind);
 /* Whether the exact answer must judge what a foreign index did for the query. */
 static inline bool query_is_judged(const octree_query *query)
 {
-    return query->answered || query->met[OCTREE_MET_PRUNED].count > 0;
+    return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
 /* Store a query's members as an answer's, in world coordinates. */

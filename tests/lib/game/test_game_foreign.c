@@ -61,25 +61,25 @@ static const octree_tick *tick_with(const octree_foreign_node *nodes, size_t cou
 static void assert_faultless(const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->foreign.listed_count; i++)
-        fail_msg("%s: node %d, point %d", octree_node_fault_name(tick->foreign.listed[i].kind),
+        fail_msg("%s: node %d, point %d", octree_wrong_node_name(tick->foreign.listed[i].kind),
                  (int)tick->foreign.listed[i].node, (int)tick->foreign.listed[i].point);
-    assert_int_equal(tick->foreign.fault_count, 0);
+    assert_int_equal(tick->foreign.wrong_count, 0);
     assert_false(tick->events & OCTREE_EVENT_WRONG);
 }
 
 /* That this is all that is wrong. */
-static void assert_fault(const octree_tick *tick, octree_node_fault_kind kind, uint64_t node, uint64_t point)
+static void assert_fault(const octree_tick *tick, octree_wrong_node_kind kind, uint64_t node, uint64_t point)
 {
     const octree_foreign_state *f = &tick->foreign;
-    assert_int_equal(f->fault_count, 1);
+    assert_int_equal(f->wrong_count, 1);
     assert_int_equal(f->listed_count, 1);
-    assert_int_equal(f->faults[kind], 1);
+    assert_int_equal(f->wrong[kind], 1);
     assert_int_equal(f->listed[0].kind, kind);
     assert_int_equal(f->listed[0].node, node);
     assert_int_equal(f->listed[0].point, point);
     assert_true(tick->events & OCTREE_EVENT_WRONG);
     for (size_t i = 0; i < f->node_count; i++)
-        assert_int_equal(f->nodes[i].faults, f->nodes[i].node->id == node && node ? 1u << kind : 0);
+        assert_int_equal(f->nodes[i].wrong, f->nodes[i].node->id == node && node ? 1u << kind : 0);
 }
 
 static void a_tree_that_is_right_is_told_and_not_accused(void **state)
@@ -113,7 +113,7 @@ static void nodes_hold_until_others_replace_them(void **state)
         const octree_tick *tick = octree_game_tick(game);
         assert_int_equal(tick->foreign.given, number >= 2);
         assert_int_equal(tick->foreign.node_count, counts[number]);
-        assert_int_equal(tick->foreign.faults[OCTREE_NODE_LOST_POINT], number == 4 ? 4 : 0);
+        assert_int_equal(tick->foreign.wrong[OCTREE_NODE_LOST_POINT], number == 4 ? 4 : 0);
         digests[number] = tick->foreign.digest;
         play_key(game, '.');
     }
@@ -307,7 +307,7 @@ static void repeated_points_are_told_by_node_and_then_by_point(void **state)
     nodes[RIGHT] = (octree_foreign_node){.id = 60, UNDER(50), X_BOX(0, 10), POINTS(4, 3, 4, 3)};
     const octree_foreign_state *foreign = &tick_with(nodes, NODES, NULL)->foreign;
     static const uint64_t nodes_and_points[][2] = {{50, 4}, {60, 3}, {60, 4}};
-    assert_int_equal(foreign->fault_count, 3);
+    assert_int_equal(foreign->wrong_count, 3);
     for (size_t i = 0; i < 3; i++) {
         assert_int_equal(foreign->listed[i].kind, OCTREE_NODE_REPEATED_POINT);
         assert_int_equal(foreign->listed[i].node, nodes_and_points[i][0]);
@@ -349,8 +349,8 @@ static void boxes_of_floats_are_compared_in_floats(void **state)
     session.bodies = near;
     session.body_count = 1;
     octree_game *game = start_game(&session);
-    assert_int_equal(octree_game_tick(game)->foreign.faults[OCTREE_NODE_OUTSIDE_PARENT], 1);
-    assert_int_equal(octree_game_tick(game)->foreign.faults[OCTREE_NODE_OUTSIDE_POINT], 1);
+    assert_int_equal(octree_game_tick(game)->foreign.wrong[OCTREE_NODE_OUTSIDE_PARENT], 1);
+    assert_int_equal(octree_game_tick(game)->foreign.wrong[OCTREE_NODE_OUTSIDE_POINT], 1);
     octree_game_destroy(game);
     nodes[0].precision = OCTREE_FLOATS;
     game = start_game(&session);
@@ -376,7 +376,7 @@ static void boxes_of_floats_are_compared_in_floats(void **state)
     {                                                                                                                  \
         __VA_ARGS__                                                                                                    \
     }
-#define PRUNED(...) .met = {[OCTREE_MET_PRUNED] = IDS(__VA_ARGS__)}
+#define PRUNED(...) .visits = {[OCTREE_NODE_PRUNED] = IDS(__VA_ARGS__)}
 
 static const octree_tick *right_tick(const octree_query *query)
 {
@@ -387,35 +387,36 @@ static void how_queries_met_nodes_is_told(void **state)
 {
     (void)state;
     const octree_query query = {
-        .kind = OCTREE_QUERY_NEAREST, .target = {3, 0, 0}, .met = {IDS(50, 60, 50), IDS(7), IDS(60)}};
+        .kind = OCTREE_QUERY_NEAREST, .target = {3, 0, 0}, .visits = {IDS(50, 60, 50), IDS(7), IDS(60)}};
     const octree_tick *tick = right_tick(&query);
     assert_faultless(tick);
-    assert_true(tick->foreign.met[OCTREE_MET_VISITED] == 2 && tick->foreign.met[OCTREE_MET_PRUNED] == 1);
-    assert_int_equal(tick->foreign.nodes[RIGHT].met, 1 << OCTREE_MET_VISITED | 1 << OCTREE_MET_HIT);
-    assert_int_equal(tick->foreign.nodes[LEFT].met, 1 << OCTREE_MET_PRUNED);
-    assert_int_equal(play_key(last_game, '.')->foreign.nodes[RIGHT].met, 0);
-    assert_int_equal(octree_game_tick(last_game)->foreign.met[OCTREE_MET_VISITED], 0);
+    assert_true(tick->foreign.visits[OCTREE_NODE_VISITED] == 2 && tick->foreign.visits[OCTREE_NODE_PRUNED] == 1);
+    assert_int_equal(tick->foreign.nodes[RIGHT].visits, 1 << OCTREE_NODE_VISITED | 1 << OCTREE_NODE_HIT);
+    assert_int_equal(tick->foreign.nodes[LEFT].visits, 1 << OCTREE_NODE_PRUNED);
+    assert_int_equal(play_key(last_game, '.')->foreign.nodes[RIGHT].visits, 0);
+    assert_int_equal(octree_game_tick(last_game)->foreign.visits[OCTREE_NODE_VISITED], 0);
     assert_int_equal(octree_game_ask(last_game, &query, 1), OCTREE_OK);
-    assert_int_equal(octree_game_tick(last_game)->foreign.met[OCTREE_MET_HIT], 1);
-    tick = right_tick(ASK(.kind = OCTREE_QUERY_NEAREST, .target = {3, 0, 0}, .met = {[OCTREE_MET_HIT] = IDS(60, 61)}));
+    assert_int_equal(octree_game_tick(last_game)->foreign.visits[OCTREE_NODE_HIT], 1);
+    tick =
+        right_tick(ASK(.kind = OCTREE_QUERY_NEAREST, .target = {3, 0, 0}, .visits = {[OCTREE_NODE_HIT] = IDS(60, 61)}));
     assert_fault(tick, OCTREE_NODE_UNKNOWN_NODE, 61, 0);
-    assert_int_equal(octree_query_check(ASK(.met = {{NULL, 1}})), OCTREE_NULL_ARGUMENT);
-    assert_int_equal(octree_query_check(ASK(.met = {IDS(OCTREE_NODE_ID_LIMIT)})), OCTREE_BAD_SIZE);
+    assert_int_equal(octree_query_check(ASK(.visits = {{NULL, 1}})), OCTREE_NULL_ARGUMENT);
+    assert_int_equal(octree_query_check(ASK(.visits = {IDS(OCTREE_NODE_ID_LIMIT)})), OCTREE_BAD_SIZE);
 }
 
 static void a_node_that_was_pruned_with_a_point_of_the_answer_is_found(void **state)
 {
     (void)state;
-    const octree_node_fault_kind pruned = OCTREE_NODE_PRUNED_POINT;
+    const octree_wrong_node_kind pruned = OCTREE_NODE_PRUNED_POINT;
 #define RANGE .kind = OCTREE_QUERY_RANGE, .box = { {-3, -1, -1}, {3, 1, 1} }
     assert_faultless(right_tick(ASK(RANGE, PRUNED(8))));
     assert_fault(right_tick(ASK(RANGE, PRUNED(8, 60))), pruned, 60, 3);
     assert_fault(right_tick(ASK(RANGE, PRUNED(7))), pruned, 7, 2);
-    assert_int_equal(play_key(last_game, '.')->foreign.nodes[LEFT].faults, 0); /* it is the query's, of its tick */
-    assert_fault(right_tick(ASK(RANGE, PRUNED(7, 8, 3))), pruned, 3, 2);       /* the first from the point up */
-    assert_faultless(right_tick(ASK(RANGE, .met = {IDS(3), IDS(7)})));
-    assert_faultless(right_tick(ASK(RANGE, .met = {IDS(7), IDS(7)})));
-    assert_faultless(right_tick(ASK(RANGE, .met = {[OCTREE_MET_PRUNED] = IDS(7), [OCTREE_MET_HIT] = IDS(7)})));
+    assert_int_equal(play_key(last_game, '.')->foreign.nodes[LEFT].wrong, 0); /* it is the query's, of its tick */
+    assert_fault(right_tick(ASK(RANGE, PRUNED(7, 8, 3))), pruned, 3, 2);      /* the first from the point up */
+    assert_faultless(right_tick(ASK(RANGE, .visits = {IDS(3), IDS(7)})));
+    assert_faultless(right_tick(ASK(RANGE, .visits = {IDS(7), IDS(7)})));
+    assert_faultless(right_tick(ASK(RANGE, .visits = {[OCTREE_NODE_PRUNED] = IDS(7), [OCTREE_NODE_HIT] = IDS(7)})));
 #define NEAR(x, many) .kind = OCTREE_QUERY_KNEAREST, .target = {x, 0, 0}, .k = (many)
     assert_faultless(right_tick(ASK(NEAR(0.5, 1), PRUNED(7))));
     assert_fault(right_tick(ASK(NEAR(0.5, 1), PRUNED(60))), pruned, 60, 3);
@@ -423,7 +424,7 @@ static void a_node_that_was_pruned_with_a_point_of_the_answer_is_found(void **st
     /* Points at the same distance stand for each other. */
     assert_faultless(right_tick(ASK(NEAR(0, 1), .skip = OCTREE_SKIP_COINCIDENT, PRUNED(7))));
     assert_faultless(right_tick(ASK(NEAR(0, 1), .skip = OCTREE_SKIP_COINCIDENT, PRUNED(60))));
-    assert_int_equal(right_tick(ASK(NEAR(0, 1), .skip = OCTREE_SKIP_COINCIDENT, PRUNED(7, 60)))->foreign.fault_count,
+    assert_int_equal(right_tick(ASK(NEAR(0, 1), .skip = OCTREE_SKIP_COINCIDENT, PRUNED(7, 60)))->foreign.wrong_count,
                      1);
     /* And what a promise allows is no fault: 2 is 3 away, 3 is 1 away. */
     assert_fault(right_tick(ASK(NEAR(1, 1), .epsilon = 1.9, PRUNED(60))), pruned, 60, 3);
@@ -442,7 +443,7 @@ static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
     nodes[LEFT] = (octree_foreign_node){.id = 7, UNDER(50), X_BOX(-10, 5), POINTS(3)};
     assert_faultless(tick_with(nodes, NODES, ASK(RANGE, PRUNED(60))));
     assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(7))), OCTREE_NODE_PRUNED_POINT, 7, 2); /* not of 3 */
-    assert_int_equal(tick_with(nodes, NODES, ASK(RANGE, PRUNED(60, 7)))->foreign.faults[OCTREE_NODE_PRUNED_POINT], 2);
+    assert_int_equal(tick_with(nodes, NODES, ASK(RANGE, PRUNED(60, 7)))->foreign.wrong[OCTREE_NODE_PRUNED_POINT], 2);
     /* Leaves that do not say: by their boxes. */
     nodes[LEFT] = right_nodes[LEFT];
     nodes[RIGHT].has_points = false;
@@ -495,9 +496,9 @@ static void a_point_that_moves_is_judged_where_it_is(void **state)
     octree_game *game = start_game(&session);
     assert_faultless(octree_game_tick(game));
     const octree_tick *tick = play_key(game, '.');
-    assert_int_equal(tick->foreign.faults[OCTREE_NODE_OUTSIDE_POINT], 1);
-    assert_int_equal(tick->foreign.faults[OCTREE_NODE_PRUNED_POINT], 1);
-    assert_int_equal(play_key(game, '.')->foreign.fault_count, 2);
+    assert_int_equal(tick->foreign.wrong[OCTREE_NODE_OUTSIDE_POINT], 1);
+    assert_int_equal(tick->foreign.wrong[OCTREE_NODE_PRUNED_POINT], 1);
+    assert_int_equal(play_key(game, '.')->foreign.wrong_count, 2);
     octree_game_destroy(game);
 }
 
@@ -509,9 +510,9 @@ static void faults_are_listed_up_to_a_number_and_all_counted(void **state)
     for (size_t i = 0; i < 300; i++)
         nodes[i] = (octree_foreign_node){.id = i, X_BOX(-10, 10), .has_points = true, .points = {ids, 5}};
     const octree_foreign_state *f = &tick_with(nodes, 300, NULL)->foreign;
-    assert_int_equal(f->fault_count, 300);
-    assert_int_equal(f->faults[OCTREE_NODE_UNKNOWN_POINT], 300);
-    assert_int_equal(f->listed_count, OCTREE_LISTED_NODE_FAULTS);
+    assert_int_equal(f->wrong_count, 300);
+    assert_int_equal(f->wrong[OCTREE_NODE_UNKNOWN_POINT], 300);
+    assert_int_equal(f->listed_count, OCTREE_LISTED_WRONG_NODES);
     assert_int_equal(f->listed[99].node, 99);
 }
 

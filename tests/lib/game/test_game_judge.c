@@ -31,7 +31,7 @@ static octree_judgement judge_one(octree_query q, const uint64_t *ids, size_t co
     assert_int_equal(octree_game_create(&session, &last_game), OCTREE_OK);
     const octree_tick *tick = octree_game_tick(last_game);
     const octree_judgement made = tick->answers[0].judgement;
-    assert_int_equal((tick->events & OCTREE_EVENT_WRONG) != 0, made.fault != OCTREE_FAULT_NONE);
+    assert_int_equal((tick->events & OCTREE_EVENT_WRONG) != 0, made.wrong != OCTREE_WRONG_NONE);
     assert_memory_equal(made.given, ids, count * sizeof *ids);
     return made;
 }
@@ -45,55 +45,55 @@ static const octree_query box = {.kind = OCTREE_QUERY_RANGE, .box = {{-2, -2, -2
 static void ties_are_right_in_any_order(void **state)
 {
     (void)state;
-    assert_int_equal(judge_one(three, IDS(6, 1, 2)).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_one(three, IDS(3, 6, 1)).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_one(ball, IDS(3, 6, 1, 2)).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_one(box, IDS(1, 2, 6, 3)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(three, IDS(6, 1, 2)).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_one(three, IDS(3, 6, 1)).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_one(ball, IDS(3, 6, 1, 2)).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_one(box, IDS(1, 2, 6, 3)).wrong, OCTREE_WRONG_NONE);
 }
 
 static void every_fault_has_its_reason(void **state)
 {
     (void)state;
     octree_judgement j = judge_one(three, IDS(6, 1, 99, 77));
-    assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.fault_id == 77);
+    assert_true(j.wrong == OCTREE_WRONG_UNKNOWN && j.wrong_id == 77);
     j = judge_one(three, IDS(6, 1, 77, 99));
-    assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.fault_id == 77);
+    assert_true(j.wrong == OCTREE_WRONG_UNKNOWN && j.wrong_id == 77);
     j = judge_one(three, IDS(6, 1, 1));
-    assert_true(j.fault == OCTREE_FAULT_DUPLICATE && j.fault_id == 1 && j.missed_count == 1 && j.missed[0].id == 2);
+    assert_true(j.wrong == OCTREE_WRONG_DUPLICATE && j.wrong_id == 1 && j.missing_count == 1 && j.missing[0].id == 2);
     j = judge_one(three, IDS(6, 1));
-    assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 3 && j.missed_count == 1 && j.missed[0].id == 2);
+    assert_true(j.wrong == OCTREE_WRONG_COUNT && j.rank == 3 && j.missing_count == 1 && j.missing[0].id == 2);
     j = judge_one(three, NULL, 0);
-    assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 1 && j.missed_count == 3 && isinf(j.ratio));
+    assert_true(j.wrong == OCTREE_WRONG_COUNT && j.rank == 1 && j.missing_count == 3 && isinf(j.ratio));
     j = judge_one(three, IDS(77));
-    assert_true(j.fault == OCTREE_FAULT_UNKNOWN && j.missed_count == 3 && isinf(j.ratio));
+    assert_true(j.wrong == OCTREE_WRONG_UNKNOWN && j.missing_count == 3 && isinf(j.ratio));
     j = judge_one(three, IDS(6, 1, 2, 3));
-    assert_true(j.fault == OCTREE_FAULT_COUNT && j.rank == 4 && j.missed_count == 0 && j.ratio == 1);
+    assert_true(j.wrong == OCTREE_WRONG_COUNT && j.rank == 4 && j.missing_count == 0 && j.ratio == 1);
     j = judge_one(three, IDS(6, 2, 3));
-    assert_true(j.fault == OCTREE_FAULT_FARTHER && j.rank == 2 && j.ratio == 2 && j.missed_count == 1);
-    assert_true(j.missed[0].id == 1 && j.extra_count == 0 && j.expected == 3);
+    assert_true(j.wrong == OCTREE_WRONG_FARTHER && j.rank == 2 && j.ratio == 2 && j.missing_count == 1);
+    assert_true(j.missing[0].id == 1 && j.extra_count == 0 && j.expected == 3);
     j = judge_one(three, IDS(6, 1, 4));
-    assert_true(j.rank == 3 && j.ratio == 1.5 && j.extra_count == 1 && j.extra[0].id == 4 && j.missed[0].id == 2);
+    assert_true(j.rank == 3 && j.ratio == 1.5 && j.extra_count == 1 && j.extra[0].id == 4 && j.missing[0].id == 2);
     j = judge_one(three, IDS(1, 2, 3));
-    assert_true(j.rank == 1 && isinf(j.ratio) && j.missed_count == 1 && j.missed[0].id == 6);
+    assert_true(j.rank == 1 && isinf(j.ratio) && j.missing_count == 1 && j.missing[0].id == 6);
     j = judge_one(ball, IDS(6, 1, 2));
-    assert_true(j.fault == OCTREE_FAULT_MISSED && j.missed_count == 1 && j.missed[0].id == 3 && j.expected == 4);
+    assert_true(j.wrong == OCTREE_WRONG_MISSING && j.missing_count == 1 && j.missing[0].id == 3 && j.expected == 4);
     j = judge_one(box, IDS(6, 1, 2, 3, 4));
-    assert_true(j.fault == OCTREE_FAULT_EXTRA && j.extra_count == 1 && j.extra[0].id == 4);
+    assert_true(j.wrong == OCTREE_WRONG_EXTRA && j.extra_count == 1 && j.extra[0].id == 4);
     j = judge_one(box, NULL, 0);
-    assert_true(j.fault == OCTREE_FAULT_MISSED && j.missed_count == 4);
+    assert_true(j.wrong == OCTREE_WRONG_MISSING && j.missing_count == 4);
     octree_query q = three;
     q.k = 0;
     j = judge_one(q, IDS(1));
-    assert_true(j.fault == OCTREE_FAULT_COUNT && j.extra_count == 1 && j.extra[0].id == 1 && j.expected == 0);
+    assert_true(j.wrong == OCTREE_WRONG_COUNT && j.extra_count == 1 && j.extra[0].id == 1 && j.expected == 0);
     q = three;
     q.skip = OCTREE_SKIP_COINCIDENT;
     j = judge_one(q, IDS(6, 1, 2));
-    assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == 6);
-    assert_int_equal(judge_one(q, IDS(1, 2, 3)).fault, OCTREE_FAULT_NONE);
+    assert_true(j.wrong == OCTREE_WRONG_SKIPPED && j.wrong_id == 6);
+    assert_int_equal(judge_one(q, IDS(1, 2, 3)).wrong, OCTREE_WRONG_NONE);
     q.at_player = true;
     q.skip = OCTREE_SKIP_NONE;
     j = judge_one(q, IDS(PLAYER, 4, 2));
-    assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == PLAYER);
+    assert_true(j.wrong == OCTREE_WRONG_SKIPPED && j.wrong_id == PLAYER);
 }
 
 static void a_promise_about_a_box_without_ends_is_held_to_it(void **state)
@@ -103,17 +103,17 @@ static void a_promise_about_a_box_without_ends_is_held_to_it(void **state)
     q.epsilon = 1;
     q.box.min[0] = -INFINITY;
     q.box.max[1] = INFINITY;
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 5)).fault, OCTREE_FAULT_EXTRA);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 5)).wrong, OCTREE_WRONG_EXTRA);
     q.box.max[0] = -INFINITY;
-    assert_int_equal(judge_one(q, NULL, 0).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_one(q, IDS(4)).fault, OCTREE_FAULT_EXTRA);
+    assert_int_equal(judge_one(q, NULL, 0).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_one(q, IDS(4)).wrong, OCTREE_WRONG_EXTRA);
     q = box;
     q.box.min[0] = 0.5;
     q.epsilon = 2.5;
-    assert_int_equal(judge_one(q, IDS(1, 3)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(q, IDS(1, 3)).wrong, OCTREE_WRONG_NONE);
     q.epsilon = next_down(2.5);
-    assert_int_equal(judge_one(q, IDS(1, 3)).fault, OCTREE_FAULT_EXTRA);
+    assert_int_equal(judge_one(q, IDS(1, 3)).wrong, OCTREE_WRONG_EXTRA);
 }
 
 /* Judged by the truth, whose own answer has no epsilon then. */
@@ -123,20 +123,20 @@ static void a_promise_with_epsilon_is_held_to_it(void **state)
     octree_query q = three;
     q.epsilon = 0.5;
     octree_judgement j = judge_one(q, IDS(6, 1, 4));
-    assert_true(j.fault == OCTREE_FAULT_NONE && j.ratio == 1.5 && j.rank == 0 && j.missed_count == 0);
+    assert_true(j.wrong == OCTREE_WRONG_NONE && j.ratio == 1.5 && j.rank == 0 && j.missing_count == 0);
     assert_int_equal(octree_game_tick(last_game)->answers[0].neighbors[2].point.id, 2);
-    assert_int_equal(judge_one(q, IDS(6, 4, 2)).fault, OCTREE_FAULT_FARTHER);
-    assert_int_equal(judge_one(q, IDS(1, 2, 3)).fault, OCTREE_FAULT_FARTHER);
+    assert_int_equal(judge_one(q, IDS(6, 4, 2)).wrong, OCTREE_WRONG_FARTHER);
+    assert_int_equal(judge_one(q, IDS(1, 2, 3)).wrong, OCTREE_WRONG_FARTHER);
     q = ball;
     q.epsilon = 1;
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 5)).fault, OCTREE_FAULT_EXTRA);
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 4)).fault, OCTREE_FAULT_MISSED);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 5)).wrong, OCTREE_WRONG_EXTRA);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 4)).wrong, OCTREE_WRONG_MISSING);
     q = box;
     q.epsilon = 1;
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).wrong, OCTREE_WRONG_NONE);
     q.epsilon = next_down(1);
-    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).fault, OCTREE_FAULT_EXTRA);
+    assert_int_equal(judge_one(q, IDS(6, 1, 2, 3, 4)).wrong, OCTREE_WRONG_EXTRA);
 }
 
 /* Else a promise would be judged by what is no truth. */
@@ -190,9 +190,9 @@ static octree_judgement judge_floats(const octree_body *bodies, size_t count, oc
     assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
     static octree_point missed;
     octree_judgement made = octree_game_tick(game)->answers[0].judgement;
-    if (made.missed_count > 0)
-        missed = made.missed[0];
-    made.missed = &missed;
+    if (made.missing_count > 0)
+        missed = made.missing[0];
+    made.missing = &missed;
     octree_game_destroy(game);
     return made;
 }
@@ -208,20 +208,20 @@ static void floats_that_coincide_are_left_out(void **state)
                                 {.id = 4, .position = {7, 0, 0}}};
     octree_query q = {.kind = OCTREE_QUERY_KNEAREST, .k = 1, .skip = OCTREE_SKIP_COINCIDENT};
     octree_judgement j = judge_floats(near + 1, 3, q, NULL, 0);
-    assert_true(j.fault == OCTREE_FAULT_COUNT && j.missed_count == 1 && j.missed[0].id == 4);
+    assert_true(j.wrong == OCTREE_WRONG_COUNT && j.missing_count == 1 && j.missing[0].id == 4);
     j = judge_floats(near, 4, q, IDS(3));
-    assert_true(j.fault == OCTREE_FAULT_NONE && j.expected == 1);
+    assert_true(j.wrong == OCTREE_WRONG_NONE && j.expected == 1);
     j = judge_floats(near, 4, q, IDS(1));
-    assert_true(j.fault == OCTREE_FAULT_SKIPPED && j.fault_id == 1);
+    assert_true(j.wrong == OCTREE_WRONG_SKIPPED && j.wrong_id == 1);
     q.k = 3; /* of which there are two */
     j = judge_floats(near, 4, q, IDS(3, 4));
-    assert_true(j.fault == OCTREE_FAULT_NONE && j.expected == 2);
+    assert_true(j.wrong == OCTREE_WRONG_NONE && j.expected == 2);
     q.k = 9; /* more than there are points */
-    assert_int_equal(judge_floats(near, 4, q, IDS(3, 4)).fault, OCTREE_FAULT_NONE);
-    assert_int_equal(judge_floats(near, 4, q, IDS(4)).fault, OCTREE_FAULT_COUNT);
+    assert_int_equal(judge_floats(near, 4, q, IDS(3, 4)).wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(judge_floats(near, 4, q, IDS(4)).wrong, OCTREE_WRONG_COUNT);
     const octree_body twins[] = {{.id = 1}, {.id = 2}, {.id = 3}, {.id = 4, .position = {7, 0, 0}}};
     q.k = 2; /* one is there, and it is not known how far others are */
-    assert_int_equal(judge_floats(twins, 4, q, IDS(4)).fault, OCTREE_FAULT_NONE);
+    assert_int_equal(judge_floats(twins, 4, q, IDS(4)).wrong, OCTREE_WRONG_NONE);
 }
 
 /* Point 4 is nearest in doubles and on the target in floats, so that balls grow: twice the first is one of 2.5. It has
@@ -250,7 +250,7 @@ static void the_kth_of_floats_is_nearer_than_all_that_a_ball_left_out(void **sta
     octree_game_destroy(last_game);
     assert_int_equal(octree_game_create(&session, &last_game), OCTREE_OK);
     const octree_judgement j = octree_game_tick(last_game)->answers[1].judgement;
-    assert_true(j.missed_count == 2 && j.missed[0].id == 1 && j.missed[1].id == 3);
+    assert_true(j.missing_count == 2 && j.missing[0].id == 1 && j.missing[1].id == 3);
 }
 
 /* Floats end long before doubles do. */
@@ -292,9 +292,9 @@ static void floats_are_judged_in_worlds_beyond_them(void **state)
     octree_game *game;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
     const octree_tick *tick = octree_game_tick(game);
-    assert_int_equal(tick->answers[0].judgement.fault, OCTREE_FAULT_NONE);
-    assert_int_equal(tick->answers[1].judgement.fault, OCTREE_FAULT_NONE);
-    assert_int_equal(tick->answers[2].judgement.fault, OCTREE_FAULT_FARTHER);
+    assert_int_equal(tick->answers[0].judgement.wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(tick->answers[1].judgement.wrong, OCTREE_WRONG_NONE);
+    assert_int_equal(tick->answers[2].judgement.wrong, OCTREE_WRONG_FARTHER);
     octree_game_destroy(game);
 }
 
@@ -319,8 +319,8 @@ static void a_promise_beyond_doubles_is_held_to_it(void **state)
     for (int i = 0; i < 2; i++) {
         octree_game *game;
         assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
-        assert_int_equal(octree_game_tick(game)->answers[0].judgement.fault,
-                         i ? OCTREE_FAULT_EXTRA : OCTREE_FAULT_NONE);
+        assert_int_equal(octree_game_tick(game)->answers[0].judgement.wrong,
+                         i ? OCTREE_WRONG_EXTRA : OCTREE_WRONG_NONE);
         octree_game_destroy(game);
         q.epsilon = 1e307;
     }
@@ -329,19 +329,19 @@ static void a_promise_beyond_doubles_is_held_to_it(void **state)
 static void names_are_those_of_files(void **state)
 {
     (void)state;
-    assert_string_equal(octree_fault_name(OCTREE_FAULT_NONE), "none");
-    assert_string_equal(octree_fault_name(OCTREE_FAULT_EXTRA), "extra");
-    assert_null(octree_fault_name(OCTREE_FAULTS));
+    assert_string_equal(octree_wrong_name(OCTREE_WRONG_NONE), "none");
+    assert_string_equal(octree_wrong_name(OCTREE_WRONG_EXTRA), "extra");
+    assert_null(octree_wrong_name(OCTREE_WRONG_KINDS));
     assert_string_equal(octree_precision_name(OCTREE_FLOATS), "float");
     assert_null(octree_precision_name(OCTREE_PRECISIONS));
     assert_string_equal(octree_event_name(OCTREE_EVENT_WRONG), "wrong");
-    assert_string_equal(octree_met_name(OCTREE_MET_HIT), "hit");
-    assert_null(octree_met_name(OCTREE_MET_KINDS));
-    assert_string_equal(octree_node_fault_name(OCTREE_NODE_PRUNED_POINT), "pruned_point");
-    assert_null(octree_node_fault_name(OCTREE_NODE_FAULTS));
-    assert_null(octree_node_fault_words(OCTREE_NODE_FAULTS));
-    for (int kind = 0; kind < OCTREE_NODE_FAULTS; kind++)
-        assert_non_null(octree_node_fault_words((octree_node_fault_kind)kind));
+    assert_string_equal(octree_node_visit_name(OCTREE_NODE_HIT), "hit");
+    assert_null(octree_node_visit_name(OCTREE_NODE_VISITS));
+    assert_string_equal(octree_wrong_node_name(OCTREE_NODE_PRUNED_POINT), "pruned_point");
+    assert_null(octree_wrong_node_name(OCTREE_WRONG_NODE_KINDS));
+    assert_null(octree_wrong_node_words(OCTREE_WRONG_NODE_KINDS));
+    for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
+        assert_non_null(octree_wrong_node_words((octree_wrong_node_kind)kind));
 }
 
 static int forget_game(void **state)

@@ -322,8 +322,8 @@ static bool assert_judged(const made_tick *made, const octree_tick *tick)
     for (int i = 0; i < QUERIES; i++) {
         const octree_judgement *j = &tick->answers[i].judgement;
         assert_true(j->judged && j->given_count == made->queries[i].answer_count);
-        assert_int_equal(j->fault != OCTREE_FAULT_NONE, made->wrong[i]);
-        assert_true(made->wrong[i] || (j->missed_count == 0 && j->extra_count == 0 && j->rank == 0));
+        assert_int_equal(j->wrong != OCTREE_WRONG_NONE, made->wrong[i]);
+        assert_true(made->wrong[i] || (j->missing_count == 0 && j->extra_count == 0 && j->rank == 0));
         assert_true(made->wrong[i] || !is_near(made->queries[i].kind) || j->ratio == 1);
         any |= made->wrong[i];
     }

@@ -188,7 +188,7 @@ static void each_fault_of_nodes_survives_each_failure(void **state)
         octree_foreign_node root;
         const uint64_t *ids;
         size_t count;
-        octree_node_fault_kind kind;
+        octree_wrong_node_kind kind;
     } rows[] = {{narrow, NULL, 0, OCTREE_NODE_OUTSIDE_PARENT},
                 {all, unknown, 5, OCTREE_NODE_UNKNOWN_POINT},
                 {all, twice, 7, OCTREE_NODE_REPEATED_POINT},
@@ -209,7 +209,7 @@ static void each_fault_of_nodes_survives_each_failure(void **state)
         session.foreign_count = 1;
         octree_game *game;
         assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
-        assert_true(octree_game_tick(game)->foreign.faults[rows[i].kind] > 1);
+        assert_true(octree_game_tick(game)->foreign.wrong[rows[i].kind] > 1);
         octree_game_destroy(game);
         assert_true(fail_each(&session) > 10);
     }
@@ -230,7 +230,7 @@ static void what_was_pruned_wrongly_survives_each_failure(void **state)
                           .target = {-1, -1, 5},
                           .k = 5,
                           .epsilon = 9,
-                          .met = {[OCTREE_MET_PRUNED] = {pruned, 1}}};
+                          .visits = {[OCTREE_NODE_PRUNED] = {pruned, 1}}};
     octree_body row[ROW];
     octree_session session = row_session(row);
     session.foreign = &tree;

@@ -10,13 +10,13 @@ const NASTY = ["", "NaN", "-1", "1e308", "0", "1,2", "z=0", "x=nan", "2:5", "9:1
 const KEYS_PRESSED = ["ArrowRight", "ArrowLeft", "PageDown", "PageUp", "Home", "End", " ", "+", "-", "j", "k", "1", "2", "3",
                       "4", "5", "6", "0", ..."wsdaefn.qwsdaef", "c", "Escape", "?", "x"];
 const FILES = [
-    ["cut.json", '{"octreel": "session", "version": 1, "points": [[1, 2'],
+    ["cut.json", '{"octreel": "session", "version": 2, "points": [[1, 2'],
     ["frame.png", "\x89PNG\r\n"],
-    ["newer.json", '{"octreel": "session", "version": 2}'],
-    ["three.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 3], [40, 5, 6], [1, 2, 3]], "keys": "wwddnee"}'],
-    ["nobody.json", '{"octreel": "session", "version": 1, "player": null, "points": {"sample": "uniform", "count": 300, "seed": 1}, ' +
+    ["newer.json", '{"octreel": "session", "version": 3}'],
+    ["three.json", '{"octreel": "session", "version": 2, "points": [[1, 2, 3], [40, 5, 6], [1, 2, 3]], "keys": "wwddnee"}'],
+    ["nobody.json", '{"octreel": "session", "version": 2, "player": null, "points": {"sample": "uniform", "count": 300, "seed": 1}, ' +
                     '"velocities": {"speed": 90, "seed": 3}, "ticks": 40}\n{"tick": 4, "gap": "why"}\n{"tick": 9, "gap": "why not"}'],
-    ["body.json", '{"octreel": "session", "version": 1, "player": {"id": 1, "body": true, "box_size": 90}, "points": ' +
+    ["body.json", '{"octreel": "session", "version": 2, "player": {"id": 1, "body": true, "box_size": 90}, "points": ' +
                   '[{"id": 1, "position": [0, 0, 0], "velocity": [50, 60, 70]}], "keys": "wn", "ticks": 30}\n' +
                   '{"tick": 5, "edits": [{"remove": 1}, {"remove": 1}]}\n{"tick": 8, "edits": [{"insert": {"id": 1, "position": [1, 1, 1]}}]}'],
     ["default.json", byId("session").textContent],

@@ -108,7 +108,7 @@ async function leaveMeanwhile()
     interaction.controls.change({labels: true});
     await interaction.start();
     octreel.goTo(octreel.last);
-    const opened = interaction.open(new File(['{"octreel": "session", "version": 1, "ticks": 3}'], "short.json"));
+    const opened = interaction.open(new File(['{"octreel": "session", "version": 2, "ticks": 3}'], "short.json"));
     await until(() => octreel.recording !== interaction.recorded || octreel.last < 9, "the short session");
     octreel.show();
     await opened;
@@ -161,19 +161,19 @@ async function drive()
     await leaveMeanwhile();
     await sayDropped("frame.png", "\x89PNG\r\n");
     await sayDropped("newer.json", '{"octreel": "session", "version": 9}');
-    await sayDropped("cut.json", '{"octreel": "session", "version": 1, "points": [[1, 2');
-    await sayDropped("nan.json", '{"octreel": "session", "version": 1, "points": [[1, 2, NaN]]}');
-    await sayDropped("cloud.json", '{"octreel": "session", "version": 1, "points": {"file": "utm.txt"}}');
-    await sayDropped("huge.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 1e999]]}');
-    await sayDropped("label.json", '{"octreel": "session", "version": 1, "shapes": [{"label": "\u202eabc", "at": [0, 0, 0]}]}');
+    await sayDropped("cut.json", '{"octreel": "session", "version": 2, "points": [[1, 2');
+    await sayDropped("nan.json", '{"octreel": "session", "version": 2, "points": [[1, 2, NaN]]}');
+    await sayDropped("cloud.json", '{"octreel": "session", "version": 2, "points": {"file": "utm.txt"}}');
+    await sayDropped("huge.json", '{"octreel": "session", "version": 2, "points": [[1, 2, 1e999]]}');
+    await sayDropped("label.json", '{"octreel": "session", "version": 2, "shapes": [{"label": "\u202eabc", "at": [0, 0, 0]}]}');
     await sayDropped("a\u202egnp\n.json", "");
     await sayDropped("binary", new Uint8Array(4096), {size: {value: 200 << 20}});
     await sayDropped("large.json", "{", {size: {value: 300 << 20}});
     await sayDropped("folder", "{", {slice: {value: () => ({text: () => Promise.reject(new Error("no file"))})}});
-    await sayDropped("ticks.json", '{"octreel": "session", "version": 1, "ticks": 1000000000, "keys": "ww"}');
+    await sayDropped("ticks.json", '{"octreel": "session", "version": 2, "ticks": 1000000000, "keys": "ww"}');
     say("long", `${player().length} ${player().engine.length}`);
-    await sayDropped("text.json", '{"octreel": "session", "version": 1, "shapes": [{"label": "<\/script><b>", "at": [0, 0, 0]}]}');
-    await sayDropped("good.json", '{"octreel": "session", "version": 1, "points": [[1, 2, 3]], "keys": "ww"}');
+    await sayDropped("text.json", '{"octreel": "session", "version": 2, "shapes": [{"label": "<\/script><b>", "at": [0, 0, 0]}]}');
+    await sayDropped("good.json", '{"octreel": "session", "version": 2, "points": [[1, 2, 3]], "keys": "ww"}');
     await until(() => octreel.recording.length === 3, "the ticks of the session that was dropped");
     say("dropped", `${octreel.last} ${JSON.parse(octreel.recording.lines[2]).player}`);
 }

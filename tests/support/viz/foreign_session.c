@@ -67,8 +67,8 @@ static const octree_query queries[] = {
      .answered = true,
      .answer = found,
      .answer_count = 1,
-     .met = {{seen, 3}, {left_out, 2}, {hit, 1}}},
-    {.tick = 1, ASKED, .answered = true, .met = {{seen, 2}, {too_many, 3}}},
+     .visits = {{seen, 3}, {left_out, 2}, {hit, 1}}},
+    {.tick = 1, ASKED, .answered = true, .visits = {{seen, 2}, {too_many, 3}}},
 };
 
 octree_session foreign_session(void)

@@ -115,7 +115,7 @@ static void grow_nodes(moving_tree *m)
     m->nodes[2].points = (octree_ids){m->listed + right, MOVING_TREE_MOST - right};
     m->foreign = (octree_foreign_tree){.tick = 33, .nodes = m->nodes, .node_count = 3};
     m->about.foreign = random_below(&m->random, 3) ? &m->foreign : NULL;
-    m->queries[0].met[OCTREE_MET_VISITED] = (octree_ids){m->met, 3};
+    m->queries[0].visits[OCTREE_NODE_VISITED] = (octree_ids){m->met, 3};
 }
 
 void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed)

@@ -14,7 +14,7 @@
 
 /* Point 2 is removed in tick 2. */
 #define START                                                                                                          \
-    "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[0,3,0,3]],\"ticks\":3}\n"
+    "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[0,3,0,3]],\"ticks\":3}\n"
 #define FIRST                                                                                                          \
     "{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1]},{\"radius\":3,\"at\":[0,0,0],\"answer\":[3,2,1]}]}" \
     "\n"
@@ -280,7 +280,7 @@ static void a_chart_of_many_ticks_keeps_the_worst(void **state)
     FILE *out = fopen(session.path, "w");
     size_t points = 0;
     assert_non_null(out);
-    fprintf(out, "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2]]}\n");
+    fprintf(out, "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2]]}\n");
     for (int tick = 1; tick <= 1001; tick++)
         fprintf(out, "{\"tick\":%d,\"queries\":[{\"nearest\":[%d,0,0],\"answer\":[1]}]}\n", tick, tick == 777);
     fprintf(out, "{\"tick\":1002,\"queries\":[{\"nearest\":[1,0,0],\"answer\":[2]}]}\n");
@@ -300,7 +300,7 @@ static void a_chart_of_many_ticks_keeps_the_worst(void **state)
 static void faults_of_nodes_are_a_finding(void **state)
 {
     const place session =
-        write_session_text(state, START "{\"tick\":1,\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":"
+        write_session_text(state, START "{\"tick\":1,\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":"
                                         "[9,9,9]},\"points\":[1,2]}]}\n");
     command_result result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
     assert_int_equal(result.status, 1);
@@ -319,7 +319,8 @@ static void faults_of_nodes_are_a_finding(void **state)
 static void nodes_are_counted_by_their_faults_in_json(void **state)
 {
 #define NODES(points)                                                                                                  \
-    START "{\"tick\":1,\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[9,9,9]},\"points\":" points "}]}\n"
+    START "{\"tick\":1,\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[9,9,9]},\"points\":" points      \
+          "}]}\n"
     const place session = write_session_text(state, NODES("[1,2]"));
     command_result result = run_octreel(NULL, "audit %s --json --allow ratio=2,recall=0.5", session.path);
     assert_int_equal(result.status, 1);
@@ -356,7 +357,7 @@ static void many_points_that_are_missed_are_counted(void **state)
 {
     const place session = write_session_text(
         state,
-        "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[3,0,0,3],"
+        "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2],[3,0,0,3],"
         "[4,0,0,4],[5,0,0,5]],\"ticks\":2}\n{\"tick\":1,\"queries\":[{\"radius\":9,\"at\":[0,0,0],\"answer\":[]},"
         "{\"knearest\":1,\"at\":[0,0,0],\"answer\":[1,2]}]}\n");
     command_result result = run_octreel(NULL, "audit %s", session.path);
@@ -375,7 +376,7 @@ static void many_points_that_are_missed_are_counted(void **state)
 static void faults_of_nodes_lead_to_their_ticks(void **state)
 {
     const place session =
-        write_session_text(state, START "{\"tick\":1,\"nodes\":[{\"id\":7,\"box\":{\"min\":[0,0,0],\"max\":"
+        write_session_text(state, START "{\"tick\":1,\"foreign_nodes\":[{\"id\":7,\"box\":{\"min\":[0,0,0],\"max\":"
                                         "[9,9,9]},\"points\":[1,2,2]}]}\n");
     const place film = place_in(*state, "film");
     command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, film.path);
@@ -393,7 +394,7 @@ static void faults_of_nodes_lead_to_their_ticks(void **state)
 /* The answer has them all. */
 static void numbers_of_the_page_are_as_people_write_them(void **state)
 {
-    static const char text[] = "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":"
+    static const char text[] = "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":"
                                "[[0.1234567890123456,0,0,1],[1,0,0,2]],\"queries\":"
                                "[{\"nearest\":[0,0,0],\"answer\":[2]}]}";
     const place session = write_session_text(state, text);

@@ -11,7 +11,7 @@
 static void what_nothing_allows_is_told_before_what_is_allowed(void **state)
 {
 #define BALL(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"radius\":1,\"at\":[1,0,0],\"answer\":" answer "}]}\n"
-    static const char many[] = "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
+    static const char many[] = "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
                                "2],[0,3,0,3]]}\n" BALL("1", "[1]") BALL("2", "[1]") BALL("3", "[1]") BALL("4", "[1]")
                                    BALL("5", "[2,1]") BALL("6", "[1,2,4711]") BALL("7", "[2,1,2]");
     const place session = place_in(*state, "session.json");
@@ -34,7 +34,7 @@ static void what_the_limits_do_not_allow_is_told_before_what_they_do(void **stat
 {
 #define PAIR(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]}\n"
     static const char many[] =
-        "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
+        "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
         "2],[0,4,0,3]]}\n" PAIR("1", "[2,3]") PAIR("2", "[2,3]") PAIR("3", "[2,3]") PAIR("4", "[1]");
     const place session = place_in(*state, "session.json");
     file_write_text(session.path, many);
@@ -51,7 +51,7 @@ static void what_the_limits_do_not_allow_is_told_before_what_they_do(void **stat
 /* Every report says what was allowed, if anything was: of answers and of nodes that are wrong, and of right ones. */
 static void every_report_says_what_is_allowed(void **state)
 {
-#define WRONG "\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"points\":[1,9]}]"
+#define WRONG "\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"points\":[1,9]}]"
 #define ASKED(answer) "\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]"
     static const char *const sessions[] = {ASKED("[1,2]"), ASKED("[1]"), ASKED("[2,1,1]"), ASKED("[1,2]") "," WRONG};
     static const char *const limits[] = {"", "--allow ratio=4", "--allow recall=0.5", "--allow ratio=4,recall=0.5"};
@@ -63,7 +63,7 @@ static void every_report_says_what_is_allowed(void **state)
         const bool right = i / 16 == 0 || (i / 16 == 1 && strstr(limit, "recall"));
         char text[512];
         snprintf(text, sizeof text,
-                 "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2]]}\n"
+                 "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,2]]}\n"
                  "{\"tick\":1,%s}\n",
                  sessions[i / 16]);
         file_write_text(session.path, text);

@@ -52,7 +52,7 @@ static void write_and_film(const temp_folder *own, const char *player, const cha
     const place session = place_in(own, "s.json");
     char text[400];
     snprintf(text, sizeof text,
-             "{\"octreel\": \"session\", \"version\": 1, \"player\": %s, \"points\": [[1, 0, 0, 1]],\n"
+             "{\"octreel\": \"session\", \"version\": 2, \"player\": %s, \"points\": [[1, 0, 0, 1]],\n"
              "\"shapes\": [%s], \"ticks\": 1}\n",
              player, shape);
     file_write_text(session.path, text);

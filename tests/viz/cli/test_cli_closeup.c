@@ -70,7 +70,7 @@ static void pictures_of_clouds_have_one_of_what_is_asked(void **state)
 
 /* A ball is asked for at tick 1, and nothing at tick 2. */
 #define HEADER                                                                                                         \
-    "{\"octreel\": \"session\", \"version\": 1, \"player\": null, \"ticks\": 2, \"points\": [[505, 500, 500, 7]]}\n"
+    "{\"octreel\": \"session\", \"version\": 2, \"player\": null, \"ticks\": 2, \"points\": [[505, 500, 500, 7]]}\n"
 #define ASKED "{\"tick\": 1, \"queries\": [{\"radius\": 20, \"at\": [500, 500, 500]}]}\n"
 
 static place record(const temp_folder *own, const char *name, const char *arguments)

@@ -11,7 +11,7 @@
 #include "session_file.h"
 #include "tick_lines.h"
 
-#define HEADER "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 3,\n"
+#define HEADER "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 3,\n"
 #define FILM "record %s --size 160x90 --jobs 1 -o %s"
 
 /* Coordinates of a survey, far from any world that is taken for granted. */

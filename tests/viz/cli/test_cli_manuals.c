@@ -175,12 +175,12 @@ static void assert_names_are_told(const char *json, const char *text)
 static void every_member_of_a_recording_is_told(void **state)
 {
     static const char session[] =
-        "{\"octreel\":\"session\",\"version\":1,\"keys\":\"wd\",\"ticks\":3,\"points\":[[1,1,1],[2,2,2],[3,3,3]],"
+        "{\"octreel\":\"session\",\"version\":2,\"keys\":\"wd\",\"ticks\":3,\"points\":[[1,1,1],[2,2,2],[3,3,3]],"
         "\"player\":{\"position\":[0,0,0],\"step\":1,\"box_size\":2,\"sweep\":true},\"queries\":["
         "{\"nearest\":[0,0,0],\"answer\":[3],\"skip\":2},{\"knearest\":2,\"at\":[0,0,0],\"answer\":[9]},"
         "{\"radius\":9,\"at\":[1,1,1],\"answer\":[1,77],\"mode\":\"float\",\"epsilon\":0.1},"
         "{\"range\":{\"min\":[0,0,0],\"max\":[9,9,9]},\"answer\":[1],\"visited\":[5],\"pruned\":[6]}],"
-        "\"nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[2,2,2]},\"points\":[1,3]},"
+        "\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[2,2,2]},\"points\":[1,3]},"
         "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[5,5,5]}}]}\n"
         "{\"tick\":2,\"edits\":[{\"remove\":99}]}\n{\"tick\":3,\"gap\":\"none\"}\n";
     const temp_folder *own = *state;

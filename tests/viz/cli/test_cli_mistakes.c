@@ -18,7 +18,7 @@ static int make_kinds(void **state)
 {
     if (temp_folder_make(state) != 0)
         return -1;
-    file_write_text(place_in(*state, "my.json").path, "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 2}\n");
+    file_write_text(place_in(*state, "my.json").path, "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 2}\n");
     file_write_text(place_in(*state, "sesion.json").path, "{\"octreel\": \"sesion\", \"version\": 1, \"ticks\": 2}\n");
     file_write_text(place_in(*state, "cloud.txt").path, "x y z\n1 2 3\n4 5 6\n");
     file_write_text(place_in(*state, "notes").path, "no cloud, no session\n");
@@ -263,7 +263,7 @@ static void help_is_on_commands_and_sessions(void **state)
     command_release(&option);
     help = run_octreel(NULL, "help session");
     assert_done(&help);
-    assert_non_null(strstr(help.out, "{\"octreel\": \"session\", \"version\": 1"));
+    assert_non_null(strstr(help.out, "{\"octreel\": \"session\", \"version\": 2"));
     command_release(&help);
 }
 

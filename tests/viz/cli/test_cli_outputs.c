@@ -124,7 +124,7 @@ static void refused_comparison_leaves_no_evidence(void **state)
 static void what_lod_leaves_out_is_told_beside_the_frames(void **state)
 {
     static const char sentence[] = "\n2 frames leave out nodes smaller than --lod\n";
-    static const char session[] = "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 1, \"points\": {\"sample\": "
+    static const char session[] = "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 1, \"points\": {\"sample\": "
                                   "\"clustered\", \"count\": 2000, \"seed\": 1}}";
     file_write_text(place_in(*state, "s.json").path, session);
     do_in(state, "record s.json --size 64x36 --layers -text -o film >said");

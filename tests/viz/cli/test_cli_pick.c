@@ -312,8 +312,8 @@ static void nodes_of_a_program_are_named_with_what_is_wrong(void **state)
     const place session = place_in(*state, "s.json"), film = place_in(*state, "film");
     file_write_text(
         session.path,
-        "{\"octreel\": \"session\", \"version\": 1, \"player\": null, \"points\": [[1, 1, 1, 1]], \"world\": "
-        "{\"min\": [0, 0, 0], \"max\": [8, 8, 8]}, \"ticks\": 1}\n{\"tick\": 1, \"nodes\": [{\"id\": 7, "
+        "{\"octreel\": \"session\", \"version\": 2, \"player\": null, \"points\": [[1, 1, 1, 1]], \"world\": "
+        "{\"min\": [0, 0, 0], \"max\": [8, 8, 8]}, \"ticks\": 1}\n{\"tick\": 1, \"foreign_nodes\": [{\"id\": 7, "
         "\"box\": {\"min\": [0, 0, 0], \"max\": [4, 4, 4]}}, {\"id\": 9, \"parent\": 7, \"kind\": \"leaf\", "
         "\"box\": {\"min\": [0, 0, 0], \"max\": [6, 4, 4]}, \"points\": [1, 5]}]}\n");
     command_result result =

@@ -13,7 +13,7 @@
 #include "page.h"
 #include "recordings.h"
 
-#define HEADER "{\"octreel\": \"session\", \"version\": 1,\n"
+#define HEADER "{\"octreel\": \"session\", \"version\": 2,\n"
 
 static void need_pages_that_play(void)
 {

@@ -94,7 +94,7 @@ static void a_stream_is_counted(void **state)
     const place session = place_in(*state, "session"), film = place_in(*state, "film");
     if (!command_has_terminals())
         skip();
-    file_write_text(session.path, "{\"octreel\":\"session\",\"version\":1}\n{\"tick\":3}\n");
+    file_write_text(session.path, "{\"octreel\":\"session\",\"version\":2}\n{\"tick\":3}\n");
     command_result result = run_octreel(&(command_setting){.terminal = true, .columns = 80, .input = session.path},
                                         "record - --size 16x16 -o %s", film.path);
     assert_int_equal(result.status, 0);
@@ -131,7 +131,7 @@ static void an_audit_shows_its_ticks(void **state)
     const place session = place_in(*state, "session.json");
     if (!command_has_terminals())
         skip();
-    file_write_text(session.path, "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,0,0,1]],"
+    file_write_text(session.path, "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1]],"
                                   "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1]}],\"ticks\":9}\n");
     command_result result = run_octreel(&(command_setting){.terminal = true}, "audit %s", session.path);
     assert_int_equal(result.status, 0);

@@ -45,7 +45,7 @@ static void notes_are_left_out_and_errors_are_not(void **state)
 {
     const temp_folder *own = *state;
     file_write_text(place_in(*state, "s.json").path,
-                    "{\"octreel\":\"session\",\"version\":1,\"ticks\":1,"
+                    "{\"octreel\":\"session\",\"version\":2,\"ticks\":1,"
                     "\"world\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"points\":[[9,9,9],[8,8,8],[0,0,0]]}\n");
     command_result result = run_octreel(NULL, "record %s/s.json --size 32x32 -o %s/told", own->name, own->name);
     assert_int_equal(result.status, 0);

@@ -13,7 +13,7 @@
 #include "tick_lines.h"
 
 #define SMALL "--size 160x90"
-#define HEADER "{\"octreel\": \"session\", \"version\": 1,\n"
+#define HEADER "{\"octreel\": \"session\", \"version\": 2,\n"
 
 static void assert_says(const char *arguments, const char *part)
 {
@@ -163,7 +163,7 @@ static void bad_sessions_are_refused_with_file_line_and_reason(void **state)
         {HEADER "\"tree\": {\"capacity\": 0}}", "s.json:2: tree.capacity"},
         {HEADER "\"ticks\": -1}", "s.json:2: ticks"},
         {HEADER "\"ticks\": 1}\n{\"tick\": 1, \"edits\": [{\"remove\": -1}]}", "s.json:3: "},
-        {"{\"octreel\": \"session\", \"version\": 2}", "s.json:1: version"},
+        {"{\"octreel\": \"session\", \"version\": 3}", "s.json:1: version"},
         {"[]", "s.json:1: "},
     };
     const place session = place_in(*state, "s.json"), folder = place_in(*state, "film");
@@ -265,7 +265,7 @@ static void a_budget_that_bites_is_told(void **state)
     assert_non_null(strstr(result.out, "3 frames leave out nodes and points beyond --budget"));
     command_release(&result);
     file_write_text(session.path,
-                    "{\"octreel\": \"session\", \"version\": 1, \"velocities\": {\"speed\": 40, \"seed\": 1},"
+                    "{\"octreel\": \"session\", \"version\": 2, \"velocities\": {\"speed\": 40, \"seed\": 1},"
                     " \"points\": {\"sample\": \"uniform\", \"count\": 40, \"seed\": 1}, \"ticks\": 1}");
     result =
         run_octreel(NULL, "record %s --budget 1000 --layers velocities " SMALL " -o %s", session.path, arrows.path);

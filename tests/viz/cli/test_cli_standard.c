@@ -16,7 +16,7 @@
 #include "page.h"
 
 static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
-static const char session[] = "{\"octreel\":\"session\",\"version\":1,\"points\":{\"sample\":\"uniform\",\"count\":9,"
+static const char session[] = "{\"octreel\":\"session\",\"version\":2,\"points\":{\"sample\":\"uniform\",\"count\":9,"
                               "\"seed\":1},\"keys\":\"wd\",\"queries\":[{\"nearest\":[-999,0,0],\"answer\":[77]}]}\n";
 
 /* Run lines in the folder of the test, where \"$octreel\" is the program. */
@@ -145,7 +145,7 @@ static void a_file_of_that_name_stays_a_file(void **state)
 {
     file_write_text(place_in(*state, "-").path, points);
     file_write_text(place_in(*state, "s.json").path,
-                    "{\"octreel\":\"session\",\"version\":1,\"points\":{\"file\":\"-\"}}");
+                    "{\"octreel\":\"session\",\"version\":2,\"points\":{\"file\":\"-\"}}");
     assert_lines_done(state, "\"$octreel\" record - --no-frames -o a <s.json >b && grep -q '4, 5, 6' a/session.json && "
                              "\"$octreel\" inspect ./- >b");
 }

@@ -15,10 +15,10 @@
 #include "fixture.h"
 #include "recordings.h"
 
-#define HEADER "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[1,2,3,1]]}\n"
+#define HEADER "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,2,3,1]]}\n"
 #define MOVE(tick) "{\"tick\":" #tick ",\"edits\":[{\"move\":{\"id\":1,\"position\":[" #tick ",0,0]}}]}\n"
 #define MANY                                                                                                           \
-    "{\"octreel\":\"session\",\"version\":1,%s \"points\":{\"sample\":\"uniform\",\"count\":20,\"seed\":1},\n"         \
+    "{\"octreel\":\"session\",\"version\":2,%s \"points\":{\"sample\":\"uniform\",\"count\":20,\"seed\":1},\n"         \
     "\"velocities\":{\"speed\":9,\"seed\":2},\"queries\":[{\"knearest\":2,\"at\":\"player\"}],\"shapes\":[{\"point\":" \
     "[1,2,3]}]}\n"
 #define TICKS                                                                                                          \
@@ -82,7 +82,7 @@ static void frames_show_nothing_that_comes_later(void **state)
         "{\"tick\":2,\"queries\":[{\"radius\":9,\"at\":[0,0,0]}]}{\"tick\":3,\"queries\":[{\"range\":{\"min\":[0,0,0],"
         "\"max\":[9,9,9.25]}},{\"radius\":9.125,\"at\":\"player\",\"answer\":[7]}],\"edits\":[{\"remove\":4}]}"
         "{\"tick\":4,\"shapes\":[{\"label\":\"late\",\"at\":[1,2,3.5]}]}"
-        "{\"tick\":5,\"nodes\":[{\"id\":5,\"box\":{\"min\":[1,1,1],\"max\":[5,5,5]},\"kind\":\"leaf\"}]}";
+        "{\"tick\":5,\"foreign_nodes\":[{\"id\":5,\"box\":{\"min\":[1,1,1],\"max\":[5,5,5]},\"kind\":\"leaf\"}]}";
     char text[2048];
     snprintf(text, sizeof text, MANY "%s", "\"keys\":\"wdwds\",", later);
     assert_same_recording(state, text, "--size 640x720");
@@ -154,7 +154,7 @@ static void what_came_before_broken_text_is_whole(void **state)
 static void a_session_that_breaks_off_ends_with_its_last_tick(void **state)
 {
     const place folder = place_in(*state, "film");
-    command_result result = run_script("printf '{\"octreel\":\"session\",\"version\":1,\"ticks\":50,\"keys\":"
+    command_result result = run_script("printf '{\"octreel\":\"session\",\"version\":2,\"ticks\":50,\"keys\":"
                                        "\"wdwdwd\"}\\n{\"tick\":2}\\n{\"tick\":x}' | %s record - --size 640x360 -o %s",
                                        octreel_program(), folder.path);
     assert_trouble(&result, "standard input:3: invalid token near 'x'; ");

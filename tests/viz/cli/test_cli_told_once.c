@@ -20,7 +20,7 @@ static twins film_twins(void **state)
 {
     const twins made = {place_in(*state, "a"), place_in(*state, "b"), place_in(*state, "out")};
     static const char session[] =
-        "{\"octreel\": \"session\", \"version\": 1, \"tree\": {\"capacity\": %d, \"depth\": 5}, "
+        "{\"octreel\": \"session\", \"version\": 2, \"tree\": {\"capacity\": %d, \"depth\": 5}, "
         "\"points\": {\"sample\": \"uniform\", \"count\": 40, \"seed\": 1}, \"keys\": \"wwdds\", \"ticks\": 9}";
     for (int i = 0; i < 2; i++) {
         const place file = place_in(*state, i ? "b.json" : "a.json");

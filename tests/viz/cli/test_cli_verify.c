@@ -43,7 +43,7 @@ static void recording_of_the_program_is_identical_by_every_context(void **state)
 static void one_tick_is_one_and_not_several(void **state)
 {
     const place folder = place_in(*state, "film"), session = place_in(*state, "one.json");
-    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 1}");
+    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 2}");
     command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, folder.path);
     assert_done(&result);
     assert_non_null(strstr(result.out, ": 1 tick, 1 frame, "));

@@ -194,7 +194,7 @@ static void a_recording_of_some_ticks_or_with_gaps_is_whole(void **state)
     result = run_octreel(NULL, "accept %s %s", place_in(*state, "golden").path, film.path);
     assert_done(&result);
     command_release(&result);
-    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 4}\n"
+    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 4}\n"
                                   "{\"tick\": 2, \"gap\": \"lost\"}\n");
     const place gaps = place_in(*state, "gaps");
     result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, gaps.path);

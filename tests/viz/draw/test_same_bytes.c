@@ -145,7 +145,7 @@ static void anti_aliased_frames_with_labels_are_the_same_on_every_machine(void *
 static void crowd_in_motion_is_the_same_on_every_machine(void **state)
 {
     const place session = place_in(*state, "s.json");
-    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 1, \"tree\": {\"capacity\": 4, \"full\": "
+    file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 2, \"tree\": {\"capacity\": 4, \"full\": "
                                   "\"grow\"}, \"points\": {\"sample\": \"clustered\", \"count\": 600, \"seed\": 5}, "
                                   "\"velocities\": {\"speed\": 9, \"seed\": 2}, \"keys\": \"wwdne\"}\n");
     assert_same_on_every_machine(*state, session.path, "--size 320x180 --every 2 --camera follow --color-by occupancy");
@@ -259,7 +259,7 @@ static void recording_of_a_file_of_points_plays_anywhere(void **state)
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     file_write_text(points.path, "1.5 2 3\n-4 5.25 6\n0.1 0.2 0.3\n");
     file_write_text(session.path,
-                    "{\"octreel\": \"session\", \"version\": 1, \"world\": {\"min\": [-10, -10, -10], \"max\": [10, "
+                    "{\"octreel\": \"session\", \"version\": 2, \"world\": {\"min\": [-10, -10, -10], \"max\": [10, "
                     "10, 10]}, \"points\": {\"file\": \"points.txt\"}, \"velocities\": {\"speed\": 0.5, \"seed\": 3}, "
                     "\"keys\": \"nwd\", \"ticks\": 6}\n");
     assert_filmed_by_program(NULL, session.path, VIEW, a.path);

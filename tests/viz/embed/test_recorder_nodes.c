@@ -41,8 +41,8 @@ static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree
                                 .answered = true,
                                 .answer = &answer,
                                 .answer_count = 1,
-                                .met[OCTREE_MET_VISITED] = {visited, 2},
-                                .met[OCTREE_MET_PRUNED] = {&pruned, 1}};
+                                .visits[OCTREE_NODE_VISITED] = {visited, 2},
+                                .visits[OCTREE_NODE_PRUNED] = {&pruned, 1}};
     const octreel_tick_info about = {
         .points = points, .point_count = 2, .queries = &query, .query_count = pruned ? 1 : 0, .foreign = foreign};
     return octreel_recorder_tick(recorder, NULL, &about);
@@ -51,7 +51,7 @@ static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree
 /* The number of the nodes in force of each tick; '-' where there are none, 'W' where something is wrong. */
 static void note_nodes(const char *line, size_t number, void *context)
 {
-    static const char counted[] = "\"program_nodes\": {\"count\": ";
+    static const char counted[] = "\"foreign_nodes\": {\"count\": ";
     const char *nodes = strstr(line, counted);
     char *told = context;
     (void)number;

@@ -12,7 +12,7 @@
 
 /* Every member that session_file.h names. */
 static const char base[] =
-    "{\"octreel\": \"session\", \"version\": 1, \"world\": {\"min\": [-90, -90, -90], \"max\": [91, 91, 91]},"
+    "{\"octreel\": \"session\", \"version\": 2, \"world\": {\"min\": [-90, -90, -90], \"max\": [91, 91, 91]},"
     " \"tree\": {\"capacity\": 2, \"depth\": 4, \"full\": \"refuse\"},"
     " \"player\": {\"id\": 1, \"position\": [2, 2, 2], \"step\": 5, \"box_size\": 3, \"sweep\": false},"
     " \"points\": [{\"id\": 7, \"position\": [10, 10, 10], \"velocity\": [1, 0, 0]}, [20, 30, 40, 8],"

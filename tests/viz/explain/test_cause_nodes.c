@@ -61,7 +61,7 @@ static void ask(variant *v, int side, size_t count, const uint64_t *met, size_t 
                                         .kind = OCTREE_QUERY_RADIUS,
                                         .target = {x, 0, 0},
                                         .radius = 1,
-                                        .met = {[OCTREE_MET_VISITED] = {met, met_count}}};
+                                        .visits = {[OCTREE_NODE_VISITED] = {met, met_count}}};
     v->session.queries = asked[side];
     v->session.query_count = count;
 }

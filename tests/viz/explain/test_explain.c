@@ -145,7 +145,7 @@ static place film_sample(const temp_folder *own, const char *name, int seed, int
     octreel_error error;
     sprintf(
         text,
-        "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 2, \"points\": {\"sample\": \"uniform\", \"count\": 40, "
+        "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 2, \"points\": {\"sample\": \"uniform\", \"count\": 40, "
         "\"seed\": %d}, \"velocities\": {\"speed\": 5, \"seed\": %d}}",
         seed, speed_seed);
     assert_true(session_parse(name, "", text, strlen(text), &made, &error));

@@ -179,7 +179,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
         {"", "recording.json:1: "},
         {"[]", "recording.json:1: "},
         {"{}", "the member \"octreel\" is missing"},
-        {"{\"octreel\": \"session\", \"version\": 1}", "octreel: expected \"recording\", found \"session\""},
+        {"{\"octreel\": \"session\", \"version\": 2}", "octreel: expected \"recording\", found \"session\""},
         {VIEW, "recording.json:3: "},
         {VIEW "} x", "recording.json:3: "},
         {VIEW ",\n\"tilt\": 3}", "recording.json:4: unknown member \"tilt\""},

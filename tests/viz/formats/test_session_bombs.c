@@ -29,7 +29,7 @@ static void read_recording(char *text, size_t size)
     recording_parse("bomb", text, size, &v, &every, &error);
 }
 
-#define HEAD "{\"octreel\": \"session\", \"version\": 1"
+#define HEAD "{\"octreel\": \"session\", \"version\": 2"
 #define BEGIN HEAD ", \"ticks\": 0, "
 #define BOX "\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]}"
 
@@ -63,15 +63,15 @@ static const text_bomb sessions[] = {
      "]}"},
     {"an answer", BEGIN "\"queries\": [{\"nearest\":\"player\",\"answer\":[0", ",1", "]}]}"},
     {"shapes", BEGIN "\"shapes\": [{\"point\":[0,0,0]}", ",{\"point\":[0,0,0]}", "]}"},
-    {"nodes", BEGIN "\"nodes\": [{\"id\":0," BOX "}", ",{\"id\":@," BOX "}", "]}"},
-    {"points of a node", BEGIN "\"nodes\": [{\"id\":0," BOX ",\"points\":[0", ",1", "]}]}"},
+    {"nodes", BEGIN "\"foreign_nodes\": [{\"id\":0," BOX "}", ",{\"id\":@," BOX "}", "]}"},
+    {"points of a node", BEGIN "\"foreign_nodes\": [{\"id\":0," BOX ",\"points\":[0", ",1", "]}]}"},
     {"ticks", HEAD "}", "{\"tick\":@}", ""},
     {"edits", HEAD "}{\"tick\":1,\"edits\":[{\"remove\":1}", ",{\"remove\":1}", "]}"},
     {"edits that insert", HEAD "}{\"tick\":1,\"edits\":[{\"remove\":1}",
      ",{\"insert\":{\"id\":@,\"position\":[0,0,0]}}", "]}"},
     {"ticks of an edit", HEAD "}", "{\"tick\":@,\"edits\":[{\"remove\":1}]}", ""},
     {"ticks of a shape", HEAD "}", "{\"tick\":@,\"shapes\":[{\"point\":[0,0,0]}]}", ""},
-    {"ticks of nodes", HEAD "}", "{\"tick\":@,\"nodes\":[]}", ""},
+    {"ticks of nodes", HEAD "}", "{\"tick\":@,\"foreign_nodes\":[]}", ""},
     {"gaps", HEAD "}", "{\"tick\":@,\"gap\":\"a\"}", ""},
 };
 

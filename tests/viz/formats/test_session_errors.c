@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER "{\"octreel\":\"session\",\"version\":1,\n"
+#define HEADER "{\"octreel\":\"session\",\"version\":2,\n"
 
 /* A text and the beginning of the sentence that refuses it, without the file's name. */
 typedef struct refusal {
@@ -184,14 +184,16 @@ static void header_with_bad_members_is_refused(void **state)
     static const refusal rows[] = {
         {"{\"octreel\":\"tick\",\"version\":1}", "1: octreel: expected \"session\", found \"tick\""},
         {"{\"octreel\":\"session\"}", "1: the member \"version\" is missing"},
-        {"{\"octreel\":\"session\",\n\"version\":2}", "2: version: session version 2 is newer than version 1, "
+        {"{\"octreel\":\"session\",\n\"version\":3}", "2: version: session version 3 is newer than version 2, "
                                                       "which this Octreel reads; use a newer Octreel"},
-        {"{\"octreel\":\"session\",\n\"version\":2, \"wind\": 3}", "2: version: session version"},
+        {"{\"octreel\":\"session\",\n\"version\":3, \"wind\": 3}", "2: version: session version"},
+        {"{\"octreel\":\"session\",\"version\":1,\"nodes\":[]}",
+         "1: version: session version 1 is not supported; rename \"nodes\" to \"foreign_nodes\" and set \"version\": 2"},
         {"{\"octreel\":\"session\",\"version\":0}", "1: version: expected a whole number from 1"},
         {"{\"octreel\":\"session\",\"version\":1.5}", "1: version: expected a whole number from 1"},
         {HEADER "\"keyz\":1}",
          "2: unknown member \"keyz\", did you mean keys? known: octreel, version, world, tree, player, keys, ticks, "
-         "unplayed, queries, shapes, nodes, sampled, columns, points, velocities"},
+         "unplayed, queries, shapes, foreign_nodes, sampled, columns, points, velocities"},
         {HEADER "\"\\u001b[0m\":1}", "2: unknown member \"?[0m\"; known: octreel"},
         {HEADER "\"world\":5}", "2: world: expected an object, found 5"},
         {HEADER "\"world\":{\"min\":[0,0,0]}}", "2: world: the member \"max\" is missing"},

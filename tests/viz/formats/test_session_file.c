@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER "{\"octreel\":\"session\",\"version\":1"
+#define HEADER "{\"octreel\":\"session\",\"version\":2"
 
 static session_file parse(const char *text)
 {
@@ -48,9 +48,9 @@ static void header_alone_is_the_default_world(void **state)
 /* As a cloud's; errors count lines as before. */
 static void byte_order_mark_before_the_header_is_passed_over(void **state)
 {
-    static const char text[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":1,\n\"ticks\":7}",
+    static const char text[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":2,\n\"ticks\":7}",
                       twice[] = "\xef\xbb\xbf\xef\xbb\xbf{}", alone[] = "\xef\xbb\xbf",
-                      bad[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":1,\n\"ticks\":\"a\"}";
+                      bad[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":2,\n\"ticks\":\"a\"}";
     session_file file;
     octreel_error error;
     (void)state;

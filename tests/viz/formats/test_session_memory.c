@@ -18,7 +18,7 @@
 #include "session_texts.h"
 #include "temp_folder.h"
 
-#define HEADER "{\"octreel\": \"session\", \"version\": 1, "
+#define HEADER "{\"octreel\": \"session\", \"version\": 2, "
 
 /* Each has another part of what a session may have. */
 static const char *const texts[] = {

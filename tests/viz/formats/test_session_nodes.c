@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER "{\"octreel\":\"session\",\"version\":1,\"player\":null,\"points\":[[-5,0,0],[5,0,0]],\n\"ticks\":3"
+#define HEADER "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[-5,0,0],[5,0,0]],\n\"ticks\":3"
 #define ROOT "{\"id\":9,\"box\":{\"min\":[-10,-10,-10],\"max\":[10,10,10]}}"
 #define LEAF(rest) "{\"id\":4,\"parent\":9,\"box\":{\"min\":[0,-1,-1],\"max\":[10,1,1]}" rest "}"
 
@@ -27,9 +27,9 @@ static void assert_refuses(const char *text, const char *sentence)
 static void nodes_are_read_with_all_that_is_said_of_them(void **state)
 {
     (void)state;
-    session_file file =
-        session_of_text(HEADER ",\"nodes\":[" ROOT "," LEAF(",\"points\":[2,7],\"kind\":\"leaf\",\"depth\":3,"
-                                                            "\"mode\":\"float\"") "]}\n{\"tick\":2,\"nodes\":[]}");
+    session_file file = session_of_text(HEADER ",\"foreign_nodes\":[" ROOT
+                                               "," LEAF(",\"points\":[2,7],\"kind\":\"leaf\",\"depth\":3,"
+                                                        "\"mode\":\"float\"") "]}\n{\"tick\":2,\"foreign_nodes\":[]}");
     const octree_session *s = &file.session;
     assert_int_equal(s->foreign_count, 2);
     assert_true(s->foreign[0].tick == 0 && s->foreign[0].node_count == 2);
@@ -49,13 +49,13 @@ static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
     session_file file = session_of_text(
         HEADER
         ",\"queries\":[{\"radius\":1,\"at\":[0,0,0],\"hit\":[4]}]}\n"
-        "{\"tick\":0,\"nodes\":[" LEAF(
+        "{\"tick\":0,\"foreign_nodes\":[" LEAF(
             ",\"points\":[]") "," ROOT "]}\n"
                               "{\"tick\":1,\"queries\":[{\"nearest\":[1,2,3],\"visited\":[9,4],\"pruned\":[8],\"mode\":"
                               "\"float\"}],"
-                              "\"nodes\":[" ROOT
-                              "," LEAF(",\"points\":[1],\"depth\":1,\"kind\":\"a b\"") "]}\n"
-                                                                                       "{\"tick\":3,\"nodes\":[]}");
+                              "\"foreign_nodes\":[" ROOT "," LEAF(
+                                  ",\"points\":[1],\"depth\":1,\"kind\":\"a b\"") "]}\n"
+                                                                                  "{\"tick\":3,\"foreign_nodes\":[]}");
     session_file copy, again;
     octreel_error error;
     assert_true(session_copy(&file.session, &copy, &error));
@@ -64,11 +64,11 @@ static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
     again = session_of_text(text);
     char *second = text_of_session(&again.session, NULL);
     assert_string_equal(text, second);
-    assert_non_null(strstr(text, "\n{\"tick\": 0, \"nodes\": [{\"id\": 4, \"parent\": 9, \"box\": "));
+    assert_non_null(strstr(text, "\n{\"tick\": 0, \"foreign_nodes\": [{\"id\": 4, \"parent\": 9, \"box\": "));
     assert_non_null(strstr(text, "\"points\": []"));
     assert_non_null(strstr(text, "\"visited\": [9, 4], \"pruned\": [8], \"mode\": \"float\""));
     assert_non_null(strstr(text, "\"points\": [1], \"kind\": \"a b\""));
-    assert_non_null(strstr(text, "\n{\"tick\": 3, \"nodes\": []}\n"));
+    assert_non_null(strstr(text, "\n{\"tick\": 3, \"foreign_nodes\": []}\n"));
     assert_int_equal(again.session.foreign_count, 3);
     free(text);
     free(second);
@@ -80,24 +80,28 @@ static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
 {
     (void)state;
     assert_refuses(HEADER ",\n\"nodes\":{}}", "s.json:3: nodes: expected a list of nodes, found an object");
-    assert_refuses(HEADER ",\n\"nodes\":[" ROOT ",\n5]}", "s.json:4: nodes[1]: expected an object, found 5");
-    assert_refuses(HEADER ",\"nodes\":[{\"id\":5}]}", "s.json:2: nodes[0]: the member \"box\" is missing");
-    assert_refuses(HEADER ",\"nodes\":[" ROOT ",\n" ROOT "]}", "s.json:3: nodes[1]: the id 9 is taken by another node");
-    assert_refuses(HEADER "}\n{\"tick\":1,\"nodes\":[" LEAF("") "]}",
-                   "s.json:3: nodes[0]: node 4 has the parent 9, which is no node here");
-    assert_refuses(HEADER ",\"nodes\":[{\"id\":1,\"parent\":2,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}},\n"
+    assert_refuses(HEADER ",\n\"foreign_nodes\":[" ROOT ",\n5]}",
+                   "s.json:4: foreign_nodes[1]: expected an object, found 5");
+    assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":5}]}",
+                   "s.json:2: foreign_nodes[0]: the member \"box\" is missing");
+    assert_refuses(HEADER ",\"foreign_nodes\":[" ROOT ",\n" ROOT "]}",
+                   "s.json:3: foreign_nodes[1]: the id 9 is taken by another node");
+    assert_refuses(HEADER "}\n{\"tick\":1,\"foreign_nodes\":[" LEAF("") "]}",
+                   "s.json:3: foreign_nodes[0]: node 4 has the parent 9, which is no node here");
+    assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":1,\"parent\":2,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}},\n"
                           "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}}]}",
-                   "s.json:2: nodes[0]: node 1 is its own ancestor");
-    assert_refuses(HEADER ",\"nodes\":[]}\n{\"tick\":0,\"nodes\":[]}",
+                   "s.json:2: foreign_nodes[0]: node 1 is its own ancestor");
+    assert_refuses(HEADER ",\"foreign_nodes\":[]}\n{\"tick\":0,\"foreign_nodes\":[]}",
                    "s.json:3: nodes: the header has the nodes of tick 0 already");
-    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
+    assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
                    "s.json:2: nodes[0].points[1]: expected a whole number from 0 to 9007199254740991, found -1");
-    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"points\":7") "]}",
+    assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":7") "]}",
                    "s.json:2: nodes[0].points: expected a list of ids, found 7");
-    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
+    assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
                    "s.json:2: nodes[0].kind: a node's kind has at most 15 characters, not 16");
-    assert_refuses(HEADER ",\"nodes\":[" LEAF(",\"colour\":7") "]}",
-                   "s.json:2: nodes[0]: unknown member \"colour\"; known: id, parent, box, depth, points, kind, mode");
+    assert_refuses(
+        HEADER ",\"foreign_nodes\":[" LEAF(",\"colour\":7") "]}",
+        "s.json:2: foreign_nodes[0]: unknown member \"colour\"; known: id, parent, box, depth, points, kind, mode");
     assert_refuses(HEADER ",\"queries\":[{\"nearest\":[0,0,0],\"pruned\":[1,\n\"a\"]}]}",
                    "s.json:3: queries[0].pruned[1]: expected a whole number from 0 to 9007199254740991, found \"a\"");
 }
@@ -132,11 +136,11 @@ static char *write_tick(const octree_session *session)
 static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
 {
     (void)state;
-    session_file file = session_of_text(HEADER ",\"nodes\":[" ROOT "," LEAF(
+    session_file file = session_of_text(HEADER ",\"foreign_nodes\":[" ROOT "," LEAF(
         ",\"points\":[1,2,3]") "],"
                                "\"queries\":[{\"nearest\":[4,0,0],\"visited\":[9],\"pruned\":[4,5]}]}");
     char *text = write_tick(&file.session);
-    const char *at = strstr(text, "\"program_nodes\": {\"count\": 2, \"leaves\": 1, \"depth\": 1, \"digest\": \"");
+    const char *at = strstr(text, "\"foreign_nodes\": {\"count\": 2, \"leaves\": 1, \"depth\": 1, \"digest\": \"");
     assert_non_null(at);
     assert_non_null(strstr(text, "\"events\": [\"wrong\"]"));
     at = strstr(at, "\", \"visited\": 1");
@@ -154,7 +158,7 @@ static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
     free(text);
     file.session.foreign_count = 0;
     text = write_tick(&file.session);
-    assert_null(strstr(text, "\"program_nodes\": {\"count\""));
+    assert_null(strstr(text, "\"foreign_nodes\": {\"count\""));
     file.session.foreign_count = 1;
     free(text);
     session_release(&file);

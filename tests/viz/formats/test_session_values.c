@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER "{\"octreel\": \"session\", \"version\": 1, \"ticks\": 3, "
+#define HEADER "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 3, "
 
 /* A session is written with this, and reads back to the same. */
 static void assert_writes(const session_file *file, const char *part)

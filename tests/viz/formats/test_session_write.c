@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEADER "{\"octreel\":\"session\",\"version\":1"
+#define HEADER "{\"octreel\":\"session\",\"version\":2"
 
 /* In all that is read of a player of its kind. */
 static void assert_same_player(const octree_player *a, const octree_player *b)
@@ -277,7 +277,7 @@ static void neighbours_beyond_what_a_tree_holds_are_written_clamped(void **state
 static void written_session_has_a_point_a_line_and_a_tick_a_line(void **state)
 {
     static const char expected[] =
-        "{\"octreel\": \"session\", \"version\": 1,\n"
+        "{\"octreel\": \"session\", \"version\": 2,\n"
         "\"world\": {\"min\": [-1000, -1000, -1000], \"max\": [1000, 1000, 1000]},\n"
         "\"tree\": {\"capacity\": 8, \"depth\": 21, \"full\": \"refuse\"},\n"
         "\"player\": {\"id\": 0, \"position\": [0, 0, 0], \"step\": 50, \"box_size\": 30},\n"

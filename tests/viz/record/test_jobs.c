@@ -22,7 +22,7 @@
 
 /* Far more than is filmed before a signal comes. */
 #define LONG_SESSION                                                                                                   \
-    "{\"octreel\": \"session\", \"version\": 1, \"points\": {\"sample\": \"clustered\", \"count\": 200, \"seed\": "    \
+    "{\"octreel\": \"session\", \"version\": 2, \"points\": {\"sample\": \"clustered\", \"count\": 200, \"seed\": "    \
     "1}, "                                                                                                             \
     "\"ticks\": 4000}\n"
 

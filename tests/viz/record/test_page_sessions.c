@@ -25,7 +25,7 @@ static const struct {
     const char *name, *text;
 } written[] = {
     {"all",
-     "{\"octreel\": \"session\", \"version\": 1, \"world\": {\"min\": [-100, -100, -100], \"max\": [100, 100, 100]},"
+     "{\"octreel\": \"session\", \"version\": 2, \"world\": {\"min\": [-100, -100, -100], \"max\": [100, 100, 100]},"
      "\"tree\": {\"capacity\": 2, \"depth\": 3, \"full\": \"refuse\"},"
      "\"player\": {\"id\": 5, \"position\": [0, 0, 0], \"step\": 45, \"box_size\": 30, \"sweep\": true},"
      "\"points\": [[10, 0, 0], [0, 20, 0, 17], [0, 50, 5, 18], [0, 90, 0, 19], [0, 20, 0, 21], [0, 20, 0, 22],"
@@ -44,12 +44,12 @@ static const struct {
      "{\"segment\": [[-90, -90, -90], [90, 90, 90]]}]}\n"
      "{\"tick\": 5, \"gap\": \"there was no <memory>\"}\n{\"tick\": 6, \"gap\": \"nor here\"}\n"
      "{\"tick\": 7, \"edits\": [{\"remove\": 99}]}\n{\"tick\": 15, \"gap\": \"late\"}\n"},
-    {"body", "{\"octreel\": \"session\", \"version\": 1, \"player\": {\"id\": 3, \"body\": true, \"box_size\": 300},"
+    {"body", "{\"octreel\": \"session\", \"version\": 2, \"player\": {\"id\": 3, \"body\": true, \"box_size\": 300},"
              "\"points\": [[1, 2, 3, 1], {\"id\": 3, \"position\": [9, 9, 9], \"velocity\": [200, 0, 150]}],"
              "\"keys\": \"nwn\", \"ticks\": 14, \"queries\": [{\"nearest\": \"player\"}]}\n"
              "{\"tick\": 4, \"edits\": [{\"remove\": 3}]}\n"
              "{\"tick\": 6, \"edits\": [{\"insert\": {\"id\": 3, \"position\": [-700, 0, 0]}}]}\n"},
-    {"nobody", "{\"octreel\": \"session\", \"version\": 1, \"player\": null, \"tree\": {\"capacity\": 1, \"depth\": 2,"
+    {"nobody", "{\"octreel\": \"session\", \"version\": 2, \"player\": null, \"tree\": {\"capacity\": 1, \"depth\": 2,"
                "\"full\": \"grow\"}, \"points\": {\"sample\": \"clustered\", \"count\": 60, \"seed\": 4},"
                "\"velocities\": {\"speed\": 300, \"seed\": 2}, \"ticks\": 9}"},
 };

@@ -109,7 +109,7 @@ static void points_from_elsewhere_are_refused(void **state)
     for (int world = 0; world < 2; world++)
         for (size_t i = 0; i < 2; i++) {
             char text[300];
-            snprintf(text, sizeof text, "{\"octreel\": \"session\", \"version\": 1, %s\"points\": %s}\n",
+            snprintf(text, sizeof text, "{\"octreel\": \"session\", \"version\": 2, %s\"points\": %s}\n",
                      world ? "\"world\": {\"min\": [0, 0, 0], \"max\": [9, 9, 9]}, " : "", points[i]);
             file_write_text(place_below(folder.path, "session.json").path, text);
             assert_not_verified(&folder, "a recording lists its points, and names no others");

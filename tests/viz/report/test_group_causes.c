@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const char played[] =
-    "{\"octreel\": \"session\", \"version\": 1, \"world\": {\"min\": [-100, -100, -100], \"max\": [100, 100, 100]}, "
+    "{\"octreel\": \"session\", \"version\": 2, \"world\": {\"min\": [-100, -100, -100], \"max\": [100, 100, 100]}, "
     "\"tree\": {\"capacity\": 4, \"depth\": 6}, \"points\": {\"sample\": \"uniform\", \"count\": 60, \"seed\": 5}, "
     "\"keys\": \"wwddeenaasf.wd\", \"ticks\": 20, \"queries\": [{\"knearest\": 3, \"at\": [0, 0, 0]}], "
     "\"shapes\": [{\"box\": {\"min\": [-40, -40, -40], \"max\": [40, 40, 40]}}]}\n"

@@ -173,7 +173,7 @@ class Engine {
     /* Ask queries about the tick that was played last, as session files have them. */
     ask(queries)
     {
-        const text = JSON.stringify({octreel: "session", version: 1, queries});
+        const text = JSON.stringify({octreel: "session", version: 2, queries});
         this.said(this.wasm.web_ask(...this.give(text)));
     }
 

@@ -6,10 +6,10 @@
  * program's too. One line more is one curve more. Of a fact that is a list the entries are counted; a curve that no tick
  * has a fact for is left out. */
 const CURVES = [
-    ["program_nodes.count", "program's nodes"],
-    ["program_nodes.depth", "program's depth"],
-    ["program_nodes.visited", "program's visits"],
-    ["program_nodes.wrong.count", "program's faults"],
+    ["foreign_nodes.count", "program's nodes"],
+    ["foreign_nodes.depth", "program's depth"],
+    ["foreign_nodes.visited", "program's visits"],
+    ["foreign_nodes.wrong.count", "program's faults"],
     ["tree.nodes", "nodes", "own"],
     ["tree.depth", "depth", "own"],
     ["tree.points", "points"],
@@ -75,7 +75,7 @@ class Recording {
         this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
         lines.forEach(line => this.append(line));
         this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
-        this.hasProgramNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("program_nodes"));
+        this.hasProgramNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("foreign_nodes"));
     }
 
     /* What a curve or an event is called. */
