@@ -19,7 +19,7 @@ static const struct {
     const char *help;            /* in --help */
     const char *takes;           /* in error messages */
 } rows[] = {
-#define QUERY_OPTION(X, kind, name, words, layer_help, r, g, b, value, with_more, help, takes)                         \
+#define QUERY_OPTION(X, kind, name, words, layer_help, role, value, with_more, help, takes)                            \
     {OCTREE_QUERY_##kind, value, OCTREE_QUERY_##with_more, help, takes},
     QUERY_LOOKS(QUERY_OPTION, )
 #undef QUERY_OPTION

@@ -77,7 +77,7 @@ static void write_ends(pen *p, const char *name, const octree_box *box)
 
 /* ---- What the tick did -------------------------------------------------------------------------------------- */
 
-/* Of a program's own tree. */
+/* Of a foreign index. */
 static void write_foreign(pen *p, const octree_foreign_state *foreign)
 {
     write_row(p, "program nodes", "%zu", foreign->node_count);

@@ -93,7 +93,7 @@ void session_set_world(session_loader *s, const octree_box *world);
 /* Where a header names no world but a file of points, read that and take the world of its points. */
 bool session_take_world(json_reader *r, json_t *header);
 
-/* The nodes of the program's own tree from a tick on; it stands in an octree_input. */
+/* The foreign nodes from a tick on; it stands in an octree_input. */
 extern const json_codec session_nodes_codec;
 
 /* Points, in a list, a file or a sample; and velocities by id, which are never written: bodies have theirs. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* session_nodes.c - the nodes of a program's own tree, from a tick on. */
+/* session_nodes.c - the foreign nodes, from a tick on. */
 #include "octree/octree.h"
 #include "session_members.h"
 

@@ -270,7 +270,7 @@ static void write_answers(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* ---- The program's own tree --------------------------------------------------------------------------------- */
+/* ---- Foreign nodes ----------------------------------------------------------------------------------------- */
 
 static bool has_foreign(const void *from)
 {

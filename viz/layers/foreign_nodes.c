@@ -237,7 +237,7 @@ void say_foreign_fault(description *d, const described *element)
     }
     octree_game_find(d->game, id, &point);
     say_point(d, id, point.position);
-    say(d, ", which is in no node of the program");
+    say(d, ", which is in no foreign node");
 }
 
 const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_WORDS])

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign_nodes.h - the nodes of a program's own tree, for the layers that show nodes. */
+/* foreign_nodes.h - the foreign nodes, for the layers that show nodes. */
 #ifndef LAYERS_FOREIGN_NODES_H
 #define LAYERS_FOREIGN_NODES_H
 

@@ -53,7 +53,7 @@ typedef struct audit_kind {
     size_t tick_count, tick_room;
 } audit_kind;
 
-/* The nodes of the program's own tree: what is proved wrong with them is counted at every tick. */
+/* The foreign nodes: what is proved wrong with them is counted at every tick. */
 typedef struct audit_nodes {
     bool given;
     uint64_t faults, ticks, first_wrong; /* in so many ticks, from this one on */

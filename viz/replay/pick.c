@@ -275,7 +275,7 @@ static void write_node(json_writer *w, const element_subject *subject)
     json_write_end_object(w);
 }
 
-/* Of a program's own tree. */
+/* Of a foreign index. */
 static void write_foreign_node(json_writer *w, const octree_foreign_place *place)
 {
     const octree_foreign_node *node = place->node;

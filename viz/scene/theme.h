@@ -8,8 +8,6 @@
 #ifndef SCENE_THEME_H
 #define SCENE_THEME_H
 
-#include "query_looks.h"
-
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,7 +28,10 @@
     X(POINT, "point", 245, 247, 250)                                                                                   \
     X(PLAYER, "player", 254, 246, 84)                                                                                  \
     X(COLLISION, "collision", 255, 64, 64) /* the only red */                                                          \
-    QUERY_LOOKS(QUERY_ROLE, X)                                                                                         \
+    X(RANGE, "range", 240, 165, 30)                                                                                    \
+    X(RADIUS, "radius", 140, 250, 185)                                                                                 \
+    X(KNEAREST, "knearest", 180, 152, 255)                                                                             \
+    X(NEAREST, "nearest", 255, 172, 222)                                                                               \
     X(WARNING, "warning", 240, 190, 90) /* refused, full, wrong: beside its word */                                    \
     X(NODE, "node", 84, 98, 150)        /* the root; the rows below are the depths 1 to 9 */                           \
     X(NODE_1, "node-1", 74, 110, 168)                                                                                  \

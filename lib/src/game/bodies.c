@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+/* bodies.c - the bodies of a game: a hash table by id, their motion, and the edits of a tick.
+ *
+ * A position is computed from the origin, the velocity and the number of ticks since then, so that no error adds up
+ * over ticks. A body that bounces follows a triangle wave between the two faces of the world (reflect()). Many moves at
+ * once go through octree_move_many(), which is faster than single moves from a few hundred points on.
+ */
 #include "bodies.h"
 #include "float_rules.h"
 #include "game_state.h"
@@ -11,7 +17,7 @@ static size_t home_of(const bodies *b, uint64_t id)
     return (size_t)octree_digest_word(OCTREE_DIGEST_START, id) & (b->slot_count - 1);
 }
 
-/* The slot of an id, or the empty one where the search ends. Precondition: slot_count > 0. */
+/* The slot that holds an id, or the empty slot where it would be inserted. Requires slot_count > 0. */
 static size_t slot_of(const bodies *b, uint64_t id)
 {
     size_t slot = home_of(b, id);
@@ -34,7 +40,7 @@ moving_body *bodies_find(const bodies *b, uint64_t id)
     return entry ? &bodies_items(b)[entry - 1] : NULL;
 }
 
-/* Keep at least half of the slots empty. */
+/* Make room for `count` bodies with at least half of the slots empty. False when there is no memory. */
 static bool make_slots(bodies *b, arena *memory, size_t count)
 {
     if (2 * count <= b->slot_count)
@@ -57,7 +63,7 @@ static bool is_moving(const double velocity[3])
     return velocity[0] != 0 || velocity[1] != 0 || velocity[2] != 0;
 }
 
-/* Add a body whose id is not in use, which starts from its position at this tick. False when there is no memory. */
+/* Add a body with an unused id. Its motion starts at its position at this tick. False when there is no memory. */
 static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
     if (!make_slots(b, memory, b->items.count + 1))
@@ -74,7 +80,7 @@ static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64
     return true;
 }
 
-/* Empty a slot and close the gap: entries after it move up unless that would take them before their home. */
+/* Empty a slot and close the gap: later entries move up, unless that would put them before their home slot. */
 static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
@@ -88,7 +94,7 @@ static void clear_slot(bodies *b, size_t gap)
     b->slots[gap] = 0;
 }
 
-/* Take a body out; the last one takes its place. */
+/* Remove a body. The last body moves to its index. */
 static void bodies_remove(bodies *b, moving_body *body)
 {
     b->movers -= is_moving(body->velocity);
@@ -103,7 +109,7 @@ static void bodies_remove(bodies *b, moving_body *body)
 
 /* ---- Motion ------------------------------------------------------------------------------------------------- */
 
-/* Note that a body is stored elsewhere from this tick on. */
+/* Record that the tree stores a body at a new position from this tick on. */
 static void body_store(moving_body *body, const double to[3], uint64_t tick)
 {
     if (body->moved != tick)
@@ -112,8 +118,9 @@ static void body_store(moving_body *body, const double to[3], uint64_t tick)
     memcpy(body->position, to, sizeof body->position);
 }
 
-/* Fold a straight path into an interval: a triangle wave of period 2 * (max - min). Quarters where that overflows; a
- * path that overflows all the same stays at its origin. *direction: 1 as the velocity says, -1 turned, 0 at rest. */
+/* Fold a straight path into an interval: a triangle wave with period 2 * (max - min). Where the period overflows, the
+ * computation uses quarters of all lengths; a path that still overflows stays at its origin. *direction is 1 for the
+ * direction of the velocity, -1 for the opposite one, 0 at rest. */
 static double reflect(double origin, double velocity, double ticks, double min, double max, int *direction)
 {
     const double straight = origin + velocity * ticks;
@@ -134,8 +141,8 @@ static double reflect(double origin, double velocity, double ticks, double min, 
     return position < min ? min : position > max ? max : position;
 }
 
-/* On one axis: reflected at the world's faces as often as it must be, and turned where it bounced and where it is about
- * to. */
+/* Compute position and velocity on one axis, reflected at the faces of the world. At a face the velocity already points
+ * back into the world. */
 static void bounce(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
 {
     const double min = world->min[axis], max = world->max[axis];
@@ -147,7 +154,8 @@ static void bounce(const moving_body *body, const octree_box *world, double tick
     now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* no minus zero */
 }
 
-/* Where a body is at a tick and how it goes on. Most have met no face so far, which takes no branch to see. */
+/* The position and velocity of a body at a tick. Most bodies have not reached a face yet; one test without branches
+ * finds that. */
 static octree_body body_at(const moving_body *body, const octree_box *world, uint64_t tick)
 {
     octree_body now = {.id = body->id};
@@ -163,12 +171,12 @@ static octree_body body_at(const moving_body *body, const octree_box *world, uin
     return now;
 }
 
-/* Let a body go on from another place, with the velocity that it has at this tick. */
+/* Restart the motion of a body at another position, with its velocity at this tick. */
 static void restart(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
 {
     const octree_body now = body_at(body, world, tick);
     for (int i = 0; i < 3; i++)
-        if (now.velocity[i] != 0) /* 0 is also what is said of one that is too fast to follow */
+        if (now.velocity[i] != 0) /* 0 also stands for a body that is too fast to follow: it keeps its velocity */
             body->velocity[i] = now.velocity[i];
     memcpy(body->origin, place, sizeof body->origin);
     body->since = tick;
@@ -176,16 +184,16 @@ static void restart(moving_body *body, const octree_box *world, const double pla
 
 /* ---- Changes of the tree ------------------------------------------------------------------------------------ */
 
-static void touch(octree_game *game, const double place[3])
+static void note_change(octree_game *game, const double place[3])
 {
-    tree_summary_touch(&game->summary, &game->memory, game->tree, place);
+    tree_summary_record(&game->summary, &game->memory, game->tree, place);
 }
 
 octree_status game_insert(octree_game *game, const double position[3], uint64_t id)
 {
     const octree_status status = octree_insert(game->tree, position, id);
     if (status == OCTREE_OK)
-        touch(game, position);
+        note_change(game, position);
     return status;
 }
 
@@ -193,7 +201,7 @@ static octree_status game_remove(octree_game *game, const double position[3], ui
 {
     const octree_status status = octree_remove(game->tree, position, id);
     if (status == OCTREE_OK)
-        touch(game, position);
+        note_change(game, position);
     return status;
 }
 
@@ -202,8 +210,8 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
     const octree_status status = octree_move(game->tree, from, id, to);
     if (status != OCTREE_OK)
         return status;
-    touch(game, from);
-    touch(game, to);
+    note_change(game, from);
+    note_change(game, to);
     return OCTREE_OK;
 }
 
@@ -216,8 +224,8 @@ octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status wh
     return OCTREE_OK;
 }
 
-/* A refusal by the tree is part of the game; no memory is the end of it. */
-static octree_status note_unless_done(octree_game *game, uint64_t id, octree_status status, const double position[3])
+/* Record a refusal by the tree, which is part of the game. Success and NO_MEMORY are returned as they are. */
+static octree_status note_failure(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
     if (status == OCTREE_OK || status == OCTREE_NO_MEMORY)
         return status;
@@ -225,7 +233,7 @@ static octree_status note_unless_done(octree_game *game, uint64_t id, octree_sta
     return noted == OCTREE_OK ? status : noted;
 }
 
-/* An edit comes before the motion of its own tick: what it places moves on from there at once. */
+/* The tick at which the motion of an edited body starts: edits come before the motion of their tick. */
 static uint64_t origin_tick(const octree_game *game)
 {
     return game->tick.number ? game->tick.number - 1 : 0;
@@ -259,7 +267,7 @@ octree_status game_add_body(octree_game *game, const octree_body *body, octree_s
 {
     if (status == OCTREE_OK && !bodies_add(&game->bodies, &game->memory, body, origin_tick(game)))
         return OCTREE_NO_MEMORY;
-    return note_unless_done(game, body->id, status, body->position);
+    return note_failure(game, body->id, status, body->position);
 }
 
 static octree_status insert_body(octree_game *game, const octree_body *body)
@@ -272,14 +280,14 @@ static octree_status insert_body(octree_game *game, const octree_body *body)
 
 static octree_status remove_body(octree_game *game, const octree_edit *edit)
 {
-    static const double nowhere[3] = {0, 0, 0}; /* a removal says no place: only its id is read */
+    static const double nowhere[3] = {0, 0, 0}; /* a removal has no position */
     moving_body *body = bodies_find(&game->bodies, edit->body.id);
     octree_status status = OCTREE_NOT_FOUND;
     if (body)
         status = game_remove(game, body->position, body->id);
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
-    return note_unless_done(game, edit->body.id, status, nowhere);
+    return note_failure(game, edit->body.id, status, nowhere);
 }
 
 static octree_status move_body(octree_game *game, const octree_edit *edit)
@@ -292,7 +300,7 @@ static octree_status move_body(octree_game *game, const octree_edit *edit)
         body_store(body, edit->body.position, game->tick.number);
         restart(body, &game->session->tree.world, edit->body.position, origin_tick(game));
     }
-    return note_unless_done(game, edit->body.id, status, edit->body.position);
+    return note_failure(game, edit->body.id, status, edit->body.position);
 }
 
 static octree_status apply_edit(octree_game *game, const octree_edit *edit)
@@ -309,16 +317,16 @@ static octree_status apply_edit(octree_game *game, const octree_edit *edit)
 
 /* ---- Many moves at once --------------------------------------------------------------------------------------- */
 
-/* No body twice. */
+/* Moves of different bodies. */
 typedef struct motion {
-    octree_point *points; /* where the bodies are stored */
+    octree_point *points; /* the bodies as the tree stores them */
     double (*to)[3];
     octree_status *statuses;
-    uint32_t *bodies; /* by their index */
+    uint32_t *bodies; /* indices of the bodies */
     size_t count, room;
 } motion;
 
-static bool motion_take(motion *m, arena *memory, size_t room)
+static bool motion_allocate(motion *m, arena *memory, size_t room)
 {
     *m = (motion){.room = room};
     m->points = arena_take(memory, room * sizeof *m->points);
@@ -328,7 +336,7 @@ static bool motion_take(motion *m, arena *memory, size_t room)
     return m->points && m->to && m->statuses && m->bodies;
 }
 
-static void motion_give(motion *m, arena *memory)
+static void motion_release(motion *m, arena *memory)
 {
     arena_give(memory, m->points, m->room * sizeof *m->points);
     arena_give(memory, m->to, m->room * sizeof *m->to);
@@ -350,16 +358,16 @@ static void collect_motion(const octree_game *game, motion *m)
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
         if (!is_moving(body->velocity))
-            continue; /* its bits stay too: -0.0 plus nothing would be +0.0 */
+            continue; /* keep its bits: body_at() would turn -0.0 into +0.0 */
         const octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
         if (memcmp(now.position, body->position, sizeof now.position) != 0)
             add_move(m, &game->bodies, i, now.position);
     }
 }
 
-enum { MANY = 256 }; /* of fewer the single moves cost no more */
+enum { MANY = 256 }; /* with fewer moves octree_move_many() is not faster */
 
-/* The tree alone. NO_MEMORY, after which some may have moved, or OK. */
+/* Move the points in the tree only. Returns OK, or NO_MEMORY after which some points may have moved. */
 static octree_status move_points(octree *tree, motion *m)
 {
     if (m->count >= MANY)
@@ -372,19 +380,19 @@ static octree_status move_points(octree *tree, motion *m)
     return OCTREE_OK;
 }
 
-/* What a move did to a body. */
-static octree_status note_move(octree_game *game, const motion *m, size_t i)
+/* Apply the result of a move to its body. */
+static octree_status finish_move(octree_game *game, const motion *m, size_t i)
 {
     if (m->statuses[i] == OCTREE_OK) {
-        touch(game, m->points[i].position);
-        touch(game, m->to[i]);
+        note_change(game, m->points[i].position);
+        note_change(game, m->to[i]);
         body_store(&bodies_items(&game->bodies)[m->bodies[i]], m->to[i], game->tick.number);
     }
-    return note_unless_done(game, m->points[i].id, m->statuses[i], m->to[i]);
+    return note_failure(game, m->points[i].id, m->statuses[i], m->to[i]);
 }
 
-/* The moves from the first edit on of bodies that are there, each once: of one that comes again the next run tells. */
-static void collect_run(const octree_game *game, const octree_edit *edits, size_t count, size_t *seen, size_t run,
+/* Collect moves from the first edit on, until an edit moves an unknown body or one that the run moves already. */
+static void collect_run(const octree_game *game, const octree_edit *edits, size_t count, size_t *last_run, size_t run,
                         motion *m)
 {
     m->count = 0;
@@ -392,45 +400,45 @@ static void collect_run(const octree_game *game, const octree_edit *edits, size_
         const octree_body *to = &edits[m->count].body;
         const moving_body *body = bodies_find(&game->bodies, to->id);
         const size_t index = body ? (size_t)(body - bodies_items(&game->bodies)) : 0;
-        if (!body || seen[index] == run)
+        if (!body || last_run[index] == run)
             break;
-        seen[index] = run;
+        last_run[index] = run;
         add_move(m, &game->bodies, index, to->position);
     }
 }
 
-static octree_status make_run(octree_game *game, motion *m)
+static octree_status apply_run(octree_game *game, motion *m)
 {
     octree_status status = move_points(game->tree, m);
     for (size_t i = 0; status == OCTREE_OK && i < m->count; i++) {
         moving_body *body = &bodies_items(&game->bodies)[m->bodies[i]];
-        status = note_move(game, m, i) == OCTREE_NO_MEMORY ? OCTREE_NO_MEMORY : OCTREE_OK;
+        status = finish_move(game, m, i) == OCTREE_NO_MEMORY ? OCTREE_NO_MEMORY : OCTREE_OK;
         if (m->statuses[i] == OCTREE_OK)
             restart(body, &game->session->tree.world, m->to[i], origin_tick(game));
     }
     return status;
 }
 
-/* Edits that are all moves. */
+/* Apply edits that are all moves, in runs that move no body twice. */
 static octree_status apply_moves(octree_game *game, const octree_edit *edits, size_t count)
 {
     motion m = {0};
     const size_t size = (game->bodies.items.count + 1) * sizeof(size_t);
-    size_t *seen = arena_take(&game->memory, size); /* the last run that moved a body */
-    octree_status status = seen && motion_take(&m, &game->memory, count) ? OCTREE_OK : OCTREE_NO_MEMORY;
-    if (seen)
-        memset(seen, 0, size);
+    size_t *last_run = arena_take(&game->memory, size); /* by body: the last run that moved it; 0 for none */
+    octree_status status = last_run && motion_allocate(&m, &game->memory, count) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    if (last_run)
+        memset(last_run, 0, size);
     for (size_t run = 1; status == OCTREE_OK && count > 0; run++) {
-        collect_run(game, edits, count, seen, run, &m);
+        collect_run(game, edits, count, last_run, run, &m);
         if (m.count > 0)
-            status = make_run(game, &m);
-        else if (apply_edit(game, edits) == OCTREE_NO_MEMORY) /* there is no such body */
+            status = apply_run(game, &m);
+        else if (apply_edit(game, edits) == OCTREE_NO_MEMORY) /* the body is unknown */
             status = OCTREE_NO_MEMORY;
         edits += m.count ? m.count : 1;
         count -= m.count ? m.count : 1;
     }
-    motion_give(&m, &game->memory);
-    arena_give(&game->memory, seen, size);
+    motion_release(&m, &game->memory);
+    arena_give(&game->memory, last_run, size);
     return status;
 }
 
@@ -461,14 +469,14 @@ octree_status game_move_bodies(octree_game *game)
     octree_status status = OCTREE_NO_MEMORY;
     if (game->bodies.movers == 0)
         return OCTREE_OK;
-    if (motion_take(&m, &game->memory, game->bodies.movers)) {
+    if (motion_allocate(&m, &game->memory, game->bodies.movers)) {
         collect_motion(game, &m);
         status = move_points(game->tree, &m);
     }
     for (size_t i = 0; status == OCTREE_OK && i < m.count; i++)
-        if (note_move(game, &m, i) == OCTREE_NO_MEMORY)
+        if (finish_move(game, &m, i) == OCTREE_NO_MEMORY)
             status = OCTREE_NO_MEMORY;
-    motion_give(&m, &game->memory);
+    motion_release(&m, &game->memory);
     return status;
 }
 
@@ -480,9 +488,10 @@ octree_status game_list_movers(octree_game *game)
         if (!is_moving(body->velocity))
             continue;
         octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
-        memcpy(now.position, body->position, sizeof now.position); /* a full leaf may have refused the move */
+        memcpy(now.position, body->position,
+               sizeof now.position); /* the stored position: a full leaf may have refused the move */
         if (!is_moving(now.velocity))
-            continue; /* it is so fast that it stays where it is */
+            continue; /* too fast to follow: it does not move */
         if (!list_push(&game->memory, &game->movers, &now, sizeof now))
             return OCTREE_NO_MEMORY;
     }

@@ -1,27 +1,27 @@
 /* SPDX-License-Identifier: MIT */
-/* bodies.h - the points of a game by id: edits, and where their velocities take them. Private. */
+/* bodies.h - the bodies of a game by id: edits, and motion by velocities. Private. */
 #ifndef OCTREE_BODIES_H
 #define OCTREE_BODIES_H
 
 #include "pool.h"
 #include "octree/game.h"
 
-/* A body's place is computed from its origin and the ticks since then, never by adding tick by tick. */
+/* A body's position is computed from its origin and the ticks since then, never by adding tick by tick. */
 typedef struct moving_body {
     uint64_t id;
     double position[3]; /* as stored in the tree */
     double origin[3];
     double velocity[3];
     uint64_t since;   /* the tick of the origin */
-    uint64_t moved;   /* the last tick that moved it; UINT64_MAX before there is one */
-    double before[3]; /* where it was stored before that tick */
+    uint64_t moved;   /* the last tick that moved it; UINT64_MAX if none has */
+    double before[3]; /* its stored position before that tick */
 } moving_body;
 
 typedef struct bodies {
     list items;        /* moving_body */
     uint32_t *slots;   /* index + 1 by hash of id, or 0; open addressing with linear probing */
     size_t slot_count; /* a power of two, or 0 */
-    size_t movers;     /* bodies whose velocity is not zero */
+    size_t movers;     /* the number of bodies whose velocity is not zero */
 } bodies;
 
 void bodies_release(bodies *b, arena *memory);
@@ -34,22 +34,26 @@ static inline moving_body *bodies_items(const bodies *b)
 /* The body with this id, or null. */
 moving_body *bodies_find(const bodies *b, uint64_t id);
 
-/* Change the tree: as octree_insert() and octree_move(). */
+/* Insert or move a point in the tree and record the change for the tree summary. Returns what octree_insert() or
+ * octree_move() returns. */
 octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
 octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
 
-/* Note that the tree did not take a body. NO_MEMORY, or OK. */
+/* Record a refusal in the tick. Returns OK or NO_MEMORY. */
 octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
-/* Whether a body may be inserted at all: DUPLICATE for an id that is taken, NOT_FINITE for its velocity, OK. */
+/* Check whether a body can be inserted: DUPLICATE (its id is in use), NOT_FINITE (its velocity), or OK. */
 octree_status game_check_body(const octree_game *game, const octree_body *body);
 
-/* Add a body that is in the tree, or note its refusal with this status, which is returned; or NO_MEMORY. */
+/* Add a body whose point was inserted with this status: OK adds it, an error records a refusal. Returns the status, or
+ * NO_MEMORY. */
 octree_status game_add_body(octree_game *game, const octree_body *body, octree_status status);
 
+/* Apply the edits of a tick in their order. Returns OK or NO_MEMORY. */
 octree_status game_apply_edits(octree_game *game, const octree_input *input);
 
-/* Move the bodies by their velocities, and list those that have one as they are after the tick. */
+/* Move the bodies by their velocities; list the moving bodies as they are after the tick. Both return OK or NO_MEMORY.
+ */
 octree_status game_move_bodies(octree_game *game);
 octree_status game_list_movers(octree_game *game);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* game.c - the game loop: one tick after another, in the order that game.h states. */
+/* game.c - the game loop: plays one tick after another, in the order that game.h states. */
 #include "float_rules.h"
 #include "game_state.h"
 #include "queries.h"
@@ -27,10 +27,10 @@ const char *octree_shape_name(octree_shape_kind kind)
 
 /* ---- The collision test --------------------------------------------------------------------------------------
  *
- * It queries the tree before the step is made, about the step's end and without the player's own point: it finds what
- * a step that is made and taken back would meet, and nothing has to be undone. Where it is swept, points at rest are
- * asked of the tree, and bodies that this tick has moved are tested one by one: their way is relative to the player's,
- * and the tree knows its end alone.
+ * The test queries the tree before the step is made, at the end of the step and without the player's own point. It
+ * finds the points that a step would collide with, and nothing has to be undone. With sweep, a query of the tree finds
+ * the points at rest, and the bodies that this tick has moved are tested one by one: their path is relative to the
+ * player's, and the tree stores only its end.
  */
 
 typedef struct hit_collector {
@@ -50,7 +50,7 @@ static bool collect_hit(const octree_point *point, void *context)
     return (body && was_moved(c->game, body)) || collect_point(point, &c->hits);
 }
 
-/* The points of the tree; when swept, but for bodies that this tick has moved. */
+/* Collect points of the tree; with sweep, without the bodies that this tick has moved. */
 static octree_status collide_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
@@ -62,6 +62,7 @@ static octree_status collide_points(octree_game *game, const octree_point *self)
     return found.hits.failed ? OCTREE_NO_MEMORY : status;
 }
 
+/* Collect the bodies that this tick has moved. */
 static octree_status collide_moved(octree_game *game)
 {
     const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
@@ -81,13 +82,14 @@ static octree_status collide_moved(octree_game *game)
     return OCTREE_OK;
 }
 
-/* Where the hits, which are in their order, come from. */
-static octree_status trace_hits(octree_game *game)
+/* List the position of each hit before the tick, in the order of the hits. */
+static octree_status list_hit_origins(octree_game *game)
 {
     const octree_point *hits = game->hits.items;
     game->hit_from.count = 0;
     for (size_t i = 0; i < game->hits.count; i++) {
-        const moving_body *body = bodies_find(&game->bodies, hits[i].id); /* all points but the player's are bodies */
+        const moving_body *body =
+            bodies_find(&game->bodies, hits[i].id); /* not null: every point except the player's is a body */
         const double *from = was_moved(game, body) ? body->before : hits[i].position;
         if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
             return OCTREE_NO_MEMORY;
@@ -95,7 +97,7 @@ static octree_status trace_hits(octree_game *game)
     return OCTREE_OK;
 }
 
-/* Collect the points in the player's box into `hits`, by id: about the end of its step or, swept, on the way there. */
+/* Collect the points in the player's box into `hits`, sorted by id: at `to` or, with sweep, on the whole way there. */
 static octree_status collide(octree_game *game, const double to[3])
 {
     octree_tick *tick = &game->tick;
@@ -109,7 +111,7 @@ static octree_status collide(octree_game *game, const double to[3])
         status = collide_moved(game);
     sort_points(&game->hits, 0);
     if (status == OCTREE_OK && tick->swept)
-        status = trace_hits(game);
+        status = list_hit_origins(game);
     if (game->hits.count)
         tick->events |= OCTREE_EVENT_COLLIDED;
     return status;
@@ -117,20 +119,21 @@ static octree_status collide(octree_game *game, const double to[3])
 
 /* ---- The player's step -------------------------------------------------------------------------------------- */
 
-/* The direction of a key's step on an axis; 0 for none. */
+/* The direction in which a key moves along an axis: 1, -1 or 0. */
 static int direction_of(char key, int axis)
 {
     return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
 
-/* The player stays. Swept, the test is made anew for it as for one that waits: what comes its way is not missed. */
+/* Record that the player stays. With sweep the collision test is repeated for a waiting player, so that it finds the
+ * bodies that move into it. */
 static octree_status refuse_step(octree_game *game, octree_status why, const double to[3])
 {
     const octree_status status = game_note_refusal(game, game->session->player.id, why, to);
     return status == OCTREE_OK && game->session->player.sweep ? collide(game, game->tick.player) : status;
 }
 
-/* A step whose end is inside the world and free of hits: it can still meet a full leaf. */
+/* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. */
 static octree_status make_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
@@ -145,7 +148,7 @@ static octree_status make_step(octree_game *game, const int64_t steps[3], const 
     return OCTREE_OK;
 }
 
-/* Note where the player is, and was before the tick: of a body, what edits and motion have made of it. */
+/* Store the player's position now and before the tick. A player that is a body is where edits and motion put it. */
 static void find_player(octree_game *game)
 {
     octree_tick *tick = &game->tick;
@@ -160,7 +163,7 @@ static void find_player(octree_game *game)
     tick->hit_cost = (octree_cost){0};
 }
 
-/* Make the step of the tick's key, unless the collision test or the tree forbids it. */
+/* Make the step of the tick's key, unless the collision test or the tree prevents it. */
 static octree_status step_player(octree_game *game)
 {
     find_player(game);
@@ -258,7 +261,7 @@ static octree_status summarize_tree(octree_game *game)
     return status;
 }
 
-/* The lists do not grow any more: let the tick point to them. */
+/* Point the tick to the lists, which must not grow any more. */
 static void publish(octree_game *game)
 {
 #define PUBLISH(name, shown_count, type)                                                                               \
@@ -273,7 +276,7 @@ static void publish(octree_game *game)
         game->tick.events |= OCTREE_EVENT_WRONG;
 }
 
-/* Of a gap nothing is tested, asked or shown. */
+/* Finish a tick. In a gap nothing is tested, asked or shown. */
 static octree_status finish_tick(octree_game *game, const octree_input *input)
 {
     octree_status status = OCTREE_OK;
@@ -293,7 +296,7 @@ static octree_status finish_tick(octree_game *game, const octree_input *input)
 
 /* ---- The beginning and the end of a game -------------------------------------------------------------------- */
 
-/* Halves first: no world overflows. */
+/* Put the player at its first position, or at the center of the world. Halves are added, so that nothing overflows. */
 static octree_status place_player(octree_game *game)
 {
     const octree_player *player = &game->session->player;
@@ -379,7 +382,8 @@ static void begin_tick(octree_game *game, char key)
     foreign_begin_tick(&game->foreign);
 }
 
-static void note_edits(octree_tick *tick, const octree_input *input)
+/* Record the number of edits and the bounds of their positions. */
+static void record_edits(octree_tick *tick, const octree_input *input)
 {
     octree_box *box = &tick->edited;
     tick->edit_count = input->edit_count;
@@ -395,14 +399,14 @@ static void note_edits(octree_tick *tick, const octree_input *input)
 
 static octree_status play_changes(octree_game *game, const octree_input *input)
 {
-    note_edits(&game->tick, input);
+    record_edits(&game->tick, input);
     octree_status status = game_apply_edits(game, input);
     if (status == OCTREE_OK)
         status = game_move_bodies(game);
     return status == OCTREE_OK ? step_player(game) : status;
 }
 
-/* `given` is null where the session has what happens. */
+/* Play one tick with the given input, or if it is null with the session's. */
 static octree_status step(octree_game *game, char key, const octree_input *given)
 {
     if (!float_mode_is_default())
@@ -417,7 +421,7 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     octree_status status = OCTREE_OK;
     begin_tick(game, input->gap ? '.' : key);
     if (input->gap)
-        find_player(game); /* where it was */
+        find_player(game); /* it has not moved */
     else
         status = play_changes(game, input);
     return status == OCTREE_OK ? finish_tick(game, input) : status;

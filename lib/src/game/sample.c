@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* sample.c - the distributions. No libm beyond sqrt: the same points on every machine. */
+/* sample.c - generates points of each distribution. It calls no function of libm except sqrt(), so the points are the
+ * same on every machine. */
 #include "octree/sample.h"
 #include "point.h"
 #include "octree/digest.h"
@@ -19,7 +20,7 @@ double octree_random_unit(uint64_t *state)
     return (double)(octree_random(state) >> 11) * 0x1p-53;
 }
 
-/* Mean 0, variance 1, within +-6: a sum of twelve uniforms (Irwin and Hall). */
+/* A value with mean 0 and variance 1, within +-6: the sum of twelve uniform values (Irwin-Hall distribution). */
 static double random_normal(uint64_t *state)
 {
     double sum = -6;
@@ -28,7 +29,7 @@ static double random_normal(uint64_t *state)
     return sum;
 }
 
-/* One distribution: fills rows with coordinates in [-1, 1]. */
+/* Fill the rows with coordinates in [-1, 1]. */
 typedef void distribution(uint64_t seed, size_t count, double (*rows)[3]);
 
 static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
@@ -38,7 +39,8 @@ static void sample_uniform(uint64_t seed, size_t count, double (*rows)[3])
             rows[n][i] = 2 * octree_random_unit(&seed) - 1;
 }
 
-/* Normal about a centre; what would leave [-1, 1] is drawn again, so that nothing piles up on the faces. */
+/* A normal value around a center. Values outside [-1, 1] are drawn again, so that points do not pile up on the faces.
+ */
 static double random_within(uint64_t *state, double center, double sigma)
 {
     double x;
@@ -72,7 +74,7 @@ static void sample_clustered(uint64_t seed, size_t count, double (*rows)[3])
     }
 }
 
-/* Points of the ball, brought to its surface. */
+/* Draw points in a ball and project them onto its surface. */
 static void sample_surface(uint64_t seed, size_t count, double (*rows)[3])
 {
     for (size_t n = 0; n < count; n++) {
@@ -129,7 +131,7 @@ bool octree_sample_parse(const char *name, octree_sample_kind *kind)
     return false;
 }
 
-/* From [-1, 1] to [min, max], without overflow. */
+/* Map [-1, 1] to [min, max] without overflow. */
 static double stretch(double unit, double min, double max)
 {
     const double x = (min / 2 + max / 2) + unit * (max / 2 - min / 2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* session.c - what a game is played from: a session is checked, its bodies are loaded, and the paper's own session. */
+/* session.c - checks a session, finds the input of a tick in it, and loads its bodies; the default session. */
 #include "session.h"
 #include "game_state.h"
 #include "search.h"
@@ -85,7 +85,7 @@ octree_status octree_input_check(const octree_input *input)
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* Edits, queries, shapes, gaps and foreign trees begin with their tick. */
+/* The tick of the i-th item: edits, queries, shapes, gaps and foreign trees all begin with their tick. */
 static uint64_t tick_of(const void *items, size_t size, size_t i)
 {
     uint64_t tick;
@@ -144,7 +144,7 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
 
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
 
-/* The first of the items, which ascend, that is of this tick or a later one. */
+/* The index of the first item of this tick or a later one. The items ascend by tick. */
 static size_t first_from(const void *items, size_t size, size_t count, uint64_t tick)
 {
     size_t first = 0;
@@ -158,7 +158,7 @@ static size_t first_from(const void *items, size_t size, size_t count, uint64_t 
     return first;
 }
 
-/* The items of a tick, and their number into *found. */
+/* The items of a tick; *found is their number. Null if there are none. */
 static const void *items_of(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
 {
     const size_t first = first_from(items, size, count, tick);
@@ -191,14 +191,14 @@ octree_input session_input(const octree_session *s, uint64_t tick)
 
 /* ---- Loading ------------------------------------------------------------------------------------------------ */
 
-static void note_speed(octree_game *game, const double velocity[3])
+static void update_fastest(octree_game *game, const double velocity[3])
 {
     for (int i = 0; i < 3; i++)
         if (fabs(velocity[i]) > game->fastest)
             game->fastest = fabs(velocity[i]);
 }
 
-/* The points of the bodies; one whose velocity is not finite is refused without asking the tree. Their number. */
+/* Store the points of all bodies whose velocity is finite; the others are refused. Returns the number of points. */
 static size_t collect_points(octree_game *game, octree_point *points)
 {
     size_t count = 0;
@@ -206,15 +206,15 @@ static size_t collect_points(octree_game *game, octree_point *points)
         const octree_body *body = &game->session->bodies[i];
         if (!is_finite(body->velocity))
             continue;
-        note_speed(game, body->velocity);
+        update_fastest(game, body->velocity);
         points[count].id = body->id;
         memcpy(points[count++].position, body->position, sizeof points->position);
     }
     return count;
 }
 
-/* `statuses` are those of the points collected. A duplicate id makes octree_game_create() fail, so that its point,
- * which is in the tree by then, does no harm. */
+/* Add the bodies. `statuses` are those of the collected points. A duplicate id makes octree_game_create() fail, so it
+ * does no harm that its point is already in the tree. */
 static octree_status add_bodies(octree_game *game, const octree_status *statuses)
 {
     for (size_t i = 0; i < game->session->body_count; i++) {
@@ -249,8 +249,8 @@ octree_status game_load_bodies(octree_game *game)
 
 /* ---- The paper's session ------------------------------------------------------------------------------------ */
 
-/* Ids are the places in the paper's list; the sixth, (0, 0, 0), is the player. Three points share one cell of depth 5,
- * so one of them is refused at tick 0. */
+/* The ids are the positions in the paper's list. The sixth point, (0, 0, 0), is the player. Three points share one cell
+ * of depth 5, so tick 0 refuses one of them. */
 static const octree_body paper_bodies[] = {
     {.id = 1, .position = {-50, -50, 100}},    {.id = 2, .position = {900, -900, -900}},
     {.id = 3, .position = {900, 900, 900}},    {.id = 4, .position = {-100, -100, 100}},
@@ -267,7 +267,7 @@ static const char paper_keys[] =
     "ddweddwedddddddddddddddddddddddddddddddddnddwddddn"     /* point 2, and the face x = 1000 */
     "ewaewaewaewaewaewaewaewaewaewa"                         /* up to point 9 */
     "ewewewewewewewewewewewewewewewwwneee.n"
-    "dwedwedwedweddewn.en"   /* into the cell that is full */
+    "dwedwedwedweddewn.en"   /* into the full cell */
     "dwendweenaweeeen"       /* the face z = 1000 */
     "wddnwaawwdnwfaffssn.."; /* point 11, the face y = 1000 */
 
@@ -276,7 +276,7 @@ static const char paper_keys[] =
         .tick = at, .kind = OCTREE_QUERY_RANGE, .box = { {700, 700, 700}, {1000, 1000, 1000} }                         \
     }
 
-/* The crowded corner is asked for while the player is there. */
+/* Ask for the crowded corner while the player is there. */
 static const octree_query paper_queries[] = {
     CORNER(212), CORNER(213), CORNER(214), CORNER(215), CORNER(216), CORNER(217),
     CORNER(218), CORNER(219), CORNER(220), CORNER(221), CORNER(222), CORNER(223),

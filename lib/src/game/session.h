@@ -5,17 +5,17 @@
 
 #include "octree/game.h"
 
-/* The session's edits, queries, shapes, gap and foreign nodes for a tick, or for OCTREE_EVERY_TICK; no key. Cost: O(log
- * of their number).
- */
+/* The session's edits, queries, shapes, gap and foreign nodes of a tick, or of OCTREE_EVERY_TICK, without the key.
+ * Cost: O(log n) for n of them. */
 octree_input session_input(const octree_session *session, uint64_t tick);
 
+/* Whether a key plays a tick: any key of game.h except q. */
 bool game_is_key(char key);
 
-/* What octree_game_create says of a session whose tree could be made. */
+/* Check a session whose tree could be created. Errors: those of octree_game_create. */
 octree_status game_check_session(const octree_session *session, const octree *tree);
 
-/* Insert the bodies of the game's session. DUPLICATE, NO_MEMORY or OK: refusals are noted. */
+/* Insert the bodies of the game's session and record refusals. Returns OK, DUPLICATE or NO_MEMORY. */
 octree_status game_load_bodies(octree_game *game);
 
 #endif

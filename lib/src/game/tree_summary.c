@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* tree_summary.c - updates digest, statistics and inner nodes by walking only the subtrees that changed. */
 #include "tree_summary.h"
 #include "walk.h"
 
@@ -14,7 +15,8 @@ typedef struct subtree {
     uint64_t sum; /* of digest_node() */
 } subtree;
 
-/* An update on its way through the tree from left to right, which is the order of all of the lists. */
+/* An update in progress. It walks the tree in pre-order, which is the order of all lists, so each list needs one index.
+ */
 typedef struct update {
     tree_summary *to;
     arena *memory;
@@ -22,13 +24,13 @@ typedef struct update {
     bool out_of_memory;
 } update;
 
-void tree_summary_touch(tree_summary *s, arena *memory, const octree *tree, const double place[3])
+void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, const double position[3])
 {
     if (!s->known)
         return;
-    /* With more places than these most subtrees would be looked at anyway. */
+    /* With more positions than this, most subtrees have to be walked anyway. */
     const bool few = s->touched.count < 4096 + tree->root.count / 64;
-    const uint64_t code = morton_code(tree->axes, place);
+    const uint64_t code = morton_code(tree->axes, position);
     s->known = few && list_push(memory, &s->touched, &code, sizeof code);
 }
 
@@ -48,7 +50,7 @@ static void add_inner(update *u, octree_address address)
     u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
-/* The subtree that was at this address at the last update, or null. */
+/* The subtree at this address at the last update, or null. */
 static const subtree *subtree_before(update *u, octree_address address)
 {
     const subtree *before = u->to->subtrees_before.items;
@@ -58,8 +60,8 @@ static const subtree *subtree_before(update *u, octree_address address)
     return u->next_before < count && before[u->next_before].address == address ? &before[u->next_before] : NULL;
 }
 
-/* Whether a place in the cell at an address was touched. */
-static bool is_touched(update *u, octree_address address)
+/* Whether a point in the cell at an address changed. */
+static bool has_changed(update *u, octree_address address)
 {
     const uint64_t *codes = u->to->touched.items;
     const size_t count = u->to->touched.count;
@@ -88,7 +90,7 @@ static void add_subtree(update *u, const node *n, octree_address address)
         return;
     }
     const size_t first_inner = u->to->inner.count;
-    if (before && !is_touched(u, address)) {
+    if (before && !has_changed(u, address)) {
         *made = *before;
         keep_inner(u, before);
     } else {
@@ -99,9 +101,9 @@ static void add_subtree(update *u, const node *n, octree_address address)
     made->inner_count = u->to->inner.count - first_inner;
 }
 
-/* ---- The whole ---------------------------------------------------------------------------------------------- */
+/* ---- The whole tree ----------------------------------------------------------------------------------------- */
 
-/* Add a node and all below it, in pre-order; unless `whole`, subtrees are added to the list of subtrees instead. */
+/* Add a node and all its descendants, in pre-order. Unless `whole`, subtrees go to the list of subtrees instead. */
 static void add_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address, bool whole)
 {
     if (u->out_of_memory)

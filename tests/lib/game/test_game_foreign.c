@@ -460,7 +460,7 @@ static void a_point_that_is_held_elsewhere_too_may_be_pruned(void **state)
     assert_fault(tick_with(nodes, NODES, ASK(RANGE, PRUNED(3))), OCTREE_NODE_PRUNED_POINT, 3, 2);
 }
 
-/* It is in no node of the program's. */
+/* No foreign node holds it. */
 static void the_player_is_held_against_nobody(void **state)
 {
     (void)state;

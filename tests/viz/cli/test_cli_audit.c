@@ -454,7 +454,7 @@ static void diff_names_the_answers_that_became_wrong(void **state)
     }
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "another answer of the program in the nearest query ((3), was (1))"));
+    assert_non_null(strstr(result.out, "another foreign answer in the nearest query ((3), was (1))"));
     assert_non_null(strstr(result.out, "1 more wrong answer at tick 2; "));
     assert_non_null(
         strstr(result.out, "another judgement of the program's answer in the nearest query (farther, was none)"));

@@ -86,11 +86,11 @@ static void assert_headline_ends(const char *before, const char *now, const char
 static void more_and_fewer_wrong_answers_are_counted_from_their_first_tick(void **state)
 {
     (void)state;
-    assert_headline("111111", "111121", "1 more wrong answer at tick 4; the answer of the program changed at tick 4");
+    assert_headline("111111", "111121", "1 more wrong answer at tick 4; the foreign answer changed at tick 4");
     assert_headline("111111", "112212", "3 more wrong answers from tick 2 on; ");
     assert_headline("122222", "111111", "5 fewer wrong answers from tick 1 on; ");
     assert_headline("121111", "112212",
-                    "1 fewer wrong answer at tick 1; 4 answers of the program changed, the first at tick 1");
+                    "1 fewer wrong answer at tick 1; 4 foreign answers changed, the first at tick 1");
     assert_headline_ends("121111", "112212", "; 3 more wrong answers from tick 2 on");
     assert_headline("1-----", "122---", "2 more wrong answers from tick 1 on; ");
 }

@@ -40,9 +40,9 @@ static void a_node_more_is_told(void **state)
 {
     (void)state;
     assert_says_of(give_small, give_right,
-                   "one more node of the program at tick 0 (id 6, parent 5, "
-                   "box (0, -1, -1) to (1, 1, 1)); tick 0: another number of the program's nodes "
-                   "(2, was 1), another depth of the program's tree (1, was 0), another tree of the program "
+                   "one more foreign node at tick 0 (id 6, parent 5, "
+                   "box (0, -1, -1) to (1, 1, 1)); tick 0: another number of foreign nodes "
+                   "(2, was 1), another depth of the foreign nodes (1, was 0), another digest of the foreign nodes "
                    "(f49a4f94454fc709, was bb7cba137201538c)");
 }
 
@@ -124,7 +124,7 @@ static void a_fault_more_is_told_with_its_tick(void **state)
 {
     (void)state;
     assert_says_of(give_right, give_wrong,
-                   "another node of the program at tick 0 (id 6, parent 5, box (0, -1, -1) to "
+                   "another foreign node at tick 0 (id 6, parent 5, box (0, -1, -1) to "
                    "(2, 1, 1), was (0, -1, -1) to (1, 1, 1)); tick 0: one more fault in the "
                    "program's nodes (fault \"outside_parent\", node 6)");
 }

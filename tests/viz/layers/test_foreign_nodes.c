@@ -238,7 +238,7 @@ static void nodes_are_told_in_words(void **state)
     assert_non_null(
         strstr(told(LAYER_NODES, SCENE_LABEL, foreign_element(FOREIGN_RIGHT)), "text \"3\" on node 3 of the program"));
     assert_string_equal(told(LAYER_WRONG, SCENE_MARKER, LOST | 8),
-                        "point 8 at (900, -100, 600), which is in no node of the program");
+                        "point 8 at (900, -100, 600), which is in no foreign node");
 }
 
 /* Those begin with a bit at a multiple of 3. */

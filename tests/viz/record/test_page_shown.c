@@ -355,7 +355,7 @@ static void curves_of_two_trees_are_told_apart(void **state)
     char *page = browser_open(d->folder, place_below(film.path, "index.html").path, "t=0");
     assert_has(page, "Octreel's nodes");
     assert_has(page, "Octreel's split");
-    assert_has(page, "program's nodes");
+    assert_has(page, "foreign nodes");
     free(page);
     page = browser_open(d->folder, place_in(d->folder, "film/index.html").path, "t=0");
     assert_null(strstr(strstr(page, "id=\"timeline\""), "Octreel's nodes</span>"));

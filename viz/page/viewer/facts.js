@@ -6,10 +6,10 @@
  * program's too. One line more is one curve more. Of a fact that is a list the entries are counted; a curve that no tick
  * has a fact for is left out. */
 const CURVES = [
-    ["foreign_nodes.count", "program's nodes"],
-    ["foreign_nodes.depth", "program's depth"],
-    ["foreign_nodes.visited", "program's visits"],
-    ["foreign_nodes.wrong.count", "program's faults"],
+    ["foreign_nodes.count", "foreign nodes"],
+    ["foreign_nodes.depth", "foreign depth"],
+    ["foreign_nodes.visited", "foreign visits"],
+    ["foreign_nodes.wrong.count", "wrong foreign nodes"],
     ["tree.nodes", "nodes", "own"],
     ["tree.depth", "depth", "own"],
     ["tree.points", "points"],
@@ -75,13 +75,13 @@ class Recording {
         this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
         lines.forEach(line => this.append(line));
         this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
-        this.hasProgramNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("foreign_nodes"));
+        this.hasForeignNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("foreign_nodes"));
     }
 
     /* What a curve or an event is called. */
     nameOf(name, of)
     {
-        return of === "own" && this.hasProgramNodes ? `Octreel's ${name}` : name;
+        return of === "own" && this.hasForeignNodes ? `Octreel's ${name}` : name;
     }
 
     static parse(text)
@@ -107,7 +107,7 @@ class Recording {
         const part = new Recording(this.about, []);
         for (const list of ["lines", "events", "filmed"])
             part[list] = this[list].slice(0, length);
-        part.hasProgramNodes = this.hasProgramNodes;
+        part.hasForeignNodes = this.hasForeignNodes;
         part.curves = this.curves.map(curve => ({...curve, values: curve.values.slice(0, length)}));
         return part;
     }

@@ -117,7 +117,7 @@ class Timeline {
     show(recording)
     {
         this.recording = recording;
-        this.root.classList.toggle("two-trees", recording.hasProgramNodes);
+        this.root.classList.toggle("two-trees", recording.hasForeignNodes);
         for (const lane of this.lanes)
             for (const part of [lane.label, lane.canvas, lane.shown])
                 part.remove();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign_faults.c - finds what is provably wrong with foreign nodes, by themselves and in what queries did with them.
+/* wrong_nodes.c - finds what is provably wrong with foreign nodes, by themselves and in what queries did with them.
  *
  * The problem: an index may hold its points anywhere (in leaves, in inner nodes, in several nodes at once), it may list
  * them or not, its boxes may overlap, and its answers may be approximate. A rule of one index is no rule of another, so
