@@ -134,7 +134,10 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
         inspect_print_numbers(((const octree_box *)value)->max, 3, out);
         break;
     case OCTREE_MEMBER_POSITION:
-        fputs(shown->about->neighbors ? " to" : " about", out);
+        fprintf(out, " %s",
+                member->bit != OCTREE_QUERY_HAS_TARGET ? member->key
+                : shown->about->neighbors              ? "to"
+                                                       : "about");
         inspect_print_numbers((const double *)value, 3, out);
         break;
     case OCTREE_MEMBER_LENGTH:
