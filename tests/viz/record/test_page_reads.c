@@ -12,7 +12,7 @@
 #include "recordings.h"
 #include "session_file.h"
 
-#define HEADER "{\"octreel\": \"session\", \"version\": 1, "
+#define HEADER "{\"octreel\": \"session\", \"version\": 2, "
 
 /* Parts of a session after the start of its header: first those that are read, then those that are refused. */
 static const char *const texts[] = {
