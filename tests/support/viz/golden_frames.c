@@ -59,7 +59,7 @@ const golden_frame golden_frames[] = {
     {"asked", "top", "nodes,asked,points", 0, "clustered", 0, 0},
     {"wrong", "iso", "world,nodes,points,nearest,radius,wrong,text", 0, "answered", 640, 360},
     {"foreign_nodes", "iso", "default", 0, "foreign", 640, 360},
-    {"program_nodes_wrong", "iso", "default", 1, "foreign", 640, 360},
+    {"foreign_nodes_wrong", "iso", "default", 1, "foreign", 640, 360},
     {"visits_told", "iso", "default,visit-heat", 218, NULL, 640, 360},
     {"painted", "iso", "nodes,points,text", 0, "painted", 640, 360},
     {"painted_leaves", "orbit", "world,points,text", 0, "painted", 480, 270},
