@@ -55,9 +55,9 @@ static void add_hit(scene *s, const layer_source *in, view_layer own)
 }
 
 /* How many of the nodes that are shown were met so. */
-static size_t count_met(const layer_source *in, size_t own, octree_met met)
+static size_t count_met(const layer_source *in, size_t own, octree_node_visit visit)
 {
-    return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.met[met] : 0);
+    return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
 }
 
 static void add_pruned_legend(legend *l, const layer_source *in)

@@ -168,7 +168,7 @@ typedef struct octree_visit {
     octree_address node; /* in the tree at the time of the search: the collision test comes before the step, which may
                             merge nodes that the test visited */
     octree_trace_kind touch; /* the strongest of all searches: visited, then taken whole, then pruned */
-    bool taken;          /* at least one search took it whole */
+    bool taken;              /* at least one search took it whole */
 } octree_visit;
 
 /* One tick. The game owns the arrays; they are valid until its next step. */
