@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_text.c - what session.txt tells people of session files is what they are. */
+/* test_session_text.c - session.txt agrees with the code: its examples parse, and it names every member and kind. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,14 +16,13 @@ static int read_text(void **state)
     return 0;
 }
 
-static int forget_text(void **state)
+static int free_text(void **state)
 {
     free(*state);
     return 0;
 }
 
-/* The next of its indented examples from *at on, which it moves beyond; null when there is none. The caller frees it.
- */
+/* Find the next indented example from *at on, and advance *at beyond it. The caller frees it; null after the last. */
 static char *next_example(const char **at)
 {
     const char *begin = strstr(*at, "\n\n" INDENT);
@@ -35,7 +34,7 @@ static char *next_example(const char **at)
     return strndup(begin, (size_t)(end - begin));
 }
 
-static void its_examples_are_sessions(void **state)
+static void session_text_examples_parse_as_sessions(void **state)
 {
     const char *at = *state;
     session_file files[3] = {0};
@@ -54,46 +53,46 @@ static void its_examples_are_sessions(void **state)
         session_release(&files[i]);
 }
 
-static void assert_says(const char *text, const char *name)
+static void assert_names(const char *text, const char *name)
 {
     char quoted[64];
     snprintf(quoted, sizeof quoted, "\"%s\"", name);
     if (strstr(text, quoted) == NULL)
-        fail_msg("session.txt does not tell of %s", quoted);
+        fail_msg("session.txt does not name %s", quoted);
 }
 
-static void assert_says_members(const char *text, const json_member *members)
+static void assert_names_members(const char *text, const json_member *members)
 {
     for (; members->name != NULL; members++) {
-        assert_says(text, members->name);
+        assert_names(text, members->name);
         if (members->members != NULL)
-            assert_says_members(text, members->members);
+            assert_names_members(text, members->members);
     }
 }
 
-static void it_tells_of_every_member_and_kind(void **state)
+static void session_text_names_every_member_and_kind(void **state)
 {
     const char *text = *state;
-    assert_says_members(text, session_header_members);
-    assert_says_members(text, session_tick_members);
-    assert_says_members(text, session_body_members);
+    assert_names_members(text, session_header_members);
+    assert_names_members(text, session_tick_members);
+    assert_names_members(text, session_body_members);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
-        assert_says(text, octree_query_name((octree_query_kind)kind));
-    assert_says(text, "skip");
-    assert_says(text, "coincident");
-    assert_says(text, "epsilon");
-    assert_says(text, "answer");
-    assert_says(text, "mode");
+        assert_names(text, octree_query_name((octree_query_kind)kind));
+    assert_names(text, "skip");
+    assert_names(text, "coincident");
+    assert_names(text, "epsilon");
+    assert_names(text, "answer");
+    assert_names(text, "mode");
     for (int precision = 0; precision < OCTREE_PRECISIONS; precision++)
-        assert_says(text, octree_precision_name((octree_precision)precision));
+        assert_names(text, octree_precision_name((octree_precision)precision));
     for (int kind = 0; kind < OCTREE_SHAPE_KINDS; kind++)
-        assert_says(text, octree_shape_name((octree_shape_kind)kind));
+        assert_names(text, octree_shape_name((octree_shape_kind)kind));
     for (int kind = 0; kind < OCTREE_SAMPLE_KINDS; kind++)
-        assert_says(text, octree_sample_name((octree_sample_kind)kind));
+        assert_names(text, octree_sample_name((octree_sample_kind)kind));
 }
 
-/* It is printed, on terminals of all sorts. */
-static void it_is_plain_ascii_in_lines_of_120(void **state)
+/* `octreel help session` prints it on any terminal. */
+static void session_text_is_ascii_in_lines_of_120(void **state)
 {
     size_t column = 0;
     for (const char *at = *state; *at != 0; at++) {
@@ -106,9 +105,9 @@ static void it_is_plain_ascii_in_lines_of_120(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(its_examples_are_sessions),
-        cmocka_unit_test(it_tells_of_every_member_and_kind),
-        cmocka_unit_test(it_is_plain_ascii_in_lines_of_120),
+        cmocka_unit_test(session_text_examples_parse_as_sessions),
+        cmocka_unit_test(session_text_names_every_member_and_kind),
+        cmocka_unit_test(session_text_is_ascii_in_lines_of_120),
     };
-    return cmocka_run_group_tests(tests, read_text, forget_text);
+    return cmocka_run_group_tests(tests, read_text, free_text);
 }
