@@ -15,7 +15,7 @@
 /* ---- Its scene ---------------------------------------------------------------------------------------------- */
 
 /* The box in the world around all that the close-up may show: a view's filter leaves out whole branches by it. */
-static octree_box region_of(const camera *c, const view *v)
+static octree_box visible_box(const camera *c, const view *v)
 {
     octree_box box;
     const double pixel = camera_pixel_length(c), deep = (c->far_depth - c->distance) * (c->size / 2 / c->scale);
@@ -29,7 +29,7 @@ static octree_box region_of(const camera *c, const view *v)
     return box;
 }
 
-static void narrow(view_filter *f, const octree_box *region)
+static void narrow_region(view_filter *f, const octree_box *region)
 {
     const octree_box before = f->region;
     f->region = *region;
@@ -41,7 +41,7 @@ static void narrow(view_filter *f, const octree_box *region)
 }
 
 /* As large a part as it has of the picture. */
-static uint64_t part_of_budget(const view *v, double pixels)
+static uint64_t budget_share(const view *v, double pixels)
 {
     const double part = (double)v->budget * (pixels / v->width / v->height);
     return v->budget && part < 1 ? 1 : (uint64_t)part;
@@ -64,11 +64,11 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     c->view.width = (int)w.width;
     c->view.height = (int)w.height;
     c->view.diagram = DIAGRAM_NONE;
-    c->view.budget = part_of_budget(&s->view, w.width * w.height);
+    c->view.budget = budget_share(&s->view, w.width * w.height);
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
     c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
-    const octree_box region = region_of(&c->camera, &c->view);
-    narrow(&c->view.filter, &region);
+    const octree_box region = visible_box(&c->camera, &c->view);
+    narrow_region(&c->view.filter, &region);
     *close = *in;
     close->view = &c->view;
     return true;
@@ -233,18 +233,18 @@ static void add(scene *s, const layer_source *in, view_layer own)
     }
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
-        say(d, element->id == BORDER_ID   ? "the close-up's frame"
-               : element->id == GROUND_ID ? "the ground of the close-up"
-                                          : "the ground of letters of the close-up");
+        append_text(d, element->id == BORDER_ID   ? "the close-up's frame"
+                       : element->id == GROUND_ID ? "the ground of the close-up"
+                                                  : "the ground of letters of the close-up");
     else if (element->kind == SCENE_LABEL)
-        say(d, element->id == SCALE_ID ? ", the close-up's scale" : ", what the close-up shows of all");
+        append_text(d, element->id == SCALE_ID ? ", the close-up's scale" : ", what the close-up shows of all");
     else if (element->id < LEADER_ID)
-        say(d, "the frame of what the close-up shows");
+        append_text(d, "the frame of what the close-up shows");
     else
-        say(d, element->id < SCALE_ID ? "a line from there to the close-up" : "the close-up's scale");
+        append_text(d, element->id < SCALE_ID ? "a line from there to the close-up" : "the close-up's scale");
 }
 
 const layer_type layer_CLOSEUP = {.add = add, .describe = describe};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* closeup.h - what is small in a picture, larger, in a part of it. */
-#ifndef FRAME_CLOSEUP_H
-#define FRAME_CLOSEUP_H
+#ifndef COMPOSE_CLOSEUP_H
+#define COMPOSE_CLOSEUP_H
 
 #include "layer_type.h"
 

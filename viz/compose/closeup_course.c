@@ -15,10 +15,10 @@
 #define SMALL (32.0 / 720)     /* what appears larger needs no close-up, */
 #define WANTED (68.0 / 720)    /* and a close-up makes it about so large, */
 #define STILL 0.4              /* or, where nothing moves, this part of itself. */
-#define SURROUNDED (8.0 / 720) /* Neighbours are shown with so much around them, or with their leaf, */
+#define SURROUNDED (8.0 / 720) /* Neighbours are visible_part with so much around them, or with their leaf, */
 #define CHANGED (31.0 / 720)   /* and what is moved with so much: what is around it at other ticks is not known */
 #define LEAF_PART 0.5          /* The part of a leaf that counts, which is then seen as a whole */
-#define MOST_TIMES 1e6         /* as --zoom */
+#define MAX_MAGNIFICATION 1e6  /* as --zoom */
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
@@ -44,7 +44,7 @@ static void widen_by_cell(octree_box *box, const octree_box *world, octree_addre
 }
 
 /* Half of the longest extent, which may overflow. */
-static double reach_of(const octree_box *box)
+static double half_extent(const octree_box *box)
 {
     double reach = 0;
     for (int i = 0; i < 3; i++)
@@ -55,7 +55,7 @@ static double reach_of(const octree_box *box)
 /* ---- What there is to be seen ------------------------------------------------------------------------------- */
 
 /* The region of a query; of a query for neighbours its target and the neighbours found. */
-static octree_box box_of_answer(const octree_answer *answer)
+static octree_box answer_box(const octree_answer *answer)
 {
     octree_box box = nothing;
     if (octree_answer_bound(answer, &box))
@@ -67,7 +67,7 @@ static octree_box box_of_answer(const octree_answer *answer)
 }
 
 /* Where a point moves to in the next tick, too: a close-up is of no use to one that leaves it at once. */
-static void widen_by_way(octree_box *box, const octree_body *mover)
+static void widen_by_movement(octree_box *box, const octree_body *mover)
 {
     double next[3];
     for (int i = 0; i < 3; i++)
@@ -77,12 +77,12 @@ static void widen_by_way(octree_box *box, const octree_body *mover)
 }
 
 /* What a tick edits, moves, splits and merges. */
-static octree_box box_of_changes(const layer_source *in)
+static octree_box changes_box(const layer_source *in)
 {
     const octree_tick *tick = in->tick;
     octree_box box = tick->edit_count ? tick->edited : nothing;
     for (size_t i = 0; i < tick->mover_count; i++)
-        widen_by_way(&box, &tick->movers[i]);
+        widen_by_movement(&box, &tick->movers[i]);
     for (size_t i = 0; i < tick->split_count; i++)
         widen_by_cell(&box, &in->world, tick->splits[i]);
     for (size_t i = 0; i < tick->merge_count; i++)
@@ -106,13 +106,13 @@ static measure measure_of(const layer_source *in)
     return (measure){view_height_in_wide(in->view), camera_pixel_length(&c)};
 }
 
-static double part_of(const measure *m, double reach)
+static double part_of_height(const measure *m, double reach)
 {
     return 2 * reach / m->pixel / m->height;
 }
 
 /* Whether anything is: else what there is to be seen is what a tick changes. */
-static bool is_asked(const layer_source *in)
+static bool has_queries(const layer_source *in)
 {
     return in->answer_count > 0 || !in->tick;
 }
@@ -133,7 +133,7 @@ static double round_down(double limit)
 }
 
 /* The part that a close-up shows, which is as many times as large. */
-static double shown(const layer_source *in, const measure *m, double times)
+static double visible_part(const layer_source *in, const measure *m, double times)
 {
     const camera_window w = layout_closeup(in->view);
     return fmin(w.width, w.height) / m->height / times;
@@ -141,102 +141,104 @@ static double shown(const layer_source *in, const measure *m, double times)
 
 /* Of what has this reach; 0 where that is large enough already, or nothing. Where nothing moves it may fill the
  * close-up. */
-static double times_of(double reach, const layer_source *in, const measure *m)
+static double magnification_for(double reach, const layer_source *in, const measure *m)
 {
-    const double part = part_of(m, reach), wanted = in->game ? WANTED : fmax(WANTED, STILL * shown(in, m, 1));
-    return part > 0 && part < SMALL ? round_down(fmin(wanted / part, MOST_TIMES)) : 0;
+    const double part = part_of_height(m, reach),
+                 wanted = in->game ? WANTED : fmax(WANTED, STILL * visible_part(in, m, 1));
+    return part > 0 && part < SMALL ? round_down(fmin(wanted / part, MAX_MAGNIFICATION)) : 0;
 }
 
-double closeup_times(const closeup_course *course, const layer_source *in)
+double closeup_magnification(const closeup_course *course, const layer_source *in)
 {
     const measure m = measure_of(in);
-    return in->view->closeup && layout_closeup(in->view).width > 0 ? times_of(course->reach, in, &m) : 0;
+    return in->view->closeup && layout_closeup(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
 /* Where neighbours are very near, they alone say nothing. */
-static double reach_with_leaf(const layer_source *in, const octree_box *seen, const measure *m)
+static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const measure *m)
 {
     double middle[3];
     octree_node leaf;
     scene_box_middle(seen, middle);
     const bool has_leaf = octree_locate(in->tree, middle, &leaf) == OCTREE_OK && leaf.leaf;
-    const double around = (is_asked(in) ? SURROUNDED : CHANGED) * m->height / 2 * m->pixel;
-    return fmax(reach_of(seen), fmin(has_leaf ? LEAF_PART * reach_of(&leaf.box) : INFINITY, around));
+    const double around = (has_queries(in) ? SURROUNDED : CHANGED) * m->height / 2 * m->pixel;
+    return fmax(half_extent(seen), fmin(has_leaf ? LEAF_PART * half_extent(&leaf.box) : INFINITY, around));
 }
 
 /* ---- Where -------------------------------------------------------------------------------------------------- */
 
 /* What is gathered for a close-up. */
-typedef struct gathering {
+typedef struct group_search {
     const layer_source *in;
     measure m;
     double most;  /* nothing is taken in that takes a larger part */
     double reach; /* of the first that is small; 0: there was none */
     octree_box group;
-} gathering;
+} group_search;
 
-/* What has no size of its own, which somebody asked for, is shown with its leaf. */
-static void take_in(gathering *g, const octree_box *more, bool is_sized)
+/* What has no size of its own, which somebody asked for, is visible_part with its leaf. */
+static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
 {
     octree_box both = g->group;
     const octree_box *world = &g->in->world;
     for (int i = 0; i < 3; i++)
         if (!(more->min[i] <= world->max[i] && more->max[i] >= world->min[i]))
             return;
-    if (!(part_of(&g->m, reach_of(more)) < g->most))
+    if (!(part_of_height(&g->m, half_extent(more)) < g->most))
         return;
-    const double own = is_sized && reach_of(more) > 0 ? reach_of(more) : reach_with_leaf(g->in, more, &g->m);
+    const double own =
+        is_sized && half_extent(more) > 0 ? half_extent(more) : half_extent_with_leaf(g->in, more, &g->m);
     const double reach = g->reach > 0 ? g->reach : own;
-    const double times = times_of(reach, g->in, &g->m);
+    const double times = magnification_for(reach, g->in, &g->m);
     widen(&both, more->min, more->max);
-    if (!(times > 0 && part_of(&g->m, reach_of(&both)) < shown(g->in, &g->m, times)))
+    if (!(times > 0 && part_of_height(&g->m, half_extent(&both)) < visible_part(g->in, &g->m, times)))
         return;
     g->reach = reach;
     g->group = both;
 }
 
-static void take_all(gathering *g)
+static void add_candidates(group_search *g)
 {
     octree_node node;
     octree_box box;
     const layer_source *in = g->in;
-    if (in->asked && octree_node_at(in->tree, in->asked, &node) == OCTREE_OK)
-        take_in(g, &node.box, true);
+    if (in->requested && octree_node_at(in->tree, in->requested, &node) == OCTREE_OK)
+        add_to_group(g, &node.box, true);
     for (size_t i = 0; i < in->answer_count; i++) {
-        box = box_of_answer(&in->answers[i]);
-        take_in(g, &box, !in->answers[i].neighbors);
+        box = answer_box(&in->answers[i]);
+        add_to_group(g, &box, !in->answers[i].neighbors);
     }
-    if (!is_asked(in)) {
-        box = box_of_changes(in);
-        take_in(g, &box, false);
+    if (!has_queries(in)) {
+        box = changes_box(in);
+        add_to_group(g, &box, false);
     }
 }
 
 /* Those that are small come first. */
-static gathering gather(const closeup_course *course, const layer_source *in)
+static group_search find_group(const closeup_course *course, const layer_source *in)
 {
-    gathering g = {in, measure_of(in), SMALL, course->reach, nothing};
-    take_all(&g);
+    group_search g = {in, measure_of(in), SMALL, course->reach, nothing};
+    add_candidates(&g);
     g.most = INFINITY;
-    take_all(&g);
+    add_candidates(&g);
     return g;
 }
 
 /* Whether a close-up at a place shows it all. */
-static bool is_within(const gathering *g, const double place[3])
+static bool is_within(const group_search *g, const double place[3])
 {
     double reach = 0;
     for (int i = 0; i < 3; i++)
         reach = fmax(reach, fmax(g->group.max[i] - place[i], place[i] - g->group.min[i]));
-    return part_of(&g->m, reach) < shown(g->in, &g->m, times_of(g->reach, g->in, &g->m));
+    return part_of_height(&g->m, reach) < visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
 }
 
 /* What is asked is followed as a player is. Changes are here and there, and those that a close-up shows need not move
  * it. */
-static void follow_seen(closeup_course *course, const layer_source *in)
+static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
-    const gathering g = gather(course, in);
-    if (is_empty(&g.group) || (course->reach > 0 && !is_asked(in) && is_within(&g, course->place)))
+    const group_search g = find_group(course, in);
+    if (is_empty(&g.group) || (course->reach > 0 && !has_queries(in) && is_within(&g, course->place)))
         return;
     course->reach = g.reach;
     scene_box_middle(&g.group, course->place);
@@ -257,5 +259,5 @@ void closeup_follow(closeup_course *course, const layer_source *in)
     if (in->session && in->session->player.kind != OCTREE_PLAYER_NONE)
         follow_player(course, in);
     else if (layout_closeup(in->view).width > 0)
-        follow_seen(course, in);
+        follow_queries_or_changes(course, in);
 }

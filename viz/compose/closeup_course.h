@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* closeup_course.h - where the close-ups of a recording are, tick by tick, and how many times as large they show it. */
-#ifndef FRAME_CLOSEUP_COURSE_H
-#define FRAME_CLOSEUP_COURSE_H
+#ifndef COMPOSE_CLOSEUP_COURSE_H
+#define COMPOSE_CLOSEUP_COURSE_H
 
 struct layer_source; /* layer_type.h */
 
@@ -22,6 +22,6 @@ void closeup_follow(closeup_course *course, const struct layer_source *in);
 
 /* How many times as large a close-up shows what it is of, a round number; 0 where there is none: the view wants none,
  * the picture is too small, there is nothing to look at, or it is large enough already. */
-double closeup_times(const closeup_course *course, const struct layer_source *in);
+double closeup_magnification(const closeup_course *course, const struct layer_source *in);
 
 #endif

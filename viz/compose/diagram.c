@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* diagram.c - the layer of the diagram: the tree drawn as a tree, the paper's Figure 2.
  *
- * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from each to its parent:
- * inner nodes as squares, leaves as squares of half the side; in the colours of the space view, or grey if the view's
- * filter hides them. Levels that do not fit are folded into bars that show how many nodes are in a column of the
+ * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from row_step to its
+ * parent: inner nodes as squares, leaves as squares of half the side; in the colours of the space view, or grey if the
+ * view's filter hides them. Levels that do not fit are folded into bars that show how many nodes are in a column of the
  * picture: each doubling is a sixteenth of the row higher. See diagram_slots.h for the layout.
  */
 #include "diagram_slots.h"
@@ -42,9 +42,9 @@ enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_
 #define PATH_ID (UINT64_C(1) << 62) /* and the depth; with a bit of 32 the ring that keeps mark and node apart */
 
 /* Where a line meets a node: at its head from above, and at its foot from below. */
-typedef struct stop {
+typedef struct anchor {
     double x, head, foot;
-} stop;
+} anchor;
 
 typedef struct diagram {
     scene *scene;
@@ -56,14 +56,14 @@ typedef struct diagram {
     double top, pitch;  /* of the rows */
     unsigned rows;
     uint64_t next_label;
-    bool words;                       /* there is room for words */
-    octree_address path;              /* the node at the end of the path that is shown; 0: no path */
-    octree_node end;                  /* that node */
-    stop stops[OCTREE_MAX_DEPTH + 1]; /* the nodes on it */
+    bool words;                           /* there is room for words */
+    octree_address path;                  /* the node at the end of the path that is shown; 0: no path */
+    octree_node end;                      /* that node */
+    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* the nodes on it */
 } diagram;
 
 /* Of a tree alone as many as there are levels. */
-static unsigned rows_of(const diagram *d, unsigned depth)
+static unsigned count_rows(const diagram *d, unsigned depth)
 {
     const octree *tree = d->in->tree;
     if (!d->in->tick)
@@ -94,7 +94,7 @@ static bool arrange(diagram *d)
         s->out_of_memory = true;
         return false;
     }
-    d->rows = rows_of(d, d->slots.stats.depth);
+    d->rows = count_rows(d, d->slots.stats.depth);
     d->pitch = (w.height - (above + below)) / d->rows;
     return true;
 }
@@ -107,16 +107,16 @@ static bool is_on_path(const diagram *d, octree_address node, unsigned depth)
 }
 
 /* The middle of a row. */
-static double row_at(const diagram *d, unsigned depth)
+static double row_middle(const diagram *d, unsigned depth)
 {
     return d->top + (depth + 0.5) * d->pitch;
 }
 
-/* The stop of a node of this height whose middle is at `middle`, 0 to 1. */
-static stop stop_at(const diagram *d, unsigned depth, double middle, double height)
+/* The anchor of a node of this height whose middle is at `middle`, 0 to 1. */
+static anchor anchor_at(const diagram *d, unsigned depth, double middle, double height)
 {
-    const double y = row_at(d, depth);
-    return (stop){d->left + d->width * middle, y - height / 2, y + height / 2};
+    const double y = row_middle(d, depth);
+    return (anchor){d->left + d->width * middle, y - height / 2, y + height / 2};
 }
 
 /* A rectangle about a pixel; at least one pixel wide and high. */
@@ -136,7 +136,7 @@ static scene_style line_style(theme_role role, scene_stroke stroke, unsigned wid
 }
 
 /* A node and a visit by the order of a walk: the root first, and each node before its children. */
-static int by_walk(const void *node, const void *visit)
+static int compare_in_walk_order(const void *node, const void *visit)
 {
     const octree_address a = *(const octree_address *)node, b = ((const octree_visit *)visit)->node;
     const unsigned depth_a = octree_address_depth(a), depth_b = octree_address_depth(b);
@@ -148,12 +148,13 @@ static int by_walk(const void *node, const void *visit)
 /* The tick's visit of a node, or null. */
 static const octree_visit *find_visit(const octree_tick *tick, octree_address node)
 {
-    return tick && tick->visit_count ? bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, by_walk)
-                                     : NULL;
+    return tick && tick->visit_count
+               ? bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, compare_in_walk_order)
+               : NULL;
 }
 
 /* The line to a node from its parent: bold if visited, dashed if pruned, as in the space view. */
-static scene_style met_style(const diagram *d, octree_address node, theme_role role)
+static scene_style edge_style(const diagram *d, octree_address node, theme_role role)
 {
     const octree_visit *visit = find_visit(d->in->tick, node);
     const bool was_pruned = visit && visit->touch == OCTREE_TRACE_PRUNED;
@@ -177,12 +178,12 @@ static unsigned role_of(const diagram *d, const diagram_node *node)
 {
     const octree_node asked = {.depth = node->depth, .leaf = node->leaf, .box = node->box};
     return filter_shows_node(&d->scene->view.filter, &d->in->world, &asked)
-               ? node_role(&d->scene->view, (node_look){node->depth, node->points, d->capacity, node->leaf})
+               ? node_role(&d->scene->view, (node_traits){node->depth, node->points, d->capacity, node->leaf})
                : ROLE_WORLD;
 }
 
 /* From the foot of a node to the head of its child. */
-static void add_line(const diagram *d, octree_address child, const stop *from, const stop *to, scene_style style)
+static void add_line(const diagram *d, octree_address child, const anchor *from, const anchor *to, scene_style style)
 {
     scene_add_segment(d->scene, (scene_segment){.id = child,
                                                 .in_picture = true,
@@ -193,7 +194,7 @@ static void add_line(const diagram *d, octree_address child, const stop *from, c
 /* A ring around a node on the path, separated from the node by a dark ring. */
 static void add_ring(const diagram *d, unsigned depth, double x, const double size[2])
 {
-    const double y = row_at(d, depth);
+    const double y = row_middle(d, depth);
     for (int dark = 0; dark < 2; dark++) {
         const double more = (dark ? RING : 2 * RING) * d->scene->unit;
         fill_box(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
@@ -205,7 +206,7 @@ static void add_node(diagram *d, const diagram_node *node, double x, const doubl
 {
     if (is_on_path(d, node->address, node->depth))
         add_ring(d, node->depth, x, size);
-    fill_box(d, node->address, x, row_at(d, node->depth), size[0], size[1], role);
+    fill_box(d, node->address, x, row_middle(d, node->depth), size[0], size[1], role);
     d->scene->tally.drawn++;
 }
 
@@ -213,20 +214,21 @@ static void add_node(diagram *d, const diagram_node *node, double x, const doubl
  */
 static void add_nodes(diagram *d, bool on_path)
 {
-    stop stops[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
+    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
     for (size_t i = 0; i < d->slots.count; i++) {
         const diagram_node *node = &d->slots.nodes[i];
         const unsigned depth = node->depth, role = role_of(d, node);
         double size[2];
         measure(d, node, size);
-        stops[depth] = stop_at(d, depth, (node->left + node->right) / 2, size[1]);
+        anchors[depth] = anchor_at(d, depth, (node->left + node->right) / 2, size[1]);
         if (is_on_path(d, node->address, depth) != on_path)
             continue;
         if (on_path)
-            d->stops[depth] = stops[depth];
+            d->anchors[depth] = anchors[depth];
         else if (depth)
-            add_line(d, node->address, &stops[depth - 1], &stops[depth], met_style(d, node->address, (theme_role)role));
-        add_node(d, node, stops[depth].x, size, role);
+            add_line(d, node->address, &anchors[depth - 1], &anchors[depth],
+                     edge_style(d, node->address, (theme_role)role));
+        add_node(d, node, anchors[depth].x, size, role);
     }
 }
 
@@ -235,11 +237,11 @@ static void add_path(const diagram *d)
 {
     const unsigned deep = octree_address_depth(d->path);
     for (unsigned depth = 0; depth <= deep; depth++) {
-        const stop *at = &d->stops[depth];
+        const anchor *at = &d->anchors[depth];
         if (depth)
             add_line(d, d->path >> 3 * (deep - depth), at - 1, at, line_style(ROLE_PLAYER, STROKE_SOLID, 2));
         if (depth > d->slots.deepest)
-            fill_box(d, PATH_ID | depth, at->x, row_at(d, depth), RING * d->scene->unit, at->foot - at->head,
+            fill_box(d, PATH_ID | depth, at->x, row_middle(d, depth), RING * d->scene->unit, at->foot - at->head,
                      ROLE_PLAYER);
         d->scene->tally.path++;
     }
@@ -272,11 +274,11 @@ static void count_node(const octree_node *node, double middle, void *context)
     b->points += node->leaf ? node->count : 0;
     b->shown = b->shown || filter_shows_node(&d->scene->view.filter, &d->in->world, node);
     if (is_on_path(d, node->address, node->depth))
-        d->stops[node->depth] = stop_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
+        d->anchors[node->depth] = anchor_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
 }
 
 /* 1 for a node, 2 for two or three, 3 for four to seven ... */
-static unsigned steps_of(size_t nodes)
+static unsigned bar_steps(size_t nodes)
 {
     unsigned steps = 0;
     for (; nodes && steps < BAR_STEPS; nodes /= 2)
@@ -288,10 +290,10 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
 {
     const diagram *d = f->d;
     const double unit = d->scene->unit, width = d->width / (double)f->columns;
-    const double height = fmax(floor((d->pitch - 2 * unit) * steps_of(b->nodes) / BAR_STEPS), 1);
+    const double height = fmax(floor((d->pitch - 2 * unit) * bar_steps(b->nodes) / BAR_STEPS), 1);
     const double x = d->left + ((double)column + 0.5) * width;
-    const node_look look = {depth, b->leaves ? b->points / b->leaves : 0, d->capacity, b->leaves > 0};
-    fill_box(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_at(d, depth), fmax(width - unit / 2, 1),
+    const node_traits look = {depth, b->leaves ? b->points / b->leaves : 0, d->capacity, b->leaves > 0};
+    fill_box(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_middle(d, depth), fmax(width - unit / 2, 1),
              height, b->shown ? node_role(&d->scene->view, look) : ROLE_WORLD);
     d->scene->tally.folded += b->nodes;
 }
@@ -331,7 +333,7 @@ static void write_words(diagram *d, double x, double y, theme_role role, const c
 }
 
 /* Where a text begins that ends at the right edge. */
-static double right_of(const diagram *d, const char *text)
+static double right_aligned_x(const diagram *d, const char *text)
 {
     const scene *s = d->scene;
     return d->window.x + d->window.width - EDGE * s->unit - (double)strlen(text) * s->text.width;
@@ -345,19 +347,19 @@ static void write_count(diagram *d, double y, size_t count)
         snprintf(text, sizeof text, "%zu", count);
     else
         number_text((double)count, 3, text);
-    write_words(d, right_of(d, text), y, ROLE_TEXT, "%s", text);
+    write_words(d, right_aligned_x(d, text), y, ROLE_TEXT, "%s", text);
 }
 
 static void write_rows(diagram *d)
 {
     const scene *s = d->scene;
     const double left = d->window.x + EDGE * s->unit, top = d->window.y + s->text.line / 2;
-    const unsigned each = (unsigned)ceil(s->text.height / d->pitch); /* rows too low have words but now and then */
+    const unsigned row_step = (unsigned)ceil(s->text.height / d->pitch); /* rows too low have words but now and then */
     /* Where the picture shows a program's tree, this is another one. */
     write_words(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
-    write_words(d, right_of(d, "nodes"), top, ROLE_FAINT, "nodes");
-    for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += each) {
-        const double y = row_at(d, depth) - s->text.height / 2;
+    write_words(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
+    for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += row_step) {
+        const double y = row_middle(d, depth) - s->text.height / 2;
         write_words(d, left, y, ROLE_FAINT, "%u", depth);
         if (d->slots.stats.nodes_at_depth[depth])
             write_count(d, y, d->slots.stats.nodes_at_depth[depth]);
@@ -390,7 +392,7 @@ static void find_path(diagram *d)
     const layer_source *in = d->in;
     const bool found = in->tick
                            ? in->tick->has_player && octree_locate(in->tree, in->tick->player, &d->end) == OCTREE_OK
-                           : in->asked && octree_node_at(in->tree, in->asked, &d->end) == OCTREE_OK;
+                           : in->requested && octree_node_at(in->tree, in->requested, &d->end) == OCTREE_OK;
     d->path = found ? d->end.address : 0;
 }
 
@@ -436,27 +438,27 @@ static void add_legend(legend *l, const layer_source *in)
 static void describe_panel(description *d, uint64_t id)
 {
     if (id == GROUND_ID) {
-        say(d, "the ground of the diagram");
+        append_text(d, "the ground of the diagram");
     } else if (id / BAR_ID == 1) {
-        say(d, "in the diagram, a bar: nodes of depth %u that have no room there", (unsigned)(id >> 32 & 255));
+        append_text(d, "in the diagram, a bar: nodes of depth %u that have no room there", (unsigned)(id >> 32 & 255));
     } else if (id / PATH_ID == 1) {
-        say(d, "in the diagram, the way to the player");
+        append_text(d, "in the diagram, the way to the player");
     } else {
-        say(d, "in the diagram, ");
-        say_node(d, id);
+        append_text(d, "in the diagram, ");
+        describe_node(d, id);
     }
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL) {
         describe_panel(d, element->id);
     } else if (element->kind == SCENE_LABEL) {
-        say(d, " of the diagram");
+        append_text(d, " of the diagram");
     } else {
-        say(d, "in the diagram, %sthe line from its parent to ",
-            element->style.role == ROLE_PLAYER ? "the way to the player: " : "");
-        say_node(d, element->id);
+        append_text(d, "in the diagram, %sthe line from its parent to ",
+                    element->style.role == ROLE_PLAYER ? "the way to the player: " : "");
+        describe_node(d, element->id);
     }
 }
 

@@ -32,7 +32,7 @@ static size_t nodes_down_to(const octree_stats *stats, unsigned depth)
     return count;
 }
 
-static octree_walk_order take_node(const octree_node *node, void *context)
+static octree_walk_order append_node(const octree_node *node, void *context)
 {
     diagram_slots *slots = context;
     slots->nodes[slots->count++] = (diagram_node){.address = node->address,
@@ -65,14 +65,14 @@ static uint64_t round_up(uint64_t shares)
     return shares <= step ? step : shares <= step + step / 2 ? step + step / 2 : step * 2;
 }
 
-static bool is_open(const diagram_slots *slots, const diagram_node *node)
+static bool is_expanded(const diagram_slots *slots, const diagram_node *node)
 {
     return !node->leaf && node->depth < slots->deepest;
 }
 
 static uint64_t share_of(const diagram_slots *slots, const diagram_node *node)
 {
-    return is_open(slots, node) ? round_up(node->below) : 1;
+    return is_expanded(slots, node) ? round_up(node->child_shares) : 1;
 }
 
 static unsigned empty_octants(const diagram_node *node)
@@ -90,45 +90,45 @@ static uint64_t add_shares(diagram_slots *slots)
     for (size_t i = slots->count; i-- > 0;) {
         diagram_node *node = &slots->nodes[i];
         const unsigned depth = node->depth;
-        node->below = is_open(slots, node) ? below[depth + 1] + slots->empty * empty_octants(node) : 1;
+        node->child_shares = is_expanded(slots, node) ? below[depth + 1] + slots->empty * empty_octants(node) : 1;
         below[depth + 1] = 0;
         below[depth] += share_of(slots, node);
     }
-    return slots->nodes[0].below;
+    return slots->nodes[0].child_shares;
 }
 
 /* ---- Slots -------------------------------------------------------------------------------------------------- */
 
 /* How much of a node's slot has been assigned to its octants. */
-typedef struct dealing {
+typedef struct slot_progress {
     const diagram_node *node;
     unsigned octant; /* the next one */
-    uint64_t dealt;
-} dealing;
+    uint64_t assigned;
+} slot_progress;
 
 /* The slot of the child at `octant`; those between the last one and it are empty. */
-static void deal(dealing *d, unsigned empty, unsigned octant, uint64_t share, diagram_node *child)
+static void assign_slot(slot_progress *d, unsigned empty, unsigned octant, uint64_t share, diagram_node *child)
 {
-    const double left = d->node->left, width = d->node->right - left, all = (double)d->node->below;
-    const uint64_t from = d->dealt + empty * (octant - d->octant);
+    const double left = d->node->left, width = d->node->right - left, all = (double)d->node->child_shares;
+    const uint64_t from = d->assigned + empty * (octant - d->octant);
     child->left = left + width * ((double)from / all);
     child->right = left + width * ((double)(from + share) / all);
-    d->dealt = from + share;
+    d->assigned = from + share;
     d->octant = octant + 1;
 }
 
 static void place_nodes(diagram_slots *slots)
 {
-    dealing way[OCTREE_MAX_DEPTH + 1];
+    slot_progress progress[OCTREE_MAX_DEPTH + 1];
     for (size_t i = 0; i < slots->count; i++) {
         diagram_node *node = &slots->nodes[i];
         const unsigned depth = node->depth;
         node->left = 0;
         node->right = 1;
         if (depth)
-            deal(&way[depth - 1], slots->empty, octree_address_octant(node->address, depth - 1), share_of(slots, node),
-                 node);
-        way[depth] = (dealing){.node = node};
+            assign_slot(&progress[depth - 1], slots->empty, octree_address_octant(node->address, depth - 1),
+                        share_of(slots, node), node);
+        progress[depth] = (slot_progress){.node = node};
     }
 }
 
@@ -141,7 +141,7 @@ static bool arrange(diagram_slots *slots, const octree *tree, unsigned empty, si
     slots->nodes = malloc(nodes_down_to(&slots->stats, slots->deepest) * sizeof *slots->nodes);
     if (!slots->nodes)
         return false;
-    octree_walk(tree, take_node, slots);
+    octree_walk(tree, append_node, slots);
     while (add_shares(slots) > room && slots->deepest > 0)
         drop_level(slots);
     return true;

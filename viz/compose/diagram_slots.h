@@ -10,8 +10,8 @@
  * each is placed in the slot of its ancestor at that level, at its points' position among the ancestor's points in
  * Morton order.
  */
-#ifndef FRAME_DIAGRAM_SLOTS_H
-#define FRAME_DIAGRAM_SLOTS_H
+#ifndef COMPOSE_DIAGRAM_SLOTS_H
+#define COMPOSE_DIAGRAM_SLOTS_H
 
 #include "octree/types.h"
 
@@ -21,8 +21,8 @@ typedef struct diagram_node {
     size_t points; /* in and below it */
     uint8_t depth, octants;
     bool leaf;
-    uint64_t below;     /* the shares of its octants */
-    double left, right; /* of its slot */
+    uint64_t child_shares; /* the shares of its octants */
+    double left, right;    /* of its slot */
 } diagram_node;
 
 typedef struct diagram_slots {

@@ -61,17 +61,17 @@ static void write_position(pen *p, const char *name, const double position[3], i
 }
 
 /* A row an axis, of the ends of a box. */
-static void write_ends(pen *p, const char *name, const octree_box *box)
+static void write_box_rows(pen *p, const char *name, const octree_box *box)
 {
     char from[NUMBER_TEXT], to[NUMBER_TEXT], both[SCENE_TEXT * 2];
     snprintf(both, sizeof both, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
     write_text(p, 0, ROLE_FAINT, name);
-    write_right(p, ROLE_FAINT, both);
+    write_right_aligned(p, ROLE_FAINT, both);
     p->y += p->scene->text.line;
     for (int i = 0; i < 3; i++) {
         const char axis[2] = {(char)('x' + i), 0};
-        write_row(p, axis, "%*s %*s", WORLD_NUMBER, number_fitting(box->min[i], WORLD_NUMBER, from), WORLD_NUMBER,
-                  number_fitting(box->max[i], WORLD_NUMBER, to));
+        write_row(p, axis, "%*s %*s", WORLD_NUMBER, format_number_within(box->min[i], WORLD_NUMBER, from), WORLD_NUMBER,
+                  format_number_within(box->max[i], WORLD_NUMBER, to));
     }
 }
 
@@ -116,7 +116,7 @@ static const char *key_meaning(char key)
 }
 
 /* The words for a tick without events. */
-static const char *quiet_word(const layer_source *in)
+static const char *no_event_text(const layer_source *in)
 {
     if (in->tick->key == 'n')
         return "asked";
@@ -137,7 +137,7 @@ static void write_events(pen *p, const layer_source *in)
     }
     const bool warns = tick->events & (OCTREE_EVENT_REFUSED | OCTREE_EVENT_FULL | OCTREE_EVENT_WRONG);
     const theme_role role = tick->hit_count ? ROLE_COLLISION : warns ? ROLE_WARNING : ROLE_TEXT;
-    write_wrapped(p, role, words[0] ? words : quiet_word(in));
+    write_wrapped(p, role, words[0] ? words : no_event_text(in));
 }
 
 /* In the colours of the answers' layers. */
@@ -154,23 +154,23 @@ static void write_answers(pen *p, const layer_source *in)
 /* How many of the program's answers are wrong, and the kind of the worst and what is wrong with it. */
 static void write_wrong(pen *p, const layer_source *in)
 {
-    char words[JUDGEMENT_WORDS];
+    char words[JUDGEMENT_TEXT];
     size_t judged = 0, worst;
-    const size_t wrong = judgement_count(in->answers, in->answer_count, &worst);
+    const size_t wrong = judgement_count_wrong(in->answers, in->answer_count, &worst);
     if (wrong == 0)
         return;
     for (size_t i = 0; i < in->answer_count; i++)
         judged += in->answers[i].judgement.judged;
     p->name = ROLE_WRONG;
     write_detailed_row(p, "wrong", octree_query_name(in->answers[worst].kind), "%zu of %zu", wrong, judged);
-    write_row(p, "", "%s", judgement_words(&in->answers[worst].judgement, words));
+    write_row(p, "", "%s", judgement_text(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
 }
 
 /* How much is wrong with the program's nodes, and what is first. */
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
-    char text[FOREIGN_WORDS];
+    char text[FOREIGN_FAULT_TEXT];
     if (!shows_foreign_tree(in) || in->tick->foreign.wrong_count == 0)
         return;
     p->name = ROLE_WRONG;
@@ -252,9 +252,9 @@ static void write_tick_title(pen *p, const layer_source *in, const char *title)
         snprintf(text, sizeof text, "%c %s", key, key_meaning(key));
     write_title(p, title, strlen(text));
     if (*text) {
-        write_right(p, ROLE_FAINT, "key");
+        write_right_aligned(p, ROLE_FAINT, "key");
         p->y += line;
-        write_right(p, ROLE_TEXT, text);
+        write_right_aligned(p, ROLE_TEXT, text);
     }
     p->y = y + 2 * line + line / 2;
 }
@@ -273,7 +273,7 @@ static void write_filter(pen *p, const view_filter *f)
     if (f->leaves)
         write_row(p, "only", "leaves");
     if (f->by_region)
-        write_ends(p, "region", &f->region);
+        write_box_rows(p, "region", &f->region);
 }
 
 static void write_budget(pen *p, const scene_tally *tally)
@@ -300,7 +300,7 @@ static void write_folded(pen *p, const scene_tally *tally)
 /* A row for each kind of what is smaller than the view's lod. */
 static void write_small(pen *p, const scene_tally *tally)
 {
-    const size_t counts[] = {tally->small, tally->small_met, tally->arrows.small};
+    const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
     static const char *const words[][2] = {{"node", "nodes"}, {"node met", "nodes met"}, {"arrow", "arrows"}};
     char lod[NUMBER_TEXT], name[SCENE_TEXT];
     snprintf(name, sizeof name, "under %s px", number_text(p->scene->view.lod, 3, lod));
@@ -363,7 +363,7 @@ static void drop_rules(scene *s, int from)
 }
 
 /* Rows that do not fit are replaced by a line that counts them. */
-static void end_rows(pen *p)
+static void cut_rows(pen *p)
 {
     scene *s = p->scene;
     const int last = s->view.height - s->text.height, line = s->text.line; /* where the last row may begin */
@@ -431,7 +431,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
     write_statistics(p, in, &stats);
     write_left_out(p);
     write_rule(p);
-    write_ends(p, "world", &in->world);
+    write_box_rows(p, "world", &in->world);
     if (in->answer_count)
         write_rule(p);
     write_answers(p, in);
@@ -449,13 +449,13 @@ static void add_lines(scene *s, const layer_source *in, const char *title)
     }
     write_left_out(&p);
     write_broken(&p, in);
-    end_rows(&p);
+    cut_rows(&p);
 }
 
 static void add_column(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_column(s);
-    fill(&p, -p.left, -p.y, panel_width(&s->view), s->view.height, ROLE_PANEL);
+    fill_rectangle(&p, -p.left, -p.y, panel_width(&s->view), s->view.height, ROLE_PANEL);
     if (in->tick) {
         write_tick_title(&p, in, title);
         write_tick_rows(&p, in);
@@ -465,7 +465,7 @@ static void add_column(scene *s, const layer_source *in, const char *title)
         write_tree_rows(&p, in);
     }
     write_broken(&p, in);
-    end_rows(&p);
+    cut_rows(&p);
     write_legend(&p, in);
 }
 
@@ -484,10 +484,11 @@ static void add(scene *s, const layer_source *in, view_layer own)
         add_column(s, in, title);
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
-        say(d, element->style.role == ROLE_PANEL ? "the panel that the text is on" : "a sign or a rule in the panel");
+        append_text(d, element->style.role == ROLE_PANEL ? "the panel that the text is on"
+                                                         : "a sign or a rule in the panel");
 }
 
 const layer_type layer_TEXT = {.add = add, .describe = describe};

@@ -23,7 +23,7 @@ view_layer layer_of_query(octree_query_kind kind)
 
 /* With a player moved by keys some are known in advance: those that the session asks in each tick, and the nearest
  * point by a key. Of the others only those asked so far: a session that is filmed while it is written has no more. */
-static bool is_asked(const layer_source *in, view_layer layer)
+static bool has_query_of(const layer_source *in, view_layer layer)
 {
     const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
     bool asked = known && layer == LAYER_NEAREST;
@@ -40,7 +40,7 @@ static bool is_asked(const layer_source *in, view_layer layer)
 bool layer_applies(const layer_source *in, view_layer layer)
 {
     const layer_type *type = layer_types[layer];
-    return type->applies ? type->applies(in) : !type->add_answer || is_asked(in, layer);
+    return type->applies ? type->applies(in) : !type->add_answer || has_query_of(in, layer);
 }
 
 static void add_layer(scene *s, const layer_source *in, view_layer layer)
@@ -77,7 +77,7 @@ static void add_closeup(scene *s, const layer_source *in, const double place[3],
 }
 
 /* Under DIAGRAM_ONLY the panel is the only other layer. */
-static bool build(scene *s, layer_source *in, const double player[3], closeup_course course)
+static bool build_scene(scene *s, layer_source *in, const double player[3], closeup_course course)
 {
     const view *v = in->view;
     scene_clear(s);
@@ -86,7 +86,7 @@ static bool build(scene *s, layer_source *in, const double player[3], closeup_co
         s->view.layers &= 1u << LAYER_TEXT;
     if (!(course.reach > 0))
         closeup_follow(&course, in);
-    const double times = closeup_times(&course, in);
+    const double times = closeup_magnification(&course, in);
     s->has_closeup = times > 0;
     s->camera = camera_make(v, layout_camera(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
     if (view_shows(v, LAYER_BROKEN))
@@ -98,7 +98,7 @@ static bool build(scene *s, layer_source *in, const double player[3], closeup_co
     return !s->out_of_memory;
 }
 
-static layer_source source_of(const view *v, const octree_game *game)
+static layer_source make_source(const view *v, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
     return (layer_source){.view = v,
@@ -118,7 +118,7 @@ void tick_history_release(tick_history *h)
 
 bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 {
-    const layer_source in = source_of(v, game);
+    const layer_source in = make_source(v, game);
     if (in.tick->gap)
         return true;
     closeup_follow(&h->closeup, &in);
@@ -128,23 +128,23 @@ bool tick_history_add(tick_history *h, const view *v, const octree_game *game)
 bool tick_scene_build(scene *s, const view *v, const octree_game *game, const tick_history *h,
                       const point_values *values)
 {
-    layer_source in = source_of(v, game);
+    layer_source in = make_source(v, game);
     in.heat = h ? &h->heat : NULL;
     in.values = values;
-    return build(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0});
+    return build_scene(s, &in, in.tick->player, h ? h->closeup : (closeup_course){0});
 }
 
-bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *about)
+bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *subject)
 {
     layer_source in = {.view = v,
                        .tree = tree,
                        .world = octree_definition(tree).world,
-                       .answers = about->answers,
-                       .answer_count = about->answer_count,
-                       .values = about->values,
-                       .title = about->title,
-                       .asked = about->node};
+                       .answers = subject->answers,
+                       .answer_count = subject->answer_count,
+                       .values = subject->values,
+                       .title = subject->title,
+                       .requested = subject->node};
     double center[3]; /* what the camera follows without a player */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
-    return build(s, &in, center, (closeup_course){0});
+    return build_scene(s, &in, center, (closeup_course){0});
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tick_scene.h - builds the scene of a tree, or of a tick of a game, with the layers that its view shows. */
-#ifndef FRAME_TICK_SCENE_H
-#define FRAME_TICK_SCENE_H
+#ifndef COMPOSE_TICK_SCENE_H
+#define COMPOSE_TICK_SCENE_H
 
 #include "closeup_course.h"
 #include "heat.h"
@@ -39,6 +39,6 @@ typedef struct tree_subject {
 } tree_subject;
 
 /* Fill a scene with a tree alone. False when there is no memory. */
-bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *about);
+bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_subject *subject);
 
 #endif

@@ -101,8 +101,8 @@ static bool same_faults(const octree_tick *a, const octree_tick *b)
 static void note_answers(cause_answers *wrong, const octree_tick *a, const octree_tick *b)
 {
     size_t worst;
-    const size_t before = judgement_count(a->answers, a->answer_count, &worst);
-    const size_t now = judgement_count(b->answers, b->answer_count, &worst);
+    const size_t before = judgement_count_wrong(a->answers, a->answer_count, &worst);
+    const size_t now = judgement_count_wrong(b->answers, b->answer_count, &worst);
     if (now != before)
         extend(now > before ? &wrong->more : &wrong->fewer, now > before ? now - before : before - now, a->number);
     else if (!same_faults(a, b))

@@ -30,28 +30,28 @@ void mark_answer_points(scene *s, const octree_answer *answer, view_layer own, s
         scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
 
-const octree_answer *say_query(description *d, const char *what, uint64_t place)
+const octree_answer *append_query(description *d, const char *what, uint64_t place)
 {
     const octree_answer *answer = &d->tick->answers[place];
-    say(d, "the %s of the %s query", what, octree_query_name(answer->kind));
+    append_text(d, "the %s of the %s query", what, octree_query_name(answer->kind));
     if (d->tick->answer_count > 1)
-        say(d, " (answer %" PRIu64 " of %zu)", place + 1, d->tick->answer_count);
+        append_text(d, " (answer %" PRIu64 " of %zu)", place + 1, d->tick->answer_count);
     return answer;
 }
 
-void say_found(description *d, const octree_answer *answer)
+void append_found_count(description *d, const octree_answer *answer)
 {
-    say(d, ", %zu point%s found", answer->count, plural(answer->count));
+    append_text(d, ", %zu point%s found", answer->count, plural(answer->count));
 }
 
 static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
 {
-    const octree_answer *answer = say_query(d, "line", place);
+    const octree_answer *answer = append_query(d, "line", place);
     const octree_neighbor *neighbor = &answer->neighbors[rank];
-    say(d, " to neighbour %" PRIu64 ": ", rank + 1);
-    say_point(d, neighbor->point.id, neighbor->point.position);
-    say(d, ", distance ");
-    say_number(d, neighbor->distance);
+    append_text(d, " to neighbour %" PRIu64 ": ", rank + 1);
+    describe_point(d, neighbor->point.id, neighbor->point.position);
+    append_text(d, ", distance ");
+    append_number(d, neighbor->distance);
 }
 
 /* ---- Range -------------------------------------------------------------------------------------------------- */
@@ -68,12 +68,12 @@ static void write_range(pen *p, const octree_answer *answer)
     write_ids(p, "range", answer->points, answer->count);
 }
 
-static void describe_range(description *d, const described *element)
+static void describe_range(description *d, const described_element *element)
 {
-    const octree_answer *answer = say_query(d, "box", element->id);
-    say(d, ": ");
-    say_box(d, &element->box);
-    say_found(d, answer);
+    const octree_answer *answer = append_query(d, "box", element->id);
+    append_text(d, ": ");
+    append_box(d, &element->box);
+    append_found_count(d, answer);
 }
 
 const layer_type layer_RANGE = {.add_answer = add_range,
@@ -81,7 +81,7 @@ const layer_type layer_RANGE = {.add_answer = add_range,
                                 .legend_place = 120,
                                 .sign = SIGN_DASHES,
                                 .text = "range query, dashed",
-                                .worth = WORTH_ANSWER,
+                                .worth = DROP_LATE,
                                 .describe = describe_range};
 
 /* ---- Radius ------------------------------------------------------------------------------------------------- */
@@ -119,18 +119,18 @@ static void write_radius(pen *p, const octree_answer *answer)
 {
     char radius[NUMBER_TEXT], found[SCENE_TEXT];
     const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", answer->count) + DETAIL + 1;
-    number_fitting(answer->radius, taken < (size_t)p->letters ? (size_t)p->letters - taken : 1, radius);
+    format_number_within(answer->radius, taken < (size_t)p->letters ? (size_t)p->letters - taken : 1, radius);
     write_detailed_row(p, "radius", radius, "%s", found);
 }
 
-static void describe_radius(description *d, const described *element)
+static void describe_radius(description *d, const described_element *element)
 {
-    const octree_answer *answer = say_query(d, "ball", element->id >> 32);
-    say(d, ": radius ");
-    say_number(d, answer->radius);
-    say(d, " about ");
-    say_place(d, answer->target);
-    say_found(d, answer);
+    const octree_answer *answer = append_query(d, "ball", element->id >> 32);
+    append_text(d, ": radius ");
+    append_number(d, answer->radius);
+    append_text(d, " about ");
+    append_position(d, answer->target);
+    append_found_count(d, answer);
 }
 
 const layer_type layer_RADIUS = {.add_answer = add_ball,
@@ -138,7 +138,7 @@ const layer_type layer_RADIUS = {.add_answer = add_ball,
                                  .legend_place = 130,
                                  .sign = SIGN_LINE,
                                  .text = "radius query, round",
-                                 .worth = WORTH_ANSWER,
+                                 .worth = DROP_LATE,
                                  .describe = describe_radius};
 
 /* ---- K nearest ---------------------------------------------------------------------------------------------- */
@@ -185,10 +185,10 @@ static void write_knearest(pen *p, const octree_answer *answer)
     write_ids(p, "k nearest", first, answer->count);
 }
 
-static void describe_knearest(description *d, const described *element)
+static void describe_knearest(description *d, const described_element *element)
 {
     if (element->kind == SCENE_LABEL)
-        say(d, ", the rank of a neighbour");
+        append_text(d, ", the rank of a neighbour");
     else
         describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX);
 }
@@ -198,7 +198,7 @@ const layer_type layer_KNEAREST = {.add_answer = add_knearest,
                                    .legend_place = 140,
                                    .sign = SIGN_LINE,
                                    .text = "k nearest, numbered",
-                                   .worth = WORTH_ANSWER,
+                                   .worth = DROP_LATE,
                                    .describe = describe_knearest};
 
 /* ---- Nearest ------------------------------------------------------------------------------------------------ */
@@ -227,7 +227,7 @@ static void write_nearest(pen *p, const octree_answer *answer)
     write_detailed_row(p, fits ? "nearest" : "", fits ? id : "", "%s away", distance);
 }
 
-static void describe_nearest(description *d, const described *element)
+static void describe_nearest(description *d, const described_element *element)
 {
     describe_neighbor(d, element->id, 0);
 }
@@ -237,5 +237,5 @@ const layer_type layer_NEAREST = {.add_answer = add_nearest,
                                   .legend_place = 150,
                                   .sign = SIGN_DASHES,
                                   .text = "nearest point, dashed",
-                                  .worth = WORTH_ANSWER,
+                                  .worth = DROP_LATE,
                                   .describe = describe_nearest};

@@ -14,9 +14,9 @@ void mark_answer_points(scene *s, const octree_answer *answer, view_layer own, s
 
 /* Describe the query that an element belongs to, such as "the box of the range query (answer 2 of 3)". Returns its
  * answer. */
-const octree_answer *say_query(description *d, const char *what, uint64_t place);
+const octree_answer *append_query(description *d, const char *what, uint64_t place);
 
 /* Add the number of points found. */
-void say_found(description *d, const octree_answer *answer);
+void append_found_count(description *d, const octree_answer *answer);
 
 #endif

@@ -8,7 +8,7 @@
 
 static bool applies(const layer_source *in)
 {
-    return in->asked != 0;
+    return in->requested != 0;
 }
 
 /* Bold, in the colour of its path in the diagram; with a mark when it is small on screen. */
@@ -16,24 +16,24 @@ static void add(scene *s, const layer_source *in, view_layer own)
 {
     octree_node node;
     double middle[3];
-    if (octree_node_at(in->tree, in->asked, &node) != OCTREE_OK)
+    if (octree_node_at(in->tree, in->requested, &node) != OCTREE_OK)
         return;
     add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
     if (camera_box_pixels(&s->camera, &node.box) > 2 * MARK * s->unit)
         return;
     scene_box_middle(&node.box, middle);
-    scene_add_mark(s, in->asked, middle, SHAPE_LOZENGE, layer_style(own, STROKE_SOLID, MARK));
+    scene_add_mark(s, in->requested, middle, SHAPE_LOZENGE, layer_style(own, STROKE_SOLID, MARK));
 }
 
 static void add_legend(legend *l, const layer_source *in)
 {
     char address[OCTREE_ADDRESS_TEXT];
-    legend_add(l, SIGN_BOLD, "node %.42s", octree_address_format(in->asked, address));
+    legend_add(l, SIGN_BOLD, "node %.42s", octree_address_format(in->requested, address));
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
-    say_node(d, element->id);
+    describe_node(d, element->id);
 }
 
 const layer_type layer_ASKED = {

@@ -20,7 +20,7 @@ static uint64_t line_id(octree_address node, unsigned axis)
 static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;
-    if (!tick_node_shown(s, in->tree, address, &node))
+    if (!find_shown_node(s, in->tree, address, &node))
         return;
     const octree_box last = octree_cell_box(&in->world, address << 3 | 7);
     for (unsigned axis = 0; axis < 3; axis++) {
@@ -34,7 +34,7 @@ static void add_planes(scene *s, const layer_source *in, octree_address address,
 }
 
 /* The nodes of a layer. */
-static const octree_address *nodes_of(const octree_tick *tick, view_layer layer, size_t *count)
+static const octree_address *changed_nodes(const octree_tick *tick, view_layer layer, size_t *count)
 {
     *count = layer == LAYER_SPLITS ? tick->split_count : tick->merge_count;
     return layer == LAYER_SPLITS ? tick->splits : tick->merges;
@@ -44,7 +44,7 @@ static void add_changes(scene *s, const layer_source *in, view_layer own)
 {
     const scene_style style = layer_style(own, own == LAYER_SPLITS ? STROKE_SOLID : STROKE_DASHED, 2);
     size_t count;
-    const octree_address *nodes = nodes_of(in->tick, own, &count);
+    const octree_address *nodes = changed_nodes(in->tick, own, &count);
     for (size_t i = 0; view_shows(&s->view, own) && i < count; i++)
         add_planes(s, in, nodes[i], style);
 }
@@ -55,7 +55,7 @@ static void add_change_legend(legend *l, const layer_source *in)
     char last[OCTREE_ADDRESS_TEXT];
     size_t count;
     const bool split = l->next.layer == LAYER_SPLITS;
-    const octree_address *nodes = nodes_of(in->tick, l->next.layer, &count);
+    const octree_address *nodes = changed_nodes(in->tick, l->next.layer, &count);
     legend_line *line = legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu node%s %s", count, plural(count),
                                    split ? "split" : "merged");
     if (count == 0)
@@ -66,10 +66,11 @@ static void add_change_legend(legend *l, const layer_source *in)
         strcat(strcat(line->text, between), last);
 }
 
-static void describe_change(description *d, const described *element)
+static void describe_change(description *d, const described_element *element)
 {
-    say(d, "a plane of a node that %s at this tick, ", element->style.layer == LAYER_SPLITS ? "split" : "merged");
-    say_node(d, element->id >> 2);
+    append_text(d, "a plane of a node that %s at this tick, ",
+                element->style.layer == LAYER_SPLITS ? "split" : "merged");
+    describe_node(d, element->id >> 2);
 }
 
 static bool changes_apply(const layer_source *in)
@@ -107,14 +108,14 @@ static void add_broken(scene *s, const layer_source *in, view_layer own)
                                      .style = layer_style(own, STROKE_DASHED, 1)});
 }
 
-static void describe_broken(description *d, const described *element)
+static void describe_broken(description *d, const described_element *element)
 {
     if (element->kind == SCENE_SEGMENT)
-        say(d, "a line that crosses out where an invariant is broken");
+        append_text(d, "a line that crosses out where an invariant is broken");
     if (element->kind != SCENE_BOX)
         return;
-    say_node(d, element->id);
-    say(d, "; an invariant is broken there");
+    describe_node(d, element->id);
+    append_text(d, "; an invariant is broken there");
 }
 
 const layer_type layer_BROKEN = {.add = add_broken, .describe = describe_broken};

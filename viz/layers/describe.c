@@ -10,38 +10,38 @@
 #include <stdio.h>
 #include <string.h>
 
-void say(description *d, const char *format, ...)
+void append_text(description *d, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    const int length = vsnprintf(d->subject->text + d->length, ELEMENT_WORDS - d->length, format, arguments);
+    const int length = vsnprintf(d->subject->text + d->length, ELEMENT_TEXT - d->length, format, arguments);
     va_end(arguments);
     d->length += length > 0 ? (size_t)length : 0;
-    if (d->length >= ELEMENT_WORDS)
-        d->length = ELEMENT_WORDS - 1;
+    if (d->length >= ELEMENT_TEXT)
+        d->length = ELEMENT_TEXT - 1;
 }
 
-void say_number(description *d, double value)
+void append_number(description *d, double value)
 {
     char text[NUMBER_TEXT];
     number_print(value, text);
-    say(d, "%s", text);
+    append_text(d, "%s", text);
 }
 
-void say_place(description *d, const double place[3])
+void append_position(description *d, const double place[3])
 {
     for (int i = 0; i < 3; i++) {
-        say(d, i ? ", " : "(");
-        say_number(d, place[i]);
+        append_text(d, i ? ", " : "(");
+        append_number(d, place[i]);
     }
-    say(d, ")");
+    append_text(d, ")");
 }
 
-void say_box(description *d, const octree_box *box)
+void append_box(description *d, const octree_box *box)
 {
-    say_place(d, box->min);
-    say(d, " to ");
-    say_place(d, box->max);
+    append_position(d, box->min);
+    append_text(d, " to ");
+    append_position(d, box->max);
 }
 
 static void find_node(description *d, octree_address address)
@@ -57,49 +57,49 @@ static void find_node(description *d, octree_address address)
     }
 }
 
-void say_node(description *d, octree_address address)
+void describe_node(description *d, octree_address address)
 {
     char path[OCTREE_ADDRESS_TEXT];
     const octree_node *node = &d->subject->node;
     find_node(d, address);
-    say(d, "node %s: ", octree_address_format(address, path));
+    append_text(d, "node %s: ", octree_address_format(address, path));
     if (d->subject->gone)
-        say(d, "an empty cell at depth %u, which has no node any more", node->depth);
+        append_text(d, "an empty cell at depth %u, which has no node any more", node->depth);
     else
-        say(d, "%s at depth %u, %zu point%s", node->leaf ? "leaf" : "inner node", node->depth, node->count,
-            plural(node->count));
-    say(d, ", box ");
-    say_box(d, &node->box);
+        append_text(d, "%s at depth %u, %zu point%s", node->leaf ? "leaf" : "inner node", node->depth, node->count,
+                    plural(node->count));
+    append_text(d, ", box ");
+    append_box(d, &node->box);
 }
 
-void say_point(description *d, uint64_t id, const double position[3])
+void describe_point(description *d, uint64_t id, const double position[3])
 {
     d->subject->has_point = true;
     d->subject->point.id = id;
     memcpy(d->subject->point.position, position, sizeof d->subject->point.position);
-    say(d, "point %" PRIu64 " at ", id);
-    say_place(d, position);
+    append_text(d, "point %" PRIu64 " at ", id);
+    append_position(d, position);
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     const layer_type *type = layer_types[element->style.layer];
     const bool found = type->add_answer && element->kind == SCENE_MARKER;
     if (type->describe && !found)
         type->describe(d, element);
     else if (element->kind == SCENE_BOX)
-        say_node(d, element->id);
+        describe_node(d, element->id);
     else if (element->kind == SCENE_MARKER)
-        say_point(d, element->id, element->at);
+        describe_point(d, element->id, element->at);
     if (found)
-        say(d, ", found by a %s query", layer_rows[element->style.layer].name);
+        append_text(d, ", found by a %s query", layer_rows[element->style.layer].name);
 }
 
 element_subject describe_element(const octree_game *game, const heat *h, const scene *s, scene_element element)
 {
     element_subject subject = {.text = ""};
     description d = {game, octree_game_tick(game), h, &subject, 0};
-    described what = {
+    described_element what = {
         .kind = element.kind, .style = scene_head_of(s, element).style, .id = scene_head_of(s, element).id};
     s = scene_with(s, element);
     if (element.kind == SCENE_BOX) {
@@ -109,7 +109,7 @@ element_subject describe_element(const octree_game *game, const heat *h, const s
         what.shape = (scene_shape)s->markers.items[element.index].shape;
     } else if (element.kind == SCENE_LABEL) {
         const char *text = s->labels.items[element.index].text;
-        say(&d, "text \"%s\"", text + strspn(text, " "));
+        append_text(&d, "text \"%s\"", text + strspn(text, " "));
     }
     describe(&d, &what);
     return subject;

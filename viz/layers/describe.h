@@ -10,7 +10,7 @@
 #include "scene.h"
 
 /* Room for the words about one element. */
-#define ELEMENT_WORDS 512
+#define ELEMENT_TEXT 512
 
 typedef struct element_subject {
     bool has_node, has_point;
@@ -18,8 +18,8 @@ typedef struct element_subject {
     bool gone;          /* the tree no longer has the node */
     octree_point point; /* the point that it shows */
     const octree_foreign_place
-        *foreign;             /* the node of the program's tree that it shows, until the next tick; or null */
-    char text[ELEMENT_WORDS]; /* such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)" */
+        *foreign;            /* the node of the program's tree that it shows, until the next tick; or null */
+    char text[ELEMENT_TEXT]; /* such as "node 0/3: leaf at depth 2, 1 point, box (0, 0, 0) to (5, 5, 5)" */
 } element_subject;
 
 /* s must be the scene of the game's last tick, and h the heat that it was built with. */
@@ -37,23 +37,23 @@ typedef struct description {
 } description;
 
 /* What layers read of an element. */
-typedef struct described {
+typedef struct described_element {
     scene_kind kind;
     scene_style style;
     uint64_t id;
     octree_box box; /* of a box */
     double at[3];   /* of a marker */
     scene_shape shape;
-} described;
+} described_element;
 
-/* Append words; cut at ELEMENT_WORDS. */
-void say(description *d, const char *format, ...);
-void say_number(description *d, double value);
-void say_place(description *d, const double place[3]); /* "(1, 2, 3)" */
-void say_box(description *d, const octree_box *box);   /* "(0, 0, 0) to (5, 5, 5)" */
+/* Append words; cut at ELEMENT_TEXT. */
+void append_text(description *d, const char *format, ...);
+void append_number(description *d, double value);
+void append_position(description *d, const double place[3]); /* "(1, 2, 3)" */
+void append_box(description *d, const octree_box *box);      /* "(0, 0, 0) to (5, 5, 5)" */
 
 /* The node or point becomes the description's subject. */
-void say_node(description *d, octree_address address);
-void say_point(description *d, uint64_t id, const double position[3]);
+void describe_node(description *d, octree_address address);
+void describe_point(description *d, uint64_t id, const double position[3]);
 
 #endif

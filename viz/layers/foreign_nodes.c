@@ -23,7 +23,7 @@ bool shows_foreign_tree(const layer_source *in)
 static theme_role role_of(const view *v, const octree_foreign_place *place)
 {
     return v->coloring == COLORING_KIND ? theme_node_kind_role(place->kind)
-                                        : node_role(v, (node_look){.depth = place->depth, .points = place->points});
+                                        : node_role(v, (node_traits){.depth = place->depth, .points = place->points});
 }
 
 /* A box says depths up to 255. */
@@ -40,7 +40,7 @@ static void add_box(scene *s, const octree_foreign_place *place, scene_style sty
                                  .depth = (uint8_t)level_of(place)});
 }
 
-static bool passes(const scene *s, const octree_foreign_place *place)
+static bool passes_filter(const scene *s, const octree_foreign_place *place)
 {
     return filter_shows_box(&s->view.filter, &place->node->box, place->depth, place->leaf);
 }
@@ -62,7 +62,7 @@ static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
     size_t at_level[UINT8_MAX + 1] = {0}, sum = 0;
     int level = 0;
     for (size_t i = 0; i < foreign->node_count; i++)
-        if (passes(s, &foreign->nodes[i]) && !is_small(s, &foreign->nodes[i]))
+        if (passes_filter(s, &foreign->nodes[i]) && !is_small(s, &foreign->nodes[i]))
             at_level[level_of(&foreign->nodes[i])]++;
     while (level <= UINT8_MAX && (!s->view.budget || (sum += at_level[level]) <= s->view.budget))
         level++;
@@ -78,7 +78,7 @@ void add_foreign_nodes(scene *s, const layer_source *in)
     const size_t beyond = s->tally.beyond;
     for (size_t i = 0; i < foreign->node_count; i++) {
         const octree_foreign_place *place = &foreign->nodes[i];
-        if (!passes(s, place))
+        if (!passes_filter(s, place))
             continue;
         const bool small = is_small(s, place), out = !small && (int)level_of(place) > deepest;
         s->tally.small += small;
@@ -95,7 +95,7 @@ void add_foreign_nodes(scene *s, const layer_source *in)
 /* ---- What queries met, and what is wrong -------------------------------------------------------------------- */
 
 /* The strongest of how queries met a node: what was looked into was not left out. */
-static bool is_met_so(const octree_foreign_place *place, view_layer layer)
+static bool matches_layer(const octree_foreign_place *place, view_layer layer)
 {
     const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
     if (layer == LAYER_PRUNED)
@@ -103,17 +103,17 @@ static bool is_met_so(const octree_foreign_place *place, view_layer layer)
     return place->visits & (layer == LAYER_VISITED ? visited : hit);
 }
 
-void add_foreign_met(scene *s, const layer_source *in, view_layer own)
+void add_visited_foreign_nodes(scene *s, const layer_source *in, view_layer own)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
     const bool pruned = own == LAYER_PRUNED;
     scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
     for (size_t i = 0; view_shows(&s->view, own) && i < foreign->node_count; i++) {
         const octree_foreign_place *place = &foreign->nodes[i];
-        if (!is_met_so(place, own) || !passes(s, place))
+        if (!matches_layer(place, own) || !passes_filter(s, place))
             continue;
         const bool small = is_small(s, place);
-        s->tally.small_met += small;
+        s->tally.small_marked += small;
         if (own != LAYER_HIT)
             style.role = (uint8_t)role_of(&s->view, place);
         if (!small)
@@ -122,7 +122,7 @@ void add_foreign_met(scene *s, const layer_source *in, view_layer own)
 }
 
 /* The words for a fault beside what it is about. */
-static const char *short_words(octree_wrong_node_kind kind)
+static const char *short_fault_text(octree_wrong_node_kind kind)
 {
     static const char *const words[OCTREE_WRONG_NODE_KINDS] = {
         [OCTREE_NODE_OUTSIDE_PARENT] = "outside parent", [OCTREE_NODE_UNKNOWN_POINT] = "unknown point",
@@ -150,7 +150,7 @@ static bool find_lost_point(const layer_source *in, size_t listed, octree_point 
     return fault->kind == OCTREE_NODE_LOST_POINT && octree_game_find(in->game, fault->point, point);
 }
 
-void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken)
+void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
     octree_point point;
@@ -162,20 +162,20 @@ void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_
             continue;
         scene_add_mark(s, LOST_ELEMENT | point.id, point.position, SHAPE_CROSS,
                        layer_style(own, STROKE_SOLID, LOST_MARK));
-        text_space_keep_mark(taken, s, point.position, LOST_MARK);
+        text_space_keep_mark(occupied, s, point.position, LOST_MARK);
     }
 }
 
 /* Whether there was room. */
-static bool add_fault_words(scene *s, uint64_t id, const double at[3], octree_wrong_node_kind kind, view_layer own,
-                            text_space *taken)
+static bool add_fault_label(scene *s, uint64_t id, const double at[3], octree_wrong_node_kind kind, view_layer own,
+                            text_space *occupied)
 {
     scene_label label = {.id = id, .style = layer_style(own, STROKE_SOLID, 1)};
-    snprintf(label.text, sizeof label.text, "%s", short_words(kind));
-    return text_add_beside(taken, s, label, at, LOST_MARK);
+    snprintf(label.text, sizeof label.text, "%s", short_fault_text(kind));
+    return text_add_beside(occupied, s, label, at, LOST_MARK);
 }
 
-size_t name_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken)
+size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
     octree_point point;
@@ -186,12 +186,12 @@ size_t name_foreign_faults(scene *s, const layer_source *in, view_layer own, tex
         while (!(foreign->nodes[i].wrong >> kind & 1))
             kind++;
         const octree_foreign_node *node = foreign->nodes[i].node;
-        left_out += !add_fault_words(s, foreign_element(node->id), node->box.max, kind, own, taken);
+        left_out += !add_fault_label(s, foreign_element(node->id), node->box.max, kind, own, occupied);
     }
     for (size_t i = 0; i < foreign->listed_count; i++)
         if (find_lost_point(in, i, &point))
             left_out +=
-                !add_fault_words(s, LOST_ELEMENT | point.id, point.position, OCTREE_NODE_LOST_POINT, own, taken);
+                !add_fault_label(s, LOST_ELEMENT | point.id, point.position, OCTREE_NODE_LOST_POINT, own, occupied);
     return left_out;
 }
 
@@ -205,42 +205,42 @@ static const octree_foreign_place *find_place(const octree_foreign_state *foreig
     return NULL;
 }
 
-void say_foreign_node(description *d, uint64_t element)
+void describe_foreign_node(description *d, uint64_t element)
 {
     const octree_foreign_place *place = find_place(&d->tick->foreign, foreign_node_of(element));
-    say(d, "node %" PRIu64 " of the program", foreign_node_of(element));
+    append_text(d, "node %" PRIu64 " of the program", foreign_node_of(element));
     if (!place)
         return;
     const octree_foreign_node *node = place->node;
     d->subject->foreign = place;
-    say(d, ": %s at depth %u", place->leaf ? "leaf" : "inner node", place->depth);
+    append_text(d, ": %s at depth %u", place->leaf ? "leaf" : "inner node", place->depth);
     if (node->kind[0])
-        say(d, " of kind \"%s\"", node->kind);
+        append_text(d, " of kind \"%s\"", node->kind);
     if (node->has_parent)
-        say(d, " under node %" PRIu64, node->parent);
-    say(d, ", %zu point%s listed, box ", place->points, plural(place->points));
-    say_box(d, &node->box);
+        append_text(d, " under node %" PRIu64, node->parent);
+    append_text(d, ", %zu point%s listed, box ", place->points, plural(place->points));
+    append_box(d, &node->box);
     for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
         if (place->wrong >> kind & 1)
-            say(d, "; wrong: %s", octree_wrong_node_words((octree_wrong_node_kind)kind));
+            append_text(d, "; wrong: %s", octree_wrong_node_words((octree_wrong_node_kind)kind));
 }
 
-void say_foreign_fault(description *d, const described *element)
+void describe_foreign_fault(description *d, const described_element *element)
 {
     const uint64_t id = element->id & ~LOST_ELEMENT;
     octree_point point = {.id = id};
     if (element->kind == SCENE_LABEL || element->kind == SCENE_PANEL)
-        say(d, element->kind == SCENE_PANEL ? "the ground of words about " : " on ");
+        append_text(d, element->kind == SCENE_PANEL ? "the ground of words about " : " on ");
     if ((element->id & LOST_ELEMENT) != LOST_ELEMENT) {
-        say_foreign_node(d, element->id);
+        describe_foreign_node(d, element->id);
         return;
     }
     octree_game_find(d->game, id, &point);
-    say_point(d, id, point.position);
-    say(d, ", which is in no foreign node");
+    describe_point(d, id, point.position);
+    append_text(d, ", which is in no foreign node");
 }
 
-const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_WORDS])
+const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_FAULT_TEXT])
 {
     const octree_wrong_node *fault = foreign->listed;
     char node[32] = "", point[32] = "";
@@ -251,7 +251,7 @@ const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FO
     snprintf(point, sizeof point, " (%" PRIu64 ")", fault->point);
     const bool has_node = fault->kind != OCTREE_NODE_LOST_POINT;
     const bool has_point = fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE;
-    snprintf(text, FOREIGN_WORDS, "%s%s%s", has_node ? node : "", octree_wrong_node_words(fault->kind),
+    snprintf(text, FOREIGN_FAULT_TEXT, "%s%s%s", has_node ? node : "", octree_wrong_node_words(fault->kind),
              has_point ? point : "");
     return text;
 }

@@ -31,21 +31,21 @@ bool shows_foreign_tree(const layer_source *in);
 /* All nodes, within the view's filter, lod and budget; and those that queries met, for the layers visited, pruned and
  * hit. */
 void add_foreign_nodes(scene *s, const layer_source *in);
-void add_foreign_met(scene *s, const layer_source *in, view_layer own);
+void add_visited_foreign_nodes(scene *s, const layer_source *in, view_layer own);
 
 /* The nodes that are wrong and the points that are in none, for the layer `own`; then, for as many as have room, what
  * is wrong, of a node its first fault. Returns for how many there was none. */
-void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken);
-size_t name_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *taken);
+void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied);
+size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied);
 
 /* "node 5 of the program: leaf "leaf" at depth 2 under node 7, 3 points listed, box ...", and what is wrong with it. */
-void say_foreign_node(description *d, uint64_t element);
+void describe_foreign_node(description *d, uint64_t element);
 
 /* An element of these. */
-void say_foreign_fault(description *d, const described *element);
+void describe_foreign_fault(description *d, const described_element *element);
 
 /* The first of the tick's faults, such as "node 60 lists point 4 outside its box"; empty where there is none. */
-#define FOREIGN_WORDS 128
-const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_WORDS]);
+#define FOREIGN_FAULT_TEXT 128
+const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_FAULT_TEXT]);
 
 #endif

@@ -42,9 +42,9 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
         return OCTREE_WALK_SKIP;
     if (!node->leaf || !filter_shows_node(f, &w->in->world, node))
         return OCTREE_WALK_ON;
-    const heat_cell seen = heat_at(w->in->heat, node->address);
+    const heat_cell heat_of_node = heat_at(w->in->heat, node->address);
     const bool visits = w->layer == LAYER_VISIT_HEAT;
-    const uint64_t amount = visits ? seen.visits : seen.points;
+    const uint64_t amount = visits ? heat_of_node.visits : heat_of_node.points;
     if (amount) {
         double middle[3];
         const unsigned step = heat_step(amount, shift_of(w->layer));
@@ -72,15 +72,15 @@ static void add_legend(legend *l, const layer_source *in)
                HEAT_LAST(shift_of(l->next.layer)), visits ? "visits" : "points");
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
-    const heat_cell seen = heat_at(d->heat, element->id);
+    const heat_cell heat_of_node = heat_at(d->heat, element->id);
     if (element->style.layer == LAYER_VISIT_HEAT)
-        say(d, "visited in %" PRIu64 " of %" PRIu64 " tick%s, ", seen.visits, d->tick->number + 1,
-            plural(d->tick->number + 1));
+        append_text(d, "visited in %" PRIu64 " of %" PRIu64 " tick%s, ", heat_of_node.visits, d->tick->number + 1,
+                    plural(d->tick->number + 1));
     else
-        say(d, "%" PRIu64 " point%s in all ticks together, ", seen.points, plural(seen.points));
-    say_node(d, element->id);
+        append_text(d, "%" PRIu64 " point%s in all ticks together, ", heat_of_node.points, plural(heat_of_node.points));
+    describe_node(d, element->id);
 }
 
 const layer_type layer_VISIT_HEAT = {

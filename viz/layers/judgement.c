@@ -9,69 +9,69 @@
 /* Below this a ratio is told by what it is above 1. */
 #define NEARLY 1.01
 
-static void print_ratio(double ratio, char text[JUDGEMENT_WORDS])
+static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])
 {
     char number[NUMBER_TEXT];
     if (isinf(ratio))
-        snprintf(text, JUDGEMENT_WORDS, "infinite ratio");
+        snprintf(text, JUDGEMENT_TEXT, "infinite ratio");
     else if (ratio < NEARLY)
-        snprintf(text, JUDGEMENT_WORDS, "%s%% farther", number_text((ratio - 1) * 100, 2, number));
+        snprintf(text, JUDGEMENT_TEXT, "%s%% farther", number_text((ratio - 1) * 100, 2, number));
     else
-        snprintf(text, JUDGEMENT_WORDS, "%s times as far", number_text(ratio, 3, number));
+        snprintf(text, JUDGEMENT_TEXT, "%s times as far", number_text(ratio, 3, number));
 }
 
-static void print_points(const octree_judgement *made, char text[JUDGEMENT_WORDS])
+static void print_points(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
 {
-    if (made->missing_count && made->extra_count)
-        snprintf(text, JUDGEMENT_WORDS, "%zu missed, %zu extra", made->missing_count, made->extra_count);
-    else if (made->missing_count)
-        snprintf(text, JUDGEMENT_WORDS, "%zu missed", made->missing_count);
+    if (judgement->missing_count && judgement->extra_count)
+        snprintf(text, JUDGEMENT_TEXT, "%zu missed, %zu extra", judgement->missing_count, judgement->extra_count);
+    else if (judgement->missing_count)
+        snprintf(text, JUDGEMENT_TEXT, "%zu missed", judgement->missing_count);
     else
-        snprintf(text, JUDGEMENT_WORDS, "%zu extra", made->extra_count);
+        snprintf(text, JUDGEMENT_TEXT, "%zu extra", judgement->extra_count);
 }
 
-const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WORDS])
+const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
 {
-    switch (made->wrong) {
+    switch (judgement->wrong) {
     case OCTREE_WRONG_UNKNOWN:
-        snprintf(text, JUDGEMENT_WORDS, "no point has id %" PRIu64, made->wrong_id);
+        snprintf(text, JUDGEMENT_TEXT, "no point has id %" PRIu64, judgement->wrong_id);
         break;
     case OCTREE_WRONG_DUPLICATE:
-        snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is named twice", made->wrong_id);
+        snprintf(text, JUDGEMENT_TEXT, "%" PRIu64 " is named twice", judgement->wrong_id);
         break;
     case OCTREE_WRONG_SKIPPED:
-        snprintf(text, JUDGEMENT_WORDS, "%" PRIu64 " is left out", made->wrong_id);
+        snprintf(text, JUDGEMENT_TEXT, "%" PRIu64 " is left out", judgement->wrong_id);
         break;
     case OCTREE_WRONG_COUNT:
-        snprintf(text, JUDGEMENT_WORDS, "%zu named, not %zu", made->given_count, made->expected);
+        snprintf(text, JUDGEMENT_TEXT, "%zu named, not %zu", judgement->given_count, judgement->expected);
         break;
     case OCTREE_WRONG_FARTHER:
-        print_ratio(made->ratio, text);
+        print_ratio(judgement->ratio, text);
         break;
     case OCTREE_WRONG_MISSING:
     case OCTREE_WRONG_EXTRA:
-        print_points(made, text);
+        print_points(judgement, text);
         break;
     default:
-        snprintf(text, JUDGEMENT_WORDS, "right");
+        snprintf(text, JUDGEMENT_TEXT, "right");
         break;
     }
     return text;
 }
 
-const octree_point *judgement_point(const octree_judgement *made)
+const octree_point *judgement_first_point(const octree_judgement *judgement)
 {
-    return made->missing_count ? made->missing : made->extra_count ? made->extra : NULL;
+    return judgement->missing_count ? judgement->missing : judgement->extra_count ? judgement->extra : NULL;
 }
 
-bool judgement_is_worse(const octree_judgement *made, const octree_judgement *than)
+bool judgement_is_worse(const octree_judgement *judgement, const octree_judgement *than)
 {
-    if (made->ratio != than->ratio)
-        return made->ratio > than->ratio;
-    return made->missing_count + made->extra_count > than->missing_count + than->extra_count;
+    if (judgement->ratio != than->ratio)
+        return judgement->ratio > than->ratio;
+    return judgement->missing_count + judgement->extra_count > than->missing_count + than->extra_count;
 }
 
-size_t judgement_count(const octree_answer *answers, size_t count, size_t *worst)
+size_t judgement_count_wrong(const octree_answer *answers, size_t count, size_t *worst)
 {
     size_t wrong = 0;
     for (size_t i = 0; i < count; i++)

@@ -7,18 +7,18 @@
 
 #include <stddef.h>
 
-#define JUDGEMENT_WORDS 64
+#define JUDGEMENT_TEXT 64
 
 /* "2.26 times as far", "1 missed, 2 extra", "no point has id 17": what is wrong first. */
-const char *judgement_words(const octree_judgement *made, char text[JUDGEMENT_WORDS]);
+const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT]);
 
 /* The first point that the program missed, or else the first that it named wrongly; null where there is none. */
-const octree_point *judgement_point(const octree_judgement *made);
+const octree_point *judgement_first_point(const octree_judgement *judgement);
 
 /* Whether one answer is worse than another: by its ratio of distances, then by the points missed and extra. */
-bool judgement_is_worse(const octree_judgement *made, const octree_judgement *than);
+bool judgement_is_worse(const octree_judgement *judgement, const octree_judgement *than);
 
 /* How many of the answers are wrong, and which is the worst of them: the first of several. */
-size_t judgement_count(const octree_answer *answers, size_t count, size_t *worst);
+size_t judgement_count_wrong(const octree_answer *answers, size_t count, size_t *worst);
 
 #endif

@@ -27,14 +27,14 @@ typedef struct layer_source {
     const octree_tick *tick;
     const heat *heat; /* null: the heat layers are empty */
 
-    const char *title;    /* of a tree alone */
-    octree_address asked; /* of a tree alone: the node to mark, or 0 */
+    const char *title;        /* of a tree alone */
+    octree_address requested; /* of a tree alone: the node to mark, or 0 */
 } layer_source;
 
 /* Members that a layer does not need are null or 0. `own` is the layer itself, for files that define several. */
 typedef struct layer_type {
     /* Whether the layer can have elements in this frame or others of its recording: then the legend lists it. Null:
-     * always; for layers of answers, when such a query was asked or is in each tick. */
+     * always; for layers of answers, when such a query was requested or is in each tick. */
     bool (*applies)(const layer_source *in);
 
     /* Whether a session can have anything for the layer. Null: each can. Two recordings are not unlike by a layer that
@@ -52,13 +52,13 @@ typedef struct layer_type {
     /* The legend: lines are sorted by place; one line of a sign and text, or what the function adds. */
     int legend_place;
     legend_sign sign;
-    legend_worth worth;
+    legend_drop_order worth;
     const char *text;
     void (*legend)(legend *l, const layer_source *in);
 
     /* Describe an element. Null: the ids of boxes are nodes, those of markers points. Markers of answers are always
      * points. */
-    void (*describe)(description *d, const described *element);
+    void (*describe)(description *d, const described_element *element);
 } layer_type;
 
 #define LAYER_TYPE_DECLARE(layer, ...) extern const layer_type layer_##layer;

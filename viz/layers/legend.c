@@ -42,7 +42,7 @@ static bool is_in_diagram(const scene *s, view_layer layer)
             (layer == LAYER_PRUNED && s->tally.marked_pruned));
 }
 
-static void list_layer(legend *l, const layer_source *in, view_layer layer)
+static void add_layer_line(legend *l, const layer_source *in, view_layer layer)
 {
     const layer_type *type = layer_types[layer];
     const scene *s = l->scene;
@@ -50,7 +50,7 @@ static void list_layer(legend *l, const layer_source *in, view_layer layer)
     if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows(&s->view, layer) || !layer_applies(in, layer)))
         return;
     l->next = (legend_line){.layer = layer,
-                            .worth = in_diagram || l->in_frame >> layer & 1 ? type->worth : WORTH_ABSENT,
+                            .worth = in_diagram || l->in_frame >> layer & 1 ? type->worth : DROP_FIRST,
                             .role = (theme_role)layer_rows[layer].role};
     if (type->legend)
         type->legend(l, in);
@@ -58,7 +58,7 @@ static void list_layer(legend *l, const layer_source *in, view_layer layer)
         legend_add(l, type->sign, "%s", type->text);
 }
 
-static void list_layers(legend *l, const layer_source *in)
+static void add_layer_lines(legend *l, const layer_source *in)
 {
     for (int last = 0, place; last < INT_MAX; last = place) {
         int next = -1;
@@ -67,40 +67,40 @@ static void list_layers(legend *l, const layer_source *in)
             if (layer_types[i]->legend_place > last && layer_types[i]->legend_place < place)
                 place = layer_types[next = i]->legend_place;
         if (next >= 0)
-            list_layer(l, in, (view_layer)next);
+            add_layer_line(l, in, (view_layer)next);
     }
 }
 
 /* Whether a line belongs to the one before. */
-static bool continues(const legend_line *line)
+static bool is_continuation(const legend_line *line)
 {
     return line->sign == SIGN_NONE || line->sign == SIGN_SCALE;
 }
 
 /* Leave out a line, with those that belong to it. */
-static void leave_out(legend *l, size_t place)
+static void remove_line(legend *l, size_t place)
 {
     size_t end = place + 1;
-    while (end < l->count && continues(&l->lines[end]))
+    while (end < l->count && is_continuation(&l->lines[end]))
         end++;
     memmove(&l->lines[place], &l->lines[end], (l->count - end) * sizeof *l->lines);
     l->count -= end - place;
 }
 
 /* Leave out lines until they fit with one that says how many they are, which is returned. */
-static size_t make_fit(legend *l, size_t room)
+static size_t fit_lines(legend *l, size_t room)
 {
     const size_t needed = l->count, left = room ? room - 1 : 0;
     if (needed <= room)
         return 0;
-    for (legend_worth least = WORTH_ABSENT; least > WORTH_FULL; least--)
+    for (legend_drop_order least = DROP_FIRST; least > DROP_LAST; least--)
         for (size_t i = 0; i < l->count && l->count > left;)
             if (l->lines[i].worth == least)
-                leave_out(l, i);
+                remove_line(l, i);
             else
                 i++;
     if (l->count > left)
-        for (l->count = left; l->count && continues(&l->lines[l->count]);)
+        for (l->count = left; l->count && is_continuation(&l->lines[l->count]);)
             l->count--;
     return needed - l->count;
 }
@@ -141,7 +141,7 @@ static const int8_t signs[][SIGN_PARTS][4] = {
 static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role)
 {
     const int letter = p->scene->text.height, dot = letter < 24 ? 1 : letter / 12;
-    fill(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
+    fill_rectangle(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
 }
 
 /* The rows of a triangle on its side or, filled, on its corner. */
@@ -175,7 +175,7 @@ static void fill_sign(pen *p, const legend_line *line)
         fill_checks(p);
     } else if (line->sign == SIGN_SWATCH) {
         const int side = p->scene->text.height / 2;
-        fill_own(p, SWATCH * side / 12 - side / 2, p->scene->text.height / 4, side, side, line->color);
+        fill_rectangle_in_color(p, SWATCH * side / 12 - side / 2, p->scene->text.height / 4, side, side, line->color);
     } else if (line->sign == SIGN_TRIANGLE || line->sign == SIGN_WEDGE) {
         fill_triangle(p, line->role, line->sign == SIGN_TRIANGLE);
     } else if (line->sign == SIGN_CROSS) {
@@ -218,8 +218,8 @@ void write_legend(pen *p, const layer_source *in)
     const int line = s->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
     const int room = (foot - p->y - line / 2) / line;
     legend l = {.scene = s, .in_frame = layers_in_frame(s)};
-    list_layers(&l, in);
-    const size_t left_out = make_fit(&l, room > 0 ? (size_t)room : 0);
+    add_layer_lines(&l, in);
+    const size_t left_out = fit_lines(&l, room > 0 ? (size_t)room : 0);
     if (l.count == 0)
         return;
     p->y = foot - (int)(l.count + (left_out > 0)) * line - line / 2;

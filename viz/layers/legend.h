@@ -42,16 +42,16 @@ typedef struct legend_scale {
 } legend_scale;
 
 /* When lines do not fit, those with the greatest value are dropped first. */
-typedef enum legend_worth {
-    WORTH_FULL,
-    WORTH_ANSWER, /* the panel shows its answer in the same colour */
-    WORTH_PLAIN,  /* nearly self-explanatory */
-    WORTH_ABSENT, /* no elements in this frame */
-} legend_worth;
+typedef enum legend_drop_order {
+    DROP_LAST,
+    DROP_LATE,  /* the panel shows its answer in the same colour */
+    DROP_EARLY, /* nearly self-explanatory */
+    DROP_FIRST, /* no elements in this frame */
+} legend_drop_order;
 
 typedef struct legend_line {
     view_layer layer;
-    legend_worth worth;
+    legend_drop_order worth;
     legend_sign sign;
     theme_role role;
     int steps;

@@ -55,19 +55,19 @@ static marks mark_round_numbers(const legend_scale *scale, int count)
 }
 
 /* The pixels of a number's left end, under its mark and within the bar. */
-static int left_of(const pen *p, const mark *m, int width)
+static int number_left(const pen *p, const mark *m, int width)
 {
     const int size = (int)strlen(m->text) * p->scene->text.width, left = (int)(m->part * width) - size / 2;
     return left < 0 ? 0 : left + size > width ? width - size : left;
 }
 
 /* Whether all have room, with a letter between them. */
-static bool fit(const pen *p, const marks *m, int width)
+static bool numbers_fit(const pen *p, const marks *m, int width)
 {
     for (int i = 0; i < m->count; i++) {
-        const int left = left_of(p, &m->items[i], width), letter = p->scene->text.width;
-        if (left < 0 ||
-            (i > 0 && left < left_of(p, &m->items[i - 1], width) + ((int)strlen(m->items[i - 1].text) + 1) * letter))
+        const int left = number_left(p, &m->items[i], width), letter = p->scene->text.width;
+        if (left < 0 || (i > 0 && left < number_left(p, &m->items[i - 1], width) +
+                                             ((int)strlen(m->items[i - 1].text) + 1) * letter))
             return false;
     }
     return true;
@@ -84,7 +84,7 @@ static marks choose_marks(const pen *p, const legend_scale *scale, int width)
     }
     for (int count = MOST_NUMBERS; count > 0; count--) {
         m = mark_round_numbers(scale, count);
-        if (m.count > 0 && fit(p, &m, width))
+        if (m.count > 0 && numbers_fit(p, &m, width))
             return m;
     }
     m.count = 0;
@@ -92,7 +92,7 @@ static marks choose_marks(const pen *p, const legend_scale *scale, int width)
 }
 
 /* How high the bar is so far from its nearer end. */
-static int height_at(const legend_scale *scale, int from_end, int high, int dot)
+static int bar_height(const legend_scale *scale, int from_end, int high, int dot)
 {
     const int pointed = (2 * (from_end / dot) + 1) * dot;
     return scale->pointed && pointed < high ? pointed : high;
@@ -105,15 +105,16 @@ void write_scale(pen *p, const legend_scale *scale)
               dot = text->height < 24 ? 1 : text->height / 12;
     const marks m = choose_marks(p, scale, width);
     for (int x = 0; x < width; x += dot) {
-        const int left = width - dot - x, tall = height_at(scale, x < left ? x : left > 0 ? left : 0, high, dot);
-        fill_own(p, x, text->height / 4 + (high - tall) / 2, dot, tall, theme_ramp((x + 0.5 * dot) / width));
+        const int left = width - dot - x, tall = bar_height(scale, x < left ? x : left > 0 ? left : 0, high, dot);
+        fill_rectangle_in_color(p, x, text->height / 4 + (high - tall) / 2, dot, tall,
+                                theme_ramp((x + 0.5 * dot) / width));
     }
     for (int i = 0; i < m.count; i++) {
         int x = (int)(m.items[i].part * width);
         x = x > width - dot ? width - dot : x;
-        fill(p, x, text->height / 4 + high, dot, text->height / 4, ROLE_FAINT);
+        fill_rectangle(p, x, text->height / 4 + high, dot, text->height / 4, ROLE_FAINT);
         p->y += text->line;
-        write_at(p, left_of(p, &m.items[i], width), ROLE_FAINT, m.items[i].text);
+        write_text_at(p, number_left(p, &m.items[i], width), ROLE_FAINT, m.items[i].text);
         p->y -= text->line;
     }
 }

@@ -2,14 +2,14 @@
 #include "node_boxes.h"
 #include "octree/octree.h"
 
-static theme_role occupancy_role(node_look node)
+static theme_role occupancy_role(node_traits node)
 {
     if (node.capacity == 0)
         return theme_node_role(theme_step(node.points, 1));
     return node.leaf ? theme_node_role(theme_part_step(node.points, node.capacity)) : ROLE_WORLD;
 }
 
-theme_role node_role(const view *v, node_look node)
+theme_role node_role(const view *v, node_traits node)
 {
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
@@ -28,12 +28,12 @@ void add_node_box(scene *s, const octree_node *node, scene_style style)
 }
 
 /* Whether an ancestor is shown: a tick visits them too, unless the filter hides them. */
-static bool lies_in_a_shown_one(const view_filter *f, unsigned depth)
+static bool has_shown_ancestor(const view_filter *f, unsigned depth)
 {
     return !f->leaves && depth > (f->by_depth ? f->min_depth : 0);
 }
 
-bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node)
+bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node)
 {
     const view_filter *f = &s->view.filter;
     const octree_box world = octree_definition(tree).world;
@@ -44,8 +44,8 @@ bool tick_node_shown(scene *s, const octree *tree, octree_address address, octre
                               .box = octree_cell_box(&world, address)};
     if (!filter_shows_node(f, &world, node))
         return false;
-    const bool small = lies_in_a_shown_one(f, node->depth) && camera_box_is_below(&s->camera, &node->box, s->view.lod);
-    s->tally.small_met += small;
+    const bool small = has_shown_ancestor(f, node->depth) && camera_box_is_below(&s->camera, &node->box, s->view.lod);
+    s->tally.small_marked += small;
     return !small;
 }
 

@@ -7,23 +7,23 @@
 #include "scene.h"
 
 /* What the colour of a node may tell. */
-typedef struct node_look {
+typedef struct node_traits {
     unsigned depth;
     size_t points;
     size_t capacity; /* of the leaves of its tree; 0: it has none, as that of a program */
     bool leaf;
-} node_look;
+} node_traits;
 
 /* Under COLORING_OCCUPANCY inner nodes of a tree with a capacity, which all hold more than that, are not on the scale:
  * they would hide the leaves. */
-theme_role node_role(const view *v, node_look node);
+theme_role node_role(const view *v, node_traits node);
 
 /* A node's box, with its address as id. */
 void add_node_box(scene *s, const octree_node *node, scene_style style);
 
 /* The node at an address of a tick, or its empty cell when the tree no longer has the node. False when the view's
  * filter hides it, or when it is smaller than the view's lod and lies in a node that is shown, which is counted. */
-bool tick_node_shown(scene *s, const octree *tree, octree_address address, octree_node *node);
+bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node);
 
 /* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: recognizable without colour.
  */
@@ -37,7 +37,7 @@ static inline bool sieve_drops(uint64_t sieve, uint64_t id)
     return octree_digest_word(OCTREE_DIGEST_START, id) & sieve;
 }
 
-static inline uint64_t sieve_finer(uint64_t sieve)
+static inline uint64_t finer_sieve(uint64_t sieve)
 {
     return sieve << 1 | 1;
 }

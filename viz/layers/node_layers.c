@@ -34,8 +34,8 @@ typedef struct tree_walk {
                2]; /* by depth + 1, on the way from the root: whether a box up to that depth is drawn */
     bool small[OCTREE_MAX_DEPTH + 2]; /* and whether one is smaller than the view's lod */
     kept_tree *kept;                  /* null: nothing is kept */
-    size_t looser;                    /* points that a sieve with a bit less keeps, where subtrees are kept */
-    bool in_vain;                     /* there was no memory to keep them */
+    size_t looser_count;              /* points that a sieve with a bit less keeps, where subtrees are kept */
+    bool keeping_failed;              /* there was no memory to keep them */
 } tree_walk;
 
 static void stop_keeping(tree_walk *w)
@@ -53,7 +53,7 @@ static void thin_points(tree_walk *w)
     scene *s = w->scene;
     size_t kept = 0;
     stop_keeping(w);
-    w->sieve = sieve_finer(w->sieve);
+    w->sieve = finer_sieve(w->sieve);
     for (size_t i = 0; i < s->markers.count; i++) {
         const scene_marker *marker = &s->markers.items[i];
         const bool out = marker->style.layer == LAYER_POINTS && sieve_drops(w->sieve, marker->id);
@@ -65,7 +65,7 @@ static void thin_points(tree_walk *w)
     s->markers.count = kept;
 }
 
-static void fit_points(tree_walk *w)
+static void thin_points_to_budget(tree_walk *w)
 {
     const scene *s = w->scene;
     while (s->view.budget && s->tally.points > s->view.budget && w->sieve != UINT64_MAX)
@@ -73,7 +73,7 @@ static void fit_points(tree_walk *w)
 }
 
 /* Whether a point is shown, by the filter and the budget. */
-static bool takes_point(tree_walk *w, const octree_point *point)
+static bool select_point(tree_walk *w, const octree_point *point)
 {
     if (!filter_shows_point(&w->scene->view.filter, point->position))
         return false;
@@ -113,7 +113,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
     size_t count = 0;
     s->out_of_memory = s->out_of_memory || !some;
     for (size_t i = 0; some && i < leaf->count; i++)
-        if (takes_point(w, &leaf->points[i]))
+        if (select_point(w, &leaf->points[i]))
             some[count++] = leaf->points[i];
     sort_points(some, count);
     scene_style style = layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width);
@@ -123,7 +123,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
     if (style.role == ROLE_OWN)
         color_points(&s->view, w->values, leaf, s->markers.items + before, s->markers.count - before);
     s->tally.points += count;
-    fit_points(w);
+    thin_points_to_budget(w);
     if (some != few)
         free(some);
 }
@@ -150,9 +150,9 @@ static void drop_level(tree_walk *w)
     w->at_depth[w->deepest--] = 0;
 }
 
-static scene_box box_of(const tree_walk *w, const octree_node *node)
+static scene_box make_node_box(const tree_walk *w, const octree_node *node)
 {
-    const node_look look = {node->depth, node->count, w->capacity, node->leaf};
+    const node_traits look = {node->depth, node->count, w->capacity, node->leaf};
     const scene_style style = {.layer = LAYER_NODES, .role = (uint8_t)node_role(&w->scene->view, look), .width = 1};
     return (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth};
 }
@@ -193,15 +193,15 @@ static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
 static void show_node(tree_walk *w, const octree_node *node)
 {
     scene *s = w->scene;
-    const scene_box box = box_of(w, node);
+    const scene_box box = make_node_box(w, node);
     s->tally.small += !show_box(w, &box, filter_shows_node(&s->view.filter, &w->world, node));
-    w->in_vain = w->in_vain || (w->kept && !kept_tree_add_node(w->kept, &box));
+    w->keeping_failed = w->keeping_failed || (w->kept && !kept_tree_add_node(w->kept, &box));
 }
 
 /* ---- Kept subtrees ------------------------------------------------------------------------------------------ */
 
 /* All below a node that is left out is left out too: no filter is on. */
-static void add_kept(tree_walk *w, const kept_subtree *kept)
+static void add_kept_subtree(tree_walk *w, const kept_subtree *kept)
 {
     scene *s = w->scene;
     const size_t first_marker = s->markers.count, first_box = s->boxes.count;
@@ -211,7 +211,7 @@ static void add_kept(tree_walk *w, const kept_subtree *kept)
         kept_tree_add_run(&w->kept->marker_runs, first_marker, kept->run);
     s->tally.points += kept->marker_count;
     s->tally.thinned += kept->thinned;
-    w->looser += kept->looser;
+    w->looser_count += kept->looser;
     for (uint32_t i = 0; i < kept->node_count;) {
         const kept_node *node = &kept->nodes[i];
         const bool shown = show_box(w, &node->box, true);
@@ -223,28 +223,28 @@ static void add_kept(tree_walk *w, const kept_subtree *kept)
     }
     if (s->boxes.count - first_box == run.end)
         kept_tree_add_run(&w->kept->box_runs, first_box, run);
-    fit_points(w);
+    thin_points_to_budget(w);
 }
 
-static void close_kept(tree_walk *w)
+static void close_kept_subtree(tree_walk *w)
 {
     if (!w->kept || !w->kept->open.address)
         return;
-    w->looser += w->kept->open.looser;
-    w->in_vain = w->in_vain || !kept_tree_close(w->kept, w->scene);
+    w->looser_count += w->kept->open.looser;
+    w->keeping_failed = w->keeping_failed || !kept_tree_close(w->kept, w->scene);
 }
 
 /* Whether a subtree was added as it was kept. Else it is collected, where it is not a part of another. */
-static bool use_kept(tree_walk *w, const octree_node *node)
+static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
     if (kept_tree_collects(w->kept, node))
         return false;
-    close_kept(w);
+    close_kept_subtree(w);
     if (node->count > KEPT_POINTS && !node->leaf)
         return false;
     const kept_subtree *found = kept_tree_find(w->kept, node->address);
     if (found)
-        add_kept(w, found);
+        add_kept_subtree(w, found);
     else
         kept_tree_open(w->kept, node->address, w->scene);
     return found != NULL;
@@ -256,18 +256,18 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 {
     tree_walk *w = context;
     scene *s = w->scene;
-    if (!filter_enters(&w->filter, &w->world, node) || (w->kept && use_kept(w, node)))
+    if (!filter_enters(&w->filter, &w->world, node) || (w->kept && reuse_kept_subtree(w, node)))
         return OCTREE_WALK_SKIP;
     if (w->shows_nodes)
         show_node(w, node);
     if (node->leaf && node->count && view_shows(&s->view, LAYER_POINTS) &&
         filter_shows_points_of(&w->filter, &w->world, node))
         add_points(w, node);
-    return s->out_of_memory || w->in_vain ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
+    return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
 /* What is kept from tick to tick: where the whole tree is shown, and each point as it is alone. */
-static kept_tree *kept_for(const tree_walk *w, const layer_source *in)
+static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
     if (!in->game || in->values || filter_is_on(&w->filter) || view_paints_points(&s->view) || !shows_own_tree(in) ||
@@ -277,7 +277,7 @@ static kept_tree *kept_for(const tree_walk *w, const layer_source *in)
     return s->kept;
 }
 
-static bool begin_keeping(tree_walk *w, const octree *tree, kept_tree *kept)
+static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
 {
     const view *v = &w->scene->view;
     const kept_look look = {.coloring = v->coloring,
@@ -292,27 +292,27 @@ static bool begin_keeping(tree_walk *w, const octree *tree, kept_tree *kept)
     return true;
 }
 
-/* With the sieve of the last tick, unless a looser one would do now. False when it has to be done anew. */
-static bool walk_keeping(tree_walk *w, const octree *tree)
+/* With the sieve of the last tick, unless a looser one would do now. False when it has to be done unchanged. */
+static bool walk_with_kept_tree(tree_walk *w, const octree *tree)
 {
     octree_walk(tree, add_node, w);
-    close_kept(w);
+    close_kept_subtree(w);
     if (w->kept)
         kept_tree_end(w->kept);
-    return !w->in_vain && (!w->kept || w->sieve == 0 || w->looser > w->scene->view.budget);
+    return !w->keeping_failed && (!w->kept || w->sieve == 0 || w->looser_count > w->scene->view.budget);
 }
 
 static void walk_tree(tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
-    const tree_walk anew = *w;
+    const tree_walk unchanged = *w;
     const scene before = *s;
-    kept_tree *kept = kept_for(w, in);
-    if (!begin_keeping(w, in->tree, kept)) {
+    kept_tree *kept = get_kept_tree(w, in);
+    if (!begin_kept_tree(w, in->tree, kept)) {
         octree_walk(in->tree, add_node, w);
-    } else if (!walk_keeping(w, in->tree)) {
+    } else if (!walk_with_kept_tree(w, in->tree)) {
         stop_keeping(w);
-        *w = anew;
+        *w = unchanged;
         s->boxes.count = before.boxes.count;
         s->markers.count = before.markers.count;
         s->tally = before.tally;
@@ -431,18 +431,18 @@ static void add_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_BOLD, "node");
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
-        say(d, "the ground of the path on ");
+        append_text(d, "the ground of the path on ");
     else if (element->kind == SCENE_LABEL)
-        say(d, " on ");
+        append_text(d, " on ");
     if (is_foreign_element(element->id))
-        say_foreign_node(d, element->id);
+        describe_foreign_node(d, element->id);
     else
-        say_node(d, element->id);
+        describe_node(d, element->id);
 }
 
 const layer_type layer_NODES = {.add = add, .legend_place = 50, .legend = add_legend, .describe = describe};
 
-const layer_type layer_POINTS = {.legend_place = 30, .legend = add_point_legend, .worth = WORTH_PLAIN};
+const layer_type layer_POINTS = {.legend_place = 30, .legend = add_point_legend, .worth = DROP_EARLY};

@@ -40,12 +40,12 @@ void write_text(pen *p, int at, theme_role role, const char *text)
     add_text(p, at * p->scene->text.width, role, 1, at < p->letters ? (size_t)(p->letters - at) : 1, text);
 }
 
-void write_at(pen *p, int x, theme_role role, const char *text)
+void write_text_at(pen *p, int x, theme_role role, const char *text)
 {
     add_text(p, x, role, 1, SCENE_TEXT - 1, text);
 }
 
-void write_right(pen *p, theme_role role, const char *text)
+void write_right_aligned(pen *p, theme_role role, const char *text)
 {
     const int length = (int)strlen(text);
     write_text(p, length < p->letters ? p->letters - length : 0, role, text);
@@ -68,7 +68,7 @@ static void end_row(pen *p, size_t taken, char *value)
     const size_t room = (size_t)p->letters > taken + 1 ? (size_t)p->letters - taken - 1 : 0;
     if (strlen(value) > room && room > 2)
         memcpy(value + room - 2, "..", 3);
-    write_right(p, p->value, value);
+    write_right_aligned(p, p->value, value);
     p->y += p->scene->text.line;
 }
 
@@ -111,12 +111,12 @@ void write_rule(pen *p)
 {
     const scene *s = p->scene;
     if (panel_width(&s->view))
-        fill(p, 0, s->text.line / 4, p->letters * s->text.width, s->text.height < 48 ? 1 : s->text.height / 24,
-             ROLE_WORLD);
+        fill_rectangle(p, 0, s->text.line / 4, p->letters * s->text.width,
+                       s->text.height < 48 ? 1 : s->text.height / 24, ROLE_WORLD);
     write_gap(p);
 }
 
-const char *number_fitting(double value, size_t letters, char text[NUMBER_TEXT])
+const char *format_number_within(double value, size_t letters, char text[NUMBER_TEXT])
 {
     for (int digits = 9; digits > 0 && strlen(number_text(value, digits, text)) > letters; digits--)
         continue;
@@ -127,12 +127,12 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 {
     char text[SCENE_TEXT] = "", more[SCENE_TEXT] = "", longer[SCENE_TEXT * 2], found[SCENE_TEXT];
     const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", count) + DETAIL + 1;
-    size_t told = 0;
-    for (; told < count && told < PEN_MOST_IDS; told++) {
+    size_t shown = 0;
+    for (; shown < count && shown < PEN_MOST_IDS; shown++) {
         char rest[SCENE_TEXT] = "";
-        if (told + 1 < count)
-            snprintf(rest, sizeof rest, " +%zu", count - told - 1);
-        snprintf(longer, sizeof longer, "%s%s#%" PRIu64, text, told ? " " : "", points[told].id);
+        if (shown + 1 < count)
+            snprintf(rest, sizeof rest, " +%zu", count - shown - 1);
+        snprintf(longer, sizeof longer, "%s%s#%" PRIu64, text, shown ? " " : "", points[shown].id);
         if (taken + strlen(longer) + strlen(rest) > (size_t)p->letters)
             break;
         strcpy(text, longer);
@@ -142,7 +142,7 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
     write_detailed_row(p, name, text, "%s", found);
 }
 
-void fill(pen *p, int x, int y, int width, int height, unsigned role)
+void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role)
 {
     scene_add_rectangle(p->scene, p->next_id++, (int[]){p->left + x, p->y + y}, (int[]){width, height}, LAYER_TEXT,
                         role);
@@ -165,7 +165,7 @@ void write_wrapped(pen *p, theme_role role, const char *text)
     }
 }
 
-void fill_own(pen *p, int x, int y, int width, int height, theme_color color)
+void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color)
 {
     scene_add_panel(p->scene, (scene_panel){.id = p->next_id++,
                                             .x = p->left + x,

@@ -26,7 +26,7 @@ pen pen_in_corner(scene *s);
 
 /* Write a text at a letter of the line, or to end at its end. One that does not fit is cut and ends in two dots. */
 void write_text(pen *p, int at, theme_role role, const char *text);
-void write_right(pen *p, theme_role role, const char *text);
+void write_right_aligned(pen *p, theme_role role, const char *text);
 
 /* Write in the letters of titles, which are twice as wide and as high. */
 void write_title_text(pen *p, theme_role role, const char *text);
@@ -48,14 +48,14 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
 #define PEN_MOST_IDS 3
 
 /* A number with as many significant digits as fit into so many letters, 9 at most. Returns `text`. */
-const char *number_fitting(double value, size_t letters, char text[NUMBER_TEXT]);
+const char *format_number_within(double value, size_t letters, char text[NUMBER_TEXT]);
 
 /* Write a text so many pixels from the pen's place. */
-void write_at(pen *p, int x, theme_role role, const char *text);
+void write_text_at(pen *p, int x, theme_role role, const char *text);
 
 /* A rectangle, in pixels from the pen's place; and one of its own colour, where the view paints points. */
-void fill(pen *p, int x, int y, int width, int height, unsigned role);
-void fill_own(pen *p, int x, int y, int width, int height, theme_color color);
+void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role);
+void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color);
 
 /* The sentence in lines that fit the column, broken at blanks. */
 void write_wrapped(pen *p, theme_role role, const char *text);

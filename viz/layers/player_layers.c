@@ -21,14 +21,14 @@ static void add_player(scene *s, const layer_source *in, view_layer own)
     scene_add_mark(s, in->session->player.id, at, SHAPE_DIAMOND, layer_style(own, STROKE_SOLID, 4));
 }
 
-static void describe_player(description *d, const described *element)
+static void describe_player(description *d, const described_element *element)
 {
     if (element->kind == SCENE_SEGMENT) {
-        say(d, "the line from the player down to the world's floor");
+        append_text(d, "the line from the player down to the world's floor");
         return;
     }
-    say(d, "the player, ");
-    say_point(d, element->id, element->at);
+    append_text(d, "the player, ");
+    describe_point(d, element->id, element->at);
 }
 
 const layer_type layer_PLAYER = {.applies = applies,
@@ -36,7 +36,7 @@ const layer_type layer_PLAYER = {.applies = applies,
                                  .legend_place = 10,
                                  .sign = SIGN_SQUARE,
                                  .text = "player and its box",
-                                 .worth = WORTH_PLAIN,
+                                 .worth = DROP_EARLY,
                                  .describe = describe_player};
 
 /* ---- The collision box -------------------------------------------------------------------------------------- */
@@ -47,7 +47,7 @@ const layer_type layer_PLAYER = {.applies = applies,
 /* The ids of a collision's lines begin with those that cross its box out, then come the ways of the box's corners. */
 enum { CORNERS = 8 };
 
-static octree_box box_about(const double center[3], double size)
+static octree_box box_around(const double center[3], double size)
 {
     octree_box box;
     for (int i = 0; i < 3; i++) {
@@ -57,30 +57,30 @@ static octree_box box_about(const double center[3], double size)
     return box;
 }
 
-static void add_way(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style)
+static void add_path_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style)
 {
     if (from[0] != to[0] || from[1] != to[1] || from[2] != to[2])
         scene_add_line(s, id, from, to, style);
 }
 
-static void pick_corner(const octree_box *box, unsigned corner, double position[3])
+static void get_corner(const octree_box *box, unsigned corner, double position[3])
 {
     for (unsigned i = 0; i < 3; i++)
         position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
 }
 
 /* The swept ways: of the corners of the player's box, which is drawn at both ends, and of each hit that moved. */
-static void add_swept_ways(scene *s, const octree_tick *tick, double box_size, scene_style style)
+static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, scene_style style)
 {
-    const octree_box start = box_about(tick->from, box_size), end = box_about(tick->attempt, box_size);
+    const octree_box start = box_around(tick->from, box_size), end = box_around(tick->attempt, box_size);
     double from[3], to[3];
     for (unsigned corner = 0; corner < CORNERS; corner++) {
-        pick_corner(&start, corner, from);
-        pick_corner(&end, corner, to);
-        add_way(s, CROSS_LINES + corner, from, to, style);
+        get_corner(&start, corner, from);
+        get_corner(&end, corner, to);
+        add_path_line(s, CROSS_LINES + corner, from, to, style);
     }
     for (size_t i = 0; i < tick->hit_count; i++)
-        add_way(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
+        add_path_line(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
 /* The box that was tested, crossed out, and a cross on everything in it. A box that is small on screen is hard to
@@ -89,11 +89,11 @@ static void add_collision(scene *s, const layer_source *in, view_layer own)
 {
     const octree_tick *tick = in->tick;
     const double size = in->session->player.box_size;
-    const octree_box box = box_about(tick->attempt, size);
+    const octree_box box = box_around(tick->attempt, size);
     scene_add_box(s, (scene_box){.id = COLLISION_ID, .box = box, .style = layer_style(own, STROKE_SOLID, 2)});
     add_crossed_faces(s, &box, layer_style(own, STROKE_SOLID, 1));
     if (tick->swept)
-        add_swept_ways(s, tick, size, layer_style(own, STROKE_DASHED, 1));
+        add_swept_paths(s, tick, size, layer_style(own, STROKE_DASHED, 1));
     scene_add_mark(s, in->session->player.id, tick->attempt, SHAPE_CROSS, layer_style(own, STROKE_SOLID, 28));
     for (size_t i = 0; i < tick->hit_count; i++)
         scene_add_mark(s, tick->hits[i].id, tick->hits[i].position, SHAPE_CROSS, layer_style(own, STROKE_SOLID, 6));
@@ -104,7 +104,7 @@ static void add_box(scene *s, const layer_source *in, view_layer own)
     const octree_tick *tick = in->tick;
     if (tick->has_player)
         scene_add_box(s, (scene_box){.id = in->session->player.id,
-                                     .box = box_about(tick->player, in->session->player.box_size),
+                                     .box = box_around(tick->player, in->session->player.box_size),
                                      .style = {.layer = (uint8_t)own, .role = ROLE_PLAYER, .width = 1}});
     if (tick->hit_count)
         add_collision(s, in, own);
@@ -117,20 +117,20 @@ static void add_box_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_DASHES, "way to a hit, dashed");
 }
 
-static void describe_box(description *d, const described *element)
+static void describe_box(description *d, const described_element *element)
 {
     if (element->kind == SCENE_BOX) {
-        say(d, element->id == COLLISION_ID ? "the collision box where the step met something, "
-                                           : "the player's collision box, ");
-        say_box(d, &element->box);
+        append_text(d, element->id == COLLISION_ID ? "the collision box where the step met something, "
+                                                   : "the player's collision box, ");
+        append_box(d, &element->box);
     } else if (element->kind == SCENE_SEGMENT) {
-        say(d,
-            element->id < CROSS_LINES ? "a line that crosses the collision out" : "a way of the swept collision test");
+        append_text(d, element->id < CROSS_LINES ? "a line that crosses the collision out"
+                                                 : "a way of the swept collision test");
     } else if (element->id == octree_game_session(d->game)->player.id) { /* the player is none of its own hits */
-        say(d, "a cross that crosses the collision out");
+        append_text(d, "a cross that crosses the collision out");
     } else {
-        say_point(d, element->id, element->at);
-        say(d, ", in the player's collision box");
+        describe_point(d, element->id, element->at);
+        append_text(d, ", in the player's collision box");
     }
 }
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 /* Where a value lies between two others, without overflow. */
-static double part_of(double value, double low, double high)
+static double fraction_between(double value, double low, double high)
 {
     const double whole = high / 2 - low / 2;
     return whole > 0 ? (value / 2 - low / 2) / whole : 0.5;
@@ -47,7 +47,7 @@ static theme_color color_of_value(const painting *p, uint64_t id)
     case POINTS_BY_INTENSITY:
         if (!value.has[POINT_INTENSITY])
             return p->plain;
-        return theme_ramp(part_of((double)value.intensity, scale->intensities[0], scale->intensities[1]));
+        return theme_ramp(fraction_between((double)value.intensity, scale->intensities[0], scale->intensities[1]));
     default:
         return value.has[POINT_COLOR] ? (theme_color){value.color[0], value.color[1], value.color[2]} : p->plain;
     }
@@ -56,10 +56,10 @@ static theme_color color_of_value(const painting *p, uint64_t id)
 static theme_color color_on_axis(const painting *p, const scene_marker *m, int axis)
 {
     const point_scale *scale = &p->view->point_scale.of;
-    return theme_ramp(part_of(m->at[axis], scale->low[axis], scale->high[axis]));
+    return theme_ramp(fraction_between(m->at[axis], scale->low[axis], scale->high[axis]));
 }
 
-static theme_color color_of(const painting *p, const scene_marker *m)
+static theme_color color_of_marker(const painting *p, const scene_marker *m)
 {
     const point_scale *scale = &p->view->point_scale.of;
     switch (p->view->point_color) {
@@ -77,7 +77,7 @@ static theme_color color_of(const painting *p, const scene_marker *m)
     case POINTS_BY_LEAF:
         return p->values && p->values->colors ? color_of_value(p, m->id) : color_on_axis(p, m, 2);
     case POINTS_BY_ID:
-        return theme_ramp(part_of((double)m->id, scale->ids[0], scale->ids[1]));
+        return theme_ramp(fraction_between((double)m->id, scale->ids[0], scale->ids[1]));
     default:
         return p->plain;
     }
@@ -90,13 +90,13 @@ void color_points(const view *v, const point_values *values, const octree_node *
     const painting p = {v, values, theme_color_at(theme_index(role, 0))};
     const int light = v->point_color == POINTS_BY_LEAF && is_dark(leaf) ? DARK : 256;
     for (size_t i = 0; i < count; i++)
-        markers[i].color = theme_fade(color_of(&p, &markers[i]), light);
+        markers[i].color = theme_fade(color_of_marker(&p, &markers[i]), light);
 }
 
 /* ---- The legend --------------------------------------------------------------------------------------------- */
 
 /* The kinds of classes that any point has, as bits. */
-static unsigned kinds_in(const point_values *values)
+static unsigned class_kinds_in(const point_values *values)
 {
     unsigned kinds = 0;
     for (size_t row = 0; values && row < values->count; row++)
@@ -107,7 +107,7 @@ static unsigned kinds_in(const point_values *values)
 
 static void add_class_legend(legend *l, const point_values *values)
 {
-    const unsigned kinds = kinds_in(values);
+    const unsigned kinds = class_kinds_in(values);
     for (unsigned kind = 0; kind < THEME_KINDS; kind++)
         if (kinds >> kind & 1)
             legend_add(l, SIGN_SWATCH, "%s", class_kind_names[kind])->color = theme_kind(kind);

@@ -60,17 +60,17 @@ static void add_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_BOLD, "%zu shape%s", in->tick->shape_count, plural(in->tick->shape_count));
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     const octree_shape *shape = &d->tick->shapes[element->id];
     const bool label = shape->kind == OCTREE_SHAPE_LABEL;
     const char *ground = element->kind == SCENE_PANEL ? "the ground of " : label ? ", " : "";
-    say(d, "%sshape %" PRIu64 " of the session, %s %s", ground, element->id, octree_shape_name(shape->kind),
-        label ? "at " : "");
-    say_place(d, shape->at);
+    append_text(d, "%sshape %" PRIu64 " of the session, %s %s", ground, element->id, octree_shape_name(shape->kind),
+                label ? "at " : "");
+    append_position(d, shape->at);
     if (shape->kind == OCTREE_SHAPE_BOX || shape->kind == OCTREE_SHAPE_SEGMENT) {
-        say(d, " to ");
-        say_place(d, shape->to);
+        append_text(d, " to ");
+        append_position(d, shape->to);
     }
 }
 

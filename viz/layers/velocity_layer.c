@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#define PART 10                /* of the world's longest side: the fastest arrow */
+#define ARROW_FRACTION 10      /* of the world's longest side: the fastest arrow */
 #define BOXES_PER_ARROW 1000.0 /* of the budget, for which there is one arrow: some hundreds can be told apart */
 
 unsigned velocity_ticks(const octree_game *game)
@@ -25,7 +25,7 @@ unsigned velocity_ticks(const octree_game *game)
     for (int axis = 0; axis < 3; axis++)
         half = fmax(half, world->max[axis] / 2 - world->min[axis] / 2);
     for (size_t i = 0; speed > 0 && i < sizeof choices / sizeof choices[0]; i++)
-        if (speed * choices[i] <= half * 2 / PART)
+        if (speed * choices[i] <= half * 2 / ARROW_FRACTION)
             ticks = choices[i];
     return ticks;
 }
@@ -41,7 +41,7 @@ static double greater(double a, double b)
 }
 
 /* Its position after so many ticks, or where it meets the bounds before. */
-static void go_on(const octree_body *body, const octree_box *world, double ticks, double end[3])
+static void extrapolate(const octree_body *body, const octree_box *world, double ticks, double end[3])
 {
     int stops = -1; /* the axis whose bound it meets */
     for (int i = 0; i < 3; i++) {
@@ -82,15 +82,15 @@ typedef struct arrows {
 } arrows;
 
 /* Whether a body gets on, to this end. */
-static bool find_end(const arrows *a, const octree_body *body, double end[3])
+static bool find_arrow_end(const arrows *a, const octree_body *body, double end[3])
 {
-    go_on(body, a->world, a->ticks, end);
+    extrapolate(body, a->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
 }
 
 /* The same without the end, which most need not look for: they meet no bound, and go far enough for a double to tell,
  * however the bounds are rounded. */
-static bool gets_on(const arrows *a, const octree_body *body)
+static bool has_length(const arrows *a, const octree_body *body)
 {
     bool within = true, far = false;
     double end[3];
@@ -99,19 +99,19 @@ static bool gets_on(const arrows *a, const octree_body *body)
         within &= (at + way > a->world->min[i]) & (at + way < a->world->max[i]);
         far |= fabs(way) > fabs(at) * 1e-9;
     }
-    return (within && far) || find_end(a, body, end);
+    return (within && far) || find_arrow_end(a, body, end);
 }
 
 /* Whether a body has an arrow: it has none where it does not get on, or the view does not show it. */
 static bool has_arrow(const arrows *a, const octree_body *body)
 {
-    return gets_on(a, body) && is_shown(a->scene, a->tree, a->world, body->position);
+    return has_length(a, body) && is_shown(a->scene, a->tree, a->world, body->position);
 }
 
 /* Sieves are all ones: an id passes those of no more bits than its digest ends with zeros. */
 enum { SIEVES = 65 };
 
-static unsigned sieves_passed(uint64_t id)
+static unsigned count_passed_sieves(uint64_t id)
 {
     unsigned passed = 0;
     for (uint64_t sieve = 1; passed < SIEVES - 1 && !sieve_drops(sieve, id); sieve <<= 1)
@@ -120,7 +120,7 @@ static unsigned sieves_passed(uint64_t id)
 }
 
 /* At least one, so that there is something to see. */
-static size_t most_arrows(const view *v)
+static size_t max_arrows(const view *v)
 {
     return v->budget ? (size_t)ceil((double)v->budget / BOXES_PER_ARROW) : SIZE_MAX;
 }
@@ -132,14 +132,14 @@ static uint64_t choose_sieve(scene *s, const arrows *a, const octree_tick *tick,
     size_t passing[SIEVES] = {0}, all = 0; /* at first: those that are dropped by the next finer one */
     for (size_t i = 0; i < tick->mover_count; i++)
         if (has_arrow(a, &tick->movers[i]))
-            passing[sieves_passed(tick->movers[i].id)]++;
+            passing[count_passed_sieves(tick->movers[i].id)]++;
     for (unsigned bits = SIEVES; bits-- > 0;)
         passing[bits] = all += passing[bits];
     unsigned bits = 0;
     while (sieve >> bits & 1)
         bits++;
-    for (; bits < SIEVES - 1 && passing[bits] > most_arrows(&s->view); bits++)
-        sieve = sieve_finer(sieve);
+    for (; bits < SIEVES - 1 && passing[bits] > max_arrows(&s->view); bits++)
+        sieve = finer_sieve(sieve);
     s->tally.arrows.thinned = all - passing[bits];
     s->tally.arrows.one_in = sieve + 1;
     return sieve;
@@ -157,7 +157,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
-        if (sieve_drops(sieve, body->id) || !find_end(&a, body, arrow.ends[1]) ||
+        if (sieve_drops(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) ||
             !is_shown(s, a.tree, a.world, body->position))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
@@ -179,17 +179,17 @@ static void add_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural(ticks));
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     for (size_t i = 0; i < d->tick->mover_count; i++) {
         const octree_body *body = &d->tick->movers[i];
         if (body->id != element->id)
             continue;
-        say(d, "the velocity of ");
-        say_point(d, body->id, body->position);
-        say(d, ": ");
-        say_place(d, body->velocity);
-        say(d, " a tick, drawn for %u", velocity_ticks(d->game));
+        append_text(d, "the velocity of ");
+        describe_point(d, body->id, body->position);
+        append_text(d, ": ");
+        append_position(d, body->velocity);
+        append_text(d, " a tick, drawn for %u", velocity_ticks(d->game));
     }
 }
 

@@ -15,7 +15,7 @@ static bool is_pruned(const octree_visit *visit)
 }
 
 /* A node keeps its colour in the tree. Visited nodes are bold, pruned ones dashed. */
-static void add_own_met(scene *s, const layer_source *in, view_layer own)
+static void add_own_visits(scene *s, const layer_source *in, view_layer own)
 {
     const bool pruned = own == LAYER_PRUNED;
     scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
@@ -23,46 +23,46 @@ static void add_own_met(scene *s, const layer_source *in, view_layer own)
     octree_node node;
     for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->visit_count; i++) {
         const octree_visit *visit = &in->tick->visits[i];
-        if (is_pruned(visit) != pruned || !tick_node_shown(s, in->tree, visit->node, &node))
+        if (is_pruned(visit) != pruned || !find_shown_node(s, in->tree, visit->node, &node))
             continue;
-        style.role = (uint8_t)node_role(&s->view, (node_look){node.depth, node.count, capacity, node.leaf});
+        style.role = (uint8_t)node_role(&s->view, (node_traits){node.depth, node.count, capacity, node.leaf});
         add_node_box(s, &node, style);
     }
 }
 
-static void add_met(scene *s, const layer_source *in, view_layer own)
+static void add_visits(scene *s, const layer_source *in, view_layer own)
 {
     if (shows_own_tree(in))
-        add_own_met(s, in, own);
+        add_own_visits(s, in, own);
     if (shows_foreign_tree(in))
-        add_foreign_met(s, in, own);
+        add_visited_foreign_nodes(s, in, own);
 }
 
-static void add_own_hit(scene *s, const layer_source *in, view_layer own)
+static void add_own_hit_leaves(scene *s, const layer_source *in, view_layer own)
 {
     octree_node node;
     for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->hit_leaf_count; i++)
-        if (tick_node_shown(s, in->tree, in->tick->hit_leaves[i], &node))
+        if (find_shown_node(s, in->tree, in->tick->hit_leaves[i], &node))
             add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
 }
 
-static void add_hit(scene *s, const layer_source *in, view_layer own)
+static void add_hit_leaves(scene *s, const layer_source *in, view_layer own)
 {
     if (shows_own_tree(in))
-        add_own_hit(s, in, own);
+        add_own_hit_leaves(s, in, own);
     if (shows_foreign_tree(in))
-        add_foreign_met(s, in, own);
+        add_visited_foreign_nodes(s, in, own);
 }
 
 /* How many of the nodes that are shown were met so. */
-static size_t count_met(const layer_source *in, size_t own, octree_node_visit visit)
+static size_t count_shown(const layer_source *in, size_t own, octree_node_visit visit)
 {
     return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
 }
 
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    const size_t pruned = count_met(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_NODE_PRUNED);
+    const size_t pruned = count_shown(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_NODE_PRUNED);
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
@@ -70,7 +70,7 @@ static void add_pruned_legend(legend *l, const layer_source *in)
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
-    const size_t visited = count_met(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
+    const size_t visited = count_shown(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken whole", taken);
@@ -82,29 +82,41 @@ static void add_visited_legend(legend *l, const layer_source *in)
 
 static void add_hit_legend(legend *l, const layer_source *in)
 {
-    const size_t leaves = count_met(in, in->tick->hit_leaf_count, OCTREE_NODE_HIT);
+    const size_t leaves = count_shown(in, in->tick->hit_leaf_count, OCTREE_NODE_HIT);
     legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     const uint8_t layer = element->style.layer;
     if (is_foreign_element(element->id)) {
-        say_foreign_node(d, element->id);
-        say(d, "; a query %s", layer == LAYER_PRUNED ? "pruned it" : layer == LAYER_VISITED ? "visited it" : "hit it");
+        describe_foreign_node(d, element->id);
+        append_text(d, "; a query %s",
+                    layer == LAYER_PRUNED    ? "pruned it"
+                    : layer == LAYER_VISITED ? "visited it"
+                                             : "hit it");
         return;
     }
-    say_node(d, element->id);
-    say(d, layer == LAYER_PRUNED    ? "; the tick's questions left it out by its box"
-           : layer == LAYER_VISITED ? "; the tick's questions looked into it"
-                                    : "; it holds what the tick's questions found");
+    describe_node(d, element->id);
+    append_text(d, layer == LAYER_PRUNED    ? "; the tick's questions left it out by its box"
+                   : layer == LAYER_VISITED ? "; the tick's questions looked into it"
+                                            : "; it holds what the tick's questions found");
 }
 
-const layer_type layer_PRUNED = {
-    .applies = layer_in_games, .add = add_met, .legend_place = 80, .legend = add_pruned_legend, .describe = describe};
+const layer_type layer_PRUNED = {.applies = layer_in_games,
+                                 .add = add_visits,
+                                 .legend_place = 80,
+                                 .legend = add_pruned_legend,
+                                 .describe = describe};
 
-const layer_type layer_VISITED = {
-    .applies = layer_in_games, .add = add_met, .legend_place = 70, .legend = add_visited_legend, .describe = describe};
+const layer_type layer_VISITED = {.applies = layer_in_games,
+                                  .add = add_visits,
+                                  .legend_place = 70,
+                                  .legend = add_visited_legend,
+                                  .describe = describe};
 
-const layer_type layer_HIT = {
-    .applies = layer_in_games, .add = add_hit, .legend_place = 90, .legend = add_hit_legend, .describe = describe};
+const layer_type layer_HIT = {.applies = layer_in_games,
+                              .add = add_hit_leaves,
+                              .legend_place = 90,
+                              .legend = add_hit_legend,
+                              .describe = describe};

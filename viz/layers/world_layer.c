@@ -13,7 +13,7 @@
 #define UPRIGHT_SPACE 2   /* lines that it takes of an upright axis */
 #define MOST_TICKS 10     /* of one axis, about */
 #define TICK_LENGTH 0.012 /* of the box's longest side */
-#define END_ON 0.1        /* of its length seen from the side */
+#define END_ON_RATIO 0.1  /* of its length seen from the side */
 #define DIGITS 9          /* of a number */
 #define FIRST_ID 1000     /* of the first axis's ticks */
 #define OUTLINE 1e-3      /* pixels by which the outline of a box is not exact */
@@ -50,7 +50,7 @@ static double side_length(const camera *c, int axis)
 }
 
 /* The distance between numbers; 0 when there is no room or they would need too many digits. */
-static double step_of(const axes *a, int axis)
+static double number_step(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
     const double length = side_length(&a->scene->camera, axis);
@@ -63,7 +63,7 @@ static double step_of(const axes *a, int axis)
     return step > 0 && largest / step < 1e8 ? step : 0; /* numbers must be told apart by their digits */
 }
 
-static void corner_of(const axes *a, unsigned corner, double at[3])
+static void get_corner(const axes *a, unsigned corner, double at[3])
 {
     for (int i = 0; i < 3; i++)
         at[i] = corner >> i & 1 ? a->box->max[i] : a->box->min[i];
@@ -91,7 +91,7 @@ static bool has_room(const axes *a, const double at[2], const double out[2])
 
 /* On the outline of the box, so that numbers stand beside what is in it: of a level axis the lowest, or else the
  * leftmost edge that has room for them. That of the lowest corner where the camera is in the box. */
-static axis_edge edge_of(const axes *a, int axis)
+static axis_edge choose_edge(const axes *a, int axis)
 {
     axis_edge edge = {.axis = axis};
     double most = -INFINITY;
@@ -117,7 +117,7 @@ static bool is_end_on(const axes *a, const axis_edge *e)
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
     const double x = to[0] - from[0], y = to[1] - from[1];
     const bool inside = e->out[0] == 0 && e->out[1] == 0;
-    return a->whole && (inside || sqrt(x * x + y * y) < side_length(&a->scene->camera, e->axis) * END_ON);
+    return a->whole && (inside || sqrt(x * x + y * y) < side_length(&a->scene->camera, e->axis) * END_ON_RATIO);
 }
 
 /* ---- Ticks and letters -------------------------------------------------------------------------------------- */
@@ -150,7 +150,7 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
     scene *s = a->scene;
     double ends[2][3];
     const double length = TICK_LENGTH * longest_side(s);
-    corner_of(a, e->corner, ends[0]);
+    get_corner(a, e->corner, ends[0]);
     for (int i = 0; i < 3; i++)
         ends[1][i] = ends[0][i] + (e->corner >> i & 1 ? length : -length);
     ends[0][e->axis] = ends[1][e->axis] = at;
@@ -166,7 +166,7 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 static void add_ticks(axes *a, const axis_edge *e)
 {
     const int axis = e->axis;
-    const double step = step_of(a, axis);
+    const double step = number_step(a, axis);
     if (step == 0 || is_end_on(a, e) || !isfinite(longest_side(a->scene)))
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
@@ -195,8 +195,8 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
     scene_label letter = {.id = (uint64_t)e->axis, .style = axis_style, .text = {(char)('x' + e->axis), 0}};
     double ends[2][3];
-    corner_of(a, e->corner, ends[0]);
-    corner_of(a, e->corner | 1u << e->axis, ends[1]);
+    get_corner(a, e->corner, ends[0]);
+    get_corner(a, e->corner | 1u << e->axis, ends[1]);
     if (drawn)
         scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
     if (is_end_on(a, e))
@@ -218,11 +218,11 @@ static void add_axes(scene *s, const octree_box *world)
     axis_edge edges[3];
     for (unsigned i = 0; i < 8; i++) {
         double at[3];
-        corner_of(&a, i, at);
+        get_corner(&a, i, at);
         a.whole &= camera_pixel(&s->camera, at, a.corners[i]);
     }
     for (int axis = 0; axis < 3; axis++) {
-        edges[axis] = edge_of(&a, axis);
+        edges[axis] = choose_edge(&a, axis);
         add_axis(&a, &edges[axis], fitted);
     }
     for (int axis = 0; view_shows(&s->view, LAYER_TEXT) && axis < 3; axis++)
@@ -253,19 +253,19 @@ static void add(scene *s, const layer_source *in, view_layer own)
     add_axes(s, &in->world);
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     static const char *const boxes[WORLD_IDS] = {"the world", "the slice that the view shows",
                                                  "the region that the view shows"};
     if (element->kind == SCENE_BOX) {
-        say(d, "%s, box ", boxes[element->id]);
-        say_box(d, &element->box);
+        append_text(d, "%s, box ", boxes[element->id]);
+        append_box(d, &element->box);
     } else if (element->kind == SCENE_SEGMENT && element->id < 3) {
-        say(d, "the %c axis", "xyz"[element->id]);
+        append_text(d, "the %c axis", "xyz"[element->id]);
     } else if (element->kind == SCENE_SEGMENT) {
-        say(d, "a mark of an axis");
+        append_text(d, "a mark of an axis");
     } else {
-        say(d, " of an axis");
+        append_text(d, " of an axis");
     }
 }
 

@@ -24,7 +24,7 @@ static uint64_t ring_id(size_t place)
     return UINT64_MAX - place;
 }
 
-#define MORE_ID UINT64_MAX /* of a label */
+#define LEFT_OUT_ID UINT64_MAX /* of a label */
 
 /* Lines: the answer and which of its extra points. */
 static uint64_t line_id(size_t place, size_t extra)
@@ -37,7 +37,7 @@ static bool applies(const layer_source *in)
     return in->tick && (in->tick->judged || shows_foreign_tree(in));
 }
 
-static bool in_session(const octree_session *session)
+static bool is_in_session(const octree_session *session)
 {
     for (size_t i = 0; i < session->query_count; i++)
         if (session->queries[i].answered)
@@ -46,9 +46,9 @@ static bool in_session(const octree_session *session)
 }
 
 /* The position of the first wrong point; where no point is missing or extra, the middle of the region. */
-static void place_of(const octree_answer *answer, double place[3])
+static void find_ring_position(const octree_answer *answer, double place[3])
 {
-    const octree_point *point = judgement_point(&answer->judgement);
+    const octree_point *point = judgement_first_point(&answer->judgement);
     octree_box bound;
     if (point)
         memcpy(place, point->position, sizeof point->position);
@@ -60,51 +60,51 @@ static void place_of(const octree_answer *answer, double place[3])
 }
 
 static void mark_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style,
-                        text_space *taken)
+                        text_space *occupied)
 {
     scene_add_points(s, points, count, shape, style);
     for (size_t i = 0; i < count && i < FEW_MARKS; i++)
-        text_space_keep_mark(taken, s, points[i].position, style.width);
+        text_space_keep_mark(occupied, s, points[i].position, style.width);
 }
 
-static void mark_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *taken)
+static void mark_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *occupied)
 {
-    const octree_judgement *made = &answer->judgement;
-    const unsigned size = made->missing_count + made->extra_count <= FEW_MARKS ? MARK : MARK / 2;
+    const octree_judgement *judgement = &answer->judgement;
+    const unsigned size = judgement->missing_count + judgement->extra_count <= FEW_MARKS ? MARK : MARK / 2;
     const scene_style extra = layer_style(LAYER_WRONG, STROKE_SOLID, size);
     scene_style missed = extra;
     double at[3];
     missed.role = ROLE_MISSED;
-    for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < made->extra_count; i++)
-        scene_add_line(s, line_id(place, i), answer->target, made->extra[i].position,
+    for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < judgement->extra_count; i++)
+        scene_add_line(s, line_id(place, i), answer->target, judgement->extra[i].position,
                        layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
-    mark_points(s, made->missing, made->missing_count, SHAPE_TRIANGLE, missed, taken);
-    mark_points(s, made->extra, made->extra_count, SHAPE_WEDGE, extra, taken);
-    place_of(answer, at);
+    mark_points(s, judgement->missing, judgement->missing_count, SHAPE_TRIANGLE, missed, occupied);
+    mark_points(s, judgement->extra, judgement->extra_count, SHAPE_WEDGE, extra, occupied);
+    find_ring_position(answer, at);
     scene_add_mark(s, ring_id(place), at, SHAPE_RING, layer_style(LAYER_WRONG, STROKE_SOLID, ring));
-    text_space_keep_mark(taken, s, at, ring);
+    text_space_keep_mark(occupied, s, at, ring);
 }
 
 /* Whether there was room for them. */
-static bool add_words(scene *s, const octree_answer *answer, size_t place, text_space *taken)
+static bool add_answer_label(scene *s, const octree_answer *answer, size_t place, text_space *occupied)
 {
-    char words[JUDGEMENT_WORDS];
+    char words[JUDGEMENT_TEXT];
     double at[3];
     scene_label label = {.id = place, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
-    snprintf(label.text, sizeof label.text, "%s", judgement_words(&answer->judgement, words));
-    place_of(answer, at);
-    return text_add_beside(taken, s, label, at, RING);
+    snprintf(label.text, sizeof label.text, "%s", judgement_text(&answer->judgement, words));
+    find_ring_position(answer, at);
+    return text_add_beside(occupied, s, label, at, RING);
 }
 
 /* In the corner at the right: how many words had no room. */
-static void add_more(scene *s, size_t count, text_space *taken)
+static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
     const camera_window w = layout_space(s);
-    scene_label label = {.id = MORE_ID, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
+    scene_label label = {.id = LEFT_OUT_ID, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
     snprintf(label.text, sizeof label.text, "and %zu more wrong", count);
     const double half = (double)strlen(label.text) * s->text.width / 2;
     const double middle[2] = {w.x + w.width - half - s->text.width, w.y + s->text.height};
-    if (count > 0 && text_space_take(taken, s, label.text, middle, label.at))
+    if (count > 0 && text_space_take(occupied, s, label.text, middle, label.at))
         text_add_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
@@ -112,19 +112,19 @@ static void add_more(scene *s, size_t count, text_space *taken)
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     size_t worst, left_out = 0;
-    const bool few = judgement_count(in->answers, in->answer_count, &worst) <= FEW_RINGS;
-    text_space taken = {.count = 0};
+    const bool few = judgement_count_wrong(in->answers, in->answer_count, &worst) <= FEW_RINGS;
+    text_space occupied = {.count = 0};
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong)
-            mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &taken);
+            mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);
     if (shows_foreign_tree(in))
-        mark_foreign_faults(s, in, own, &taken);
+        mark_foreign_faults(s, in, own, &occupied);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong && (few || i == worst))
-            left_out += !add_words(s, &in->answers[i], i, &taken);
+            left_out += !add_answer_label(s, &in->answers[i], i, &occupied);
     if (shows_foreign_tree(in))
-        left_out += name_foreign_faults(s, in, own, &taken);
-    add_more(s, left_out, &taken);
+        left_out += label_foreign_faults(s, in, own, &occupied);
+    add_left_out_count(s, left_out, &occupied);
 }
 
 static void add_legend(legend *l, const layer_source *in)
@@ -151,50 +151,51 @@ static size_t find_answer(const octree_tick *tick, uint64_t id, bool missed)
 {
     size_t i = 0;
     for (; i < tick->answer_count; i++) {
-        const octree_judgement *made = &tick->answers[i].judgement;
-        if (missed ? has_point(made->missing, made->missing_count, id) : has_point(made->extra, made->extra_count, id))
+        const octree_judgement *judgement = &tick->answers[i].judgement;
+        if (missed ? has_point(judgement->missing, judgement->missing_count, id)
+                   : has_point(judgement->extra, judgement->extra_count, id))
             break;
     }
     return i;
 }
 
-static void say_answer(description *d, uint64_t place)
+static void append_wrong_answer(description *d, uint64_t place)
 {
     const octree_tick *tick = d->tick;
-    char words[JUDGEMENT_WORDS];
+    char words[JUDGEMENT_TEXT];
     if (place >= tick->answer_count)
         return;
-    say(d, "the program's answer to the %s query", octree_query_name(tick->answers[place].kind));
+    append_text(d, "the program's answer to the %s query", octree_query_name(tick->answers[place].kind));
     if (tick->answer_count > 1)
-        say(d, " (answer %zu of %zu)", place + 1, tick->answer_count);
-    say(d, ", which is wrong: %s", judgement_words(&tick->answers[place].judgement, words));
+        append_text(d, " (answer %zu of %zu)", place + 1, tick->answer_count);
+    append_text(d, ", which is wrong: %s", judgement_text(&tick->answers[place].judgement, words));
 }
 
-static void describe(description *d, const described *element)
+static void describe(description *d, const described_element *element)
 {
     if (is_foreign_element(element->id)) {
-        say_foreign_fault(d, element);
+        describe_foreign_fault(d, element);
     } else if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
-        say(d, "the ring about ");
-        say_answer(d, UINT64_MAX - element->id);
+        append_text(d, "the ring about ");
+        append_wrong_answer(d, UINT64_MAX - element->id);
     } else if (element->kind == SCENE_MARKER) {
         const bool missed = element->shape == SHAPE_TRIANGLE;
-        say_point(d, element->id, element->at);
-        say(d, missed ? ", missed by " : ", wrongly in ");
-        say_answer(d, find_answer(d->tick, element->id, missed));
+        describe_point(d, element->id, element->at);
+        append_text(d, missed ? ", missed by " : ", wrongly in ");
+        append_wrong_answer(d, find_answer(d->tick, element->id, missed));
     } else if (element->kind == SCENE_SEGMENT) {
-        say(d, "the line to a point that is wrongly in ");
-        say_answer(d, element->id >> 32);
-    } else if (element->id == MORE_ID) {
-        say(d, element->kind == SCENE_PANEL ? "the ground of a number of words" : ", words that have no room");
+        append_text(d, "the line to a point that is wrongly in ");
+        append_wrong_answer(d, element->id >> 32);
+    } else if (element->id == LEFT_OUT_ID) {
+        append_text(d, element->kind == SCENE_PANEL ? "the ground of a number of words" : ", words that have no room");
     } else {
-        say(d, element->kind == SCENE_PANEL ? "the ground of words about " : ", about ");
-        say_answer(d, element->id);
+        append_text(d, element->kind == SCENE_PANEL ? "the ground of words about " : ", about ");
+        append_wrong_answer(d, element->id);
     }
 }
 
 const layer_type layer_WRONG = {.applies = applies,
-                                .in_session = in_session,
+                                .in_session = is_in_session,
                                 .add = add,
                                 .legend_place = 5,
                                 .legend = add_legend,

@@ -108,7 +108,7 @@ typedef struct scene_tally {
     size_t nodes, points; /* shown */
     size_t labels;        /* nodes with their path on them */
     size_t small;         /* nodes below the view's lod */
-    size_t small_met;     /* below the lod: boxes and planes of nodes that the tick visited, split or merged */
+    size_t small_marked;  /* below the lod: boxes and planes of nodes that the tick visited, split or merged */
     size_t beyond;        /* nodes beyond its budget: all below `deepest` */
     int deepest;          /* the greatest depth that fits the budget */
     size_t thinned;       /* points beyond the budget */
@@ -132,7 +132,7 @@ static inline unsigned scene_left_out_beyond(const scene_tally *tally)
 
 static inline unsigned scene_left_out_small(const scene_tally *tally)
 {
-    return (tally->small || tally->small_met ? LEFT_OUT_NODES : 0u) | (tally->arrows.small ? LEFT_OUT_ARROWS : 0u);
+    return (tally->small || tally->small_marked ? LEFT_OUT_NODES : 0u) | (tally->arrows.small ? LEFT_OUT_ARROWS : 0u);
 }
 
 typedef struct scene {

@@ -87,7 +87,7 @@ static void check_panel(recount *r, const octree_node *node, const scene_panel *
 {
     const unsigned depth = node->depth;
     assert_int_equal(panel->style.role,
-                     node_role(&r->s->view, (node_look){depth, node->count, r->capacity, node->leaf}));
+                     node_role(&r->s->view, (node_traits){depth, node->count, r->capacity, node->leaf}));
     assert_true(panel->x >= r->right[depth]);
     r->right[depth] = panel->x + panel->width;
     r->foot[depth] = fmax(r->foot[depth], panel->y + panel->height);

@@ -111,7 +111,7 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     if (expected[i].layer == LAYER_BOX && element.kind == SCENE_BOX) /* of two, one is where it is */
         assert_int_equal(strncmp(subject.text, "the player's", 12) == 0,
                          scene_head_of(s, element).id == octree_game_session(game)->player.id);
-    assert_true(strlen(subject.text) + 1 < ELEMENT_WORDS);
+    assert_true(strlen(subject.text) + 1 < ELEMENT_TEXT);
     assert_true(expected[i].about_node <= subject.has_node);
     assert_int_equal(expected[i].about_point && !is_ring(s, element), subject.has_point);
     if (subject.has_node)
@@ -158,7 +158,7 @@ static void every_element_of_every_layer_is_told(void **state)
 static void assert_is_a_phrase(const char *text)
 {
     static const char *const holes[] = {"(null)", "  ", " ,", ",,", "( ", "the the "};
-    if (!*text || strchr(" ,;:", *text) || strlen(text) + 1 >= ELEMENT_WORDS)
+    if (!*text || strchr(" ,;:", *text) || strlen(text) + 1 >= ELEMENT_TEXT)
         fail_msg("\"%s\" is no phrase", text);
     for (size_t i = 0; strncmp(text, "text ", 5) != 0 && i < sizeof holes / sizeof *holes;
          i++) /* what quotes a text may have them */

@@ -197,7 +197,7 @@ static void what_is_wrong_is_marked_and_told(void **state)
     assert_int_equal(markers_at(&shown, LAYER_WRONG, LOST | 8, session.bodies[7].position), 1);
     assert_true(says("outside parent") && says("wrongly pruned") && says("in no node"));
     assert_true(says("wrong in nodes"));
-    char text[FOREIGN_WORDS];
+    char text[FOREIGN_FAULT_TEXT];
     assert_string_equal(foreign_fault_text(&octree_game_tick(game)->foreign, text),
                         "node 4: its box leaves its parent's");
 }

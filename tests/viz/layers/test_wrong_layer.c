@@ -277,8 +277,8 @@ static void a_ratio_near_one_is_told_by_what_it_is_above(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const octree_judgement made = {.wrong = OCTREE_WRONG_FARTHER, .ratio = rows[i].ratio};
-        char text[JUDGEMENT_WORDS];
-        assert_string_equal(judgement_words(&made, text), rows[i].words);
+        char text[JUDGEMENT_TEXT];
+        assert_string_equal(judgement_text(&made, text), rows[i].words);
     }
 }
 
