@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* kept_tree.c - the cache of subtrees between ticks; kept_tree.h explains it. */
 #include "kept_tree.h"
 #include "array.h"
 #include "octree/digest.h"
@@ -8,18 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Changes that are worth following: each may take a walk of a subtree. */
-static size_t most_touched(const octree *tree)
+/* The number of changes above which the cache is not used: each change may cost a walk of its subtree. */
+static size_t most_changes(const octree *tree)
 {
     return 16 + octree_count(tree) / 1024;
 }
 
-/* Free what was not met. */
 void kept_tree_end(kept_tree *k)
 {
-    for (; k->met < k->before.count; k->met++)
-        free(k->before.items[k->met].nodes);
-    k->before.count = k->met = 0;
+    for (; k->passed < k->before.count; k->passed++)
+        free(k->before.items[k->passed].nodes);
+    k->before.count = k->passed = 0;
 }
 
 void kept_tree_forget_runs(kept_tree *k)
@@ -42,105 +42,107 @@ void kept_tree_release(kept_tree *k)
     kept_tree_clear(k);
     free(k->now.items);
     free(k->before.items);
-    free(k->touched);
+    free(k->changed);
     free(k->nodes);
     free(k->box_runs.items);
     free(k->marker_runs.items);
     memset(k, 0, sizeof *k);
 }
 
-/* ---- What has changed --------------------------------------------------------------------------------------- */
+/* ---- Changes ------------------------------------------------------------------------------------------------ */
 
-/* The first place in the cell of an address in the order of a walk; and how many there are. */
-static uint64_t first_place(octree_address address)
+/* A key is the address of a cell at the greatest depth. Keys ascend in the order of the walk. The cell of an address
+ * has the keys from first_key() on, key_count() of them. */
+static uint64_t first_key(octree_address address)
 {
     return address << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
 }
 
-static uint64_t place_count(octree_address address)
+static uint64_t key_count(octree_address address)
 {
     return UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
 }
 
-typedef struct listener {
+typedef struct change_context {
     kept_tree *kept;
     const octree *tree;
-} listener;
+} change_context;
 
-/* Where a leaf has become empty, the node above it counts, which may be above what is kept: that does no harm. */
-static void touch(const listener *l, const double at[3])
+/* Add the key of the leaf at a changed position. If the leaf was deleted, octree_locate() returns the node above it. If
+ * that node is above a kept subtree, the subtree no longer exists, and the walk does not look for it. */
+static void add_key(const change_context *l, const double at[3])
 {
     kept_tree *k = l->kept;
     octree_node leaf;
-    uint64_t *places = array_reserve(k->touched, k->touched_count + 1, &k->touched_room, sizeof *places);
-    k->touched = places ? places : k->touched;
-    k->lost = k->lost || !places || k->touched_count >= most_touched(l->tree) ||
-              octree_locate(l->tree, at, &leaf) != OCTREE_OK;
+    uint64_t *keys = array_reserve(k->changed, k->changed_count + 1, &k->changed_room, sizeof *keys);
+    k->changed = keys ? keys : k->changed;
+    k->lost =
+        k->lost || !keys || k->changed_count >= most_changes(l->tree) || octree_locate(l->tree, at, &leaf) != OCTREE_OK;
     if (!k->lost)
-        places[k->touched_count++] = first_place(leaf.address);
+        keys[k->changed_count++] = first_key(leaf.address);
 }
 
-static void hear(const octree_change *change, void *context)
+static void add_change(const octree_change *change, void *context)
 {
-    const listener *l = context;
+    const change_context *l = context;
     if (change->kind != OCTREE_INSERTED && !l->kept->lost)
-        touch(l, change->from);
+        add_key(l, change->from);
     if (change->kind != OCTREE_REMOVED && !l->kept->lost)
-        touch(l, change->to);
+        add_key(l, change->to);
 }
 
-/* A name that no log has had. */
-static size_t next_name(void)
+/* A name that no change log had before. */
+static size_t make_log_name(void)
 {
     static atomic_size_t names;
     const size_t name = (size_t)octree_digest_word((uintptr_t)&names, atomic_fetch_add(&names, 1));
     return name ? name : 1;
 }
 
-static int compare_places(const void *a, const void *b)
+static int compare_keys(const void *a, const void *b)
 {
     const uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
     return p < q ? -1 : p > q;
 }
 
-static bool ask(kept_tree *k, const octree *tree)
+static bool read_changes(kept_tree *k, const octree *tree)
 {
-    k->touched_count = k->next_touched = 0;
+    k->changed_count = k->next_changed = 0;
     k->lost = false;
-    return octree_changes_since(tree, next_name(), &k->mark, hear, &(listener){k, tree}) && !k->lost;
+    return octree_changes_since(tree, make_log_name(), &k->cursor, add_change, &(change_context){k, tree}) && !k->lost;
 }
 
-/* A tree that is asked keeps its changes, which is in vain where there are many: it is then left alone for a while, and
- * what it has changed meanwhile is not wanted. */
-static bool learn_changes(kept_tree *k, const octree *tree)
+/* Read the changes since the last walk. False if they are unknown or too many. Reading makes the tree log its further
+ * changes, which is wasted if there are too many: after each such failure, do not read for a longer number of ticks. */
+static bool update_changes(kept_tree *k, const octree *tree)
 {
-    enum { MOST_PATIENCE = 63 };
+    enum { LONGEST_WAIT = 63 };
     if (k->wait > 0 && --k->wait > 0)
         return false;
-    const bool anew = k->mark.log == 0, known = ask(k, tree);
+    const bool is_first = k->cursor.log == 0, known = read_changes(k, tree);
     if (known) {
-        k->patience = 0;
-        if (k->touched_count > 0)
-            qsort(k->touched, k->touched_count, sizeof *k->touched, compare_places);
+        k->backoff = 0;
+        if (k->changed_count > 0)
+            qsort(k->changed, k->changed_count, sizeof *k->changed, compare_keys);
         return true;
     }
-    if (anew)
+    if (is_first)
         return false;
-    k->patience = k->patience < MOST_PATIENCE ? 2 * k->patience + 1 : MOST_PATIENCE;
-    k->wait = k->patience;
-    k->mark = (octree_cursor){0};
+    k->backoff = k->backoff < LONGEST_WAIT ? 2 * k->backoff + 1 : LONGEST_WAIT;
+    k->wait = k->backoff;
+    k->cursor = (octree_cursor){0};
     return false;
 }
 
-static bool is_touched(kept_tree *k, octree_address address)
+static bool is_changed(kept_tree *k, octree_address address)
 {
-    const uint64_t first = first_place(address);
-    while (k->next_touched < k->touched_count && k->touched[k->next_touched] < first)
-        k->next_touched++;
-    return k->next_touched < k->touched_count && k->touched[k->next_touched] - first < place_count(address);
+    const uint64_t first = first_key(address);
+    while (k->next_changed < k->changed_count && k->changed[k->next_changed] < first)
+        k->next_changed++;
+    return k->next_changed < k->changed_count && k->changed[k->next_changed] - first < key_count(address);
 }
 
-/* ---- A walk ------------------------------------------------------------------------------------------------- */
+/* ---- The walk ----------------------------------------------------------------------------------------------- */
 
 static bool same_look(const kept_look *a, const kept_look *b)
 {
@@ -150,13 +152,13 @@ static bool same_look(const kept_look *a, const kept_look *b)
 
 bool kept_tree_begin(kept_tree *k, const octree *tree, const kept_look *look)
 {
-    const bool worth = octree_count(tree) >= KEPT_FEWEST && learn_changes(k, tree);
-    if (!worth || !same_look(&k->look, look)) {
+    const bool usable = octree_count(tree) >= KEPT_FEWEST && update_changes(k, tree);
+    if (!usable || !same_look(&k->look, look)) {
         kept_tree_clear(k);
         k->sieve = 0;
     }
     k->look = *look;
-    if (!worth)
+    if (!usable)
         return false;
     k->names = digest_names_make();
     const kept_list before = k->before;
@@ -167,21 +169,21 @@ bool kept_tree_begin(kept_tree *k, const octree *tree, const kept_look *look)
 
 const kept_subtree *kept_tree_find(kept_tree *k, octree_address address)
 {
-    const bool touched = is_touched(k, address);
-    const uint64_t first = first_place(address);
-    for (; k->met < k->before.count && first_place(k->before.items[k->met].address) < first; k->met++)
-        free(k->before.items[k->met].nodes);
-    kept_subtree *there = k->met < k->before.count ? &k->before.items[k->met] : NULL;
+    const bool changed = is_changed(k, address);
+    const uint64_t first = first_key(address);
+    for (; k->passed < k->before.count && first_key(k->before.items[k->passed].address) < first; k->passed++)
+        free(k->before.items[k->passed].nodes);
+    kept_subtree *there = k->passed < k->before.count ? &k->before.items[k->passed] : NULL;
     kept_subtree *items = array_reserve(k->now.items, k->now.count + 1, &k->now.room, sizeof *items);
     k->now.items = items ? items : k->now.items;
-    if (!items || touched || !there || there->address != address)
+    if (!items || changed || !there || there->address != address)
         return NULL;
-    k->met++;
+    k->passed++;
     items[k->now.count] = *there;
     return &items[k->now.count++];
 }
 
-/* ---- A subtree ---------------------------------------------------------------------------------------------- */
+/* ---- Collecting a subtree ----------------------------------------------------------------------------------- */
 
 void kept_tree_open(kept_tree *k, octree_address address, const scene *s)
 {
@@ -207,18 +209,18 @@ bool kept_tree_collects(const kept_tree *k, const octree_node *node)
     return node->depth >= above && node->address >> 3 * (node->depth - above) == k->open.address;
 }
 
-/* From the last node up. */
-static void count_nodes(kept_subtree *of)
+/* Set the count of each node. From the last node to the first: the counts of a node's children are then known. */
+static void count_nodes(kept_subtree *subtree)
 {
-    for (uint32_t i = of->node_count; i-- > 0;) {
+    for (uint32_t i = subtree->node_count; i-- > 0;) {
         uint32_t next = i + 1;
-        while (next < of->node_count && of->nodes[next].box.depth > of->nodes[i].box.depth)
-            next += of->nodes[next].count;
-        of->nodes[i].count = next - i;
+        while (next < subtree->node_count && subtree->nodes[next].box.depth > subtree->nodes[i].box.depth)
+            next += subtree->nodes[next].count;
+        subtree->nodes[i].count = next - i;
     }
 }
 
-static digest_run run_of(const digest_names *names, const scene_marker *markers, size_t count)
+static digest_run digest_markers(const digest_names *names, const scene_marker *markers, size_t count)
 {
     digest_run run = {.end = count, .power = 1};
     for (size_t i = 0; i < count; i++) {
@@ -228,7 +230,7 @@ static digest_run run_of(const digest_names *names, const scene_marker *markers,
     return run;
 }
 
-/* Without memory the run is digested anew. */
+/* If there is no memory, the run is not noted, and scene_digest() digests its elements one by one. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
 {
     digest_run *items = run.end > 0 ? array_reserve(runs->items, runs->count + 1, &runs->room, sizeof *items) : NULL;
@@ -257,7 +259,7 @@ bool kept_tree_close(kept_tree *k, const scene *s)
     if (markers > 0)
         memcpy(made.markers, s->markers.items + k->first_marker, markers);
     count_nodes(&made);
-    made.run = run_of(&k->names, made.markers, made.marker_count);
+    made.run = digest_markers(&k->names, made.markers, made.marker_count);
     items[k->now.count++] = made;
     return true;
 }

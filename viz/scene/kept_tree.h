@@ -1,23 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* kept_tree.h - what the subtrees of a tree look like in a scene, kept from one tick to the next: where the tree tells
- * that little has changed, those without a change need not be walked again. What is kept is what a walk of the whole
- * tree finds. */
+/* kept_tree.h - a cache of subtrees as they appear in a scene, kept from one tick to the next.
+ *
+ * The problem: drawing a tick walks the whole tree, although most ticks change few points.
+ * The idea: keep, for every leaf and for every subtree of at most KEPT_POINTS points whose parent has more, the boxes
+ * and markers that the walk produced, and their digests. Before the next walk, the tree's change log lists the changed
+ * positions. They become keys that sort in the order of the walk (depth first, by octant). During the walk, one cursor
+ * moves through these keys and one through the kept subtrees. Both only move forward, and together they show whether a
+ * subtree is unchanged. An unchanged subtree is copied; a changed one is walked and kept again.
+ * The result: the scene is the same with and without the cache.
+ * The cost: sorting c changes, O(c log c), and walking the nodes above the kept subtrees. The change log also costs the
+ * tree time and memory. If there are too many changes, the cache is emptied, and the log is not used for a number of
+ * ticks, which about doubles with each failure. */
 #ifndef SCENE_KEPT_TREE_H
 #define SCENE_KEPT_TREE_H
 
 #include "octree/types.h"
 #include "scene_digest.h"
 
-/* Kept are the subtrees of so many points or fewer whose parents have more, and leaves. */
+/* The most points of a kept subtree that is not a leaf. */
 #define KEPT_POINTS 128
 
-/* A tree of fewer points is walked as fast. */
+/* Trees with fewer points are not cached: walking them is as fast. */
 #define KEPT_FEWEST 4096
 
-/* What all of them have in common: with another look none can be used. */
+/* The options that determine how a subtree looks. A change of any of them empties the cache. */
 typedef struct kept_look {
     view_coloring coloring;
-    bool boxes, points; /* whether they are shown */
+    bool boxes, points; /* shown */
     size_t capacity;
     uint8_t point_width;
 } kept_look;
@@ -25,17 +34,17 @@ typedef struct kept_look {
 typedef struct kept_node {
     scene_box box;
     uint64_t digest; /* of the box */
-    uint32_t count;  /* nodes of its subtree, itself included */
+    uint32_t count;  /* number of nodes in its subtree, itself included */
 } kept_node;
 
 typedef struct kept_subtree {
     octree_address address;
-    kept_node *nodes; /* from its root down, in the order of a walk; one block with the markers */
+    kept_node *nodes; /* in the order of the walk, root first. One block, which also holds the markers */
     scene_marker *markers;
     uint32_t node_count, marker_count;
-    digest_run run;   /* of the markers, from 0 on */
-    uint32_t thinned; /* points that the sieve drops; */
-    uint32_t looser;  /* and those that one with a bit less keeps */
+    digest_run run;   /* of the markers, counted from 0 */
+    uint32_t thinned; /* number of points that the sieve drops */
+    uint32_t looser;  /* number of points that a sieve with one bit less keeps */
 } kept_subtree;
 
 typedef struct kept_list {
@@ -46,46 +55,51 @@ typedef struct kept_list {
 /* Empty when zeroed. */
 typedef struct kept_tree {
     kept_look look;
-    uint64_t sieve;        /* of the points of all of them: node_boxes.h */
-    kept_list now, before; /* in the order of a walk; while one goes on, `before` has those of the last one, */
-    size_t met;            /* of which so many were met */
-    octree_cursor mark;
-    unsigned wait, patience; /* ticks until the tree is asked again; and how many that will be if it is in vain */
-    uint64_t *touched;       /* places where the tree has changed, in the order of a walk */
-    size_t touched_count, touched_room, next_touched;
-    bool lost;         /* some of them */
-    kept_subtree open; /* being collected, where it has an address */
-    kept_node *nodes;  /* of it */
+    uint64_t sieve;         /* the sieve that chose the kept points: node_boxes.h */
+    kept_list now, before;  /* the subtrees of this walk, and of the walk before it; both in the order of the walk */
+    size_t passed;          /* number of subtrees in `before` that the walk has passed */
+    octree_cursor cursor;   /* into the tree's change log */
+    unsigned wait, backoff; /* ticks until the change log is used again; the length of the last wait */
+    uint64_t *changed;      /* the keys of changed positions, sorted */
+    size_t changed_count, changed_room, next_changed;
+    bool lost;         /* `changed` is incomplete: there were too many changes, or no memory */
+    kept_subtree open; /* the subtree that is being collected; address 0: none */
+    kept_node *nodes;  /* the nodes of `open` so far */
     size_t node_room, first_marker;
     digest_names names;
-    digest_runs box_runs, marker_runs; /* what is known of the scene's digest */
+    digest_runs box_runs, marker_runs; /* known digests of runs of the scene's elements, for scene_digest() */
 } kept_tree;
 
+/* Empty the cache; its arrays keep their memory. */
 void kept_tree_clear(kept_tree *k);
+
+/* Free all memory and zero the structure. */
 void kept_tree_release(kept_tree *k);
 
-/* Before a walk: whether subtrees are to be kept, and those that are there can be used where they have not changed.
- * Where not, there are none. Cost: O(c log c) for c changes. */
+/* Begin a walk. Returns true if the walk uses the cache: it calls kept_tree_find() for each subtree that may be kept.
+ * Returns false if the walk must not use it; the cache is then empty. Cost: O(c log c) for c changes. */
 bool kept_tree_begin(kept_tree *k, const octree *tree, const kept_look *look);
 
-/* The subtree at an address, or null when it is not there as it was. Those who ask come in the order of a walk. It is
- * kept further on. */
+/* Find the kept subtree at an address, and keep it for the next walk. Null if it has changed or was not kept. Calls
+ * must come in the order of the walk. */
 const kept_subtree *kept_tree_find(kept_tree *k, octree_address address);
 
-/* Collect a subtree, node by node, whose markers are the scene's next ones. False when there is no memory: then clear
- * all. */
+/* Collect a subtree: open it, add its nodes in the order of the walk, and close it. Markers that are appended to the
+ * scene in between belong to it. False if there is no memory; the caller then clears the cache. */
 void kept_tree_open(kept_tree *k, octree_address address, const scene *s);
 bool kept_tree_add_node(kept_tree *k, const scene_box *box);
 bool kept_tree_close(kept_tree *k, const scene *s);
 
-/* Whether one is being collected that a node belongs to. */
+/* Whether a node belongs to the subtree that is being collected. */
 bool kept_tree_collects(const kept_tree *k, const octree_node *node);
 
-/* What is known of the digest of the scene's last elements: `run` is of those from `first` on. */
+/* Note the digest of elements that were copied to the scene, starting at element `first`. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
+
+/* Drop all known digests of runs, because the scene's elements have moved. */
 void kept_tree_forget_runs(kept_tree *k);
 
-/* After the walk. */
+/* End the walk: free the subtrees that it did not find. */
 void kept_tree_end(kept_tree *k);
 
 #endif

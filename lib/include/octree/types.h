@@ -68,8 +68,10 @@ typedef struct octree_node {
     uint8_t octants;            /* bit i is set when octant i has a node; 0 for a leaf */
     octree_box box;             /* its inner faces are the planes that insertion compares with */
     size_t count;               /* points in and below this node */
-    const octree_point *points; /* of a leaf, in no stated order; owned by the tree, valid until the next change.
-                                   Null for inner nodes and for the root of an empty tree */
+    const octree_point *points; /* of a leaf; owned by the tree, valid until the next change. Null for inner nodes and
+                                   for the root of an empty tree. Their order is unspecified: it depends on the history
+                                   of changes and can differ between trees with equal contents. Sort the points (by
+                                   octree_compare_points, for example) where the order matters */
 } octree_node;
 
 typedef struct octree_stats {
