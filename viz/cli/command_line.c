@@ -195,7 +195,7 @@ static bool refuse_part(const command *c, const char *path, file_kind kind)
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
     return file_kind_of(folder) == KIND_RECORDING &&
-           !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].words, c->name, c->takes, folder);
+           !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].name, c->name, c->takes, folder);
 }
 
 /* Folders are no stream, nor is what may be made. */
@@ -218,7 +218,7 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
         return refuse("%s: there is no such file or folder", path);
     if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_part(c, path, kind))
         return false;
-    return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->words, c->name, c->takes,
+    return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->name, c->name, c->takes,
                   row->command ? hint_program_name() : "", row->command ? " " : "", row->command ? row->command : "",
                   row->command ? " " : "", row->use);
 }

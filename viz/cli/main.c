@@ -80,7 +80,7 @@ static int report_unknown_word(const char *word, bool help)
         hint_offer(&h, other_words[i]);
     const file_kind kind = help ? KIND_UNKNOWN : file_kind_of(word);
     if (file_kind_rows[kind].command)
-        return print_error("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].words,
+        return print_error("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].name,
                            hint_program_name(), file_kind_rows[kind].command, file_kind_rows[kind].use);
     if (!help && *word == '-' && !h.name)
         return print_error("a command comes first, and \"%s\" is an option; %s help lists them", word,

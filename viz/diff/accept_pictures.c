@@ -98,8 +98,8 @@ static bool write_facts(const accepting *a, file_set *set, octreel_error *error)
     for (size_t i = 0; ok && i < a->result.count; i++)
         if (a->result.pairs[i].finding == FOUND_SAME_PIXELS)
             ok = copy_fact(a, diff_pair_name(&a->result.pairs[i]), set, error);
-    for (size_t i = 0; ok && folder_fact_name(i); i++)
-        ok = copy_fact(a, folder_fact_name(i), set, error);
+    for (size_t i = 0; ok && folder_file_name(i); i++)
+        ok = copy_fact(a, folder_file_name(i), set, error);
     return ok;
 }
 

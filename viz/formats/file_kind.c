@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* file_kind.c - detection by first bytes, by the first JSON member, and by the files in a folder. */
 #include "file_kind.h"
 #include "cloud.h"
 #include "folder.h"
@@ -32,14 +33,14 @@ static const struct {
      KIND_PACKED},
 };
 
-/* What follows a word and blanks; null where that does not come first. */
+/* Skip white space and then a word. Null if the word does not follow. */
 static const char *skip(const char *at, const char *word)
 {
     at += strspn(at, " \t\r\n");
     return strncmp(at, word, strlen(word)) == 0 ? at + strlen(word) : NULL;
 }
 
-/* Objects of octreel's own say what they are. */
+/* Find the kind of a JSON text of Octreel: its first object has the member "octreel" or begins with "tick". */
 static file_kind find_json_kind(const char *text)
 {
     const char *at = skip(text, "{"), *name;
@@ -79,11 +80,11 @@ file_kind file_kind_read(const char *path)
     return find_kind(first, size);
 }
 
-/* One that lost a file is still to be told what it lost. */
+/* One file of a recording is enough: if others are missing, the command that reads the recording reports them. */
 static file_kind find_folder_kind(const char *path)
 {
-    for (size_t i = 0; folder_fact_name(i); i++)
-        if (folder_has(path, folder_fact_name(i)))
+    for (size_t i = 0; folder_file_name(i); i++)
+        if (folder_has(path, folder_file_name(i)))
             return KIND_RECORDING;
     return folder_has(path, "session.json.live") ? KIND_RECORDING : KIND_FOLDER;
 }

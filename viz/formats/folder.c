@@ -63,7 +63,7 @@ static const char *const recording_files[] = {"recording.json", "session.json", 
 
 #define RECORDING_FILES (sizeof recording_files / sizeof recording_files[0])
 
-const char *folder_fact_name(size_t i)
+const char *folder_file_name(size_t i)
 {
     return i < RECORDING_FILES ? recording_files[i] : NULL;
 }

@@ -24,7 +24,7 @@ char *chunk_name(uint64_t first, uint64_t last, char name[CHUNK_NAME]);
 bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 
 /* The name of the i-th file of a recording that is not a frame; null beyond the last. */
-const char *folder_fact_name(size_t i);
+const char *folder_file_name(size_t i);
 
 /* The folder that holds the old recording while a new one replaces it. */
 #define FOLDER_ASIDE "octreel-replaced"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* ticks_write.c - the tables of the members of a line of ticks.jsonl, and functions that write their values. */
 #include "ticks_write.h"
 #include "json_table.h"
 #include "octree/digest.h"
@@ -49,7 +50,7 @@ static void write_addresses(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* The nodes that split or merged: of many how many there are, and a digest of their addresses in their order. */
+/* Write the nodes that split or merged: a list, or the count and a digest if there are more than TICK_LISTED. */
 static void write_nodes(json_writer *w, const void *from)
 {
     const json_counted addresses = json_counted_at(from);
@@ -88,7 +89,7 @@ static const json_member neighbor_members[] = {
     {0},
 };
 
-/* ---- Members that look at the whole tick -------------------------------------------------------------------- */
+/* ---- Members that read several fields of the tick ----------------------------------------------------------- */
 
 static void write_key(json_writer *w, const void *from)
 {
@@ -99,8 +100,8 @@ static void write_key(json_writer *w, const void *from)
         json_write_null(w);
 }
 
-/* Without a player its positions are null. */
-static void write_place(json_writer *w, const octree_tick *tick, const double place[3])
+/* Write a position of the player; null if the tick has no player. */
+static void write_player_position(json_writer *w, const octree_tick *tick, const double place[3])
 {
     if (tick->has_player)
         json_write_numbers(w, place, 3);
@@ -111,13 +112,13 @@ static void write_place(json_writer *w, const octree_tick *tick, const double pl
 static void write_player(json_writer *w, const void *from)
 {
     const octree_tick *tick = from;
-    write_place(w, tick, tick->player);
+    write_player_position(w, tick, tick->player);
 }
 
 static void write_attempt(json_writer *w, const void *from)
 {
     const octree_tick *tick = from;
-    write_place(w, tick, tick->attempt);
+    write_player_position(w, tick, tick->attempt);
 }
 
 static void write_events(json_writer *w, const void *from)
@@ -151,7 +152,8 @@ static void write_refusals(json_writer *w, const void *from)
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-/* One neighbour or none stands among the members of its answer, and several in a list. */
+/* Write neighbours. If the query asks for several, they are a list; otherwise the one neighbour's members are members
+ * of the answer, or "id" is null if there is none. */
 static void write_neighbors(json_writer *w, const octree_answer *answer, bool several)
 {
     if (!several && answer->count > 0) {
@@ -169,7 +171,7 @@ static void write_neighbors(json_writer *w, const octree_answer *answer, bool se
     json_write_end_array(w);
 }
 
-static void write_all_points(json_writer *w, const char *key, const octree_point *points, size_t count)
+static void write_points_if_any(json_writer *w, const char *key, const octree_point *points, size_t count)
 {
     if (count == 0)
         return;
@@ -177,33 +179,33 @@ static void write_all_points(json_writer *w, const char *key, const octree_point
     write_point_ids(w, points, count);
 }
 
-/* What a program answered, and how that is judged; nothing where none did. */
+/* Write the answer of the foreign index and the judgement of it; nothing if the query has no foreign answer. */
 static void write_judgement(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
-    const octree_judgement *made = &answer->judgement;
-    if (!made->judged)
+    const octree_judgement *judgement = &answer->judgement;
+    if (!judgement->judged)
         return;
     json_member_begin_object(w, "judged");
     json_member_begin_array(w, "answer");
-    for (size_t i = 0; i < made->given_count; i++)
-        json_write_integer(w, made->given[i]);
+    for (size_t i = 0; i < judgement->given_count; i++)
+        json_write_integer(w, judgement->given[i]);
     json_write_end_array(w);
     if (answer->precision != OCTREE_DOUBLES)
         json_member_text(w, "mode", octree_precision_name(answer->precision));
-    json_member_text(w, "wrong", octree_wrong_name(made->wrong));
-    if (made->wrong && made->wrong <= OCTREE_WRONG_SKIPPED)
-        json_member_integer(w, "wrong_id", made->wrong_id);
-    json_member_integer(w, "expected", made->expected);
-    write_all_points(w, "missing", made->missing, made->missing_count);
-    write_all_points(w, "extra", made->extra, made->extra_count);
-    if (made->rank)
-        json_member_integer(w, "rank", made->rank);
+    json_member_text(w, "wrong", octree_wrong_name(judgement->wrong));
+    if (judgement->wrong && judgement->wrong <= OCTREE_WRONG_SKIPPED)
+        json_member_integer(w, "wrong_id", judgement->wrong_id);
+    json_member_integer(w, "expected", judgement->expected);
+    write_points_if_any(w, "missing", judgement->missing, judgement->missing_count);
+    write_points_if_any(w, "extra", judgement->extra, judgement->extra_count);
+    if (judgement->rank)
+        json_member_integer(w, "rank", judgement->rank);
     if (about->neighbors)
-        json_member_number(w, "ratio", made->ratio);
+        json_member_number(w, "ratio", judgement->ratio);
     json_write_end_object(w);
 }
 
-void tick_write_asked(json_writer *w, const octree_answer *answer)
+void tick_write_parameters(json_writer *w, const octree_answer *answer)
 {
     const octree_query_traits *about = octree_query_about(answer->kind);
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
@@ -233,7 +235,7 @@ void tick_write_asked(json_writer *w, const octree_answer *answer)
 
 static void write_answer(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
-    tick_write_asked(w, answer);
+    tick_write_parameters(w, answer);
     if (answer->skip == OCTREE_SKIP_ID)
         json_member_integer(w, "skip", answer->skip_id);
     if (answer->skip == OCTREE_SKIP_COINCIDENT)
@@ -277,7 +279,7 @@ static bool has_foreign(const void *from)
     return ((const octree_tick *)from)->foreign.given;
 }
 
-static void write_node_fault(json_writer *w, const octree_wrong_node *fault)
+static void write_wrong_node(json_writer *w, const octree_wrong_node *fault)
 {
     json_write_begin_object(w);
     json_member_text(w, "wrong", octree_wrong_node_name(fault->kind));
@@ -290,8 +292,8 @@ static void write_node_fault(json_writer *w, const octree_wrong_node *fault)
     json_write_end_object(w);
 }
 
-/* How many there are, of each kind, and the first of them. */
-static void write_node_faults(json_writer *w, const octree_foreign_state *foreign)
+/* Write the number of wrong findings, in total and of each kind, and the first of them. */
+static void write_wrong_nodes(json_writer *w, const octree_foreign_state *foreign)
 {
     json_member_begin_object(w, "wrong");
     json_member_integer(w, "count", foreign->wrong_count);
@@ -300,7 +302,7 @@ static void write_node_faults(json_writer *w, const octree_foreign_state *foreig
             json_member_integer(w, octree_wrong_node_name((octree_wrong_node_kind)kind), foreign->wrong[kind]);
     json_member_begin_array(w, "first");
     for (size_t i = 0; i < foreign->listed_count; i++)
-        write_node_fault(w, &foreign->listed[i]);
+        write_wrong_node(w, &foreign->listed[i]);
     json_write_end_array(w);
     json_write_end_object(w);
 }
@@ -316,13 +318,13 @@ static void write_foreign(json_writer *w, const void *from)
     write_digest(w, &foreign->digest);
     for (int met = 0; met < OCTREE_NODE_VISITS; met++)
         json_member_integer(w, octree_node_visit_name((octree_node_visit)met), foreign->visits[met]);
-    write_node_faults(w, foreign);
+    write_wrong_nodes(w, foreign);
     json_write_end_object(w);
 }
 
 /* ---- The line ----------------------------------------------------------------------------------------------- */
 
-/* How many nodes all questions of the tick met in each way, and how many leaves hold what was found. */
+/* The numbers of nodes that all queries of the tick visited, took whole and pruned, and of leaves with points found. */
 static const json_member visit_members[] = {
     {"visited", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_VISITED])},
     {"taken", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_TAKEN])},
@@ -340,7 +342,7 @@ static const json_member tree_members[] = {
     {0},
 };
 
-/* In three parts: of the nodes that split or merged there are two. */
+/* A line has three parts: line_members, then one of the two tables of splits and merges, then last_members. */
 static const json_member line_members[] = {
     {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
     {"key", JSON_CODEC(NULL, write_key, NULL), .offset = offsetof(octree_tick, key)},
@@ -374,7 +376,7 @@ static const json_member last_members[] = {
     {0},
 };
 
-/* All that is known of a tick that is a gap. */
+/* The members of a tick that is a gap. */
 static const json_member gap_members[] = {
     {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
     {"gap", JSON_CODEC(NULL, write_gap, NULL), .offset = offsetof(octree_tick, gap)},

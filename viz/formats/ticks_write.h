@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* ticks_write.h - a tick as one line of ticks.jsonl. Each fact is a row of line_members in ticks_write.c, and by what
- * is written ticks are verified and compared: a new one needs nothing else. */
+/* ticks_write.h - writes a tick as one line of ticks.jsonl. Each member of the line is a row of a table in
+ * ticks_write.c. `octreel verify` and `octreel diff` compare the written lines, so a new member needs only a row. */
 #ifndef FORMATS_TICKS_WRITE_H
 #define FORMATS_TICKS_WRITE_H
 
@@ -9,28 +9,28 @@
 
 #include <stdio.h>
 
-/* What a line says beyond the tick itself. */
+/* Facts of a line that are not part of the tick. */
 typedef struct tick_extras {
-    const char *frame;     /* the file's name, or null for a tick that was not filmed */
-    uint64_t scene_digest; /* of that frame */
-    bool whole;            /* nodes that split or merged are listed, however many there are */
+    const char *frame;     /* file name of the frame; null for a tick without a frame */
+    uint64_t scene_digest; /* of the frame's scene */
+    bool whole;            /* list all nodes that split or merged, even more than TICK_LISTED */
 } tick_extras;
 
-/* Where more nodes than these split at a tick, or merge, their line has how many there are, and a digest of their
- * addresses: who wants them plays the session again. Earlier versions listed them all. */
+/* If more nodes than this split (or merge) at a tick, the line has their count and a digest of their addresses instead
+ * of a list; replaying the session yields the list. Earlier versions of Octreel listed all nodes. */
 #define TICK_LISTED 256
 
-/* One JSON object and a newline. Where the collision test is swept it begins at "from", else there is none. Of a gap it
- * says the tick and why, and nothing else. Errors stay with the stream. */
+/* Write a tick as one JSON object and a newline. The member "from" is written only if the collision test is swept: it
+ * is the start of the sweep. A gap has only the members "tick" and "gap". The caller checks the stream for errors. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
 
-/* Write the members of a query that its kind reads, from its answer. */
-void tick_write_asked(json_writer *w, const octree_answer *answer);
+/* Write the parameters of a query, as its answer repeats them: those that its kind has. */
+void tick_write_parameters(json_writer *w, const octree_answer *answer);
 
-/* An answer as a line has it: an object with one member, by the name of its kind. */
+/* Write an answer: an object with one member, named by the kind of the query. */
 void tick_write_answer(json_writer *w, const octree_answer *answer);
 
-/* A digest as files have it: sixteen hexadecimal digits. Returns `text`. */
+/* Print a digest as sixteen hexadecimal digits. Returns `text`. */
 #define DIGEST_TEXT 17
 char *digest_print(uint64_t digest, char text[DIGEST_TEXT]);
 

@@ -176,8 +176,8 @@ static bool parse_camera_from(const view_option *option, const char *text, view 
     const file_kind kind = file_kind_of(text);
     if (kind == KIND_MISSING)
         return error_set(error, "%s: there is no such file or folder", text);
-    if (file_kind_rows[kind].words && kind != KIND_RECORDING)
-        return error_set(error, "%s is %s, and --%s takes the folder of a recording", text, file_kind_rows[kind].words,
+    if (file_kind_rows[kind].name && kind != KIND_RECORDING)
+        return error_set(error, "%s is %s, and --%s takes the folder of a recording", text, file_kind_rows[kind].name,
                          option->name);
     return recording_read(text, v, &every, error);
 }

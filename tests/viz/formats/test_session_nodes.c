@@ -79,7 +79,8 @@ static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
 static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
 {
     (void)state;
-    assert_refuses(HEADER ",\n\"nodes\":{}}", "s.json:3: nodes: expected a list of nodes, found an object");
+    assert_refuses(HEADER ",\n\"foreign_nodes\":{}}",
+                   "s.json:3: foreign_nodes: expected a list of nodes, found an object");
     assert_refuses(HEADER ",\n\"foreign_nodes\":[" ROOT ",\n5]}",
                    "s.json:4: foreign_nodes[1]: expected an object, found 5");
     assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":5}]}",
@@ -92,13 +93,14 @@ static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
                           "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}}]}",
                    "s.json:2: foreign_nodes[0]: node 1 is its own ancestor");
     assert_refuses(HEADER ",\"foreign_nodes\":[]}\n{\"tick\":0,\"foreign_nodes\":[]}",
-                   "s.json:3: nodes: the header has the nodes of tick 0 already");
-    assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
-                   "s.json:2: nodes[0].points[1]: expected a whole number from 0 to 9007199254740991, found -1");
+                   "s.json:3: foreign_nodes: the header has the nodes of tick 0 already");
+    assert_refuses(
+        HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
+        "s.json:2: foreign_nodes[0].points[1]: expected a whole number from 0 to 9007199254740991, found -1");
     assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":7") "]}",
-                   "s.json:2: nodes[0].points: expected a list of ids, found 7");
+                   "s.json:2: foreign_nodes[0].points: expected a list of ids, found 7");
     assert_refuses(HEADER ",\"foreign_nodes\":[" LEAF(",\"kind\":\"1234567890123456\"") "]}",
-                   "s.json:2: nodes[0].kind: a node's kind has at most 15 characters, not 16");
+                   "s.json:2: foreign_nodes[0].kind: a node's kind has at most 15 characters, not 16");
     assert_refuses(
         HEADER ",\"foreign_nodes\":[" LEAF(",\"colour\":7") "]}",
         "s.json:2: foreign_nodes[0]: unknown member \"colour\"; known: id, parent, box, depth, points, kind, mode");
