@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* folder.c - the names of the files of a recording, and functions that create, check and clean its folder. */
 #include "folder.h"
 
 #include <dirent.h>
@@ -10,15 +11,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool make_one(const char *path, octreel_error *error)
+static bool make_folder(const char *path, octreel_error *error)
 {
     struct stat status;
     if (mkdir(path, 0777) == 0)
         return true;
     const int reason = errno;
     if (stat(path, &status) != 0)
-        return error_set(error, "%s: the folder cannot be made: %s", path, strerror(reason));
-    return S_ISDIR(status.st_mode) || error_set(error, "%s: the folder cannot be made: a file is in its place", path);
+        return error_set(error, "%s: cannot create the folder: %s", path, strerror(reason));
+    return S_ISDIR(status.st_mode) || error_set(error, "%s: cannot create the folder: a file has this name", path);
 }
 
 bool folder_make(const char *folder, octreel_error *error)
@@ -31,10 +32,10 @@ bool folder_make(const char *folder, octreel_error *error)
     bool ok = true;
     for (char *slash = strchr(path + 1, '/'); ok && slash; slash = strchr(slash + 1, '/')) {
         *slash = 0;
-        ok = make_one(path, error);
+        ok = make_folder(path, error);
         *slash = '/';
     }
-    ok = ok && make_one(path, error);
+    ok = ok && make_folder(path, error);
     free(path);
     return ok;
 }
@@ -57,7 +58,7 @@ bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last)
     return *first < *last && strcmp(name, chunk_name(*first, *last, again)) == 0;
 }
 
-/* A recording's files beside its frames. */
+/* The files of a recording other than its frames. */
 static const char *const recording_files[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl",
                                               "index.html"};
 
@@ -84,13 +85,13 @@ static bool refuse_held(const char *folder, const char *first, octreel_error *er
                          "%s: already holds a recording: complete it (--resume), replace it (--replace), "
                          "or choose another folder (-o)",
                          folder);
-    return error_set(error, "%s: already holds %s, which a recording might write over: choose another folder (-o)",
+    return error_set(error, "%s: already holds %s, which a recording could overwrite: choose another folder (-o)",
                      folder, first);
 }
 
 static bool check_empty(const char *folder, octreel_error *error)
 {
-    char first[NAME_MAX + 1] = ""; /* by name */
+    char first[NAME_MAX + 1] = ""; /* first by name, so that the message is the same on every file system */
     DIR *entries = opendir(folder);
     if (!entries)
         return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
@@ -112,7 +113,7 @@ bool folder_write(const char *folder, const char *name, const char *bytes, size_
     file_writer file;
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
-        fwrite(bytes, 1, size, file.stream); /* file_writer_close tells */
+        fwrite(bytes, 1, size, file.stream); /* file_writer_close() reports errors */
         ok = file_writer_close(&file, error);
     }
     free(path);
@@ -129,9 +130,9 @@ void folder_abandon(const char *folder)
     }
 }
 
-/* What follows the name of a file while it is written, or of a session while a program makes it: "part", "live",
- * or the word of one of several writers, which is a chunk's name. */
-static bool is_of_writer(const char *ending)
+/* Whether a suffix marks an incomplete file: "part" while it is written; "live" for the session of a running program;
+ * or the name of a chunk, with or without ".part", when several processes record chunks. */
+static bool is_unfinished_suffix(const char *ending)
 {
     char word[CHUNK_NAME];
     uint64_t first, last;
@@ -151,7 +152,7 @@ bool folder_is_unfinished(const char *name)
     for (size_t i = 0; i < RECORDING_FILES; i++) {
         const size_t length = strlen(recording_files[i]);
         if (strncmp(name, recording_files[i], length) == 0 && name[length] == '.')
-            return is_of_writer(name + length + 1);
+            return is_unfinished_suffix(name + length + 1);
     }
     return false;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* frame_file.c - names, writes, reads and checks the PNG files of frames. */
 #include "frame_file.h"
 #include "ticks_write.h"
 #include "png_chunks.h"
@@ -13,7 +14,7 @@ static const char tick_keyword[] = "octreel-tick", session_keyword[] = "octreel-
                   scene_keyword[] = FRAME_SCENE_KEYWORD, pixels_keyword[] = FRAME_PIXELS_KEYWORD,
                   left_out_keyword[] = "octreel-left-out";
 
-#define NUMBER_SIZE 24 /* of a text: room for any number and any digest */
+#define NUMBER_SIZE 24 /* size of a text: any number or digest fits */
 
 char *frame_name(uint64_t tick, char name[FRAME_NAME])
 {
@@ -68,7 +69,7 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
     return ok;
 }
 
-/* A number as frame_write() prints it. */
+/* Parse a number. False unless frame_write() would print the same text. */
 static bool parse_tick(const char *text, uint64_t *tick)
 {
     char again[NUMBER_SIZE];
@@ -77,14 +78,14 @@ static bool parse_tick(const char *text, uint64_t *tick)
     return strcmp(text, again) == 0;
 }
 
-/* Read a text that every frame has. */
+/* Read the text with a keyword that every frame has. */
 static bool read_text(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
 {
     return image_read_text(path, keyword, text, NUMBER_SIZE) ||
-           error_set(error, "%s: has no text %s, as after another program has saved it", path, keyword);
+           error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
 }
 
-/* Else it is what `unlike` says. */
+/* Check that the text with a keyword is the expected digest; `unlike` is the message if it is not. */
 static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *unlike,
                          octreel_error *error)
 {
@@ -93,26 +94,27 @@ static bool check_digest(const char *path, const char *keyword, uint64_t expecte
            (strcmp(text, digest_print(expected, digest)) == 0 || error_set(error, "%s: %s", path, unlike));
 }
 
-static const char unlike_pixels[] = "its pixels are not those that it says were drawn";
+static const char unlike_pixels[] =
+    "its pixels do not match its PNG text octreel-pixels: the file was changed after drawing";
 
-/* *kind is left as it is where the text is no digest. */
-static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *told, octreel_error *error)
+/* Read the digest that the frame states for its pixels. If the text is no digest, *kind is unchanged. */
+static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
 {
     char text[NUMBER_SIZE];
     return read_text(path, pixels_keyword, text, error) &&
-           (image_digest_parse(text, kind, told) || error_set(error, "%s: %s", path, unlike_pixels));
+           (image_digest_parse(text, kind, stated) || error_set(error, "%s: %s", path, unlike_pixels));
 }
 
 static bool check_pixels(const char *path, frame_origin *origin, octreel_error *error)
 {
-    octreel_error unread;
+    octreel_error reason;
     image about;
-    uint64_t told = 0;
+    uint64_t stated = 0;
     origin->kind = IMAGE_DIGEST_NEWEST;
-    const bool tells = read_pixels(path, &origin->kind, &told, error);
-    if (!image_digest_png_by(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &unread))
-        return error_set(error, "%s", unread.text);
-    return tells && (told == origin->pixels || error_set(error, "%s: %s", path, unlike_pixels));
+    const bool has_digest = read_pixels(path, &origin->kind, &stated, error);
+    if (!image_digest_png_by(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &reason))
+        return error_set(error, "%s", reason.text);
+    return has_digest && (stated == origin->pixels || error_set(error, "%s: %s", path, unlike_pixels));
 }
 
 static bool check_tick(const char *path, uint64_t expected, octreel_error *error)
@@ -122,11 +124,11 @@ static bool check_tick(const char *path, uint64_t expected, octreel_error *error
     if (!read_text(path, tick_keyword, text, error))
         return false;
     if (!parse_tick(text, &tick))
-        return error_set(error, "%s: its text %s is no number of a tick", path, tick_keyword);
+        return error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
     return tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick);
 }
 
-/* The pixels come first: what is damaged may say anything. */
+/* The pixels are checked first: in a damaged file the texts mean nothing. */
 bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error)
 {
     char text[NUMBER_SIZE];
@@ -134,7 +136,7 @@ bool frame_check_file(const char *path, frame_origin *origin, octreel_error *err
         !check_digest(path, session_keyword, origin->session, "is a frame of another session", error) ||
         !check_tick(path, origin->tick, error) ||
         !check_digest(path, scene_keyword, origin->scene,
-                      "shows the tick in another view, or is by another version of octreel", error))
+                      "shows another scene: it was drawn with another view, or by another version of octreel", error))
         return false;
     origin->left_out = image_read_text(path, left_out_keyword, text, sizeof text) ? strtoull(text, NULL, 10) : 0;
     return true;
@@ -144,30 +146,30 @@ bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error)
 {
     char text[NUMBER_SIZE];
     if (image_read_text(path, tick_keyword, text, sizeof text))
-        return parse_tick(text, tick) || error_set(error, "%s: its text %s is no number of a tick", path, tick_keyword);
+        return parse_tick(text, tick) ||
+               error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
     if (image_read_text(path, scene_keyword, text, sizeof text))
         return error_set(
-            error, "%s: is the picture of one tree, as octreel inspect draws it: it has no session to be played again",
-            path);
-    return error_set(error, "%s: is no frame of a recording: it has no text %s", path, tick_keyword);
+            error, "%s: is a picture of a single tree, drawn by octreel inspect; it has no session to replay", path);
+    return error_set(error, "%s: is not a frame of a recording: it has no PNG text %s", path, tick_keyword);
 }
 
 static bool read_digest(const char *path, const char *keyword, uint64_t *digest)
 {
     char text[DIGEST_TEXT];
-    const bool told = image_read_text(path, keyword, text, sizeof text);
-    if (told)
+    const bool found = image_read_text(path, keyword, text, sizeof text);
+    if (found)
         *digest = strtoull(text, NULL, 16);
-    return told;
+    return found;
 }
 
 static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyword, uint64_t *digest)
 {
     octreel_error ignored;
     char *path = frame_path(folder, tick, &ignored);
-    const bool told = path && read_digest(path, keyword, digest);
+    const bool found = path && read_digest(path, keyword, digest);
     free(path);
-    return told;
+    return found;
 }
 
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
@@ -183,13 +185,13 @@ bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene)
 bool frame_read_origin(const char *path, frame_origin *origin)
 {
     char tick[NUMBER_SIZE];
-    octreel_error untold;
+    octreel_error ignored;
     *origin = (frame_origin){0};
     if (!image_read_text(path, tick_keyword, tick, sizeof tick))
         return false;
     origin->tick = strtoull(tick, NULL, 10);
     return read_digest(path, session_keyword, &origin->session) && read_digest(path, scene_keyword, &origin->scene) &&
-           read_pixels(path, &origin->kind, &origin->pixels, &untold);
+           read_pixels(path, &origin->kind, &origin->pixels, &ignored);
 }
 
 bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)

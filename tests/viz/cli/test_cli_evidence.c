@@ -170,7 +170,7 @@ static void places_that_cannot_be_written_are_trouble(void **state)
 {
     const twins t = make_twins_of(state);
     static const char *const options[][2] = {
-        {"-o", "a file is in its place"}, {"--junit", "Not a directory"}, {"--markdown", "Not a directory"}};
+        {"-o", "a file has this name"}, {"--junit", "Not a directory"}, {"--markdown", "Not a directory"}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) { /* below a file there is nothing */
         command_result result =
             run_octreel(NULL, "diff %s %s %s %s/1.png/x", t.a.path, t.b.path, options[i][0], t.a.path);

@@ -257,7 +257,7 @@ static void a_frame_of_another_recording_is_refused(void **state)
 {
     const place folder = film_short(*state), frame = frame_place(folder.path, 3);
     edit_file(folder.path, "recording.json", "\"camera\": \"iso\"", "\"camera\": \"top\"");
-    assert_refused(frame.path, "1 1", "another view, or is by another version");
+    assert_refused(frame.path, "1 1", "another view, or by another version");
     edit_file(folder.path, "recording.json", "\"camera\": \"top\"", "\"camera\": \"iso\"");
     command_result result = run_octreel(NULL, "pick %s 1 1", frame.path);
     assert_done(&result);
@@ -286,7 +286,7 @@ static void a_frame_that_was_edited_is_refused(void **state)
     picture.pixels[100] ^= 16;
     texts[0].text = "4x";
     assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));
-    assert_refused(frame.path, "1 1", "no number of a tick");
+    assert_refused(frame.path, "1 1", "not the number of a tick");
     texts[0].text = "400";
     assert_true(image_write_png(&picture, frame.path, texts, 4, &ignored));
     assert_refused(frame.path, "1 1", "ends with tick 13");

@@ -112,7 +112,7 @@ static void a_folder_of_another_recording_is_left_as_it_is(void **state)
     listing_release((listing *)&after);
     file_write_text(file.path, "mine");
     def.folder = file.path;
-    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "a file is in its place");
+    assert_not_opened(&def, OCTREEL_BAD_FOLDER, "a file has this name");
     moving_tree_release(&m);
 }
 

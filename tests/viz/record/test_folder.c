@@ -69,7 +69,7 @@ static void link_to_a_folder_is_a_folder(void **state)
     assert_int_equal(symlink("film", place_in(*state, "link").path), 0);
     assert_prepared(place_in(*state, "link").path);
     assert_int_equal(symlink("nowhere", place_in(*state, "dangling").path), 0);
-    assert_unprepared(place_in(*state, "dangling").path, "cannot be made");
+    assert_unprepared(place_in(*state, "dangling").path, "cannot create the folder");
 }
 
 /* A file that a recording would write over may be all that is left of somebody's work. */
@@ -97,7 +97,7 @@ static void file_in_the_place_of_a_folder_is_refused(void **state)
 {
     const place file = place_in(*state, "file");
     file_write_text(file.path, "mine");
-    assert_unprepared(file.path, "cannot be made");
+    assert_unprepared(file.path, "cannot create the folder");
     octreel_error error = {""};
     assert_false(folder_prepare(place_below(file.path, "x/y").path, &error));
     assert_non_null(strstr(error.text, file.path));
@@ -112,7 +112,7 @@ static void empty_name_and_a_place_for_no_files_are_refused(void **state)
     (void)state;
     assert_false(folder_prepare("", &error));
     assert_non_null(strstr(error.text, "empty"));
-    assert_unprepared("/proc/no_such_folder", "cannot be made");
+    assert_unprepared("/proc/no_such_folder", "cannot create the folder");
 }
 
 static void folder_without_permission_says_so(void **state)

@@ -50,7 +50,7 @@ static void frame_with_the_digest_of_an_older_version_is_identical(void **state)
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
     frame.pixels[3 * 77] ^= 128;
     write_with_texts(path.path, &frame, digest);
-    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are not those that it says were drawn");
+    assert_found(&folder, VERIFY_FRAME, 3, "its pixels do not match its PNG text octreel-pixels");
     image_digest_print(IMAGE_DIGEST_RUNS, image_digest_by(IMAGE_DIGEST_RUNS, &frame), digest);
     write_with_texts(path.path, &frame, digest);
     assert_found(&folder, VERIFY_PIXELS, 3, "1 pixel from (77, 0) to (77, 0)");
@@ -148,25 +148,28 @@ static void frame_without_its_texts_is_found(void **state)
     image frame = assert_read_rgb(path.path);
     octreel_error error;
     assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
-    assert_found(&folder, VERIFY_FRAME, 3,
-                 "frame_000003.png: has no text octreel-pixels, as after another program has saved it; its pixels are "
-                 "those that are drawn now");
+    assert_found(
+        &folder, VERIFY_FRAME, 3,
+        "frame_000003.png: has no PNG text octreel-pixels; another program may have saved the file; its pixels "
+        "are those that are drawn now");
     frame.pixels[0] ^= 1;
     assert_true(image_write_png(&frame, path.path, NULL, 0, &error));
     image_release(&frame);
-    verify_report report = assert_found(&folder, VERIFY_FRAME, 3, "has no text octreel-pixels");
+    verify_report report = assert_found(&folder, VERIFY_FRAME, 3, "has no PNG text octreel-pixels");
     assert_null(strstr(report.findings[0].text, "drawn now"));
 }
 
-/* The pixels are those of the tick, and a text is not. */
+/* The pixels are right, and one text is wrong. */
 static void frame_whose_text_was_changed_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path);
     write_with_texts(path.path, &frame, "0123456789abcdef");
     image_release(&frame);
-    assert_found(&folder, VERIFY_FRAME, 3,
-                 "its pixels are not those that it says were drawn; its pixels are those that are drawn now");
+    assert_found(
+        &folder, VERIFY_FRAME, 3,
+        "its pixels do not match its PNG text octreel-pixels: the file was changed after drawing; its pixels are "
+        "those that are drawn now");
 }
 
 static void frame_that_was_painted_over_is_found(void **state)
@@ -176,7 +179,7 @@ static void frame_that_was_painted_over_is_found(void **state)
     frame.pixels[0] ^= 1;
     write_with_texts(path.path, &frame, NULL);
     image_release(&frame);
-    assert_found(&folder, VERIFY_FRAME, 3, "its pixels are not those that it says were drawn");
+    assert_found(&folder, VERIFY_FRAME, 3, "its pixels do not match its PNG text octreel-pixels");
 }
 
 /* What another renderer would have left: a frame that tells the truth about itself. */

@@ -191,7 +191,7 @@ static void folder_that_cannot_be_made_is_named(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "file");
     file_write_text(file.path, "here");
-    assert_refused(a.path, a.path, file.path, "a file is in its place");
+    assert_refused(a.path, a.path, file.path, "a file has this name");
 }
 
 static void picture_that_cannot_be_written_is_named(void **state)

@@ -3,7 +3,7 @@
 #ifndef OCTREEL_ERROR_H
 #define OCTREEL_ERROR_H
 
-/* A failed operation writes one sentence here, such as "flight: the folder cannot be made: Permission denied". */
+/* A failed operation writes one sentence here, such as "flight: cannot create the folder: Permission denied". */
 typedef struct octreel_error {
     char text[512];
 } octreel_error;
