@@ -237,14 +237,16 @@ static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
         append_text(d, element->id == BORDER_ID   ? "the close-up's frame"
-                       : element->id == GROUND_ID ? "the ground of the close-up"
-                                                  : "the ground of letters of the close-up");
+                       : element->id == GROUND_ID ? "the background of the close-up"
+                                                  : "the background of a text in the close-up");
     else if (element->kind == SCENE_LABEL)
-        append_text(d, element->id == SCALE_ID ? ", the close-up's scale" : ", what the close-up shows of all");
+        append_text(d, element->id == SCALE_ID ? ", the close-up's scale"
+                                               : ", the share of points and nodes that the close-up shows");
     else if (element->id < LEADER_ID)
-        append_text(d, "the frame of what the close-up shows");
+        append_text(d, "the outline of the area that the close-up shows");
     else
-        append_text(d, element->id < SCALE_ID ? "a line from there to the close-up" : "the close-up's scale");
+        append_text(d,
+                    element->id < SCALE_ID ? "a line from the enlarged area to the close-up" : "the close-up's scale");
 }
 
 const layer_type layer_CLOSEUP = {.add = add, .describe = describe};

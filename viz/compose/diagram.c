@@ -438,11 +438,12 @@ static void add_legend(legend *l, const layer_source *in)
 static void describe_panel(description *d, uint64_t id)
 {
     if (id == GROUND_ID) {
-        append_text(d, "the ground of the diagram");
+        append_text(d, "the background of the diagram");
     } else if (id / BAR_ID == 1) {
-        append_text(d, "in the diagram, a bar: nodes of depth %u that have no room there", (unsigned)(id >> 32 & 255));
+        append_text(d, "in the diagram, a bar: nodes of depth %u, too many to draw one by one",
+                    (unsigned)(id >> 32 & 255));
     } else if (id / PATH_ID == 1) {
-        append_text(d, "in the diagram, the way to the player");
+        append_text(d, "in the diagram, the path to the player");
     } else {
         append_text(d, "in the diagram, ");
         describe_node(d, id);
@@ -457,7 +458,7 @@ static void describe(description *d, const described_element *element)
         append_text(d, " of the diagram");
     } else {
         append_text(d, "in the diagram, %sthe line from its parent to ",
-                    element->style.role == ROLE_PLAYER ? "the way to the player: " : "");
+                    element->style.role == ROLE_PLAYER ? "the path to the player: " : "");
         describe_node(d, element->id);
     }
 }

@@ -487,8 +487,8 @@ static void add(scene *s, const layer_source *in, view_layer own)
 static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
-        append_text(d, element->style.role == ROLE_PANEL ? "the panel that the text is on"
-                                                         : "a sign or a rule in the panel");
+        append_text(d, element->style.role == ROLE_PANEL ? "the background of the panel"
+                                                         : "a symbol or a rule in the panel");
 }
 
 const layer_type layer_TEXT = {.add = add, .describe = describe};

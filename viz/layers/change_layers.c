@@ -111,11 +111,11 @@ static void add_broken(scene *s, const layer_source *in, view_layer own)
 static void describe_broken(description *d, const described_element *element)
 {
     if (element->kind == SCENE_SEGMENT)
-        append_text(d, "a line that crosses out where an invariant is broken");
+        append_text(d, "a line of the cross on a node with a broken invariant");
     if (element->kind != SCENE_BOX)
         return;
     describe_node(d, element->id);
-    append_text(d, "; an invariant is broken there");
+    append_text(d, "; an invariant of this node is broken");
 }
 
 const layer_type layer_BROKEN = {.add = add_broken, .describe = describe_broken};

@@ -64,7 +64,7 @@ void describe_node(description *d, octree_address address)
     find_node(d, address);
     append_text(d, "node %s: ", octree_address_format(address, path));
     if (d->subject->gone)
-        append_text(d, "an empty cell at depth %u, which has no node any more", node->depth);
+        append_text(d, "an empty cell at depth %u (its node no longer exists)", node->depth);
     else
         append_text(d, "%s at depth %u, %zu point%s", node->leaf ? "leaf" : "inner node", node->depth, node->count,
                     plural(node->count));

@@ -208,7 +208,7 @@ static const octree_foreign_place *find_place(const octree_foreign_state *foreig
 void describe_foreign_node(description *d, uint64_t element)
 {
     const octree_foreign_place *place = find_place(&d->tick->foreign, foreign_node_of(element));
-    append_text(d, "node %" PRIu64 " of the program", foreign_node_of(element));
+    append_text(d, "foreign node %" PRIu64, foreign_node_of(element));
     if (!place)
         return;
     const octree_foreign_node *node = place->node;
@@ -230,7 +230,7 @@ void describe_foreign_fault(description *d, const described_element *element)
     const uint64_t id = element->id & ~LOST_ELEMENT;
     octree_point point = {.id = id};
     if (element->kind == SCENE_LABEL || element->kind == SCENE_PANEL)
-        append_text(d, element->kind == SCENE_PANEL ? "the ground of words about " : " on ");
+        append_text(d, element->kind == SCENE_PANEL ? "the background of the text about " : " on ");
     if ((element->id & LOST_ELEMENT) != LOST_ELEMENT) {
         describe_foreign_node(d, element->id);
         return;

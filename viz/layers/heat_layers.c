@@ -79,7 +79,8 @@ static void describe(description *d, const described_element *element)
         append_text(d, "visited in %" PRIu64 " of %" PRIu64 " tick%s, ", heat_of_node.visits, d->tick->number + 1,
                     plural(d->tick->number + 1));
     else
-        append_text(d, "%" PRIu64 " point%s in all ticks together, ", heat_of_node.points, plural(heat_of_node.points));
+        append_text(d, "%" PRIu64 " point%s summed over %" PRIu64 " tick%s, ", heat_of_node.points,
+                    plural(heat_of_node.points), d->tick->number + 1, plural(d->tick->number + 1));
     describe_node(d, element->id);
 }
 

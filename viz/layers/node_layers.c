@@ -434,7 +434,7 @@ static void add_legend(legend *l, const layer_source *in)
 static void describe(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
-        append_text(d, "the ground of the path on ");
+        append_text(d, "the background of the address of ");
     else if (element->kind == SCENE_LABEL)
         append_text(d, " on ");
     if (is_foreign_element(element->id))

@@ -120,14 +120,14 @@ static void add_box_legend(legend *l, const layer_source *in)
 static void describe_box(description *d, const described_element *element)
 {
     if (element->kind == SCENE_BOX) {
-        append_text(d, element->id == COLLISION_ID ? "the collision box where the step met something, "
+        append_text(d, element->id == COLLISION_ID ? "the collision box that hit something, "
                                                    : "the player's collision box, ");
         append_box(d, &element->box);
     } else if (element->kind == SCENE_SEGMENT) {
-        append_text(d, element->id < CROSS_LINES ? "a line that crosses the collision out"
-                                                 : "a way of the swept collision test");
+        append_text(d, element->id < CROSS_LINES ? "a line of the cross on the collision box"
+                                                 : "a line of the path that the collision test swept");
     } else if (element->id == octree_game_session(d->game)->player.id) { /* the player is none of its own hits */
-        append_text(d, "a cross that crosses the collision out");
+        append_text(d, "the cross on the collision box");
     } else {
         describe_point(d, element->id, element->at);
         append_text(d, ", in the player's collision box");

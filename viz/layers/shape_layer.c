@@ -64,7 +64,7 @@ static void describe(description *d, const described_element *element)
 {
     const octree_shape *shape = &d->tick->shapes[element->id];
     const bool label = shape->kind == OCTREE_SHAPE_LABEL;
-    const char *ground = element->kind == SCENE_PANEL ? "the ground of " : label ? ", " : "";
+    const char *ground = element->kind == SCENE_PANEL ? "the background of " : label ? ", " : "";
     append_text(d, "%sshape %" PRIu64 " of the session, %s %s", ground, element->id, octree_shape_name(shape->kind),
                 label ? "at " : "");
     append_position(d, shape->at);

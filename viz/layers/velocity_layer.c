@@ -189,7 +189,7 @@ static void describe(description *d, const described_element *element)
         describe_point(d, body->id, body->position);
         append_text(d, ": ");
         append_position(d, body->velocity);
-        append_text(d, " a tick, drawn for %u", velocity_ticks(d->game));
+        append_text(d, " per tick, drawn for %u tick%s", velocity_ticks(d->game), plural(velocity_ticks(d->game)));
     }
 }
 

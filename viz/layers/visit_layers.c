@@ -98,9 +98,9 @@ static void describe(description *d, const described_element *element)
         return;
     }
     describe_node(d, element->id);
-    append_text(d, layer == LAYER_PRUNED    ? "; the tick's questions left it out by its box"
-                   : layer == LAYER_VISITED ? "; the tick's questions looked into it"
-                                            : "; it holds what the tick's questions found");
+    append_text(d, layer == LAYER_PRUNED    ? "; this tick's queries pruned it"
+                   : layer == LAYER_VISITED ? "; this tick's queries visited it"
+                                            : "; it holds points that this tick's queries found");
 }
 
 const layer_type layer_PRUNED = {.applies = layer_in_games,

@@ -263,7 +263,7 @@ static void describe(description *d, const described_element *element)
     } else if (element->kind == SCENE_SEGMENT && element->id < 3) {
         append_text(d, "the %c axis", "xyz"[element->id]);
     } else if (element->kind == SCENE_SEGMENT) {
-        append_text(d, "a mark of an axis");
+        append_text(d, "a tick mark of an axis");
     } else {
         append_text(d, " of an axis");
     }

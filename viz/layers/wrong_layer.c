@@ -165,7 +165,7 @@ static void append_wrong_answer(description *d, uint64_t place)
     char words[JUDGEMENT_TEXT];
     if (place >= tick->answer_count)
         return;
-    append_text(d, "the program's answer to the %s query", octree_query_name(tick->answers[place].kind));
+    append_text(d, "the foreign answer to the %s query", octree_query_name(tick->answers[place].kind));
     if (tick->answer_count > 1)
         append_text(d, " (answer %zu of %zu)", place + 1, tick->answer_count);
     append_text(d, ", which is wrong: %s", judgement_text(&tick->answers[place].judgement, words));
@@ -176,20 +176,21 @@ static void describe(description *d, const described_element *element)
     if (is_foreign_element(element->id)) {
         describe_foreign_fault(d, element);
     } else if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
-        append_text(d, "the ring about ");
+        append_text(d, "the ring around ");
         append_wrong_answer(d, UINT64_MAX - element->id);
     } else if (element->kind == SCENE_MARKER) {
         const bool missed = element->shape == SHAPE_TRIANGLE;
         describe_point(d, element->id, element->at);
-        append_text(d, missed ? ", missed by " : ", wrongly in ");
+        append_text(d, missed ? ", missing from " : ", extra in ");
         append_wrong_answer(d, find_answer(d->tick, element->id, missed));
     } else if (element->kind == SCENE_SEGMENT) {
-        append_text(d, "the line to a point that is wrongly in ");
+        append_text(d, "the line to an extra point of ");
         append_wrong_answer(d, element->id >> 32);
     } else if (element->id == LEFT_OUT_ID) {
-        append_text(d, element->kind == SCENE_PANEL ? "the ground of a number of words" : ", words that have no room");
+        append_text(d, element->kind == SCENE_PANEL ? "the background of the count of texts without room"
+                                                    : ", the count of texts without room");
     } else {
-        append_text(d, element->kind == SCENE_PANEL ? "the ground of words about " : ", about ");
+        append_text(d, element->kind == SCENE_PANEL ? "the background of the text about " : ", about ");
         append_wrong_answer(d, element->id);
     }
 }

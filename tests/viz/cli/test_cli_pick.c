@@ -131,7 +131,7 @@ static void the_panel_is_beneath_its_text(void **state)
         command_result result =
             run_octreel(NULL, "pick %s %d %d", what.frame.path, (int)title->at[0] + i % 8, (int)title->at[1] + i / 8);
         assert_done(&result);
-        text = strstr(result.out, "  text \"tick 4\"\n    over the panel that the text is on\n") != NULL;
+        text = strstr(result.out, "  text \"tick 4\"\n    over the background of the panel\n") != NULL;
         command_release(&result);
     }
     assert_true(text);
@@ -376,7 +376,7 @@ static void elements_of_the_close_up_are_named(void **state)
     command_result result = run_octreel(NULL, "pick %s %d %d", what.frame.path, x, y);
     assert_non_null(strstr(result.out, "the player, point 6 at "));
     assert_non_null(strstr(result.out, " (in the close-up)\n"));
-    assert_non_null(strstr(result.out, "over the ground of the close-up\n"));
+    assert_non_null(strstr(result.out, "over the background of the close-up\n"));
     command_release(&result);
     replay_close(&what.replay);
     result = run_octreel(NULL, "verify %s", what.folder.path);

@@ -19,13 +19,13 @@ static const struct {
     {LAYER_WORLD, SCENE_SEGMENT, "axis", false, false},
     {LAYER_WORLD, SCENE_LABEL, "of an axis", false, false},
     {LAYER_NODES, SCENE_BOX, "at depth ", true, false},
-    {LAYER_NODES, SCENE_PANEL, "the ground of the path on node ", true, false},
+    {LAYER_NODES, SCENE_PANEL, "the background of the address of node ", true, false},
     {LAYER_NODES, SCENE_LABEL, "on node ", true, false},
     {LAYER_VISIT_HEAT, SCENE_MARKER, "visited in ", true, false},
-    {LAYER_POINT_HEAT, SCENE_MARKER, "in all ticks together, node ", true, false},
-    {LAYER_PRUNED, SCENE_BOX, "left it out", true, false},
-    {LAYER_VISITED, SCENE_BOX, "looked into it", true, false},
-    {LAYER_HIT, SCENE_BOX, "holds what", true, false},
+    {LAYER_POINT_HEAT, SCENE_MARKER, "summed over ", true, false},
+    {LAYER_PRUNED, SCENE_BOX, "this tick's queries pruned it", true, false},
+    {LAYER_VISITED, SCENE_BOX, "this tick's queries visited it", true, false},
+    {LAYER_HIT, SCENE_BOX, "it holds points that this tick's queries found", true, false},
     {LAYER_MERGES, SCENE_SEGMENT, "that merged at this tick, node ", true, false},
     {LAYER_SPLITS, SCENE_SEGMENT, "that split at this tick, node ", true, false},
     {LAYER_POINTS, SCENE_MARKER, "point ", false, true},
@@ -41,18 +41,18 @@ static const struct {
     {LAYER_PLAYER, SCENE_SEGMENT, "down to the world's floor", false, false},
     {LAYER_PLAYER, SCENE_MARKER, "the player, point 6 at ", false, true},
     {LAYER_BOX, SCENE_BOX, "collision box", false, false},
-    {LAYER_BOX, SCENE_SEGMENT, "crosses the collision out", false, false},
+    {LAYER_BOX, SCENE_SEGMENT, "the cross on the collision box", false, false},
     {LAYER_BOX, SCENE_MARKER, "in the player's collision box", false, true},
     {LAYER_SHAPES, SCENE_BOX, "shape 0 of the session, box (-400, 100, -300) to (-100, 300, 0)", false, false},
     {LAYER_SHAPES, SCENE_SEGMENT, "shape 1 of the session, segment (-900, -900, 0) to (900, 900, 0)", false, false},
     {LAYER_SHAPES, SCENE_MARKER, "shape 2 of the session, point (300, -300, 300)", false, false},
     {LAYER_SHAPES, SCENE_LABEL, "text \"goal\", shape 3 of the session, label at (300, -300, 300)", false, false},
-    {LAYER_SHAPES, SCENE_PANEL, "the ground of shape 3 of the session, label at (300, -300, 300)", false, false},
-    {LAYER_WRONG, SCENE_MARKER, " the program's answer to the nearest query (answer ", false, true},
-    {LAYER_WRONG, SCENE_SEGMENT, "the line to a point that is wrongly in the program's answer", false, false},
-    {LAYER_WRONG, SCENE_PANEL, "the ground of words about the program's answer", false, false},
-    {LAYER_WRONG, SCENE_LABEL, "\", about the program's answer to the nearest query", false, false},
-    {LAYER_TEXT, SCENE_PANEL, "the panel", false, false},
+    {LAYER_SHAPES, SCENE_PANEL, "the background of shape 3 of the session, label at (300, -300, 300)", false, false},
+    {LAYER_WRONG, SCENE_MARKER, " the foreign answer to the nearest query (answer ", false, true},
+    {LAYER_WRONG, SCENE_SEGMENT, "the line to an extra point of the foreign answer", false, false},
+    {LAYER_WRONG, SCENE_PANEL, "the background of the text about the foreign answer", false, false},
+    {LAYER_WRONG, SCENE_LABEL, "\", about the foreign answer to the nearest query", false, false},
+    {LAYER_TEXT, SCENE_PANEL, "the background of the panel", false, false},
     {LAYER_TEXT, SCENE_LABEL, "text \"", false, false},
     {LAYER_DIAGRAM, SCENE_PANEL, "the diagram", false, false},
     {LAYER_DIAGRAM, SCENE_SEGMENT, "the line from its parent to node ", true, false},
@@ -70,7 +70,7 @@ static void check_node(const octree_game *game, const element_subject *subject, 
     assert_non_null(strstr(subject->text, text));
     const bool there = octree_node_at(octree_game_tree(game), id, &node) == OCTREE_OK;
     assert_int_equal(subject->gone, !there);
-    assert_non_null(strstr(subject->text, !there ? "no node any more" : node.leaf ? "leaf" : "inner node"));
+    assert_non_null(strstr(subject->text, !there ? "its node no longer exists" : node.leaf ? "leaf" : "inner node"));
 }
 
 static size_t expectation_of(scene_style style, scene_kind kind)
@@ -101,12 +101,12 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     const element_subject subject = describe_element(game, h, s, element);
     const size_t i = expectation_of(scene_head_of(s, element).style, element.kind);
     if (is_cross(game, s, element)) {
-        assert_string_equal(subject.text, "a cross that crosses the collision out");
+        assert_string_equal(subject.text, "the cross on the collision box");
         assert_false(subject.has_point || subject.has_node);
         return;
     }
     if (!strstr(subject.text, expected[i].part) && !(element.kind == SCENE_PANEL && strstr(subject.text, "diagram")) &&
-        !(element.kind == SCENE_PANEL && strstr(subject.text, "a sign in the panel")))
+        !(element.kind == SCENE_PANEL && strstr(subject.text, "a symbol or a rule in the panel")))
         fail_msg("\"%s\" says nothing of \"%s\"", subject.text, expected[i].part);
     if (expected[i].layer == LAYER_BOX && element.kind == SCENE_BOX) /* of two, one is where it is */
         assert_int_equal(strncmp(subject.text, "the player's", 12) == 0,
@@ -190,8 +190,8 @@ static void every_element_of_the_reference_frames_is_told_in_a_phrase(void **sta
             const element_subject told = describe_element(play.game, &h.heat, &s, scene_element_at(&s, number));
             assert_is_a_phrase(told.text);
             told_scale |= strstr(told.text, "the close-up's scale") != NULL;
-            told_frame |= strcmp(told.text, "the frame of what the close-up shows") == 0;
-            told_way |= strcmp(told.text, "in the diagram, the way to the player") == 0;
+            told_frame |= strcmp(told.text, "the outline of the area that the close-up shows") == 0;
+            told_way |= strcmp(told.text, "in the diagram, the path to the player") == 0;
             told_bar |= strstr(told.text, "in the diagram, a bar: nodes of depth ") == told.text;
         }
         scene_release(&s);

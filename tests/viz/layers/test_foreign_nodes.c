@@ -226,17 +226,16 @@ static void nodes_are_told_in_words(void **state)
     view v = view_by(TREE_AUTO);
     v.labels = true;
     show(&v, 1);
-    assert_string_equal(
-        told(LAYER_NODES, SCENE_BOX, foreign_element(FOREIGN_LEFT)),
-        "node 2 of the program: inner node at depth 1 of kind \"split z\" under node 1, 4 points listed, "
-        "box (-900, -700, -800) to (-200, 400, 900)");
+    assert_string_equal(told(LAYER_NODES, SCENE_BOX, foreign_element(FOREIGN_LEFT)),
+                        "foreign node 2: inner node at depth 1 of kind \"split z\" under node 1, 4 points listed, "
+                        "box (-900, -700, -800) to (-200, 400, 900)");
     assert_string_equal(told(LAYER_WRONG, SCENE_BOX, foreign_element(FOREIGN_LOW)),
-                        "node 4 of the program: leaf at depth 2 of kind \"leaf\" under node 2, 2 points listed, "
+                        "foreign node 4: leaf at depth 2 of kind \"leaf\" under node 2, 2 points listed, "
                         "box (-900, -700, -800) to (100, 400, -200); wrong: its box leaves its parent's");
     assert_non_null(strstr(told(LAYER_PRUNED, SCENE_BOX, foreign_element(FOREIGN_RIGHT)), "; a query pruned it"));
     assert_non_null(strstr(told(LAYER_VISITED, SCENE_BOX, foreign_element(FOREIGN_ROOT)), "; a query visited it"));
     assert_non_null(
-        strstr(told(LAYER_NODES, SCENE_LABEL, foreign_element(FOREIGN_RIGHT)), "text \"3\" on node 3 of the program"));
+        strstr(told(LAYER_NODES, SCENE_LABEL, foreign_element(FOREIGN_RIGHT)), "text \"3\" on foreign node 3"));
     assert_string_equal(told(LAYER_WRONG, SCENE_MARKER, LOST | 8),
                         "point 8 at (900, -100, 600), which is in no foreign node");
 }
