@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign_nodes.h - the foreign nodes, for the layers that show nodes. */
+/* foreign_nodes.h - draws and describes foreign nodes, for the layers that show nodes. */
 #ifndef LAYERS_FOREIGN_NODES_H
 #define LAYERS_FOREIGN_NODES_H
 
 #include "layer_type.h"
 
-/* Elements of a program's nodes have ids that no address of Octreel's is: those begin with a bit at a multiple of 3. */
+/* The element id of a foreign node is its own id with bit 62 set. No Octreel address looks like that: the highest set
+ * bit of an address is always at a multiple of 3, and 62 is not one. */
 #define FOREIGN_ELEMENT (UINT64_C(1) << 62)
 
 static inline uint64_t foreign_element(uint64_t node)
@@ -18,33 +19,34 @@ static inline bool is_foreign_element(uint64_t id)
     return id >> 62 == 1;
 }
 
-/* The node that an element is of. */
+/* Return the id of the foreign node that an element shows. */
 static inline uint64_t foreign_node_of(uint64_t id)
 {
     return id & ~FOREIGN_ELEMENT;
 }
 
-/* Which of the two trees the view shows of this tick. */
+/* Whether the view shows Octreel's own tree, and whether it shows the foreign nodes, at this tick. */
 bool shows_own_tree(const layer_source *in);
 bool shows_foreign_tree(const layer_source *in);
 
-/* All nodes, within the view's filter, lod and budget; and those that queries met, for the layers visited, pruned and
- * hit. */
+/* Add all foreign nodes that pass the view's filter, lod and budget. The second function adds only the foreign nodes
+ * that queries visited, pruned or hit, whichever the layer `own` shows. */
 void add_foreign_nodes(scene *s, const layer_source *in);
 void add_visited_foreign_nodes(scene *s, const layer_source *in, view_layer own);
 
-/* The nodes that are wrong and the points that are in none, for the layer `own`; then, for as many as have room, what
- * is wrong, of a node its first fault. Returns for how many there was none. */
+/* Mark the wrong foreign nodes and the points that no foreign node lists, in the layer `own`. The second function
+ * writes beside each mark what is wrong (the first fault of a node) where there is room, and returns the number of
+ * texts without room. `occupied` is the part of the picture that marks and texts already take. */
 void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied);
 size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied);
 
-/* "node 5 of the program: leaf "leaf" at depth 2 under node 7, 3 points listed, box ...", and what is wrong with it. */
+/* Append "foreign node 5: leaf at depth 2 of kind "leaf" under node 7, 3 points listed, box ...", and its faults. */
 void describe_foreign_node(description *d, uint64_t element);
 
-/* An element of these. */
+/* Describe an element that mark_foreign_faults or label_foreign_faults added. */
 void describe_foreign_fault(description *d, const described_element *element);
 
-/* The first of the tick's faults, such as "node 60 lists point 4 outside its box"; empty where there is none. */
+/* Write the tick's first fault in a foreign node to `text` and return it; empty when there is no fault. */
 #define FOREIGN_FAULT_TEXT 128
 const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_FAULT_TEXT]);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* heat_layers.h - the scales of the heat layers. */
+/* heat_layers.h - the scales that map visits and points to the marks of the heat layers. */
 #ifndef LAYERS_HEAT_LAYERS_H
 #define LAYERS_HEAT_LAYERS_H
 
@@ -7,16 +7,17 @@
 
 #include <stdint.h>
 
-/* The steps of both scales, the same in every session: each is twice as much as the one before in visits, and four
- * times as much in points. Step 0 begins at 1. */
+/* Both scales have HEAT_STEPS steps and are the same in every session. Step 0 begins at 1. Each step begins at twice
+ * (visits) or four times (points) the amount of the step before, so an amount is shifted right by this many bits per
+ * step. */
 #define HEAT_STEPS THEME_NODE_DEPTHS
 #define HEAT_VISITS_SHIFT 1
 #define HEAT_POINTS_SHIFT 2
 
-/* The least amount of the last step. */
+/* The smallest amount in the last step. */
 #define HEAT_LAST(shift) (UINT64_C(1) << (HEAT_STEPS - 1) * (shift))
 
-/* The step of an amount, which is not 0. */
+/* Return the step of an amount, which must not be 0. */
 unsigned heat_step(uint64_t amount, unsigned shift);
 
 #endif

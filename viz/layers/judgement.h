@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* judgement.h - what is wrong with a program's answer, in few words, and which of several is the worst. */
+/* judgement.h - short texts about wrong foreign answers, and which of several wrong answers is the worst. */
 #ifndef LAYERS_JUDGEMENT_H
 #define LAYERS_JUDGEMENT_H
 
@@ -9,16 +9,19 @@
 
 #define JUDGEMENT_TEXT 64
 
-/* "2.26 times as far", "1 missed, 2 extra", "no point has id 17": what is wrong first. */
+/* Write the first fault of an answer to `text`, such as "2.26 times as far", "1 missed, 2 extra" or "no point has id
+ * 17", or "right". Return `text`. */
 const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT]);
 
-/* The first point that the program missed, or else the first that it named wrongly; null where there is none. */
+/* Return the first missing point, or else the first extra point; null when there is neither. */
 const octree_point *judgement_first_point(const octree_judgement *judgement);
 
-/* Whether one answer is worse than another: by its ratio of distances, then by the points missed and extra. */
+/* Whether one answer is worse than another: first by the ratio of distances, then by the count of missing and extra
+ * points. */
 bool judgement_is_worse(const octree_judgement *judgement, const octree_judgement *than);
 
-/* How many of the answers are wrong, and which is the worst of them: the first of several. */
+/* Return the number of wrong answers, and set *worst to the index of the worst one: the first of several equals. *worst
+ * is unchanged when none is wrong. */
 size_t judgement_count_wrong(const octree_answer *answers, size_t count, size_t *worst);
 
 #endif

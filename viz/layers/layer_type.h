@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* layer_type.h - what a layer does. The file of a layer in this folder defines a layer_type of its row in layer.h, such
- * as layer_RANGE; scenes, the legend and `octreel pick` use nothing else.
- */
+/* layer_type.h - the interface of a layer. Each layer is a row in layer.h and a file that defines its layer_type, such
+ * as layer_RANGE. Scenes, the legend and `octreel pick` reach a layer only through its layer_type. */
 #ifndef LAYERS_LAYER_TYPE_H
 #define LAYERS_LAYER_TYPE_H
 
@@ -11,15 +10,15 @@
 #include "pen.h"
 #include "point_values.h"
 
-/* What a scene is built from: a tick of a game, or a tree alone. */
+/* The input of a scene: a tick of a game, or a tree alone. */
 typedef struct layer_source {
-    const view *view; /* as requested; under DIAGRAM_ONLY the scene's view has fewer layers */
+    const view *view; /* the requested view; under DIAGRAM_ONLY the scene's own view has fewer layers */
     const octree *tree;
     octree_box world;
     const octree_answer *answers;
     size_t answer_count;
-    const point_values *values; /* of its points; null: they have none */
-    const char *broken;         /* what the validator found; null when all invariants hold */
+    const point_values *values; /* colours, classes and intensities of the points; null: no values */
+    const char *broken;         /* the validator's sentence; null when all invariants hold */
     octree_address broken_at;
 
     const octree_game *game; /* null: a tree alone */
@@ -28,7 +27,7 @@ typedef struct layer_source {
     const heat *heat; /* null: the heat layers are empty */
 
     const char *title;        /* of a tree alone */
-    octree_address requested; /* of a tree alone: the node to mark, or 0 */
+    octree_address requested; /* of a tree alone: the node that `inspect` was asked to mark, or 0 */
 } layer_source;
 
 /* Members that a layer does not need are null or 0. `own` is the layer itself, for files that define several. */
@@ -37,27 +36,28 @@ typedef struct layer_type {
      * always; for layers of answers, when such a query was requested or is in each tick. */
     bool (*applies)(const layer_source *in);
 
-    /* Whether a session can have anything for the layer. Null: each can. Two recordings are not unlike by a layer that
-     * is empty in both. */
+    /* Whether a session can have elements for the layer. Null: every session can. `diff` ignores a difference in the
+     * shown layers if the layer is empty in both recordings. */
     bool (*in_session)(const octree_session *session);
 
-    /* Add the layer's elements, or those of one answer. Hidden layers need no test: scene_add_* drops their elements.
-     */
+    /* Add the layer's elements, or the elements of one answer. A hidden layer needs no check: scene_add_* drops its
+     * elements. */
     void (*add)(scene *s, const layer_source *in, view_layer own);
     void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer own);
 
-    /* Write the panel's row of an answer. */
+    /* Write an answer's row in the panel. */
     void (*write_answer)(pen *p, const octree_answer *answer);
 
-    /* The legend: lines are sorted by place; one line of a sign and text, or what the function adds. */
+    /* The legend sorts layers by legend_place. A layer has one line, made of `sign` and `text`, or the lines that
+     * legend() adds. */
     int legend_place;
     legend_sign sign;
     legend_drop_order worth;
     const char *text;
     void (*legend)(legend *l, const layer_source *in);
 
-    /* Describe an element. Null: the ids of boxes are nodes, those of markers points. Markers of answers are always
-     * points. */
+    /* Describe an element. Null: the id of a box is a node address, and the id of a marker is a point id. The id of an
+     * answer's marker is always a point id. */
     void (*describe)(description *d, const described_element *element);
 } layer_type;
 
@@ -67,12 +67,12 @@ LAYER_MAP(LAYER_TYPE_DECLARE)
 
 extern const layer_type *const layer_types[LAYER_ALL];
 
-/* An applies() for layers that only games have. */
+/* An applies() for layers that exist only in scenes of a game. */
 bool layer_in_games(const layer_source *in);
 
 bool layer_applies(const layer_source *in, view_layer layer);
 
-/* The layer that shows answers of a kind of query. */
+/* Return the layer that shows the answers of a query kind. */
 view_layer layer_of_query(octree_query_kind kind);
 
 #endif

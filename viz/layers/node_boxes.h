@@ -1,37 +1,39 @@
 /* SPDX-License-Identifier: MIT */
-/* node_boxes.h - boxes of nodes, for the layers that show some of them; and how too many points are thinned out. */
+/* node_boxes.h - draws boxes of nodes, for the layers that show nodes, and thins out points beyond the budget. */
 #ifndef LAYERS_NODE_BOXES_H
 #define LAYERS_NODE_BOXES_H
 
 #include "octree/digest.h"
 #include "scene.h"
 
-/* What the colour of a node may tell. */
+/* The facts about a node that its colour can show. */
 typedef struct node_traits {
     unsigned depth;
     size_t points;
-    size_t capacity; /* of the leaves of its tree; 0: it has none, as that of a program */
+    size_t capacity; /* points that a leaf of its tree can hold; 0: unlimited, as in a foreign index */
     bool leaf;
 } node_traits;
 
-/* Under COLORING_OCCUPANCY inner nodes of a tree with a capacity, which all hold more than that, are not on the scale:
- * they would hide the leaves. */
+/* Return the colour role of a node. Under COLORING_OCCUPANCY the inner nodes of a tree with a capacity are grey: they
+ * all hold more points than the capacity, and their boxes would hide the leaves. */
 theme_role node_role(const view *v, node_traits node);
 
-/* A node's box, with its address as id. */
+/* Add a node's box, with the node's address as id. */
 void add_node_box(scene *s, const octree_node *node, scene_style style);
 
-/* The node at an address of a tick, or its empty cell when the tree no longer has the node. False when the view's
- * filter hides it, or when it is smaller than the view's lod and lies in a node that is shown, which is counted. */
+/* Find the node at an address, or its empty cell when the tree no longer has the node. Return false when the scene must
+ * not show it: the view's filter hides it, or it is smaller than the view's lod and an ancestor is shown. The second
+ * case is counted in tally.small_marked. */
 bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node);
 
-/* The diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1: recognizable without colour.
- */
+/* Add the diagonals of a box's six faces, with ids from 0 to CROSS_LINES - 1. The crosses are recognizable without
+ * colour. */
 void add_crossed_faces(scene *s, const octree_box *box, scene_style style);
 #define CROSS_LINES 12
 
-/* Thinning of points to the budget goes by the id alone, so that a moving point does not flicker and its velocity is
- * dropped with it. A sieve whose n lowest bits are set keeps about one id in 2^n; a finer sieve keeps a subset. */
+/* A sieve decides by the id alone which points are dropped when there are more than the budget. So a moving point does
+ * not flicker, and its velocity arrow is dropped with it. A sieve whose n lowest bits are set keeps about one id in
+ * 2^n. A finer sieve keeps a subset of the same ids. */
 static inline bool sieve_drops(uint64_t sieve, uint64_t id)
 {
     return octree_digest_word(OCTREE_DIGEST_START, id) & sieve;
