@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* answer_layers.c - the layers of a tick's queries: the regions and targets that are asked, and the points found. */
+/* answer_layers.c - the layers of a tick's queries: each query's region or target, and the points that it found. */
 #include "answer_layers.h"
 #include "number.h"
 #include "text.h"
@@ -11,8 +11,8 @@
 
 #define FEW_MARKS 50
 #define MANY_MARKS 500
-#define BALL_CIRCLES 3   /* the great circles of a ball, */
-#define BALL_CHORDS 96   /* and the chords that each is drawn by */
+#define BALL_CIRCLES 3   /* a ball is drawn as this many great circles */
+#define BALL_CHORDS 96   /* a circle is drawn as this many chords */
 #define NUMBERED_RANKS 9 /* neighbours are numbered up to this rank */
 
 /* ---- All kinds ---------------------------------------------------------------------------------------------- */
@@ -86,7 +86,7 @@ const layer_type layer_RANGE = {.add_answer = add_range,
 
 /* ---- Radius ------------------------------------------------------------------------------------------------- */
 
-/* A point on the great circle around the ball's centre that is normal to an axis. */
+/* Compute a corner of the polygon that draws the great circle normal to the axis `plane`. */
 static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
 {
     double cosine, sine;
@@ -143,7 +143,7 @@ const layer_type layer_RADIUS = {.add_answer = add_ball,
 
 /* ---- K nearest ---------------------------------------------------------------------------------------------- */
 
-/* True when a number beside this place would cover one of those beside earlier places. */
+/* Whether a number at pixels[earlier] would cover a number at one of the `earlier` places before it. */
 static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
 {
     bool crowded = false;
@@ -153,7 +153,8 @@ static bool is_crowded(const scene *s, double pixels[][2], size_t earlier)
     return crowded;
 }
 
-/* The ranks of the first few, each beside its neighbour, except those that would overlap a nearer one's. */
+/* Write the first few ranks, each beside its neighbour. A rank that would overlap the rank of a nearer neighbour is
+ * left out. */
 static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene_style style)
 {
     double pixels[NUMBERED_RANKS][2];

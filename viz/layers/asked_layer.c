@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* asked_layer.c - the layer of the node of a tree that is asked for. */
+/* asked_layer.c - the layer that marks the node that `octreel inspect --node` names. */
 #include "layer_type.h"
 #include "node_boxes.h"
 #include "octree/octree.h"
 
-#define MARK 12 /* half units: half the size of the mark on a node that appears small */
+#define MARK 12 /* half the size of the mark on a node that is small on screen, in half units */
 
 static bool applies(const layer_source *in)
 {
     return in->requested != 0;
 }
 
-/* Bold, in the colour of its path in the diagram; with a mark when it is small on screen. */
+/* Draw the node bold, in the colour of its path in the diagram, and with a mark when it is small on screen. */
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     octree_node node;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* change_layers.c - the layers of what happened to the tree's nodes: merges, splits, and what must never happen. */
+/* change_layers.c - the layers of nodes that split, merged, or break an invariant of the tree. */
 #include "foreign_nodes.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -9,14 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Lines through a node: its address and the line's axis. An address may need all of 64 bits at the greatest depth, but
- * nodes that split lie above it. */
+/* The id of a line through a node holds the node's address and the line's axis. The shift loses no bits: only a node at
+ * the greatest depth has an address of 64 bits, and such a node never splits. */
 static uint64_t line_id(octree_address node, unsigned axis)
 {
     return node << 2 | axis;
 }
 
-/* A cell's three planes cross at the lowest corner of its last octant. */
+/* Draw three lines through the point where a cell's three planes cross: the lowest corner of its last octant. */
 static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;
@@ -33,7 +33,7 @@ static void add_planes(scene *s, const layer_source *in, octree_address address,
     }
 }
 
-/* The nodes of a layer. */
+/* Return the nodes that split or merged at this tick, whichever the layer shows. */
 static const octree_address *changed_nodes(const octree_tick *tick, view_layer layer, size_t *count)
 {
     *count = layer == LAYER_SPLITS ? tick->split_count : tick->merge_count;
@@ -49,7 +49,7 @@ static void add_changes(scene *s, const layer_source *in, view_layer own)
         add_planes(s, in, nodes[i], style);
 }
 
-/* "2 nodes split, last 7/7/0", with the address of the last where there is room for all of it. */
+/* Add a line such as "2 nodes split, last 7/7/0". The last address is left out where it does not fit whole. */
 static void add_change_legend(legend *l, const layer_source *in)
 {
     char last[OCTREE_ADDRESS_TEXT];
@@ -90,9 +90,9 @@ const layer_type layer_SPLITS = {.applies = changes_apply,
                                  .legend = add_change_legend,
                                  .describe = describe_change};
 
-/* ---- An invariant that does not hold ------------------------------------------------------------------------ */
+/* ---- Broken invariants --------------------------------------------------------------------------------------- */
 
-/* The node, crossed out, with the word beside it. */
+/* Draw the broken node crossed out, with the word "broken" beside it. */
 static void add_broken(scene *s, const layer_source *in, view_layer own)
 {
     if (!in->broken)

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* describe.c - appends phrases to the description of an element, and asks the element's layer for its words. */
 #include "describe.h"
 #include "layer_type.h"
 #include "number.h"

@@ -1,4 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+/* foreign_nodes.c - draws the nodes of a foreign index like the nodes of Octreel's own tree.
+ *
+ * A foreign index hands its nodes as a flat list of boxes with ids, parents and kinds. Its tree may be of any sort (a
+ * k-d tree, an R-tree), so nothing here relies on addresses, on a capacity, or on boxes that nest.
+ *
+ * Filter and lod test one node at a time. The budget works by whole levels, as for Octreel's own nodes: one pass counts
+ * the nodes at each depth that pass filter and lod, and a second pass draws the levels, from the root down, that fit
+ * into the budget together. A level drawn in part would look like a tree with holes. Both passes are O(nodes).
+ *
+ * A node keeps its own id in its element id, with one bit set that no Octreel address has there (foreign_nodes.h), so
+ * that `octreel pick` can tell the two trees apart. */
 #include "foreign_nodes.h"
 #include "node_boxes.h"
 #include "text.h"
@@ -26,7 +37,7 @@ static theme_role role_of(const view *v, const octree_foreign_place *place)
                                         : node_role(v, (node_traits){.depth = place->depth, .points = place->points});
 }
 
-/* A box says depths up to 255. */
+/* The depth as scene_box stores it: at most 255. */
 static unsigned level_of(const octree_foreign_place *place)
 {
     return place->depth < UINT8_MAX ? place->depth : UINT8_MAX;
@@ -45,7 +56,7 @@ static bool passes_filter(const scene *s, const octree_foreign_place *place)
     return filter_shows_box(&s->view.filter, &place->node->box, place->depth, place->leaf);
 }
 
-/* Below the view's lod, in an ancestor that is shown. */
+/* Whether a node is smaller than the view's lod and has an ancestor that may be shown. */
 static bool is_small(const scene *s, const octree_foreign_place *place)
 {
     const view_filter *f = &s->view.filter;
@@ -56,7 +67,8 @@ static bool is_small(const scene *s, const octree_foreign_place *place)
 
 /* ---- All nodes ---------------------------------------------------------------------------------------------- */
 
-/* The deepest level that the budget has room for, after the levels above it; -1 where that is none. */
+/* Return the deepest level that fits into the budget together with all levels above it; -1 if the root level does not
+ * fit. */
 static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
 {
     size_t at_level[UINT8_MAX + 1] = {0}, sum = 0;
@@ -92,9 +104,10 @@ void add_foreign_nodes(scene *s, const layer_source *in)
         s->tally.deepest = deepest;
 }
 
-/* ---- What queries met, and what is wrong -------------------------------------------------------------------- */
+/* ---- Visits and faults --------------------------------------------------------------------------------------- */
 
-/* The strongest of how queries met a node: what was looked into was not left out. */
+/* Whether a layer shows a node. A node that one query pruned and another visited is in the layer of visited nodes
+ * only. */
 static bool matches_layer(const octree_foreign_place *place, view_layer layer)
 {
     const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
@@ -121,7 +134,7 @@ void add_visited_foreign_nodes(scene *s, const layer_source *in, view_layer own)
     }
 }
 
-/* The words for a fault beside what it is about. */
+/* Return the text that stands beside a fault's mark. */
 static const char *short_fault_text(octree_wrong_node_kind kind)
 {
     static const char *const words[OCTREE_WRONG_NODE_KINDS] = {
@@ -132,11 +145,12 @@ static const char *short_fault_text(octree_wrong_node_kind kind)
     return words[kind];
 }
 
-/* Of a point that no node holds: no other marker of the layer is the same. */
+/* The bits of an element id that marks a point that no foreign node lists. No other element of the layer has both. */
 #define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
 #define LOST_MARK 6 /* half units */
 
-/* The first of the nodes from a place on that has a fault, of those that are marked; node_count where there is none. */
+/* Return the index of the first wrong node at or after `place`; node_count when there is none, or when `marked` nodes
+ * are already as many as the layer marks. */
 static size_t next_fault(const octree_foreign_state *foreign, size_t place, size_t marked)
 {
     while (place < foreign->node_count && !foreign->nodes[place].wrong)
@@ -166,7 +180,7 @@ void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_
     }
 }
 
-/* Whether there was room. */
+/* Write a fault's text beside its mark. Return false where there is no room. */
 static bool add_fault_label(scene *s, uint64_t id, const double at[3], octree_wrong_node_kind kind, view_layer own,
                             text_space *occupied)
 {
@@ -195,7 +209,7 @@ size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, te
     return left_out;
 }
 
-/* ---- In words ----------------------------------------------------------------------------------------------- */
+/* ---- Descriptions -------------------------------------------------------------------------------------------- */
 
 static const octree_foreign_place *find_place(const octree_foreign_state *foreign, uint64_t id)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* heat_layers.c - the layers of heat: a mark in the middle of each leaf, larger and lighter the more visits or points
- * it had since tick 0. */
+/* heat_layers.c - the heat layers: a mark in the middle of each leaf, larger and lighter the more visits or points the
+ * leaf has had since tick 0. */
 #include "heat_layers.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -25,7 +25,8 @@ static unsigned shift_of(view_layer layer)
     return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
 }
 
-/* At most half of its leaf's size on screen, so that marks do not cover each other. */
+/* Return the half size of a mark. It is at most half the leaf's size on screen, so that marks do not cover each other.
+ */
 static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
     const double most = camera_box_pixels(&s->camera, leaf) / (2 * s->unit);

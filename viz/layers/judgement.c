@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* judgement.c - texts about wrong foreign answers, and their ranking. */
 #include "judgement.h"
 #include "number.h"
 
@@ -6,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Below this a ratio is told by what it is above 1. */
+/* A ratio below this is printed as a percentage above 1. */
 #define NEARLY 1.01
 
 static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])

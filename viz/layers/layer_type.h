@@ -32,8 +32,8 @@ typedef struct layer_source {
 
 /* Members that a layer does not need are null or 0. `own` is the layer itself, for files that define several. */
 typedef struct layer_type {
-    /* Whether the layer can have elements in this frame or others of its recording: then the legend lists it. Null:
-     * always; for layers of answers, when such a query was requested or is in each tick. */
+    /* Whether the layer can have elements in this frame or in another frame of its recording; the legend then lists it.
+     * Null means always, or, for a layer of answers, that a query of its kind was asked or is asked in every tick. */
     bool (*applies)(const layer_source *in);
 
     /* Whether a session can have elements for the layer. Null: every session can. `diff` ignores a difference in the

@@ -1,4 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+/* legend.c - collects the legend's lines, drops lines that do not fit, and draws the rest.
+ *
+ * The legend stands at the bottom of the column, below rows whose number changes from tick to tick. So the room for it
+ * changes too, and three rules keep it steady:
+ *   - Lines are sorted by their layer's legend_place. A layer keeps its line while it can have elements in the
+ *     recording, even in frames where it has none, so that lines do not come and go.
+ *   - When there are too many lines, whole groups go (a line with its continuation lines): first those of layers
+ *     without elements in this frame, then nearly self-explanatory ones, then those whose answer the panel already
+ *     shows. If that is not enough, lines go from the end. A last line counts the lines that are missing.
+ *   - The legend is aligned with the bottom of the picture.
+ * The signs are drawn in whole dots from tables of rectangles, so that they are sharp at every size of letters. */
 #include "legend.h"
 #include "layer_type.h"
 
@@ -19,9 +30,9 @@ legend_line *legend_add(legend *l, legend_sign sign, const char *format, ...)
     return line;
 }
 
-/* ---- Which lines -------------------------------------------------------------------------------------------- */
+/* ---- Choosing lines ------------------------------------------------------------------------------------------ */
 
-/* The layers that have something in this frame, as bits. */
+/* Return the layers that have elements in this frame or its close-up: bit i for layer i. */
 static unsigned layers_in_frame(const scene *s)
 {
     unsigned layers = 0;
@@ -34,7 +45,7 @@ static unsigned layers_in_frame(const scene *s)
     return s->has_closeup ? layers | layers_in_frame(s->closeup) : layers;
 }
 
-/* The diagram uses the colours of nodes too, and marks visited and pruned ones. */
+/* Whether the diagram shows a layer: it uses the colours of nodes, and marks visited and pruned nodes. */
 static bool is_in_diagram(const scene *s, view_layer layer)
 {
     return view_shows(&s->view, LAYER_DIAGRAM) &&
@@ -71,13 +82,13 @@ static void add_layer_lines(legend *l, const layer_source *in)
     }
 }
 
-/* Whether a line belongs to the one before. */
+/* Whether a line is dropped and kept together with the line before it. */
 static bool is_continuation(const legend_line *line)
 {
     return line->sign == SIGN_NONE || line->sign == SIGN_SCALE;
 }
 
-/* Leave out a line, with those that belong to it. */
+/* Remove a line and its continuation lines. */
 static void remove_line(legend *l, size_t place)
 {
     size_t end = place + 1;
@@ -87,7 +98,8 @@ static void remove_line(legend *l, size_t place)
     l->count -= end - place;
 }
 
-/* Leave out lines until they fit with one that says how many they are, which is returned. */
+/* Remove lines until the rest fits into `room` lines, together with a final line that counts the removed ones. Return
+ * their number; 0 if all lines fit. */
 static size_t fit_lines(legend *l, size_t room)
 {
     const size_t needed = l->count, left = room ? room - 1 : 0;
@@ -105,14 +117,14 @@ static size_t fit_lines(legend *l, size_t room)
     return needed - l->count;
 }
 
-/* ---- How they are written ----------------------------------------------------------------------------------- */
+/* ---- Drawing lines ------------------------------------------------------------------------------------------- */
 
-/* Signs are drawn in whole dots, as many pixels wide as letters are twelve dots high, about: SWATCH dots wide, and 9
- * high in the middle of the line. */
+/* Signs are drawn in square dots. A dot is a twelfth of a letter's height, rounded down to whole pixels, and at least
+ * one pixel. A sign is SWATCH dots wide and SIGN_HEIGHT dots high, in the middle of its line. */
 #define SWATCH 18
 #define SIGN_HEIGHT 9
 
-/* Signs of rectangles: x, y, width and height. */
+/* The signs that consist of rectangles: x, y, width and height of each, in dots. */
 enum { SIGN_PARTS = 8 };
 static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_LINE] = {{0, 4, SWATCH, 1}},
@@ -137,14 +149,14 @@ static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_NODE] = {{7, 1, 6, 6}},
 };
 
-/* A rectangle of a sign, in dots. */
+/* Fill a rectangle of a sign, given in dots. */
 static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role)
 {
     const int letter = p->scene->text.height, dot = letter < 24 ? 1 : letter / 12;
     fill_rectangle(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
 }
 
-/* The rows of a triangle on its side or, filled, on its corner. */
+/* Draw the outline of a triangle: on its side, or upside down on its corner. */
 static void fill_triangle(pen *p, theme_role role, bool on_side)
 {
     const int middle = SWATCH / 2;
@@ -160,7 +172,7 @@ static void fill_triangle(pen *p, theme_role role, bool on_side)
     }
 }
 
-/* Four cells of a chessboard, in the layer's colour. */
+/* Draw four cells of a chessboard. */
 static void fill_checks(pen *p)
 {
     for (int i = 0; i < 4; i++)

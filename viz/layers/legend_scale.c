@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* legend_scale.c - the colours of amounts in a legend: a bar across the column, with round numbers below it. */
+/* legend_scale.c - draws a colour bar across the column, with round numbers below it.
+ *
+ * The numbers must be round, stand under their place on the bar, and not touch. How many fit depends on how long they
+ * are when printed, which depends on the step between them. So the code tries: for five numbers, then four, three, two
+ * and one, it takes the next round step (1, 2 or 5 times a power of ten) that gives about that many numbers, prints
+ * them, and keeps the first set whose texts have a letter's space between them. A logarithmic bar has fixed numbers
+ * instead: every second power of two. A bar whose ends are equal or not finite has one number in the middle.
+ *
+ * Where amounts beyond the ends share the end colours, the bar tapers to a point at both ends. */
 #include "legend.h"
 
 #include <math.h>
@@ -7,11 +15,11 @@
 #include <string.h>
 
 #define MOST_NUMBERS 5
-#define DIGITS 9 /* of a number */
+#define DIGITS 9 /* significant digits of a number */
 
-/* A number below the bar. */
+/* A number below the bar, and its tick mark. */
 typedef struct mark {
-    double part; /* of the way along the bar */
+    double part; /* its position on the bar, from 0 (left end) to 1 */
     char text[NUMBER_TEXT];
 } mark;
 
@@ -30,7 +38,8 @@ static void add_mark(marks *m, double part, double value)
     }
 }
 
-/* 1, 4, 16 ...; the last stands for all beyond. */
+/* Mark every second power of two: low, 4 low, 16 low ... The last number gets a "+": it stands for all larger amounts.
+ */
 static marks mark_powers(const legend_scale *scale)
 {
     marks m = {.count = 0};
@@ -54,14 +63,14 @@ static marks mark_round_numbers(const legend_scale *scale, int count)
     return m;
 }
 
-/* The pixels of a number's left end, under its mark and within the bar. */
+/* Return the x of a number's left end: centred under its tick mark, but within the bar. */
 static int number_left(const pen *p, const mark *m, int width)
 {
     const int size = (int)strlen(m->text) * p->scene->text.width, left = (int)(m->part * width) - size / 2;
     return left < 0 ? 0 : left + size > width ? width - size : left;
 }
 
-/* Whether all have room, with a letter between them. */
+/* Whether all numbers fit below the bar with a letter's space between them. */
 static bool numbers_fit(const pen *p, const marks *m, int width)
 {
     for (int i = 0; i < m->count; i++) {
@@ -91,7 +100,7 @@ static marks choose_marks(const pen *p, const legend_scale *scale, int width)
     return m;
 }
 
-/* How high the bar is so far from its nearer end. */
+/* Return the height of the bar at a distance from its nearer end, in pixels. */
 static int bar_height(const legend_scale *scale, int from_end, int high, int dot)
 {
     const int pointed = (2 * (from_end / dot) + 1) * dot;

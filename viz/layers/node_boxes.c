@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* node_boxes.c - the colours of nodes, and boxes of single nodes. */
 #include "node_boxes.h"
 #include "octree/octree.h"
 
@@ -27,7 +28,8 @@ void add_node_box(scene *s, const octree_node *node, scene_style style)
     scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
 }
 
-/* Whether an ancestor is shown: a tick visits them too, unless the filter hides them. */
+/* Whether a node at a depth has an ancestor that the filter shows. A tick that visits a node also visits its ancestors,
+ * so they are in the same layer. */
 static bool has_shown_ancestor(const view_filter *f, unsigned depth)
 {
     return !f->leaves && depth > (f->by_depth ? f->min_depth : 0);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* pen.c - writes texts, rows and rectangles into the text column. */
 #include "pen.h"
 #include "layer.h"
 
@@ -62,7 +63,8 @@ void write_line(pen *p, theme_role role, const char *text)
     p->y += p->scene->text.line;
 }
 
-/* The value is cut where the name would cover it. */
+/* Write a row's value at the right and move to the next line. The value is cut if it does not fit behind the first
+ * `taken` letters. */
 static void end_row(pen *p, size_t taken, char *value)
 {
     const size_t room = (size_t)p->letters > taken + 1 ? (size_t)p->letters - taken - 1 : 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* player_layers.c - the layers of the player, and of its collision box and what is in it. */
+/* player_layers.c - the layers of the player, and of its collision box and the points that the box hits. */
 #include "layer_type.h"
 #include "node_boxes.h"
 
@@ -10,7 +10,7 @@ static bool applies(const layer_source *in)
     return in->game && in->session->player.kind != OCTREE_PLAYER_NONE;
 }
 
-/* A line straight down to the world's floor tells where the player is in space. */
+/* Draw the player, and a line straight down to the world's floor that shows where the player is in space. */
 static void add_player(scene *s, const layer_source *in, view_layer own)
 {
     const double *at = in->tick->player;
@@ -41,10 +41,11 @@ const layer_type layer_PLAYER = {.applies = applies,
 
 /* ---- The collision box -------------------------------------------------------------------------------------- */
 
-/* The box of a collision; that of the player has the player's id. */
+/* The id of the box that was tested and hit something. The box around the player has the player's id. */
 #define COLLISION_ID UINT64_MAX
 
-/* The ids of a collision's lines begin with those that cross its box out, then come the ways of the box's corners. */
+/* The ids of a collision's lines: first the CROSS_LINES lines that cross out its box, then the paths of the box's
+ * CORNERS corners, then the paths of the hits. */
 enum { CORNERS = 8 };
 
 static octree_box box_around(const double center[3], double size)
@@ -69,7 +70,7 @@ static void get_corner(const octree_box *box, unsigned corner, double position[3
         position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
 }
 
-/* The swept ways: of the corners of the player's box, which is drawn at both ends, and of each hit that moved. */
+/* Draw the paths that the swept collision test used: of each corner of the player's box, and of each hit that moved. */
 static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, scene_style style)
 {
     const octree_box start = box_around(tick->from, box_size), end = box_around(tick->attempt, box_size);
@@ -83,8 +84,8 @@ static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, 
         add_path_line(s, CROSS_LINES + CORNERS + i, tick->hit_from[i], tick->hits[i].position, style);
 }
 
-/* The box that was tested, crossed out, and a cross on everything in it. A box that is small on screen is hard to
- * recognize, so a large cross of fixed size is drawn on it. */
+/* Draw the box that was tested, crossed out, and a cross on each hit. A box that is small on screen is hard to
+ * recognize, so it also gets a large cross of fixed size. */
 static void add_collision(scene *s, const layer_source *in, view_layer own)
 {
     const octree_tick *tick = in->tick;
@@ -126,7 +127,7 @@ static void describe_box(description *d, const described_element *element)
     } else if (element->kind == SCENE_SEGMENT) {
         append_text(d, element->id < CROSS_LINES ? "a line of the cross on the collision box"
                                                  : "a line of the path that the collision test swept");
-    } else if (element->id == octree_game_session(d->game)->player.id) { /* the player is none of its own hits */
+    } else if (element->id == octree_game_session(d->game)->player.id) { /* the player never hits itself */
         append_text(d, "the cross on the collision box");
     } else {
         describe_point(d, element->id, element->at);

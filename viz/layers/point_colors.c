@@ -1,25 +1,26 @@
 /* SPDX-License-Identifier: MIT */
+/* point_colors.c - colours points by position, id, leaf or file values, and explains the colours in the legend. */
 #include "point_colors.h"
 #include "layer_type.h"
 #include "octree/octree.h"
 
 #include <stdio.h>
 
-/* Where a value lies between two others, without overflow. */
+/* Return the position of a value between low (0) and high (1). Halving first avoids overflow. */
 static double fraction_between(double value, double low, double high)
 {
     const double whole = high / 2 - low / 2;
     return whole > 0 ? (value / 2 - low / 2) / whole : 0.5;
 }
 
-/* Leaves that share a face differ, where they are of one depth: cells are dark and light as on a chessboard. */
+/* Whether a leaf is a dark cell of the chessboard pattern. Two leaves of the same depth that share a face differ. */
 static bool is_dark(const octree_node *leaf)
 {
     const unsigned octant = (unsigned)(leaf->address & 7);
     return (octant ^ octant >> 1 ^ octant >> 2) & 1;
 }
 
-#define DARK 180 /* 256ths */
+#define DARK 180 /* brightness of a dark leaf's points, in 256ths */
 
 const char *const class_kind_names[THEME_KINDS] = {"unclassified", "ground", "vegetation",         "building",
                                                    "water",        "noise",  "road, rail, bridge", "other"};
@@ -30,11 +31,11 @@ unsigned kind_of_class(unsigned class)
     return class < sizeof kinds ? kinds[class] : 7;
 }
 
-/* How the points of one leaf are coloured. */
+/* How the points of one leaf are painted. */
 typedef struct painting {
     const view *view;
     const point_values *values;
-    theme_color plain; /* of points that lack the value */
+    theme_color plain; /* of points with a missing value */
 } painting;
 
 static theme_color color_of_value(const painting *p, uint64_t id)
@@ -95,7 +96,7 @@ void color_points(const view *v, const point_values *values, const octree_node *
 
 /* ---- The legend --------------------------------------------------------------------------------------------- */
 
-/* The kinds of classes that any point has, as bits. */
+/* Return the class kinds of all points: bit i for kind i. */
 static unsigned class_kinds_in(const point_values *values)
 {
     unsigned kinds = 0;
@@ -176,6 +177,6 @@ void add_point_legend(legend *l, const layer_source *in)
         }
         legend_add(l, SIGN_DOT, "points, by %s", view_point_color_name(v->point_color));
     }
-    if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY) /* else no point is shown */
+    if (v->point_scale.given || v->point_color == POINTS_BY_DENSITY) /* without a scale no point is shown */
         legend_add_scale(l, scale_of(&v->point_scale.of, v->point_color));
 }

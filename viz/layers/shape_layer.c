@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* shape_layer.c - the layer of what a session shows beside its points. Ids are places among the tick's shapes. */
+/* shape_layer.c - the layer of a session's shapes: boxes, segments, points and labels that it draws beside its points.
+ * An element's id is the index of its shape in the tick. */
 #include "layer_type.h"
 #include "layout.h"
 #include "text.h"
@@ -8,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MARK 3 /* half units: half the size of a point's marker */
+#define MARK 3 /* half the size of a point's marker, in half units */
 
 static bool applies(const layer_source *in)
 {
@@ -23,10 +24,10 @@ static void add_box(scene *s, uint64_t id, const octree_shape *shape, scene_styl
     scene_add_box(s, box);
 }
 
-/* Beside its place, where there is room; else over what is there. */
+/* Write a label beside its position where there is room; otherwise on top of the picture. */
 static void add_label(scene *s, text_space *words, uint64_t id, const octree_shape *shape, scene_style style)
 {
-    _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label holds a shape's text and a blank before it");
+    _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label must hold a shape's text and one blank before it");
     scene_label label = {.id = id, .style = style};
     label.style.width = 1;
     snprintf(label.text, sizeof label.text, "%s", shape->text);
@@ -40,7 +41,7 @@ static void add_label(scene *s, text_space *words, uint64_t id, const octree_sha
 
 static void add(scene *s, const layer_source *in, view_layer own)
 {
-    text_space words = {.count = 0}; /* where they stand does not depend on the other layers that are shown */
+    text_space words = {.count = 0}; /* empty: label positions must not depend on the other layers */
     for (size_t i = 0; i < in->tick->shape_count; i++) {
         const octree_shape *shape = &in->tick->shapes[i];
         const scene_style style = layer_style(own, STROKE_SOLID, 2);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* visit_layers.c - the layers of a tick's queries: nodes pruned, nodes visited, leaves with hits. */
+/* visit_layers.c - the layers of the nodes that a tick's queries pruned, visited, or found points in. */
 #include "foreign_nodes.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -14,7 +14,8 @@ static bool is_pruned(const octree_visit *visit)
     return visit->touch == OCTREE_TRACE_PRUNED;
 }
 
-/* A node keeps its colour in the tree. Visited nodes are bold, pruned ones dashed. */
+/* Add the visited or pruned nodes of Octreel's tree. A node keeps the colour that it has in the layer of nodes; visited
+ * nodes are bold, pruned nodes dashed. */
 static void add_own_visits(scene *s, const layer_source *in, view_layer own)
 {
     const bool pruned = own == LAYER_PRUNED;
@@ -54,7 +55,7 @@ static void add_hit_leaves(scene *s, const layer_source *in, view_layer own)
         add_visited_foreign_nodes(s, in, own);
 }
 
-/* How many of the nodes that are shown were met so. */
+/* Return the number of nodes with this kind of visit, in the trees that the view shows. */
 static size_t count_shown(const layer_source *in, size_t own, octree_node_visit visit)
 {
     return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
@@ -66,7 +67,8 @@ static void add_pruned_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
-/* Nodes taken whole have a line of their own if both counts do not fit into one. */
+/* Write the counts of visited nodes and of nodes taken whole (without looking at their points) into one line, or into
+ * two if they do not fit. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
