@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* session_file.c - session files: read, written, and sessions that own their arrays. */
+/* session_file.c - reads and writes session files, and copies and frees the arrays of sessions. */
 #include "session_file.h"
 #include "array.h"
 #include "file.h"
@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Owning ------------------------------------------------------------------------------------------------- */
+/* ---- Copying and freeing ------------------------------------------------------------------------------------ */
 
 static bool fail_memory(octreel_error *error)
 {
     return error_set(error, "out of memory for the session");
 }
 
-/* Replace *items by a copy of them, null when there are none; null with false when there is no memory. */
+/* Replace *items by a copy; by null if there are none. False, and null, if there is no memory. */
 static bool duplicate(const void **items, size_t count, size_t item_size)
 {
     const void *from = *items;
@@ -51,7 +51,7 @@ void query_release_ids(octree_query *query)
         free((uint64_t *)query->visits[met].ids);
 }
 
-/* Free what the items of two arrays own. */
+/* Free the memory that queries and foreign trees own, but not their arrays. */
 static void release_owned(const octree_query *queries, size_t query_count, const octree_foreign_tree *trees,
                           size_t tree_count)
 {
@@ -61,7 +61,7 @@ static void release_owned(const octree_query *queries, size_t query_count, const
         foreign_tree_release((octree_foreign_tree *)&trees[i]);
 }
 
-/* Of queries and trees that were copied: copy what they own. */
+/* After queries and foreign trees were copied bytewise: replace the memory that they own by copies. */
 static bool duplicate_owned(octree_query *queries, size_t query_count, octree_foreign_tree *trees, size_t tree_count)
 {
     bool whole = true;
@@ -133,17 +133,17 @@ bool session_read_header(json_reader *r, json_t *object)
 {
     session_loader *s = r->context;
     if (!json_object_get(object, "octreel"))
-        return json_fail(r, NULL, "is no session: the first object has no \"octreel\": \"session\"");
-    return session_take_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
+        return json_fail(r, NULL, "is not a session: the first object has no \"octreel\": \"session\"");
+    return session_read_file_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
 }
 
 bool session_read_tick(json_reader *r, json_t *object)
 {
     session_tick ignored;
     if (json_object_get(object, "octreel"))
-        return json_fail(r, NULL, "a second header; what follows the first are objects of one tick each");
+        return json_fail(r, NULL, "this is a second header; only objects of ticks may follow the first");
     if (json_object_get(object, "gap") && json_object_size(object) > 2)
-        return json_fail(r, NULL, "a tick that is a gap has nothing else: nothing is known of it");
+        return json_fail(r, NULL, "a tick with \"gap\" must have no other member but \"tick\"");
     return json_read_members(r, object, NULL, session_tick_members, &ignored);
 }
 
@@ -157,7 +157,7 @@ bool session_check_text(json_reader *r)
         return true;
     for (; r->at < nul; r->at++)
         r->line += *r->at == '\n';
-    return json_fail_line(r, r->line, NULL, "holds a NUL byte, so it is no text");
+    return json_fail_line(r, r->line, NULL, "holds a NUL byte, so it is not text");
 }
 
 static bool read_stream(json_reader *r)
@@ -177,8 +177,8 @@ static bool read_stream(json_reader *r)
     return true;
 }
 
-/* Add what the header has to a list: before the others, or after them. */
-static bool join(json_reader *r, int list, size_t item_size, bool before)
+/* Add the items of a list of the header to the list of single ticks: before its items or after them. */
+static bool add_header_items(json_reader *r, int list, size_t item_size, bool before)
 {
     session_loader *s = r->context;
     session_list *to = &s->lists[list], *from = &s->standing[list];
@@ -186,7 +186,7 @@ static bool join(json_reader *r, int list, size_t item_size, bool before)
         return true;
     char *items = array_reserve(to->items, to->count + from->count, &to->room, item_size);
     if (!items)
-        return json_fail(r, NULL, "out of memory after %zu of them", to->count);
+        return json_fail(r, NULL, "out of memory after %zu items", to->count);
     if (before)
         memmove(items + from->count * item_size, items, to->count * item_size);
     memcpy(items + (before ? 0 : to->count) * item_size, from->items, from->count * item_size);
@@ -196,12 +196,12 @@ static bool join(json_reader *r, int list, size_t item_size, bool before)
     return true;
 }
 
-/* Nodes of the header are those of tick 0. */
+/* Foreign nodes come first, because those of the header apply from tick 0 on. */
 bool session_append_standing(json_reader *r)
 {
-    return join(r, SESSION_QUERIES, sizeof(octree_query), false) &&
-           join(r, SESSION_SHAPES, sizeof(octree_shape), false) &&
-           join(r, SESSION_FOREIGN, sizeof(octree_foreign_tree), true);
+    return add_header_items(r, SESSION_QUERIES, sizeof(octree_query), false) &&
+           add_header_items(r, SESSION_SHAPES, sizeof(octree_shape), false) &&
+           add_header_items(r, SESSION_FOREIGN, sizeof(octree_foreign_tree), true);
 }
 
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS])
@@ -271,7 +271,7 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-/* What is of every tick comes last in the session's arrays. */
+/* Queries and shapes of every tick are the last ones in the session's arrays. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
     session_header header = {.session = *session, .values = values};
@@ -298,17 +298,17 @@ void session_write_tick(uint64_t tick, const octree_input *input, const point_va
     json_write_end_line(&writer);
 }
 
-/* What of a session's arrays has not been written. */
-typedef struct rest {
+/* The parts of a session's arrays that have not been written yet. */
+typedef struct unwritten {
     octree_input input;
     const octree_gap *gaps;
     size_t gap_count;
     const octree_foreign_tree *foreign;
     size_t foreign_count;
-    uint64_t tick; /* the next; OCTREE_EVERY_TICK: none is left */
-} rest;
+    uint64_t tick; /* the next tick to write; OCTREE_EVERY_TICK if there is none */
+} unwritten;
 
-static void find_next_tick(rest *left)
+static void find_next_tick(unwritten *left)
 {
     const octree_input *i = &left->input;
     left->tick = i->edit_count ? i->edits->tick : OCTREE_EVERY_TICK;
@@ -322,8 +322,9 @@ static void find_next_tick(rest *left)
         left->tick = left->foreign->tick;
 }
 
-/* Split what belongs to the next tick off the front of the rest; to a gap nothing but it belongs. */
-static octree_input take_tick(rest *left)
+/* Remove the items of the next tick from the front of the unwritten parts, and return them. A gap has no other items.
+ */
+static octree_input remove_next_tick(unwritten *left)
 {
     octree_input *i = &left->input, taken = *i;
     taken.edit_count = taken.query_count = taken.shape_count = 0;
@@ -345,20 +346,20 @@ static octree_input take_tick(rest *left)
 
 bool session_write(const octree_session *session, const point_values *values, FILE *out)
 {
-    rest left = {.input = {.edits = session->edits,
-                           .edit_count = session->edit_count,
-                           .queries = session->queries,
-                           .query_count = session->query_count,
-                           .shapes = session->shapes,
-                           .shape_count = session->shape_count},
-                 .gaps = session->gaps,
-                 .gap_count = session->gap_count,
-                 .foreign = session->foreign,
-                 .foreign_count = session->foreign_count};
+    unwritten left = {.input = {.edits = session->edits,
+                                .edit_count = session->edit_count,
+                                .queries = session->queries,
+                                .query_count = session->query_count,
+                                .shapes = session->shapes,
+                                .shape_count = session->shape_count},
+                      .gaps = session->gaps,
+                      .gap_count = session->gap_count,
+                      .foreign = session->foreign,
+                      .foreign_count = session->foreign_count};
     session_write_header(session, values, out);
     for (find_next_tick(&left); left.tick != OCTREE_EVERY_TICK; find_next_tick(&left)) {
         const uint64_t tick = left.tick;
-        const octree_input input = take_tick(&left);
+        const octree_input input = remove_next_tick(&left);
         session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);

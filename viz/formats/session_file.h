@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_file.h - sessions as files: a stream of JSON objects, the header and then objects of one tick each.
- * session.txt, which is installed, says what they hold.
- */
+/* session_file.h - reads and writes session files. A file is a stream of JSON objects: a header, then one object for
+ * each tick in which something happens. session.txt, which is installed, describes the format. */
 #ifndef FORMATS_SESSION_FILE_H
 #define FORMATS_SESSION_FILE_H
 
@@ -14,62 +13,63 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Ids and seeds in files are below this: every JSON reader keeps them exactly. */
+/* Ids and seeds in files are below this limit: every JSON reader reads such numbers exactly. */
 #define SESSION_ID_LIMIT (UINT64_C(1) << 53)
 
-/* The last tick that a file can name. */
+/* The greatest number of a tick in a file. */
 #define SESSION_LAST_TICK 1000000000
 
-/* The most points that "sample" makes. */
+/* The most points that "sample" can generate. */
 #define SESSION_MOST_SAMPLES 100000000
 
 /* A session that owns its arrays and its keys. */
 typedef struct session_file {
     octree_session session;
     point_values values; /* colours, intensities and classes, by the ids of the session's points */
-    char note[512]; /* of one that was read: a sentence about its file of points; "" where there is nothing to say */
+    char note[512]; /* after reading: a sentence about the session's file of points; "" if there is nothing to report */
 } session_file;
 
-/* Read a session file, or "-", standard input, into *out; files of points are looked for in its folder. False with the
- * reason in *error; *out is then empty. Cost: O(size) in time; memory about ten times the size for points and never
- * beyond 100 times, plus what files of points and samples need. A file has at most 2 GiB. */
+/* Read a session file, or standard input if the path is "-", into *out. Relative paths of files of points start at the
+ * folder of the session file. False with the reason in *error; *out is then empty. A file has at most 2 GiB.
+ * Cost: O(size) time. Memory: about ten times the size of the file for points, at most 100 times for anything, plus the
+ * memory for files of points and samples. */
 bool session_read(const char *path, session_file *out, octreel_error *error);
 
-/* The same for text in memory. `name` is for errors; `folder` is where files of points are looked for, "" the current
- * one. Null: of a recording, which lists its points; other files and samples are refused, so that nothing but the text
- * is read, and decides about memory. */
+/* session_read() for text in memory. Errors call the text `name`. Relative paths of files of points start at `folder`,
+ * "" for the current folder. A null folder is for the session.json of a recording, which lists its points: files of
+ * points and samples are then refused, so that a text from a stranger cannot read other files or claim much memory. */
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
                    octreel_error *error);
 
-/* Copy a session with all of its arrays; its points have no values. False when there is no memory or a key is unknown;
- * *out is then empty. */
+/* Copy a session with all its arrays; the copy has no values of points. False if there is no memory or a key is
+ * unknown; *out is then empty. */
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error);
 
-/* Give the session a copy of these keys instead of its own. False when there is no memory or a key is unknown; the
- * session is then as it was. */
+/* Replace the keys of the session by a copy of `keys`. False if there is no memory or a key is unknown; the session is
+ * then unchanged. */
 bool session_set_keys(session_file *file, const char *keys, octreel_error *error);
 
-/* Free the arrays and empty the session; a zeroed one is allowed. */
+/* Free the arrays and zero the structure; a zeroed structure is allowed. */
 void session_release(session_file *file);
 
-/* Write the whole session inline, with the values of its points, which may be null, so that it plays anywhere: what is
- * read back is equal to the bit, and the same session makes the same bytes. The session must be one that a game
- * accepts, with ids below SESSION_ID_LIMIT, finite numbers and no tick beyond SESSION_LAST_TICK. The stream is flushed;
- * false on an I/O error. Cost: O(size). */
+/* Write the whole session with all its points, so that the file needs no other file. `values` are the values of the
+ * points; null for none. Reading the file restores every number to the bit, and equal sessions yield equal bytes. A
+ * game must accept the session; ids must be below SESSION_ID_LIMIT, numbers finite, and ticks at most
+ * SESSION_LAST_TICK. The stream is flushed. False on an I/O error. Cost: O(size). */
 bool session_write(const octree_session *session, const point_values *values, FILE *out);
 
-/* Copies that own their memory, to be released: the lists of ids of a query, and a program's tree. False where there is
- * no memory: what is there is then still to be released. */
+/* Replace the lists of ids of a query, or the nodes of a foreign tree, by copies that the caller releases. False if
+ * there is no memory; the caller then still releases the copies that were made. */
 bool query_copy_ids(octree_query *query);
 void query_release_ids(octree_query *query);
 bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to);
 void foreign_tree_release(octree_foreign_tree *tree);
 
-/* The ticks of a session whose end is not known yet: its header says nothing of them. */
+/* The number of ticks of a session whose end is not known yet; its header is written without "ticks". */
 #define SESSION_ENDLESS UINT64_MAX
 
-/* The parts of that, for a session that is being made: its header, and the object of one tick; nothing for a tick in
- * which nothing happens. Errors stay with the stream. */
+/* Write a session piece by piece while it is made: its header, and the object of one tick; nothing for a tick in which
+ * nothing happens. The caller checks the stream for errors. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out);
 void session_write_tick(uint64_t tick, const octree_input *input, const point_values *values, FILE *out);
 

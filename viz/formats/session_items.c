@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* session_items.c - edits, queries and shapes: lists of objects of one kind among several, each with a member that
- * bears its kind's name. */
+/* session_items.c - reads and writes lists of edits, queries and shapes. Each object of such a list has a member with
+ * the name of its kind, such as "insert". */
 #include "array.h"
 #include "session_members.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_OF_A_KIND (12 + OCTREE_QUERY_MEMBERS)
+#define MOST_MEMBERS (12 + OCTREE_QUERY_MEMBERS)
 
-/* What a list is of. */
+/* The type of a list's items. */
 struct session_items {
-    int list;          /* of the loader's */
-    const char *words; /* "a list of edits" */
+    int list;          /* index in session_loader.lists */
+    const char *words; /* for errors: "a list of edits" */
     json_name *kinds;
-    void (*members)(int kind, json_member table[MOST_OF_A_KIND]); /* of one kind, the named one first */
-    size_t size, tick, kind;                                      /* of an item; and where its tick and kind are */
+    void (*members)(int kind, json_member table[MOST_MEMBERS]); /* fill the table of a kind, the naming member first */
+    size_t size, tick, kind; /* the size of an item, and the offsets of its tick and kind */
 };
 
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
@@ -37,7 +37,7 @@ static const char *edit_name(int n)
     return (size_t)n < sizeof edit_members / sizeof edit_members[0] ? edit_members[n].name : NULL;
 }
 
-static void list_edit_members(int kind, json_member table[MOST_OF_A_KIND])
+static void list_edit_members(int kind, json_member table[MOST_MEMBERS])
 {
     table[0] = edit_members[kind];
 }
@@ -49,13 +49,13 @@ static bool is_player(const json_t *value)
     return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
 }
 
-/* The player, who must be somebody. */
+/* Read "player" in place of a position. The session must have a player. */
 static bool read_player(json_reader *r, const json_place *at, octree_query *query)
 {
     const session_loader *s = r->context;
     query->at_player = true;
     return s->header.session.player.kind != OCTREE_PLAYER_NONE ||
-           json_fail(r, at, "there is no player: the session's \"player\" is null");
+           json_fail(r, at, "the session has no player: its \"player\" is null");
 }
 
 static bool read_target(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -87,7 +87,7 @@ static bool is_at_player(const void *from)
     return ((const octree_query *)from)->at_player;
 }
 
-/* Points to leave out: an id, or the word for those at the target. */
+/* "skip" is an id, or this word for all points exactly at the target. */
 static const char coincident[] = "coincident";
 
 static bool read_skip(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -97,7 +97,7 @@ static bool read_skip(json_reader *r, json_t *value, const json_place *at, void 
     const bool has_target = octree_query_about(query->kind)->members & OCTREE_QUERY_HAS_TARGET;
     query->skip = by_place ? OCTREE_SKIP_COINCIDENT : OCTREE_SKIP_ID;
     if (by_place)
-        return has_target || json_fail(r, at, "a %s has no place to be coincident with; \"skip\" takes an id",
+        return has_target || json_fail(r, at, "a %s has no target, so \"skip\" cannot be \"coincident\"; give an id",
                                        octree_query_about(query->kind)->region);
     if (json_is_string(value))
         return json_expected(r, value, at, has_target ? "an id or \"coincident\"" : "an id");
@@ -134,7 +134,7 @@ bool session_read_ids(json_reader *r, json_t *value, const json_place *at, const
     return true;
 }
 
-/* The ids that a program answered. The session owns them. */
+/* Read the ids that the foreign index answered. The session owns them. */
 static bool read_answer(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
@@ -142,23 +142,23 @@ static bool read_answer(json_reader *r, json_t *value, const json_place *at, voi
     return session_read_ids(r, value, at, &query->answer, &query->answer_count);
 }
 
-/* The ids of the nodes that the program met. */
-static bool read_met(json_reader *r, json_t *value, const json_place *at, void *into)
+/* Read the ids of the nodes that the foreign index visited, pruned or hit. */
+static bool read_visits(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    octree_ids *met = into;
-    return session_read_ids(r, value, at, &met->ids, &met->count);
+    octree_ids *visit = into;
+    return session_read_ids(r, value, at, &visit->ids, &visit->count);
 }
 
-static void write_met(json_writer *w, const void *from)
+static void write_visits(json_writer *w, const void *from)
 {
-    const octree_ids *met = from;
+    const octree_ids *visit = from;
     json_write_begin_array(w);
-    for (size_t i = 0; i < met->count; i++)
-        json_write_integer(w, met->ids[i]);
+    for (size_t i = 0; i < visit->count; i++)
+        json_write_integer(w, visit->ids[i]);
     json_write_end_array(w);
 }
 
-static bool has_met(const void *from)
+static bool has_visits(const void *from)
 {
     return ((const octree_ids *)from)->count > 0;
 }
@@ -182,17 +182,17 @@ static const char *precision_name(int n)
     return octree_precision_name((octree_precision)n);
 }
 
-static bool is_promised(const octree_query *query)
+static bool uses_precision(const octree_query *query)
 {
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
-/* Read after the answer and the nodes that were pruned, of which it speaks. */
+/* Read the mode. "answer" and "pruned" come before it in the table, so they have been read. */
 static bool read_mode(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    if (!is_promised(query))
-        return json_fail(r, at, "\"mode\" is what an \"answer\" promises, and there is none");
+    if (!uses_precision(query))
+        return json_fail(r, at, "\"mode\" needs an \"answer\" or \"pruned\", and this query has neither");
     return json_choice.read(r, value, at, &query->precision);
 }
 
@@ -204,7 +204,7 @@ static void write_mode(json_writer *w, const void *from)
 static bool has_mode(const void *from)
 {
     const octree_query *query = from;
-    return is_promised(query) && query->precision != OCTREE_DOUBLES;
+    return uses_precision(query) && query->precision != OCTREE_DOUBLES;
 }
 
 static bool is_above_zero(const void *from)
@@ -217,7 +217,7 @@ static const char *query_name(int n)
     return octree_query_name((octree_query_kind)n);
 }
 
-/* How a member of a kind is read and written. The target may also be the player. */
+/* Make the row of a query's member. A target may also be "player". */
 static json_member query_member(const octree_query_member_traits *member)
 {
     static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_box,
@@ -235,22 +235,23 @@ static json_member query_member(const octree_query_member_traits *member)
 
 static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target, is_at_player), .offset = 0};
 
-/* Of every kind. */
+/* The members of every kind of query. */
 static const json_member skip_member = {"skip", JSON_CODEC(read_skip, write_skip, has_skip), .max = JSON_LARGEST_WHOLE};
 static const json_member epsilon_member = {"epsilon", JSON_CODEC(json_read_positive, json_write_double, is_above_zero),
                                            .offset = offsetof(octree_query, epsilon)};
 
 static const json_member answer_member = {"answer", JSON_CODEC(read_answer, write_answer, is_answered), .offset = 0};
-#define MET(name, how)                                                                                                 \
+#define VISITS(name, how)                                                                                              \
     {                                                                                                                  \
-        name, JSON_CODEC(read_met, write_met, has_met), .offset = offsetof(octree_query, visits[how])                  \
+        name, JSON_CODEC(read_visits, write_visits, has_visits), .offset = offsetof(octree_query, visits[how])         \
     }
-static const json_member met_members[OCTREE_NODE_VISITS] = {
-    MET("visited", OCTREE_NODE_VISITED), MET("pruned", OCTREE_NODE_PRUNED), MET("hit", OCTREE_NODE_HIT)};
+static const json_member visit_members[OCTREE_NODE_VISITS] = {
+    VISITS("visited", OCTREE_NODE_VISITED), VISITS("pruned", OCTREE_NODE_PRUNED), VISITS("hit", OCTREE_NODE_HIT)};
 static const json_member mode_member = {"mode", JSON_CODEC(read_mode, write_mode, has_mode), .names = precision_name};
 
-/* The members that the kind reads, by its traits. A box without a target can be relative to the player. */
-static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
+/* Fill the table with the members of a kind of query, as its traits list them. A box without a target can be relative
+ * to the player. */
+static void list_query_members(int kind, json_member table[MOST_MEMBERS])
 {
     const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
     size_t count = 1;
@@ -268,8 +269,8 @@ static void list_query_members(int kind, json_member table[MOST_OF_A_KIND])
     table[count++] = skip_member;
     table[count++] = epsilon_member;
     table[count++] = answer_member;
-    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
-        table[count++] = met_members[met];
+    for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
+        table[count++] = visit_members[visit];
     table[count] = mode_member;
 }
 
@@ -283,7 +284,7 @@ bool session_read_text(json_reader *r, json_t *value, const json_place *at, cons
     const size_t length = strlen(text);
     for (size_t i = 0; i < length; i++)
         if (text[i] < ' ' || text[i] > '~')
-            return json_fail(r, at, "%s is of printable ASCII characters, and byte %zu is none", what, i + 1);
+            return json_fail(r, at, "%s must be printable ASCII, and byte %zu is not", what, i + 1);
     if (length >= room)
         return json_fail(r, at, "%s has at most %zu characters, not %zu", what, room - 1, length);
     memcpy(into, text, length + 1);
@@ -316,7 +317,7 @@ static bool read_segment(json_reader *r, json_t *value, const json_place *at, vo
 {
     octree_shape *shape = into;
     if (json_array_size(value) != 2)
-        return json_expected(r, value, at, "two places [[x, y, z], [x, y, z]]");
+        return json_expected(r, value, at, "two positions [[x, y, z], [x, y, z]]");
     return json_read_vector(r, json_array_get(value, 0), &(json_place){at, NULL, 0}, shape->at) &&
            json_read_vector(r, json_array_get(value, 1), &(json_place){at, NULL, 1}, shape->to);
 }
@@ -340,7 +341,7 @@ static void write_text(json_writer *w, const void *from)
     json_write_string(w, from);
 }
 
-/* The named member of each kind, and what else it has. */
+/* The members of each kind of shape, the naming member first. */
 static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
     [OCTREE_SHAPE_BOX] = {{"box", JSON_CODEC(read_shape_box, write_shape_box, NULL), .required = true}},
     [OCTREE_SHAPE_SEGMENT] = {{"segment", JSON_CODEC(read_segment, write_segment, NULL), .required = true}},
@@ -355,12 +356,12 @@ static const char *shape_name(int n)
     return octree_shape_name((octree_shape_kind)n);
 }
 
-static void list_shape_members(int kind, json_member table[MOST_OF_A_KIND])
+static void list_shape_members(int kind, json_member table[MOST_MEMBERS])
 {
     memcpy(table, shape_members[kind], sizeof shape_members[kind]);
 }
 
-/* ---- Lists of them ------------------------------------------------------------------------------------------ */
+/* ---- Lists -------------------------------------------------------------------------------------------------- */
 
 #define ITEM(type) sizeof(type), offsetof(type, tick), offsetof(type, kind)
 
@@ -374,7 +375,7 @@ void *session_append(json_reader *r, const json_place *at, session_list *list, s
 {
     void *items = array_reserve(list->items, list->count + 1, &list->room, item_size);
     if (!items) {
-        json_fail(r, at, "out of memory after %zu of them", list->count);
+        json_fail(r, at, "out of memory after %zu items", list->count);
         return NULL;
     }
     list->items = items;
@@ -386,7 +387,7 @@ static bool read_item(json_reader *r, json_t *value, const json_place *at, void 
     const session_items *type = into;
     session_loader *s = r->context;
     session_list *list = s->tick == OCTREE_EVERY_TICK ? &s->standing[type->list] : &s->lists[type->list];
-    json_member table[MOST_OF_A_KIND] = {0};
+    json_member table[MOST_MEMBERS] = {0};
     const int kind = json_read_kind(r, value, at, type->kinds);
     char *item = kind < 0 ? NULL : session_append(r, at, list, type->size);
     if (!item)
@@ -404,7 +405,7 @@ static bool read_items(json_reader *r, json_t *value, const json_place *at, void
     const session_items *type = r->row->about;
     (void)into;
     if (type->list == SESSION_EDITS && s->tick == 0)
-        return json_fail(r, at, "edits begin at tick 1; what is there at tick 0 are the header's points");
+        return json_fail(r, at, "edits are not allowed in tick 0; put these points into the header's \"points\"");
     return json_read_elements(r, value, at, type->words, read_item, (void *)type);
 }
 
@@ -415,7 +416,7 @@ static void write_items(json_writer *w, const void *from)
     json_write_begin_array(w);
     for (size_t i = 0; i < list.count; i++) {
         const char *item = (const char *)list.items + i * type->size;
-        json_member table[MOST_OF_A_KIND] = {0};
+        json_member table[MOST_MEMBERS] = {0};
         int kind;
         memcpy(&kind, item + type->kind, sizeof kind);
         type->members(kind, table);

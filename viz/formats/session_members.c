@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: MIT */
+/* session_members.c - the tables of the header and of the object of a tick, with the world, the tree, the player, keys,
+ * ticks and gaps. */
 #include "octree/octree.h"
 #include "session_members.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-static session_loader *loader_of(const json_reader *r)
+static session_loader *get_loader(const json_reader *r)
 {
     return r->context;
 }
 
 /* ---- World and tree ----------------------------------------------------------------------------------------- */
 
-static double box_size_of(double step)
+static double default_box_size(double step)
 {
     return 0.6 * step;
 }
 
-/* Halves first: no world overflows. The sum of the halves, rounded as they may be, lies within any world. */
-static void place_player(octree_player *player, const octree_box *world)
+/* Put the player into the centre of the world. Halving before adding avoids overflow in any world, and the rounded sum
+ * of the halves still lies in the world. */
+static void set_default_player(octree_player *player, const octree_box *world)
 {
     double longest = 0;
     for (int i = 0; i < 3; i++) {
@@ -27,14 +30,14 @@ static void place_player(octree_player *player, const octree_box *world)
         player->position[i] = world->min[i] / 2 + world->max[i] / 2;
     }
     player->step = longest / 20;
-    player->box_size = box_size_of(player->step);
+    player->box_size = default_box_size(player->step);
 }
 
 void session_set_world(session_loader *s, const octree_box *world)
 {
     octree_session *session = &s->header.session;
     session->tree.world = *world;
-    place_player(&session->player, world);
+    set_default_player(&session->player, world);
 }
 
 static bool read_world(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -44,12 +47,12 @@ static bool read_world(json_reader *r, json_t *value, const json_place *at, void
         return false;
     for (int i = 0; i < 3; i++)
         if (world->min[i] == world->max[i])
-            return json_fail(r, at, "min must be below max on every axis, and is not on %c", "xyz"[i]);
-    place_player(&loader_of(r)->header.session.player, world);
+            return json_fail(r, at, "min must be below max on every axis, but is not on %c", "xyz"[i]);
+    set_default_player(&get_loader(r)->header.session.player, world);
     return true;
 }
 
-static const char *full_at(int n)
+static const char *full_leaf_name(int n)
 {
     static const char *const names[] = {[OCTREE_REFUSE] = "refuse", [OCTREE_GROW] = "grow"};
     return (size_t)n < sizeof names / sizeof names[0] ? names[n] : NULL;
@@ -58,7 +61,7 @@ static const char *full_at(int n)
 static const json_member tree_members[] = {
     {"capacity", &json_size, offsetof(octree_def, leaf_capacity), .min = 1, .max = UINT32_MAX},
     {"depth", &json_size, offsetof(octree_def, max_depth), .max = OCTREE_MAX_DEPTH},
-    {"full", &json_choice, offsetof(octree_def, full_leaf), .names = full_at},
+    {"full", &json_choice, offsetof(octree_def, full_leaf), .names = full_leaf_name},
     {0},
 };
 
@@ -66,9 +69,9 @@ static const json_member tree_members[] = {
 
 static bool read_position(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    const session_loader *s = loader_of(r);
+    const session_loader *s = get_loader(r);
     const octree_box *world = &s->header.session.tree.world;
-    const char *whose = s->points.count > 0 ? " of the session's points" : "";
+    const char *whose = s->points.count > 0 ? " that was computed from the points" : "";
     const double *position = into;
     if (!json_read_vector(r, value, at, into))
         return false;
@@ -78,13 +81,13 @@ static bool read_position(json_reader *r, json_t *value, const json_place *at, v
     return true;
 }
 
-/* The box follows the step, unless its size is given too. */
+/* Read the step, and set the default box size that follows from it; "box_size" is read later. */
 static bool read_step(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    octree_player *player = &loader_of(r)->header.session.player;
+    octree_player *player = &get_loader(r)->header.session.player;
     if (!json_read_positive(r, value, at, into))
         return false;
-    player->box_size = box_size_of(player->step);
+    player->box_size = default_box_size(player->step);
     return true;
 }
 
@@ -113,7 +116,7 @@ static bool is_body(const void *from)
 #define BOX_SIZE "box_size", &json_positive, .offset = offsetof(octree_player, box_size)
 #define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep)
 
-/* Where a body is, and how far it goes, is said by the point with its id. */
+/* A player that is a body has no position and step: it is the point with its id. */
 static const json_member body_player_members[] = {{ID}, {BODY}, {BOX_SIZE}, {SWEEP}, {0}};
 static const json_member player_members[] = {
     {ID},
@@ -182,7 +185,7 @@ static bool has_keys(const void *from)
 
 static bool read_ticks(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    loader_of(r)->ends = true;
+    get_loader(r)->ends = true;
     return json_read_uint64(r, value, at, into);
 }
 
@@ -191,36 +194,37 @@ static bool has_end(const void *from)
     return *(const uint64_t *)from != SESSION_ENDLESS;
 }
 
-static bool is_cut(const void *from)
+static bool has_unplayed(const void *from)
 {
     return *(const uint64_t *)from > 0;
 }
 
-/* The most ticks from one object to the next: all between are played, and filmed, for what is more likely a wrong
- * number. */
-#define MOST_BETWEEN 1000000
+/* The most ticks from one object to the next. All ticks between them are played and filmed, and a greater distance is
+ * more likely a wrong number. */
+#define MOST_TICKS_BETWEEN 1000000
 
-/* Whether the session comes as far as that otherwise: by its keys, or since it says so. */
-static bool is_far(const session_loader *s, uint64_t tick)
+/* Whether a tick is too far behind the last object. It is not if the session reaches it anyway, by "keys" or "ticks".
+ */
+static bool is_too_far(const session_loader *s, uint64_t tick)
 {
     const char *keys = s->header.session.keys;
     const uint64_t last = s->tick == OCTREE_EVERY_TICK ? 0 : s->tick;
-    return !s->ends && tick > last && tick - last > MOST_BETWEEN && tick > (keys ? strlen(keys) : 0);
+    return !s->ends && tick > last && tick - last > MOST_TICKS_BETWEEN && tick > (keys ? strlen(keys) : 0);
 }
 
 static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    session_loader *s = loader_of(r);
+    session_loader *s = get_loader(r);
     uint64_t *tick = into;
     if (!json_read_uint64(r, value, at, tick))
         return false;
     if (s->tick != OCTREE_EVERY_TICK && *tick <= s->tick)
-        return json_fail(r, at, "tick %" PRIu64 " comes after tick %" PRIu64 "; ticks must ascend", *tick, s->tick);
-    if (is_far(s, *tick))
+        return json_fail(r, at, "tick %" PRIu64 " follows tick %" PRIu64 "; ticks must ascend", *tick, s->tick);
+    if (is_too_far(s, *tick))
         return json_fail(r, at,
-                         "tick %" PRIu64 " is more than %d ticks behind the object before it, and all between them "
-                         "would be played; where that is meant, give the header \"ticks\"",
-                         *tick, MOST_BETWEEN);
+                         "tick %" PRIu64 " is more than %d ticks after the object before it, and all ticks between "
+                         "them would be played; if this is intended, add \"ticks\" to the header",
+                         *tick, MOST_TICKS_BETWEEN);
     s->tick = *tick;
     if (!s->ends)
         s->header.session.ticks = *tick;
@@ -231,13 +235,13 @@ static bool read_number(json_reader *r, json_t *value, const json_place *at, voi
 
 static bool read_gap(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    session_loader *s = loader_of(r);
+    session_loader *s = get_loader(r);
     octree_gap gap = {.tick = s->tick};
     (void)into;
     if (!session_read_text(r, value, at, "the reason of a gap", sizeof gap.why, gap.why))
         return false;
     if (!*gap.why)
-        return json_fail(r, at, "a gap has a reason, and this one is empty");
+        return json_fail(r, at, "the reason of a gap must not be empty");
     octree_gap *added = session_append(r, at, &s->lists[SESSION_GAPS], sizeof gap);
     if (added)
         *added = gap;
@@ -260,13 +264,13 @@ octree_session session_default_header(void)
 {
     octree_session session = {.tree = octree_def_default()};
     session.tree.leaf_capacity = 8;
-    place_player(&session.player, &session.tree.world);
+    set_default_player(&session.player, &session.tree.world);
     return session;
 }
 
 #define HEADER(where) .offset = offsetof(session_header, where), .line = true
 
-/* Positions need the world, points the player, and velocities the points. */
+/* In the order of reading: the player needs the world, points need the player, and velocities need the points. */
 const json_member session_header_members[] = {
     {"octreel", &json_constant, .required = true, .about = "session"},
     {"version", &json_version, .required = true, .max = 2, .about = "session",
@@ -276,7 +280,7 @@ const json_member session_header_members[] = {
     {"player", JSON_CODEC(read_player, write_player, NULL), HEADER(session.player)},
     {"keys", JSON_CODEC(read_keys, write_keys, has_keys), HEADER(session.keys)},
     {"ticks", JSON_CODEC(read_ticks, json_write_uint64, has_end), HEADER(session.ticks), .max = SESSION_LAST_TICK},
-    {"unplayed", JSON_CODEC(json_read_uint64, json_write_uint64, is_cut), HEADER(session.unplayed),
+    {"unplayed", JSON_CODEC(json_read_uint64, json_write_uint64, has_unplayed), HEADER(session.unplayed),
      .max = SESSION_LAST_TICK},
     {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
     {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_members.h - the members of a session file, one row each, by which they are read and written. Private to
- * session_*.c.
- */
+/* session_members.h - tables of the members of a session file: each row reads and writes one member. Private to the
+ * files session_*.c. */
 #ifndef FORMATS_SESSION_MEMBERS_H
 #define FORMATS_SESSION_MEMBERS_H
 
@@ -16,122 +15,124 @@ typedef struct session_list {
     size_t count, room;
 } session_list;
 
-/* The first object of a file. Queries and shapes of every tick come last in a session's arrays, but first in its file.
+/* The first object of a file. Queries and shapes of every tick are last in a session's arrays, but first in its file.
  */
 typedef struct session_header {
     octree_session session;     /* without edits, and without the queries and shapes of single ticks */
     octree_input standing;      /* queries and shapes of every tick */
-    const point_values *values; /* to be written; may be null */
+    const point_values *values; /* the values to write; null for none */
 } session_header;
 
-/* Each of the others: what happens in one tick. */
+/* The object of a tick. */
 typedef struct session_tick {
     uint64_t tick;
     octree_input input;
 } session_tick;
 
-/* The lists of a session: those whose objects are of one kind among several, the gaps, and the nodes of programs. */
+/* The lists of a session. */
 enum { SESSION_EDITS, SESSION_QUERIES, SESSION_SHAPES, SESSION_GAPS, SESSION_FOREIGN, SESSION_LISTS };
 
 /* The values of points while a session is read. */
 typedef struct session_values {
-    point_values made;   /* of a file of points; at the end of all */
-    point_entry *listed; /* of points in the session itself, in its order */
+    point_values made;   /* the values of a file of points; session_end_values() adds those of `listed` */
+    point_entry *listed; /* the values that the session itself states, in its order */
     size_t room;
-    hash_map ids;    /* of those */
-    uint64_t *plain; /* of points that edits inserted without values */
+    hash_map ids;    /* the ids of `listed` */
+    uint64_t *plain; /* the ids of points that edits inserted without values */
     size_t plain_room;
-    hash_map plain_ids, body_ids;   /* of those; of the bodies, which are looked up when an edit gives values */
-    int columns[POINT_VALUE_KINDS]; /* a point_value_kind each: what rows of points have after the id */
+    hash_map plain_ids, body_ids;   /* the ids of `plain`, and those of the bodies: to check edits with values */
+    int columns[POINT_VALUE_KINDS]; /* the point_value_kind of each column after the id in rows of points */
     size_t column_count;
 } session_values;
 
-/* A session that is being read: the context of its json_reader. */
+/* The state of reading a session; the context of its json_reader. */
 typedef struct session_loader {
-    const char *folder;    /* of files of points; null: neither those nor samples are read */
-    session_header header; /* its queries and shapes are in the lists below */
-    uint64_t tick;         /* of the object at hand; OCTREE_EVERY_TICK in the header */
-    bool ends;             /* the header says after how many ticks */
-    cloud points;          /* of the file that the header names, where it was needed before its turn */
+    const char *folder;    /* where paths of files of points start; null: files and samples are refused */
+    session_header header; /* without queries and shapes, which are in the lists below */
+    uint64_t tick;         /* of the object that is being read; OCTREE_EVERY_TICK in the header */
+    bool ends;             /* the header has "ticks" */
+    cloud points;          /* the file of points, if the world had to be computed from it */
     char note[512];        /* for session_file.note */
     session_values values;
-    octree_body *bodies;                                        /* header.session.body_count of them */
-    session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* of single ticks; of every tick */
+    octree_body *bodies;                                        /* header.session.body_count elements */
+    session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* items of single ticks; items of the header */
 } session_loader;
 
-/* The objects of a file: its header, and one of a tick. What they hold goes to the loader. */
+/* Read the header, or the object of a tick, into the loader. */
 json_object_reader session_read_header, session_read_tick;
 
-/* False, with an error, where what is left to read is no text, or too long a one. */
+/* Check that the rest of the input is text of at most 2 GiB. False with an error if not. */
 bool session_check_text(json_reader *r);
 
-/* Append the standing queries and shapes to the lists: what is of every tick comes last in a session, though it is the
- * first in its file. */
+/* Add the header's queries, shapes and foreign nodes to the lists of single ticks: in a session, queries and shapes of
+ * every tick come last. */
 bool session_append_standing(json_reader *r);
 
-/* The session of the header, with these lists; all of it is still the loader's. */
+/* Make a session of the header and the lists. The loader keeps the ownership of all arrays. */
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS]);
 
-/* Empty lists, and free what they hold; the other frees them, too. */
+/* Remove all items of the lists and free their memory; session_release_lists() also frees the arrays. */
 void session_clear_lists(session_list lists[SESSION_LISTS]);
 void session_release_lists(session_list lists[SESSION_LISTS]);
 
-/* The tables of both. */
+/* The members of the header, and of the object of a tick. */
 extern const json_member session_header_members[], session_tick_members[];
 
-/* What the members that are left out stand for. */
+/* The header with the default of every member. */
 octree_session session_default_header(void);
 
-/* A list of such objects, by row->about; it stands in an octree_input. */
+/* Lists of edits, queries or shapes; row->about is the type. The codec's value is in an octree_input. */
 typedef struct session_items session_items;
 extern const session_items session_edits, session_queries, session_shapes;
 extern const json_codec session_items_codec;
 
-/* Give the session a world, and its player the place and step that follow from it. */
+/* Set the world of the session, and the default position and step of the player in it. */
 void session_set_world(session_loader *s, const octree_box *world);
 
-/* Where a header names no world but a file of points, read that and take the world of its points. */
-bool session_take_world(json_reader *r, json_t *header);
+/* If the header has no "world" but a file of points, read the file and compute the world from its points. */
+bool session_read_file_world(json_reader *r, json_t *header);
 
-/* The foreign nodes from a tick on; it stands in an octree_input. */
+/* The foreign nodes from a tick on. The codec's value is in an octree_input. */
 extern const json_codec session_nodes_codec;
 
-/* Points, in a list, a file or a sample; and velocities by id, which are never written: bodies have theirs. */
+/* Points as a list, a file or a sample; and velocities by id, which are only read: writing puts them into the points.
+ */
 extern const json_codec session_points_codec, session_velocities_codec;
 
-/* octree_sampled: what points that are listed were, where they were a sample. */
+/* The members of "sampled" (octree_sampled): how listed points and velocities were generated. */
 extern const json_member session_sampled_members[];
 
-/* A body: id, position, velocity and values. Of an edit that inserts it the id is required. */
+/* A body: id, position, velocity and values. In an edit that inserts it, the id is required. */
 extern const json_member session_body_members[];
 extern const json_codec session_body_codec, session_insert_codec;
 
-/* Names of values: what the rows of points have. */
+/* The names of the columns that rows of points have after the id. */
 extern const json_codec session_columns_codec;
 
-/* Read a value of a row of points; null is none. */
+/* Read one value of a row of points; JSON null means a missing value. */
 bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into);
 
-/* The values of a point that is written, as the columns of its row. */
+/* Write the values of a point as the columns of its row. */
 void session_write_columns(json_writer *w, uint64_t id);
 
-/* Keep the values of an id. False where it was given others. */
-bool session_keep_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
+/* Set the values of an id. False with an error if the id already has other values. */
+bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
 
-/* Put the values that were listed into s->values.made: at the end, or after each object of a stream. */
+/* Move the listed values into s->values.made. Called at the end of a file, or after each object of a stream. */
 bool session_end_values(json_reader *r);
 void session_release_listed(session_values *values);
 
-/* False with the reason when the game does not know a key. */
+/* Check that the game knows every key. False with the reason if not. */
 bool session_check_keys(const char *keys, octreel_error *error);
 
-/* Read printable ASCII into so many bytes, its final zero included; `what` is for errors, such as "a label". */
+/* Read printable ASCII text into a buffer of `room` bytes, which includes the final zero. Errors call it `what`, such
+ * as "a label". */
 bool session_read_text(json_reader *r, json_t *value, const json_place *at, const char *what, size_t room, char *into);
 
 /* Read a list of ids into a new array, to be freed with free(). */
 bool session_read_ids(json_reader *r, json_t *value, const json_place *at, const uint64_t **ids, size_t *count);
 
-/* Room for one more item; null with an error when there is no memory. */
+/* Add an item to a list and return it, not initialized; null with an error if there is no memory. */
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* session_nodes.c - the foreign nodes, from a tick on. */
+/* session_nodes.c - reads, writes, copies and frees the foreign nodes of a session. */
 #include "octree/octree.h"
 #include "session_members.h"
 
@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Sets that own their memory: one block with the ids of their points --------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------------------------------- */
 
-/* Room for so many nodes with so many ids of points after them; null also for none. */
-static octree_foreign_node *make_room(size_t nodes, size_t ids)
+/* Allocate one block for nodes and, after them, the ids of their points. Null also for 0 nodes. */
+static octree_foreign_node *allocate_nodes(size_t nodes, size_t ids)
 {
     const size_t most = SIZE_MAX / 2 / sizeof(octree_foreign_node);
     return nodes && nodes < most && ids < most ? calloc(1, nodes * sizeof(octree_foreign_node) + ids * sizeof(uint64_t))
@@ -24,7 +24,7 @@ bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to)
     size_t ids = 0;
     for (size_t i = 0; i < count; i++)
         ids += source[i].has_points ? source[i].points.count : 0;
-    octree_foreign_node *nodes = make_room(count, ids);
+    octree_foreign_node *nodes = allocate_nodes(count, ids);
     uint64_t *room = nodes ? (uint64_t *)(nodes + count) : NULL;
     *to = (octree_foreign_tree){.tick = from->tick, .nodes = nodes, .node_count = nodes ? count : 0};
     for (size_t i = 0; nodes && i < count; i++) {
@@ -46,7 +46,7 @@ void foreign_tree_release(octree_foreign_tree *tree)
 
 /* ---- One node ----------------------------------------------------------------------------------------------- */
 
-/* The room is where the set has it. */
+/* Read the ids into the block of the tree, to which points->ids already points. */
 static bool read_points(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_ids *points = into;
@@ -90,20 +90,20 @@ static const char *precision_name(int n)
 }
 
 #define IN_NODE(member) .offset = offsetof(octree_foreign_node, member)
-#define WHERE(flag) .given = offsetof(octree_foreign_node, flag)
+#define GIVEN(flag) .given = offsetof(octree_foreign_node, flag)
 
 static const json_member node_members[] = {
     {"id", &json_uint64, IN_NODE(id), .required = true, .max = JSON_LARGEST_WHOLE},
-    {"parent", &json_uint64, IN_NODE(parent), WHERE(has_parent), .max = JSON_LARGEST_WHOLE},
+    {"parent", &json_uint64, IN_NODE(parent), GIVEN(has_parent), .max = JSON_LARGEST_WHOLE},
     {"box", &json_box, IN_NODE(box), .required = true},
-    {"depth", &json_int, IN_NODE(depth), WHERE(has_depth), .max = INT32_MAX},
-    {"points", JSON_CODEC(read_points, write_points, NULL), IN_NODE(points), WHERE(has_points)},
+    {"depth", &json_int, IN_NODE(depth), GIVEN(has_depth), .max = INT32_MAX},
+    {"points", JSON_CODEC(read_points, write_points, NULL), IN_NODE(points), GIVEN(has_points)},
     {"kind", JSON_CODEC(read_kind, write_kind, has_kind), IN_NODE(kind)},
     {"mode", &json_later_choice, IN_NODE(precision), .names = precision_name},
     {0},
 };
 
-/* ---- The set of a tick -------------------------------------------------------------------------------------- */
+/* ---- The nodes of a tick ------------------------------------------------------------------------------------ */
 
 static size_t count_ids(const json_t *nodes)
 {
@@ -113,29 +113,29 @@ static size_t count_ids(const json_t *nodes)
     return ids;
 }
 
-/* Say which node makes it no tree, and why. */
+/* Check that the nodes form trees. False with an error that names the wrong node. */
 static bool check_tree(json_reader *r, const octree_foreign_tree *tree, const json_place *at)
 {
-    size_t fault;
-    const octree_status status = octree_foreign_check(tree, &fault);
+    size_t wrong;
+    const octree_status status = octree_foreign_check(tree, &wrong);
     if (status == OCTREE_OK)
         return true;
-    const octree_foreign_node *node = &tree->nodes[fault];
-    const json_place place = {at, NULL, fault};
+    const octree_foreign_node *node = &tree->nodes[wrong];
+    const json_place place = {at, NULL, wrong};
     if (status == OCTREE_DUPLICATE)
-        return json_fail(r, &place, "the id %" PRIu64 " is taken by another node", node->id);
+        return json_fail(r, &place, "id %" PRIu64 " already belongs to another node", node->id);
     if (status == OCTREE_NOT_FOUND)
-        return json_fail(r, &place, "node %" PRIu64 " has the parent %" PRIu64 ", which is no node here", node->id,
-                         node->parent);
+        return json_fail(r, &place, "the parent of node %" PRIu64 " is %" PRIu64 ", but this list has no such node",
+                         node->id, node->parent);
     if (status == OCTREE_BAD_PARENT)
         return json_fail(r, &place, "node %" PRIu64 " is its own ancestor", node->id);
     return json_fail(r, &place, "%s", octree_status_text(status));
 }
 
-static bool read_into(json_reader *r, json_t *value, const json_place *at, octree_foreign_tree *tree)
+static bool read_tree(json_reader *r, json_t *value, const json_place *at, octree_foreign_tree *tree)
 {
     const size_t count = json_array_size(value);
-    octree_foreign_node *nodes = make_room(count, count_ids(value));
+    octree_foreign_node *nodes = allocate_nodes(count, count_ids(value));
     uint64_t *room = nodes ? (uint64_t *)(nodes + count) : NULL;
     if (count && !nodes)
         return json_fail(r, at, "out of memory for %zu nodes", count);
@@ -150,7 +150,7 @@ static bool read_into(json_reader *r, json_t *value, const json_place *at, octre
     return check_tree(r, tree, at);
 }
 
-/* Those of the header are in force from tick 0 on. */
+/* Read the nodes of the header, which apply from tick 0 on, or of a tick. */
 static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = r->context;
@@ -160,12 +160,12 @@ static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void
     if (!json_is_array(value))
         return json_expected(r, value, at, "a list of nodes");
     if (s->tick == 0 && s->standing[SESSION_FOREIGN].count > 0)
-        return json_fail(r, at, "the header has the nodes of tick 0 already");
+        return json_fail(r, at, "the header already has the nodes of tick 0");
     octree_foreign_tree *tree = session_append(r, at, list, sizeof *tree);
     if (!tree)
         return false;
     *tree = (octree_foreign_tree){.tick = header ? 0 : s->tick};
-    return read_into(r, value, at, tree);
+    return read_tree(r, value, at, tree);
 }
 
 static void write_nodes(json_writer *w, const void *from)
@@ -177,7 +177,7 @@ static void write_nodes(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* What is in force from tick 0 on is written in that tick. */
+/* Nodes that apply from tick 0 on are written in the object of tick 0, not in the header. */
 static bool has_nodes(const void *from)
 {
     return *(const octree_foreign_tree *const *)from;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_points.c - the points of a session file: listed, from a file of points, or a sample; and velocities by id. */
+/* session_points.c - reads and writes the points of a session: a list, a file of points or a sample; and their
+ * velocities. */
 #include "cloud.h"
 #include "file.h"
 #include "hash_map.h"
@@ -14,21 +15,21 @@
 
 static const hash_map_keys by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
 
-/* Whether no point may have the id of the player. */
-static bool is_apart(const octree_player *player)
+/* Whether the player is separate from the session's points; then no point may have its id. */
+static bool is_separate(const octree_player *player)
 {
     return player->kind == OCTREE_PLAYER_KEYS;
 }
 
-/* The id of a point that is given none: its place counted from 1, passing over the player's id. */
+/* The default id of a point: its index counted from 1, and one more from the player's id on. */
 static uint64_t default_id(const session_loader *s, size_t place)
 {
     const octree_player *player = &s->header.session.player;
     const uint64_t id = (uint64_t)place + 1;
-    return is_apart(player) && player->id != 0 && id >= player->id ? id + 1 : id;
+    return is_separate(player) && player->id != 0 && id >= player->id ? id + 1 : id;
 }
 
-/* Make room for all points. */
+/* Allocate the bodies of all points. */
 static bool make_bodies(json_reader *r, const json_place *at, size_t count)
 {
     session_loader *s = r->context;
@@ -41,7 +42,7 @@ static bool make_bodies(json_reader *r, const json_place *at, size_t count)
 
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
-/* [x, y, z], [x, y, z, id] or that and the columns. */
+/* Read [x, y, z] or [x, y, z, id], which values may follow, one for each column. */
 static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
 {
     const session_values *values = &((const session_loader *)r->context)->values;
@@ -49,8 +50,9 @@ static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_b
     point_value value = {0};
     if (size != 3 && size != 4 && (values->column_count == 0 || size != 4 + values->column_count))
         return json_expected(r, row, at,
-                             values->column_count ? "a point [x, y, z], [x, y, z, id] or that and all of \"columns\""
-                                                  : "a point [x, y, z] or [x, y, z, id]");
+                             values->column_count
+                                 ? "a point [x, y, z], [x, y, z, id], or this with a value for each of \"columns\""
+                                 : "a point [x, y, z] or [x, y, z, id]");
     if (!json_read_numbers(r, row, at, 0, 3, body->position) ||
         (size > 3 &&
          !json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id)))
@@ -59,7 +61,7 @@ static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_b
         if (!session_read_column(r, json_array_get(row, i), &(json_place){at, NULL, i},
                                  (point_value_kind)values->columns[i - 4], &value))
             return false;
-    return session_keep_value(r, at, body->id, &value);
+    return session_set_value(r, at, body->id, &value);
 }
 
 static bool read_point(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -74,7 +76,7 @@ static bool read_point(json_reader *r, json_t *value, const json_place *at, void
     return json_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
 }
 
-/* Add the bodies to a map by their ids. False with an error where two have one, or one has the player's. */
+/* Add the bodies to a map by their ids. False with an error if two have the same id, or one has the player's. */
 static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
 {
     const session_loader *s = r->context;
@@ -87,14 +89,14 @@ static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
         const json_place place = {at, NULL, i};
         const uint32_t first = hash_map_find(map, &by_id, s->bodies, id);
         if (first != HASH_MAP_NONE)
-            return json_fail(r, &place, "id %" PRIu64 " is taken by points[%" PRIu32 "] in line %zu", *id, first,
+            return json_fail(r, &place, "id %" PRIu64 " already belongs to points[%" PRIu32 "] in line %zu", *id, first,
                              json_line(r, &(json_place){at, NULL, first}));
         hash_map_add(map, &by_id, s->bodies); /* there is room */
     }
-    if (is_apart(player))
+    if (is_separate(player))
         clash = hash_map_find(map, &by_id, s->bodies, &player->id);
     return clash == HASH_MAP_NONE ||
-           json_fail(r, &(json_place){at, NULL, clash}, "id %" PRIu64 " is the player's", player->id);
+           json_fail(r, &(json_place){at, NULL, clash}, "id %" PRIu64 " already belongs to the player", player->id);
 }
 
 static bool read_list(json_reader *r, json_t *list, const json_place *at)
@@ -108,9 +110,9 @@ static bool read_list(json_reader *r, json_t *list, const json_place *at)
     return done;
 }
 
-/* ---- Positions from elsewhere ------------------------------------------------------------------------------- */
+/* ---- Files of points and samples ---------------------------------------------------------------------------- */
 
-/* The points of a cloud; their places are those of its file. */
+/* Make bodies of the points of a cloud. Default ids count the rows of its file. */
 static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
 {
     session_loader *s = r->context;
@@ -123,7 +125,7 @@ static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
     return true;
 }
 
-/* The path of a file that the session names; the caller frees it. One of the name "-" is a file. */
+/* The path of a file that the session names; the caller frees it. "-" is a file here, not standard input. */
 static char *path_in_folder(const char *folder, const char *file)
 {
     if (!*folder && file_is_standard(file))
@@ -146,20 +148,21 @@ static void note_values(session_loader *s, const char *name)
         snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, columns, *columns && *beyond ? "; " : "", beyond);
 }
 
-/* What a recording's text names would be read, or made, by whoever looks at it. */
-static bool check_elsewhere(json_reader *r, const json_place *at)
+/* Refuse files and samples in a recording: they would be read or generated by anyone who opens the recording. */
+static bool check_not_recording(json_reader *r, const json_place *at)
 {
     const session_loader *s = r->context;
-    return s->folder || json_fail(r, at, "a recording lists its points, and names no others");
+    return s->folder ||
+           json_fail(r, at, "the session of a recording must list its points; files and samples are not allowed");
 }
 
-/* Read it, unless that is done. */
+/* Read the file of points into the loader, unless it was read for the world. */
 static bool load_file(json_reader *r, const json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
     if (s->points.count > 0)
         return true;
-    if (!check_elsewhere(r, at))
+    if (!check_not_recording(r, at))
         return false;
     char *path = path_in_folder(s->folder, json_string_value(value));
     if (!path)
@@ -180,14 +183,15 @@ static bool is_file_name(const json_t *value)
     return json_is_string(value) && json_string_length(value) > 0;
 }
 
-/* The values of the file are those of its ids: of row 0 and on the ids from 1 on, but for the player's. */
-static bool take_values(json_reader *r, const json_place *at)
+/* Use the values of the file for the default ids of its rows: row 0 has the id 1, and the player's id is skipped. */
+static bool set_file_values(json_reader *r, const json_place *at)
 {
     session_loader *s = r->context;
     point_values *values = &s->points.values;
     const octree_player *player = &s->header.session.player;
     const uint64_t place = player->id - 1; /* in rows */
-    if (is_apart(player) && player->id != 0 && place < values->count && !point_values_open_row(values, (size_t)place))
+    if (is_separate(player) && player->id != 0 && place < values->count &&
+        !point_values_open_row(values, (size_t)place))
         return json_fail(r, at, "out of memory for %zu points", s->points.count);
     values->first = 1;
     s->values.made = *values;
@@ -201,14 +205,14 @@ static bool read_file(json_reader *r, json_t *value, const json_place *at, void 
     (void)into;
     if (!is_file_name(value))
         return json_expected(r, value, at, "the name of a file");
-    const bool done = load_file(r, value, at) && copy_points(r, at, &s->points) && take_values(r, at);
+    const bool done = load_file(r, value, at) && copy_points(r, at, &s->points) && set_file_values(r, at);
     cloud_release(&s->points);
     return done;
 }
 
-/* The player needs the world, and points need the player: so the file is read before its turn. What is not as it should
- * be is found at its turn. */
-bool session_take_world(json_reader *r, json_t *header)
+/* The player needs the world, and "points" is read after the player, so the file of points is read early. Mistakes in
+ * "points" are reported later, when the member is read. */
+bool session_read_file_world(json_reader *r, json_t *header)
 {
     session_loader *s = r->context;
     const json_t *wanted = json_object_get(header, "points"), *file = json_object_get(wanted, "file");
@@ -222,7 +226,7 @@ bool session_take_world(json_reader *r, json_t *header)
     return true;
 }
 
-static const char *sample_at(int n)
+static const char *sample_name(int n)
 {
     return octree_sample_name((octree_sample_kind)n);
 }
@@ -230,7 +234,7 @@ static const char *sample_at(int n)
 #define SAMPLED(field) offsetof(octree_sampled, field)
 
 static const json_member sample_members[] = {
-    {"sample", &json_choice, SAMPLED(points.kind), .required = true, .names = sample_at},
+    {"sample", &json_choice, SAMPLED(points.kind), .required = true, .names = sample_name},
     {"count", &json_uint64, SAMPLED(points.count), .required = true, .max = SESSION_MOST_SAMPLES},
     {"seed", &json_uint64, SAMPLED(points.seed), .max = JSON_LARGEST_WHOLE},
     {0},
@@ -252,7 +256,7 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
     octree_sampled wanted = {.points.seed = 1, .by_points = true, .known = true};
-    if (!check_elsewhere(r, at) || !json_read_members(r, value, at, sample_members, &wanted))
+    if (!check_not_recording(r, at) || !json_read_members(r, value, at, sample_members, &wanted))
         return false;
     s->header.session.sampled = wanted;
     const size_t count = (size_t)wanted.points.count;
@@ -267,7 +271,7 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
     return done;
 }
 
-/* ---- All of them -------------------------------------------------------------------------------------------- */
+/* ---- Points ------------------------------------------------------------------------------------------------- */
 
 static const json_member file_members[] = {
     {"file", JSON_CODEC(read_file, NULL, NULL), .required = true},
@@ -317,17 +321,17 @@ const json_codec session_points_codec = {read_points, write_points, NULL};
 
 /* ---- Velocities --------------------------------------------------------------------------------------------- */
 
-/* The points by id, and which of them has been given its velocity. */
-typedef struct receivers {
+/* The points by id, and whether each has been given a velocity. */
+typedef struct velocity_targets {
     hash_map ids;
     bool *given;
-} receivers;
+} velocity_targets;
 
 /* [id, vx, vy, vz] */
 static bool read_velocity(json_reader *r, json_t *row, const json_place *at, void *into)
 {
     const session_loader *s = r->context;
-    const receivers *points = into;
+    const velocity_targets *points = into;
     uint64_t id;
     if (json_array_size(row) != 4)
         return json_expected(r, row, at, "[id, vx, vy, vz]");
@@ -337,7 +341,7 @@ static bool read_velocity(json_reader *r, json_t *row, const json_place *at, voi
     if (place == HASH_MAP_NONE)
         return json_fail(r, at, "no point has the id %" PRIu64, id);
     if (points->given[place])
-        return json_fail(r, at, "the point with the id %" PRIu64 " was given a velocity before", id);
+        return json_fail(r, at, "the point with the id %" PRIu64 " already has a velocity in this list", id);
     points->given[place] = true;
     return json_read_numbers(r, row, at, 1, 3, s->bodies[place].velocity);
 }
@@ -346,7 +350,7 @@ static bool read_velocity_list(json_reader *r, json_t *list, const json_place *a
 {
     const session_loader *s = r->context;
     const size_t count = s->header.session.body_count;
-    receivers points = {.given = calloc(count > 0 ? count : 1, sizeof *points.given)};
+    velocity_targets points = {.given = calloc(count > 0 ? count : 1, sizeof *points.given)};
     const bool done = (points.given || json_fail(r, at, "out of memory for %zu points", count)) &&
                       map_ids(r, at, &points.ids) &&
                       json_read_elements(r, list, at, "a list of velocities", read_velocity, &points);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* session_stream.c - reads a session from a file descriptor, one object at a time. */
 #include "session_stream.h"
 #include "json_stream.h"
 #include "octree/octree.h"
@@ -13,9 +14,9 @@ struct session_stream {
     json_reader reader;
     session_loader loader;
     octree_session start;
-    session_stream_state first; /* what came after the header */
-    bool is_ahead;              /* that, and an object with it, is still to be given */
-    octreel_error why;          /* where it is broken */
+    session_stream_state first; /* the state after the object that follows the header */
+    bool is_ahead;              /* session_stream_next() still has to return `first` and its object */
+    octreel_error why;          /* the error of `first`, if it is SESSION_STREAM_BROKEN */
 };
 
 session_stream *session_stream_open(int file, const char *name, bool (*keep_going)(void *context), void *context)
@@ -65,7 +66,7 @@ static session_stream_state read_object(session_stream *s, json_object_reader *r
     }
 }
 
-static octree_input input_of(const session_loader *s)
+static octree_input make_input(const session_loader *s)
 {
     const octree_session all = session_assemble(s, s->lists);
     return (octree_input){.edits = all.edits,
@@ -78,7 +79,7 @@ static octree_input input_of(const session_loader *s)
                           .foreign = all.foreign_count ? all.foreign : NULL};
 }
 
-/* What no game takes is refused before it is played, and so with its line. */
+/* Check the object here and not only in the game, because only here the line is known. */
 static session_stream_state read_tick(session_stream *s, octreel_error *error)
 {
     const size_t line = s->reader.line;
@@ -86,7 +87,7 @@ static session_stream_state read_tick(session_stream *s, octreel_error *error)
     const session_stream_state state = read_object(s, session_read_tick, error);
     if (state != SESSION_STREAM_TICK)
         return state;
-    const octree_input input = input_of(&s->loader);
+    const octree_input input = make_input(&s->loader);
     const octree_status status = octree_input_check(&input);
     if (status == OCTREE_OK)
         return state;
@@ -105,7 +106,7 @@ static bool set_keys(session_stream *s, const char *keys, octreel_error *error)
     return done;
 }
 
-static bool make_start(session_stream *s)
+static bool set_start(session_stream *s)
 {
     session_loader *l = &s->loader;
     const bool has_own = s->first == SESSION_STREAM_TICK && l->tick == 0;
@@ -129,7 +130,7 @@ session_stream_state session_stream_begin(session_stream *s, const char *keys, o
         return SESSION_STREAM_BROKEN;
     s->first = read_tick(s, &s->why);
     s->reader.error = error;
-    return make_start(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
+    return set_start(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
 }
 
 const octree_session *session_stream_start(const session_stream *s)
@@ -147,7 +148,7 @@ const char *session_stream_note(const session_stream *s)
     return s->loader.note;
 }
 
-/* ---- The others --------------------------------------------------------------------------------------------- */
+/* ---- Further ticks ------------------------------------------------------------------------------------------ */
 
 session_stream_state session_stream_next(session_stream *s, session_stream_tick *tick, octreel_error *error)
 {
@@ -158,7 +159,7 @@ session_stream_state session_stream_next(session_stream *s, session_stream_tick 
         *error = s->why;
     s->is_ahead = false;
     if (state == SESSION_STREAM_TICK)
-        *tick = (session_stream_tick){s->loader.tick, input_of(&s->loader)};
+        *tick = (session_stream_tick){s->loader.tick, make_input(&s->loader)};
     return state;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_values.c - the values of points in a session file, beside their positions: as members of a point's object or
- * as further columns of its row. */
+/* session_values.c - reads and writes the colour, intensity and class of points: as members of a point's object, or as
+ * columns of its row. */
 #include "array.h"
 #include "number.h"
 #include "session_members.h"
@@ -15,7 +15,7 @@
 static const char *const kind_names[] = {
     [POINT_COLOR] = "color", [POINT_INTENSITY] = "intensity", [POINT_CLASS] = "class"};
 
-static int hex_of(char c)
+static int hex_digit(char c)
 {
     const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c) : NULL;
     return at ? (int)(at - digits) : -1;
@@ -27,7 +27,7 @@ static bool read_color(json_reader *r, json_t *value, const json_place *at, void
     unsigned char *color = into;
     bool ok = text && strlen(text) == 7 && *text == '#';
     for (int i = 0; ok && i < 3; i++) {
-        const int high = hex_of(text[1 + 2 * i]), low = hex_of(text[2 + 2 * i]);
+        const int high = hex_digit(text[1 + 2 * i]), low = hex_digit(text[2 + 2 * i]);
         ok = high >= 0 && low >= 0;
         color[i] = (unsigned char)(ok ? high * 16 + low : 0);
     }
@@ -49,7 +49,7 @@ static bool read_intensity(json_reader *r, json_t *value, const json_place *at, 
     if (!json_read_number(r, value, at, &number))
         return false;
     if (fabs(number) > FLT_MAX)
-        return json_fail(r, at, "an intensity is a float, and this is beyond the largest");
+        return json_fail(r, at, "the intensity does not fit into a float");
     *intensity = (float)number;
     return true;
 }
@@ -74,19 +74,19 @@ static void write_class(json_writer *w, const void *from)
     json_write_integer(w, *(const uint16_t *)from);
 }
 
-/* ---- By id -------------------------------------------------------------------------------------------------- */
+/* ---- Values by id ------------------------------------------------------------------------------------------- */
 
 static const hash_map_keys listed_by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_same_id};
 static const hash_map_keys plain_by_id = {sizeof(uint64_t), hash_map_hash_id, hash_map_same_id};
 static const hash_map_keys bodies_by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
 
-static point_value value_of(const session_values *s, uint64_t id)
+static point_value find_value(const session_values *s, uint64_t id)
 {
     const uint32_t listed = hash_map_find(&s->ids, &listed_by_id, s->listed, &id);
     return listed == HASH_MAP_NONE ? point_values_get(&s->made, id) : s->listed[listed].value;
 }
 
-static bool append(session_values *s, uint64_t id, const point_value *value)
+static bool add_listed(session_values *s, uint64_t id, const point_value *value)
 {
     point_entry *listed = array_reserve(s->listed, s->ids.count + 1, &s->room, sizeof *listed);
     if (!listed)
@@ -96,23 +96,23 @@ static bool append(session_values *s, uint64_t id, const point_value *value)
     return hash_map_add(&s->ids, &listed_by_id, listed);
 }
 
-bool session_keep_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
+bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
 {
     session_values *s = &((session_loader *)r->context)->values;
     if (!point_value_is_set(value))
         return true;
-    const point_value before = value_of(s, id);
+    const point_value before = find_value(s, id);
     if (!point_value_is_set(&before))
-        return append(s, id, value) || json_fail(r, at, "out of memory");
+        return add_listed(s, id, value) || json_fail(r, at, "out of memory");
     return point_value_same(&before, value) ||
            json_fail(r, at,
-                     "the point with the id %" PRIu64 " had another color, intensity or class before, and an id keeps "
-                     "its own through a session",
+                     "the point with the id %" PRIu64 " had another color, intensity or class before; an id keeps its "
+                     "values through the session",
                      id);
 }
 
-/* Keep the id of a point without values. */
-static bool keep_plain(session_values *s, uint64_t id)
+/* Note the id of a point that was inserted without values. */
+static bool note_plain(session_values *s, uint64_t id)
 {
     if (hash_map_find(&s->plain_ids, &plain_by_id, s->plain, &id) != HASH_MAP_NONE)
         return true;
@@ -137,26 +137,27 @@ static bool map_bodies(session_loader *s)
     return true;
 }
 
-/* A point that was there without values keeps none: who films a session while it is written shows each tick before the
- * next is known, and what is read later must not change it. */
-static bool keep_inserted(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
+/* Set the values of an inserted point. An id that occurred without values cannot have any later: a session that is
+ * filmed while it is written shows a tick before the next one is read, and a later tick must not change it. */
+static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
 {
     session_loader *s = r->context;
     session_values *values = &s->values;
-    const point_value before = value_of(values, id);
+    const point_value before = find_value(values, id);
     if (point_value_is_set(&before))
-        return session_keep_value(r, at, id, value);
+        return session_set_value(r, at, id, value);
     if (!point_value_is_set(value))
-        return keep_plain(values, id) || json_fail(r, at, "out of memory");
+        return note_plain(values, id) || json_fail(r, at, "out of memory");
     if (!map_bodies(s))
         return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
     if (hash_map_find(&values->body_ids, &bodies_by_id, s->bodies, &id) != HASH_MAP_NONE ||
         hash_map_find(&values->plain_ids, &plain_by_id, values->plain, &id) != HASH_MAP_NONE)
         return json_fail(r, at,
-                         "the point with the id %" PRIu64 " had no color, intensity or class before, and an id keeps "
-                         "none through a session; insert it with another id",
+                         "the point with the id %" PRIu64
+                         " had no color, intensity or class before, so it cannot have any "
+                         "now; insert the point with another id",
                          id);
-    return session_keep_value(r, at, id, value);
+    return session_set_value(r, at, id, value);
 }
 
 bool session_end_values(json_reader *r)
@@ -179,9 +180,9 @@ void session_release_listed(session_values *values)
     hash_map_release(&values->body_ids);
 }
 
-/* ---- Points that are objects -------------------------------------------------------------------------------- */
+/* ---- Points as objects -------------------------------------------------------------------------------------- */
 
-/* A point as its members are read and written. */
+/* A point with its values, as its JSON object has them. */
 typedef struct valued_body {
     octree_body body;
     point_value value;
@@ -208,7 +209,7 @@ static bool read_body(json_reader *r, json_t *value, const json_place *at, void 
     if (!json_read_members(r, value, at, session_body_members, &valued))
         return false;
     *body = valued.body;
-    return session_keep_value(r, at, body->id, &valued.value);
+    return session_set_value(r, at, body->id, &valued.value);
 }
 
 static bool read_insert(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -218,7 +219,7 @@ static bool read_insert(json_reader *r, json_t *value, const json_place *at, voi
     if (!json_read_members(r, value, at, insert_members, &valued))
         return false;
     *body = valued.body;
-    return keep_inserted(r, at, body->id, &valued.value);
+    return set_inserted_value(r, at, body->id, &valued.value);
 }
 
 static void write_body(json_writer *w, const void *from)
@@ -231,9 +232,9 @@ static void write_body(json_writer *w, const void *from)
 const json_codec session_body_codec = {read_body, write_body, NULL};
 const json_codec session_insert_codec = {read_insert, write_body, NULL};
 
-/* ---- Points that are rows ----------------------------------------------------------------------------------- */
+/* ---- Points as rows ----------------------------------------------------------------------------------------- */
 
-static const char *kind_at(int n)
+static const char *kind_name(int n)
 {
     return n < POINT_VALUE_KINDS ? kind_names[n] : NULL;
 }
@@ -249,11 +250,11 @@ static bool read_columns(json_reader *r, json_t *list, const json_place *at, voi
     for (size_t i = 0; i < count; i++) {
         json_t *name = json_array_get(list, i);
         const json_place place = {at, NULL, i};
-        const int kind = json_find_name(kind_at, json_string_value(name));
+        const int kind = json_find_name(kind_name, json_string_value(name));
         if (kind < 0)
             return json_expected(r, name, &place, "one of \"color\", \"intensity\" and \"class\"");
         if (seen >> kind & 1)
-            return json_fail(r, &place, "\"%s\" is there twice", kind_names[kind]);
+            return json_fail(r, &place, "\"%s\" occurs twice", kind_names[kind]);
         seen |= 1U << kind;
         values->columns[values->column_count++] = kind;
     }
@@ -293,7 +294,7 @@ bool session_read_column(json_reader *r, json_t *value, const json_place *at, po
     }
 }
 
-/* A row without any is short. */
+/* A point without values has a short row. */
 void session_write_columns(json_writer *w, uint64_t id)
 {
     const unsigned kinds = point_values_kinds(w->context);

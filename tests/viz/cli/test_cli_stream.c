@@ -138,14 +138,14 @@ static void what_came_before_broken_text_is_whole(void **state)
     BROKEN("", "", "standard input:1: holds no session");
     BROKEN("", "\nhello\n" MOVE(1), "standard input:2: '{' expected near 'hello'");
     BROKEN("", "{\"octreel\":\"session\",", "standard input:1: the text stops in the middle of the object");
-    BROKEN(HEADER, "{\"tick\":0,\"edits\":[]}\n", "standard input:2: edits: edits begin at tick 1");
+    BROKEN(HEADER, "{\"tick\":0,\"edits\":[]}\n", "standard input:2: edits: edits are not allowed in tick 0");
     BROKEN(HEADER MOVE(1), "{\"tick\":2,\"ed",
            "standard input:3: the text stops in the middle of the object that begins");
     BROKEN(HEADER MOVE(1), "segmentation fault\n", "standard input:3: '{' expected near 'segmentation'");
     BROKEN(HEADER MOVE(1), "{\"tick\":2\n" MOVE(3), "standard input:4: '}' expected near '{'");
     BROKEN(HEADER MOVE(1), "{\"tick\":2,\"edits\":[{\"move\":{\"id\":1,\"position\":[1,2]}}]}\n" MOVE(3),
            "standard input:3: edits[0].move.position: expected three numbers");
-    BROKEN(HEADER MOVE(1), MOVE(1), "standard input:3: tick: tick 1 comes after tick 1; ticks must ascend");
+    BROKEN(HEADER MOVE(1), MOVE(1), "standard input:3: tick: tick 1 follows tick 1; ticks must ascend");
     BROKEN(HEADER MOVE(2) MOVE(4), "{\"tick\":9,\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1,\"x\"]}]}\n",
            "standard input:4: queries[0].answer[1]: expected a whole number");
 }

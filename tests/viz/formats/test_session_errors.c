@@ -64,8 +64,8 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
         {"\n \n", "3: holds no session"},
         {"hello", "1: '{' expected near 'hello'"},
         {"[1]", "1: expected an object, found a list of 1"},
-        {"{}", "1: is no session: the first object has no \"octreel\": \"session\""},
-        {"\n{\"tick\":0}", "2: is no session: "},
+        {"{}", "1: is not a session: the first object has no \"octreel\": \"session\""},
+        {"\n{\"tick\":0}", "2: is not a session: "},
         {HEADER, "2: string or '}' expected near end of file"},
         {HEADER "\"keys\":\"ww", "2: premature end of input near '\"ww'"},
         {HEADER "\"points\":[[1,2,3],\n", "3: ']' expected near end of file"},
@@ -74,7 +74,7 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
         {HEADER "\"ticks\":1}\n\n x", "4: '{' expected near 'x'"},
         {HEADER "\"ticks\":1}\n}", "3: '{' expected near '}'"},
         {HEADER "\"ticks\":1}\n[]", "3: expected an object, found a list of 0"},
-        {HEADER "\"ticks\":1}\n" HEADER "\"ticks\":1}", "3: a second header; what follows the first are objects"},
+        {HEADER "\"ticks\":1}\n" HEADER "\"ticks\":1}", "3: this is a second header; only objects of ticks may follow"},
         {HEADER "\"keys\":\"\\u0000\"}", "2: a text cannot hold \\u0000 near '"},
         {HEADER "\"keys\":\"\xff\"}", "2: unable to decode byte 0xff"},
         {HEADER "\x1b[31m", "2: string or '}' expected near '?'"},
@@ -105,10 +105,10 @@ static void answers_that_are_no_ids_are_refused(void **state)
          "3: edits[0]: unknown member \"answer\""},
         {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1],\"mode\":\"half\"}]}", "2: queries[0].mode: "},
         {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"mode\":\"float\"}]}",
-         "2: queries[0].mode: \"mode\" is what an \"answer\" promises, and there is none"},
+         "2: queries[0].mode: \"mode\" needs an \"answer\" or \"pruned\", and this query has neither"},
         {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"answer\":[1]}]}\n{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0],"
                 "\"answer\":[1]}]}\n{\"tick\":1}",
-         "4: tick: tick 1 comes after tick 1"},
+         "4: tick: tick 1 follows tick 1"},
     };
     (void)state;
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
@@ -118,7 +118,7 @@ static void nul_bytes_are_refused(void **state)
 {
     static const char text[] = HEADER "\"ticks\":1}\n\0\n";
     (void)state;
-    assert_refuses(text, sizeof text - 1, "3: holds a NUL byte, so it is no text");
+    assert_refuses(text, sizeof text - 1, "3: holds a NUL byte, so it is not text");
 }
 
 static void shapes_that_are_none_are_refused(void **state)
@@ -133,19 +133,19 @@ static void shapes_that_are_none_are_refused(void **state)
          "\"point\" and \"label\" together"},
         {HEADER "\"shapes\":[{\"point\":[1,2]}]}", "2: shapes[0].point: expected"},
         {HEADER "\"shapes\":[{\"segment\":[1,2,3]}]}",
-         "2: shapes[0].segment: expected two places [[x, y, z], [x, y, z]], found a list of 3"},
+         "2: shapes[0].segment: expected two positions [[x, y, z], [x, y, z]], found a list of 3"},
         {HEADER "\"shapes\":[{\"box\":{\"min\":[0,0,5],\"max\":[0,0,4]}}]}", "2: shapes[0].box: min is above max on z"},
         {HEADER "\"shapes\":[{\"label\":\"a\"}]}", "2: shapes[0]: the member \"at\" is missing"},
         {HEADER "\"shapes\":[{\"label\":5,\"at\":[0,0,0]}]}", "2: shapes[0].label: expected a text, found 5"},
         {HEADER "\"shapes\":[{\"label\":\"\\u00e9\",\"at\":[0,0,0]}]}",
-         "2: shapes[0].label: a label is of printable ASCII characters, and byte 1 is none"},
+         "2: shapes[0].label: a label must be printable ASCII, and byte 1 is not"},
         {HEADER "\"shapes\":[{\"label\":\"a\\tb\",\"at\":[0,0,0]}]}",
-         "2: shapes[0].label: a label is of printable ASCII characters, and byte 2 is none"},
+         "2: shapes[0].label: a label must be printable ASCII, and byte 2 is not"},
         {HEADER "\"shapes\":[{\"segment\":[[0,0,0],[1,2]]}]}",
          "2: shapes[0].segment[1]: expected three numbers [x, y, z], found a list of 2"},
         {HEADER "\"shapes\":[{\"segment\":[[0,\"0\",0],[1,2,3]]}]}",
          "2: shapes[0].segment[0][1]: expected a number, found \"0\""},
-        {HEADER "\"shapes\":[{\"segment\":5}]}", "2: shapes[0].segment: expected two places"},
+        {HEADER "\"shapes\":[{\"segment\":5}]}", "2: shapes[0].segment: expected two positions"},
         {HEADER "\"shapes\":[{\"label\":\"12345678901234567890123456789012345678901234567\",\"at\":[0,0,0]}]}",
          "2: shapes[0].label: a label has at most 46 characters, not 47"},
     };
@@ -188,7 +188,8 @@ static void header_with_bad_members_is_refused(void **state)
                                                       "which this Octreel reads; use a newer Octreel"},
         {"{\"octreel\":\"session\",\n\"version\":3, \"wind\": 3}", "2: version: session version"},
         {"{\"octreel\":\"session\",\"version\":1,\"nodes\":[]}",
-         "1: version: session version 1 is not supported; rename \"nodes\" to \"foreign_nodes\" and set \"version\": 2"},
+         "1: version: session version 1 is not supported; rename \"nodes\" to \"foreign_nodes\" and set \"version\": "
+         "2"},
         {"{\"octreel\":\"session\",\"version\":0}", "1: version: expected a whole number from 1"},
         {"{\"octreel\":\"session\",\"version\":1.5}", "1: version: expected a whole number from 1"},
         {HEADER "\"keyz\":1}",
@@ -200,7 +201,7 @@ static void header_with_bad_members_is_refused(void **state)
         {HEADER "\"world\":{\"min\":[0,0,0],\n\"max\":[1,2]}}", "3: world.max: expected three numbers [x, y, z], "
                                                                 "found a list of 2"},
         {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,null,2]}}", "2: world.max[1]: expected a number, found null"},
-        {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,0,2]}}", "2: world: min must be below max on every axis, and "
+        {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,0,2]}}", "2: world: min must be below max on every axis, but "
                                                                 "is not on y"},
         {HEADER "\"world\":{\"min\":[0,0,0],\"max\":[1,\n1e999,2]}}", "3: real number overflow near '1e999'"},
         {HEADER "\"tree\":{\"capacity\":0}}",
@@ -258,10 +259,11 @@ static void bad_points_are_refused(void **state)
          "3: points[0].velocity: expected three numbers "
          "[x, y, z], found 5"},
         {HEADER "\"points\":[[1,2,3,9],\n[1,2,3,8],\n[4,5,6,9],\n[4,5,6,8]]}",
-         "4: points[2]: id 9 is taken by points[0] "
+         "4: points[2]: id 9 already belongs to points[0] "
          "in line 2"},
-        {HEADER "\"points\":[[1,2,3,2],\n[1,2,3]]}", "3: points[1]: id 2 is taken by points[0] in line 2"},
-        {HEADER "\"player\":{\"id\":6},\"points\":[[1,2,3],\n[1,2,3,6]]}", "3: points[1]: id 6 is the player's"},
+        {HEADER "\"points\":[[1,2,3,2],\n[1,2,3]]}", "3: points[1]: id 2 already belongs to points[0] in line 2"},
+        {HEADER "\"player\":{\"id\":6},\"points\":[[1,2,3],\n[1,2,3,6]]}",
+         "3: points[1]: id 6 already belongs to the player"},
         {HEADER "\"points\":{\"sample\":\"odd\",\"count\":1}}", "2: points.sample: expected one of uniform, gaussian, "
                                                                 "clustered, surface, lattice, found \"odd\""},
         {HEADER "\"points\":{\"sample\":\"uniform\"}}", "2: points: the member \"count\" is missing"},
@@ -284,7 +286,7 @@ static void bad_points_are_refused(void **state)
         {HEADER "\"velocities\":[[1,0,0,0]]}", "2: velocities[0]: no point has the id 1"},
         {HEADER "\"points\":[[1,2,3]],\"velocities\":[[1,0,0,0],\n[1,0,0,0]]}",
          "3: velocities[1]: the point with the id "
-         "1 was given a velocity before"},
+         "1 already has a velocity in this list"},
         {HEADER "\"points\":[[1,2,3]],\"velocities\":[[1,0,0]]}",
          "2: velocities[0]: expected [id, vx, vy, vz], found a "
          "list of 3"},
@@ -302,19 +304,20 @@ static void bad_ticks_are_refused(void **state)
 {
     static const refusal rows[] = {
         {START "{\"tick\":3,\"gap\":7}", "3: gap: expected a text, found 7"},
-        {START "{\"tick\":3,\"gap\":\"\"}", "3: gap: a gap has a reason, and this one is empty"},
-        {START "{\"tick\":3,\"gap\":\"\\n\"}", "3: gap: the reason of a gap is of printable ASCII characters"},
-        {START "{\"tick\":3,\"gap\":\"x\",\"queries\":[]}", "3: a tick that is a gap has nothing else"},
+        {START "{\"tick\":3,\"gap\":\"\"}", "3: gap: the reason of a gap must not be empty"},
+        {START "{\"tick\":3,\"gap\":\"\\n\"}", "3: gap: the reason of a gap must be printable ASCII"},
+        {START "{\"tick\":3,\"gap\":\"x\",\"queries\":[]}",
+         "3: a tick with \"gap\" must have no other member but \"tick\""},
         {START "{}", "3: the member \"tick\" is missing"},
-        {START "{\"tick\":1}\n{\"tick\":1}", "4: tick: tick 1 comes after tick 1; ticks must ascend"},
+        {START "{\"tick\":1}\n{\"tick\":1}", "4: tick: tick 1 follows tick 1; ticks must ascend"},
         {HEADER "\"points\":[]}\n{\"tick\":1000001}",
-         "3: tick: tick 1000001 is more than 1000000 ticks behind the object before it"},
+         "3: tick: tick 1000001 is more than 1000000 ticks after the object before it"},
         {HEADER "\"points\":[]}\n{\"tick\":3}{\"tick\":1000004}",
-         "3: tick: tick 1000004 is more than 1000000 ticks behind"},
-        {START "{\"tick\":4}{\"tick\":\n3}", "4: tick: tick 3 comes after tick 4; ticks must ascend"},
+         "3: tick: tick 1000004 is more than 1000000 ticks after"},
+        {START "{\"tick\":4}{\"tick\":\n3}", "4: tick: tick 3 follows tick 4; ticks must ascend"},
         {START "{\"tick\":1000000001}", "3: tick: expected a whole number from 0 to 1000000000"},
         {START "{\"tick\":1,\"points\":[]}", "3: unknown member \"points\"; known: tick, edits, queries, shapes"},
-        {START "{\"tick\":0,\"edits\":[{\"remove\":1}]}", "3: edits: edits begin at tick 1"},
+        {START "{\"tick\":0,\"edits\":[{\"remove\":1}]}", "3: edits: edits are not allowed in tick 0"},
         {START "{\"tick\":1,\"edits\":{\"remove\":1}}", "3: edits: expected a list of edits, found an object"},
         {START "{\"tick\":1,\"edits\":[\n{}]}",
          "4: edits[0]: expected {\"insert\": ...}, {\"remove\": ...} or {\"move\": ...}"},
@@ -349,7 +352,7 @@ static void bad_ticks_are_refused(void **state)
         {HEADER "\"queries\":[{\"nearest\":[0,0,0],\"skip\":\"me\"}]}",
          "2: queries[0].skip: expected an id or \"coincident\", found \"me\""},
         {HEADER "\"queries\":[{\"range\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"skip\":\"coincident\"}]}",
-         "2: queries[0].skip: a box has no place to be coincident with; \"skip\" takes an id"},
+         "2: queries[0].skip: a box has no target, so \"skip\" cannot be \"coincident\"; give an id"},
         {HEADER "\"queries\":[{\"radius\":8,\"at\":\"player\",\"epsilon\":-0.5}]}",
          "2: queries[0].epsilon: expected a number that is not negative, found -0.5"},
         {HEADER "\"queries\":[{\"knearest\":8}]}", "2: queries[0]: the member \"at\" is missing"},
@@ -358,10 +361,10 @@ static void bad_ticks_are_refused(void **state)
         {HEADER "\"queries\":[{\"radius\":-1,\"at\":\"player\"}]}",
          "2: queries[0].radius: expected a number that is not negative, found -1"},
         {HEADER "\"queries\":[{\"knearest\":8,\n\"at\":\"player\"}],\"player\":null}",
-         "3: queries[0].at: there is no player: the session's \"player\" is null"},
+         "3: queries[0].at: the session has no player: its \"player\" is null"},
         {HEADER "\"player\":null}\n{\"tick\":1,\"queries\":[{\"range\":{\"min\":[0,0,0],\"max\":[1,1,1]},"
                 "\"at\":\"player\"}]}",
-         "3: queries[0].at: there is no player"},
+         "3: queries[0].at: the session has no player"},
         {HEADER "\"queries\":[{\"radius\":5}]}", "2: queries[0]: the member \"at\" is missing"},
         {HEADER "\"queries\":[{\"radius\":5,\"at\":[1,2]}]}",
          "2: queries[0].at: expected three numbers [x, y, z], found a list of 2"},

@@ -86,14 +86,14 @@ static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
     assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":5}]}",
                    "s.json:2: foreign_nodes[0]: the member \"box\" is missing");
     assert_refuses(HEADER ",\"foreign_nodes\":[" ROOT ",\n" ROOT "]}",
-                   "s.json:3: foreign_nodes[1]: the id 9 is taken by another node");
+                   "s.json:3: foreign_nodes[1]: id 9 already belongs to another node");
     assert_refuses(HEADER "}\n{\"tick\":1,\"foreign_nodes\":[" LEAF("") "]}",
-                   "s.json:3: foreign_nodes[0]: node 4 has the parent 9, which is no node here");
+                   "s.json:3: foreign_nodes[0]: the parent of node 4 is 9, but this list has no such node");
     assert_refuses(HEADER ",\"foreign_nodes\":[{\"id\":1,\"parent\":2,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}},\n"
                           "{\"id\":2,\"parent\":1,\"box\":{\"min\":[0,0,0],\"max\":[0,0,0]}}]}",
                    "s.json:2: foreign_nodes[0]: node 1 is its own ancestor");
     assert_refuses(HEADER ",\"foreign_nodes\":[]}\n{\"tick\":0,\"foreign_nodes\":[]}",
-                   "s.json:3: foreign_nodes: the header has the nodes of tick 0 already");
+                   "s.json:3: foreign_nodes: the header already has the nodes of tick 0");
     assert_refuses(
         HEADER ",\"foreign_nodes\":[" LEAF(",\"points\":[1,-1]") "]}",
         "s.json:2: foreign_nodes[0].points[1]: expected a whole number from 0 to 9007199254740991, found -1");

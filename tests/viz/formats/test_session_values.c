@@ -114,27 +114,28 @@ static void values_that_are_none_are_refused(void **state)
         {"\"points\": [{\"position\": [1,2,3], \"color\": \"#12345g\"}]}",
          "points[0].color: expected a colour \"#rrggbb\", found \"#12345g\""},
         {"\"points\": [{\"position\": [1,2,3], \"intensity\": 1e39}]}",
-         "points[0].intensity: an intensity is a float, and this is beyond the largest"},
+         "points[0].intensity: the intensity does not fit into a float"},
         {"\"points\": [{\"position\": [1,2,3], \"class\": 65536}]}",
          "points[0].class: expected a whole number from 0 to 65535, found 65536"},
         {"\"points\": [[1,2,3,4,\"#123456\"]]}",
          "points[0]: expected a point [x, y, z] or [x, y, z, id], found a list of 5"},
         {"\"columns\": [\"color\", \"class\"], \"points\": [[1,2,3,4,\"#123456\"]]}",
-         "points[0]: expected a point [x, y, z], [x, y, z, id] or that and all of \"columns\", found a list of 5"},
+         "points[0]: expected a point [x, y, z], [x, y, z, id] or this with a value for each of \"columns\", found a "
+         "list of 5"},
         {"\"columns\": [\"colour\"], \"points\": []}",
          "columns[0]: expected one of \"color\", \"intensity\" and \"class\", found \"colour\""},
         {"\"columns\": [], \"points\": []}",
          "columns: expected a list of \"color\", \"intensity\" and \"class\", found a list of 0"},
-        {"\"columns\": [\"class\", \"class\"], \"points\": []}", "columns[1]: \"class\" is there twice"},
+        {"\"columns\": [\"class\", \"class\"], \"points\": []}", "columns[1]: \"class\" occurs twice"},
         {"\"points\": [{\"id\": 1, \"position\": [1,2,3], \"class\": 3}]}\n"
          "{\"tick\": 1, \"edits\": [{\"remove\": 1}, {\"insert\": {\"id\": 1, \"position\": [1,2,3], \"class\": 4}}]}",
-         "edits[1].insert: the point with the id 1 had another color, intensity or class before, and an id keeps its "
-         "own through a session"},
+         "edits[1].insert: the point with the id 1 had another color, intensity or class before; an id keeps its "
+         "values through the session"},
         {"\"points\": [[1,2,3,7]]}\n"
          "{\"tick\": 1, \"edits\": [{\"remove\": 7}]}\n"
          "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 7, \"position\": [1,2,3], \"class\": 4}}]}",
-         "s.json:3: edits[0].insert: the point with the id 7 had no color, intensity or class before, and an id keeps "
-         "none through a session; insert it with another id"},
+         "s.json:3: edits[0].insert: the point with the id 7 had no color, intensity or class before, so it "
+         "cannot have any now; insert the point with another id"},
         {"\"points\": []}\n"
          "{\"tick\": 1, \"edits\": [{\"insert\": {\"id\": 7, \"position\": [1,2,3]}}]}\n"
          "{\"tick\": 2, \"edits\": [{\"remove\": 7}, "

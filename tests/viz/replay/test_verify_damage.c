@@ -112,7 +112,7 @@ static void points_from_elsewhere_are_refused(void **state)
             snprintf(text, sizeof text, "{\"octreel\": \"session\", \"version\": 2, %s\"points\": %s}\n",
                      world ? "\"world\": {\"min\": [0, 0, 0], \"max\": [9, 9, 9]}, " : "", points[i]);
             file_write_text(place_below(folder.path, "session.json").path, text);
-            assert_not_verified(&folder, "a recording lists its points, and names no others");
+            assert_not_verified(&folder, "the session of a recording must list its points");
         }
 }
 
