@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recording_file.c - the view in recording.json: what is written is read back, and what is none is refused. */
+/* test_recording_file.c - recording.json restores the view that was written, and invalid files are refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

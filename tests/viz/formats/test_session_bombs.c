@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_bombs.c - no session and no recording.json takes more memory than session_file.h says for its size,
- * whatever it announces. */
+/* test_session_bombs.c - reading a session or a recording.json takes at most 100 times its size in memory, whatever
+ * numbers it states. */
 #include "fixture.h"
 #include "recording_file.h"
 #include "session_file.h"
@@ -90,14 +90,14 @@ static void measure(const text_bomb *bomb, text_bomb_reader *read)
     assert_true(each < MOST_BYTES_A_BYTE);
 }
 
-static void session_takes_100_bytes_a_byte(void **state)
+static void session_takes_at_most_100_bytes_of_memory_per_byte(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof sessions / sizeof sessions[0]; i++)
         measure(&sessions[i], read_session);
 }
 
-static void recording_json_takes_100_bytes_a_byte(void **state)
+static void recording_json_takes_at_most_100_bytes_of_memory_per_byte(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof views / sizeof views[0]; i++)
@@ -128,8 +128,8 @@ static void numbers_beyond_limits_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(session_takes_100_bytes_a_byte),
-        cmocka_unit_test(recording_json_takes_100_bytes_a_byte),
+        cmocka_unit_test(session_takes_at_most_100_bytes_of_memory_per_byte),
+        cmocka_unit_test(recording_json_takes_at_most_100_bytes_of_memory_per_byte),
         cmocka_unit_test(numbers_beyond_limits_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_errors.c - what is no session, and the sentence that says so. */
+/* test_session_errors.c - invalid session files, and the error that each one yields. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,7 +35,7 @@ static void assert_refuses(const char *text, size_t size, const char *sentence)
 }
 
 /* So far, or farther where the session says how long it is. */
-static void far_ticks_are_taken_where_they_are_meant(void **state)
+static void distant_ticks_are_read_if_keys_or_ticks_reach_them(void **state)
 {
     static const char *const texts[] = {
         HEADER "\"points\":[]}{\"tick\":1000000}{\"tick\":2000000}",
@@ -57,7 +57,7 @@ static void assert_refuses_each(const refusal *rows, size_t count)
         assert_refuses(rows[i].text, strlen(rows[i].text), rows[i].sentence);
 }
 
-static void text_that_is_no_stream_of_objects_is_refused(void **state)
+static void text_that_is_not_a_stream_of_objects_is_refused(void **state)
 {
     static const refusal rows[] = {
         {"", "1: holds no session"},
@@ -83,7 +83,7 @@ static void text_that_is_no_stream_of_objects_is_refused(void **state)
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
 }
 
-static void answers_that_are_no_ids_are_refused(void **state)
+static void answers_that_are_not_ids_are_refused(void **state)
 {
     static const refusal rows[] = {
         {HEADER "\"queries\":[{\"nearest\":[0,0,0],\n\"answer\":17}]}", "3: queries[0].answer: expected a list of ids"},
@@ -121,7 +121,7 @@ static void nul_bytes_are_refused(void **state)
     assert_refuses(text, sizeof text - 1, "3: holds a NUL byte, so it is not text");
 }
 
-static void shapes_that_are_none_are_refused(void **state)
+static void invalid_shapes_are_refused(void **state)
 {
     static const refusal rows[] = {
         {HEADER "\"shapes\":{}}", "2: shapes: expected a list of shapes, found an object"},
@@ -153,7 +153,7 @@ static void shapes_that_are_none_are_refused(void **state)
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
 }
 
-static void every_beginning_of_a_session_is_refused(void **state)
+static void every_truncated_session_is_refused(void **state)
 {
     static const char text[] = HEADER "\"points\":[[1,2,3,4],{\"id\":5,\"position\":[1,1,1]}],\"keys\":\"w\","
                                       "\"queries\":[{\"nearest\":\"player\"}]}";
@@ -167,7 +167,7 @@ static void every_beginning_of_a_session_is_refused(void **state)
     }
 }
 
-static void nesting_is_bounded(void **state)
+static void deep_nesting_is_refused(void **state)
 {
     enum { DEPTH = 1000000 };
     char *text = malloc(DEPTH + sizeof HEADER + 16);
@@ -375,7 +375,7 @@ static void bad_ticks_are_refused(void **state)
     assert_refuses_each(rows, sizeof rows / sizeof *rows);
 }
 
-static void missing_cloud_is_told_with_what_names_it(void **state)
+static void missing_cloud_is_reported_with_the_line_that_names_it(void **state)
 {
     static const char text[] = HEADER "\"points\":{\"file\":\"missing.pcd\"}}";
     session_file file;
@@ -386,7 +386,7 @@ static void missing_cloud_is_told_with_what_names_it(void **state)
                                     "file or directory");
 }
 
-static void long_name_keeps_its_end_and_the_reason(void **state)
+static void error_keeps_the_end_of_a_long_name_and_the_reason(void **state)
 {
     char name[1000];
     session_file file;
@@ -403,18 +403,18 @@ static void long_name_keeps_its_end_and_the_reason(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(far_ticks_are_taken_where_they_are_meant),
-        cmocka_unit_test(text_that_is_no_stream_of_objects_is_refused),
-        cmocka_unit_test(answers_that_are_no_ids_are_refused),
+        cmocka_unit_test(distant_ticks_are_read_if_keys_or_ticks_reach_them),
+        cmocka_unit_test(text_that_is_not_a_stream_of_objects_is_refused),
+        cmocka_unit_test(answers_that_are_not_ids_are_refused),
         cmocka_unit_test(nul_bytes_are_refused),
-        cmocka_unit_test(shapes_that_are_none_are_refused),
-        cmocka_unit_test(every_beginning_of_a_session_is_refused),
-        cmocka_unit_test(nesting_is_bounded),
+        cmocka_unit_test(invalid_shapes_are_refused),
+        cmocka_unit_test(every_truncated_session_is_refused),
+        cmocka_unit_test(deep_nesting_is_refused),
         cmocka_unit_test(header_with_bad_members_is_refused),
         cmocka_unit_test(bad_points_are_refused),
         cmocka_unit_test(bad_ticks_are_refused),
-        cmocka_unit_test(missing_cloud_is_told_with_what_names_it),
-        cmocka_unit_test(long_name_keeps_its_end_and_the_reason),
+        cmocka_unit_test(missing_cloud_is_reported_with_the_line_that_names_it),
+        cmocka_unit_test(error_keeps_the_end_of_a_long_name_and_the_reason),
     };
     return cmocka_run_group_tests_name("session_errors", tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_file.c - sessions from files. */
+/* test_session_file.c - reading session files: defaults, and every form of points, velocities and queries. */
 #include "fixture.h"
 #include "octree/sample.h"
 #include "session_file.h"
@@ -27,7 +27,7 @@ static void assert_vector(const double found[3], double x, double y, double z)
     assert_memory_equal(found, expected, sizeof expected);
 }
 
-static void header_alone_is_the_default_world(void **state)
+static void header_without_members_has_the_defaults(void **state)
 {
     session_file file = parse(HEADER "}");
     const octree_session *session = &file.session;
@@ -46,7 +46,7 @@ static void header_alone_is_the_default_world(void **state)
 }
 
 /* As a cloud's; errors count lines as before. */
-static void byte_order_mark_before_the_header_is_passed_over(void **state)
+static void byte_order_mark_before_the_header_is_skipped(void **state)
 {
     static const char text[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":2,\n\"ticks\":7}",
                       twice[] = "\xef\xbb\xbf\xef\xbb\xbf{}", alone[] = "\xef\xbb\xbf",
@@ -64,7 +64,7 @@ static void byte_order_mark_before_the_header_is_passed_over(void **state)
     assert_non_null(strstr(error.text, "s.json:2: ticks: "));
 }
 
-static void player_follows_the_world_and_the_box_the_step(void **state)
+static void player_defaults_follow_world_and_step(void **state)
 {
     session_file file = parse(HEADER ",\"player\":{\"id\":3},\"world\":{\"min\":[0,0,0],\"max\":[8,4,80]}}");
     (void)state;
@@ -87,7 +87,7 @@ static void player_follows_the_world_and_the_box_the_step(void **state)
     session_release(&file);
 }
 
-static void player_may_be_a_body_or_nobody(void **state)
+static void player_may_be_a_body_or_missing(void **state)
 {
     (void)state;
     session_file file =
@@ -183,7 +183,7 @@ static void ticks_become_edits_and_queries_in_order(void **state)
     session_release(&file);
 }
 
-static void a_session_that_does_not_say_when_it_ends_goes_on_to_its_last_tick(void **state)
+static void session_without_ticks_ends_at_its_last_key_or_object(void **state)
 {
     (void)state;
     session_file file = parse(HEADER "}\n{\"tick\":3}\n{\"tick\":17,\"edits\":[]}");
@@ -213,7 +213,7 @@ static void queries_are_read_in_each_form(void **state)
     session_release(&file);
 }
 
-static void sample_is_that_of_the_library(void **state)
+static void sample_equals_octree_sample(void **state)
 {
     session_file file = parse(HEADER ",\"points\":{\"sample\":\"clustered\",\"count\":2000,\"seed\":5},"
                                      "\"world\":{\"min\":[0,0,0],\"max\":[10,20,30]},\"player\":{\"id\":1000}}");
@@ -238,7 +238,7 @@ static void write_text(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-static void cloud_is_found_in_the_folder_of_the_session(void **state)
+static void cloud_path_starts_at_the_folder_of_the_session(void **state)
 {
     temp_folder *folder = *state;
     session_file file;
@@ -266,7 +266,7 @@ static void assert_file_is_refused(const char *path, const char *reason)
     assert_string_equal(error.text, expected);
 }
 
-static void file_that_is_missing_or_no_file_is_refused(void **state)
+static void missing_files_and_folders_are_refused(void **state)
 {
     temp_folder *folder = *state;
     assert_file_is_refused(temp_file(folder, "missing"), "cannot be opened: No such file or directory");
@@ -277,21 +277,20 @@ static void file_that_is_missing_or_no_file_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(header_alone_is_the_default_world),
-        cmocka_unit_test(byte_order_mark_before_the_header_is_passed_over),
-        cmocka_unit_test(player_follows_the_world_and_the_box_the_step),
-        cmocka_unit_test(player_may_be_a_body_or_nobody),
+        cmocka_unit_test(header_without_members_has_the_defaults),
+        cmocka_unit_test(byte_order_mark_before_the_header_is_skipped),
+        cmocka_unit_test(player_defaults_follow_world_and_step),
+        cmocka_unit_test(player_may_be_a_body_or_missing),
         cmocka_unit_test(extreme_worlds_have_a_player_inside),
         cmocka_unit_test(points_are_read_in_each_form),
         cmocka_unit_test(velocities_are_listed_by_id_or_random),
         cmocka_unit_test(ticks_become_edits_and_queries_in_order),
-        cmocka_unit_test(a_session_that_does_not_say_when_it_ends_goes_on_to_its_last_tick),
+        cmocka_unit_test(session_without_ticks_ends_at_its_last_key_or_object),
         cmocka_unit_test(queries_are_read_in_each_form),
-        cmocka_unit_test(sample_is_that_of_the_library),
-        cmocka_unit_test_setup_teardown(cloud_is_found_in_the_folder_of_the_session, temp_folder_make,
+        cmocka_unit_test(sample_equals_octree_sample),
+        cmocka_unit_test_setup_teardown(cloud_path_starts_at_the_folder_of_the_session, temp_folder_make,
                                         temp_folder_remove),
-        cmocka_unit_test_setup_teardown(file_that_is_missing_or_no_file_is_refused, temp_folder_make,
-                                        temp_folder_remove),
+        cmocka_unit_test_setup_teardown(missing_files_and_folders_are_refused, temp_folder_make, temp_folder_remove),
     };
     return cmocka_run_group_tests_name("session_file", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_memory.c - the n-th allocation fails while a session is read, n = 0, 1, 2 ...: it is read whole, or not
- * at all and the sentence says why. */
+/* test_session_memory.c - if the n-th allocation fails, for n = 0, 1, 2 ..., a session is read whole, or not at all
+ * with an error. */
 #include "fixture.h"
 
 #include <fcntl.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_nodes.c - the nodes of a program's own tree in session files, there and back, and what is wrong with
- * them in ticks.jsonl. */
+/* test_session_nodes.c - foreign nodes in session files: round trips and errors; and their faults in ticks.jsonl. */
 #include "fixture.h"
 #include "session_file.h"
 #include "session_texts.h"
@@ -24,7 +23,7 @@ static void assert_refuses(const char *text, const char *sentence)
     assert_int_equal(file.session.foreign_count, 0);
 }
 
-static void nodes_are_read_with_all_that_is_said_of_them(void **state)
+static void nodes_are_read_with_all_members(void **state)
 {
     (void)state;
     session_file file = session_of_text(HEADER ",\"foreign_nodes\":[" ROOT
@@ -43,7 +42,7 @@ static void nodes_are_read_with_all_that_is_said_of_them(void **state)
     session_release(&file);
 }
 
-static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
+static void nodes_and_visits_survive_the_round_trip(void **state)
 {
     (void)state;
     session_file file = session_of_text(
@@ -76,7 +75,7 @@ static void nodes_and_how_they_were_met_survive_the_round_trip(void **state)
     session_release(&again);
 }
 
-static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
+static void invalid_nodes_are_refused_with_line_and_member(void **state)
 {
     (void)state;
     assert_refuses(HEADER ",\n\"foreign_nodes\":{}}",
@@ -109,7 +108,7 @@ static void nodes_that_are_no_tree_are_refused_by_line_and_place(void **state)
 }
 
 /* Ids are read only where the program says that it lists points. */
-static void a_copy_reads_no_points_that_are_not_said(void **state)
+static void copy_ignores_points_without_has_points(void **state)
 {
     (void)state;
     const octree_foreign_node node = {.id = 1, .points = {NULL, 7}};
@@ -135,7 +134,7 @@ static char *write_tick(const octree_session *session)
     return text;
 }
 
-static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
+static void ticks_list_foreign_nodes_and_wrong_nodes(void **state)
 {
     (void)state;
     session_file file = session_of_text(HEADER ",\"foreign_nodes\":[" ROOT "," LEAF(
@@ -169,11 +168,11 @@ static void ticks_say_the_nodes_and_what_is_wrong_with_them(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_are_read_with_all_that_is_said_of_them),
-        cmocka_unit_test(nodes_and_how_they_were_met_survive_the_round_trip),
-        cmocka_unit_test(a_copy_reads_no_points_that_are_not_said),
-        cmocka_unit_test(nodes_that_are_no_tree_are_refused_by_line_and_place),
-        cmocka_unit_test(ticks_say_the_nodes_and_what_is_wrong_with_them),
+        cmocka_unit_test(nodes_are_read_with_all_members),
+        cmocka_unit_test(nodes_and_visits_survive_the_round_trip),
+        cmocka_unit_test(copy_ignores_points_without_has_points),
+        cmocka_unit_test(invalid_nodes_are_refused_with_line_and_member),
+        cmocka_unit_test(ticks_list_foreign_nodes_and_wrong_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

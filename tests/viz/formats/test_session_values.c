@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_values.c - the colours, intensities and classes of a session's points: read, written, and found by id.
+/* test_session_values.c - the colours, intensities and classes of a session's points: reading, writing, finding by id.
  */
 #include "clouds.h"
 #include "session_file.h"
@@ -63,7 +63,7 @@ static void points_with_velocities_keep_their_values(void **state)
     session_release(&file);
 }
 
-static void intensities_are_floats_in_few_digits(void **state)
+static void intensities_are_written_as_shortest_floats(void **state)
 {
     static const struct {
         const char *read, *written;
@@ -87,7 +87,7 @@ static void intensities_are_floats_in_few_digits(void **state)
     }
 }
 
-static void sessions_without_values_say_nothing_of_them(void **state)
+static void sessions_without_values_are_written_without_values(void **state)
 {
     session_file file = session_of_text(HEADER "\"columns\": [\"color\"], \"points\": [[1,2,3], [1,2,3,7,null]]}");
     char *text = text_of_session(&file.session, &file.values);
@@ -98,7 +98,7 @@ static void sessions_without_values_say_nothing_of_them(void **state)
     session_release(&file);
 }
 
-static void values_that_are_none_are_refused(void **state)
+static void invalid_values_are_refused(void **state)
 {
     static const struct {
         const char *rest, *reason;
@@ -188,7 +188,7 @@ static session_file read_with_cloud(temp_folder *folder, const char *cloud, cons
     return file;
 }
 
-static void a_file_keeps_its_values(void **state)
+static void values_of_a_file_are_read(void **state)
 {
     session_file file = read_with_cloud(*state, "x y z class\n1 2 3 7\n4 5 6 8\n7 8 9\n", "");
     assert_writes(&file,
@@ -200,7 +200,7 @@ static void a_file_keeps_its_values(void **state)
 }
 
 /* The player's id is passed over. */
-static void values_of_a_file_follow_the_ids(void **state)
+static void values_of_a_file_skip_the_id_of_the_player(void **state)
 {
     session_file file =
         read_with_cloud(*state, "x y z class\n1 2 3 7\n4 5 6 8\n7 8 9 9\n", "\"player\": {\"id\": 2}, ");
@@ -214,12 +214,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_found_by_id),
         cmocka_unit_test(points_with_velocities_keep_their_values),
-        cmocka_unit_test(intensities_are_floats_in_few_digits),
-        cmocka_unit_test(sessions_without_values_say_nothing_of_them),
-        cmocka_unit_test(values_that_are_none_are_refused),
+        cmocka_unit_test(intensities_are_written_as_shortest_floats),
+        cmocka_unit_test(sessions_without_values_are_written_without_values),
+        cmocka_unit_test(invalid_values_are_refused),
         cmocka_unit_test(inserted_points_keep_the_values_of_their_id),
-        cmocka_unit_test_setup_teardown(a_file_keeps_its_values, temp_folder_make, temp_folder_remove),
-        cmocka_unit_test_setup_teardown(values_of_a_file_follow_the_ids, temp_folder_make, temp_folder_remove),
+        cmocka_unit_test_setup_teardown(values_of_a_file_are_read, temp_folder_make, temp_folder_remove),
+        cmocka_unit_test_setup_teardown(values_of_a_file_skip_the_id_of_the_player, temp_folder_make,
+                                        temp_folder_remove),
     };
     return cmocka_run_group_tests_name("session values", tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_write.c - sessions to files and back, copies of sessions, and other keys for them. */
+/* test_session_write.c - sessions survive writing and reading; copies of sessions; replacing keys. */
 #include "fixture.h"
 #include "octree/sample.h"
 #include "random_session.h"
@@ -244,7 +244,7 @@ static void every_bit_of_a_number_survives_the_round_trip(void **state)
     assert_round_trip(&session);
 }
 
-static void options_that_the_tree_clamps_are_written_clamped(void **state)
+static void tree_options_are_written_clamped(void **state)
 {
     octree_session session = octree_session_default();
     (void)state;
@@ -260,7 +260,7 @@ static void options_that_the_tree_clamps_are_written_clamped(void **state)
     session_release(&file);
 }
 
-static void neighbours_beyond_what_a_tree_holds_are_written_clamped(void **state)
+static void number_of_neighbours_is_written_clamped(void **state)
 {
     const octree_query all = {.kind = OCTREE_QUERY_KNEAREST, .at_player = true, .k = SIZE_MAX};
     octree_session session = octree_session_default();
@@ -274,7 +274,7 @@ static void neighbours_beyond_what_a_tree_holds_are_written_clamped(void **state
     session_release(&file);
 }
 
-static void written_session_has_a_point_a_line_and_a_tick_a_line(void **state)
+static void written_session_has_one_line_for_each_point_and_tick(void **state)
 {
     static const char expected[] =
         "{\"octreel\": \"session\", \"version\": 2,\n"
@@ -298,7 +298,7 @@ static void written_session_has_a_point_a_line_and_a_tick_a_line(void **state)
     session_release(&file);
 }
 
-static void stream_without_room_is_told(void **state)
+static void write_reports_a_full_disk(void **state)
 {
     const octree_session session = octree_session_default();
     char room[16];
@@ -319,7 +319,7 @@ static void many_points_survive_the_round_trip(void **state)
     session_release(&file);
 }
 
-static void copy_owns_all_it_has(void **state)
+static void copy_owns_its_memory(void **state)
 {
     random_session *made = calloc(1, sizeof *made);
     session_file file;
@@ -401,7 +401,7 @@ static void gaps_survive_the_round_trip(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(neighbours_beyond_what_a_tree_holds_are_written_clamped),
+        cmocka_unit_test(number_of_neighbours_is_written_clamped),
         cmocka_unit_test(default_session_survives_the_round_trip),
         cmocka_unit_test(skips_and_epsilons_survive_the_round_trip),
         cmocka_unit_test(answers_survive_the_round_trip),
@@ -409,11 +409,11 @@ int main(void)
         cmocka_unit_test(players_of_every_kind_survive_the_round_trip),
         cmocka_unit_test(random_sessions_survive_the_round_trip),
         cmocka_unit_test(every_bit_of_a_number_survives_the_round_trip),
-        cmocka_unit_test(options_that_the_tree_clamps_are_written_clamped),
-        cmocka_unit_test(written_session_has_a_point_a_line_and_a_tick_a_line),
-        cmocka_unit_test(stream_without_room_is_told),
+        cmocka_unit_test(tree_options_are_written_clamped),
+        cmocka_unit_test(written_session_has_one_line_for_each_point_and_tick),
+        cmocka_unit_test(write_reports_a_full_disk),
         cmocka_unit_test(many_points_survive_the_round_trip),
-        cmocka_unit_test(copy_owns_all_it_has),
+        cmocka_unit_test(copy_owns_its_memory),
         cmocka_unit_test(keys_are_replaced),
         cmocka_unit_test(unknown_keys_are_refused_and_change_nothing),
         cmocka_unit_test(gaps_survive_the_round_trip),

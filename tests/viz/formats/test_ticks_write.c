@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_ticks_write.c - a tick as one line of JSON: all that it was, and back to the bit. */
+/* test_ticks_write.c - lines of ticks.jsonl hold every fact of a tick, and numbers to the bit. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -45,7 +45,7 @@ static void assert_made_is_told(octree_tick tick)
     octree_destroy(tree);
 }
 
-static void every_tick_of_random_sessions_is_told(void **state)
+static void lines_of_random_sessions_hold_every_fact(void **state)
 {
     static random_session made;
     unsigned events = 0;
@@ -64,7 +64,7 @@ static void every_tick_of_random_sessions_is_told(void **state)
     assert_int_equal(events, OCTREE_EVENT_WRONG - 1);
 }
 
-static void line_is_exactly_this(void **state)
+static void line_of_a_known_tick_has_the_expected_bytes(void **state)
 {
     static const char expected[] =
         "{\"tick\": 3, \"key\": \"w\", \"player\": [0.1, -0, 1e+300], \"events\": [\"moved\", \"split\"], "
@@ -147,13 +147,13 @@ static void tick_without_a_frame_has_neither_frame_nor_scene(void **state)
     free(text);
 }
 
-static void tick_without_a_player_has_null_for_its_places(void **state)
+static void tick_without_a_player_has_null_positions(void **state)
 {
     (void)state;
     assert_made_is_told((octree_tick){.number = 1, .key = '.', .player = {1, 2, 3}, .attempt = {1, 2, 3}});
 }
 
-static void every_set_of_events_is_told(void **state)
+static void every_set_of_events_is_written(void **state)
 {
     (void)state;
     for (unsigned events = 0; events < 1u << OCTREE_EVENT_KINDS; events++) {
@@ -162,7 +162,7 @@ static void every_set_of_events_is_told(void **state)
     }
 }
 
-static void every_double_is_told_to_the_bit(void **state)
+static void every_double_is_written_to_the_bit(void **state)
 {
     static const double values[] = {0.0,      -0.0,   5e-324,  -5e-324,      DBL_MIN, DBL_MAX,
                                     -DBL_MAX, 0.1,    1.0 / 3, 1e15,         1e16,    1e17,
@@ -195,7 +195,7 @@ static void digest_is_sixteen_hexadecimal_digits(void **state)
     assert_string_equal(digest_print(UINT64_C(0x0123456789abcdef), text), "0123456789abcdef");
 }
 
-static void failure_stays_with_the_stream(void **state)
+static void write_error_stays_in_the_stream(void **state)
 {
     const octree_tick tick = {.number = 1};
     const tick_extras extras = {.frame = NULL};
@@ -207,7 +207,7 @@ static void failure_stays_with_the_stream(void **state)
     fclose(out);
 }
 
-static void of_a_gap_nothing_is_told_but_why(void **state)
+static void gap_has_only_its_tick_and_reason(void **state)
 {
     octree_tick tick = {.number = 50, .gap = "two points have one id: 7", .player = {1, 2, 3}, .has_player = true};
     char *text = line_of(&tick, &(tick_extras){0});
@@ -225,7 +225,7 @@ static void assert_nodes(const octree_tick *tick, bool whole, const char *part)
 }
 
 /* To the last that is listed the line is as it ever was; of more it has the same length whatever their number. */
-static void of_many_nodes_that_split_or_merged_there_are_a_count_and_a_digest(void **state)
+static void many_splits_or_merges_are_written_as_count_and_digest(void **state)
 {
     octree_address nodes[TICK_LISTED + 1];
     octree_tick tick = {.splits = nodes, .split_count = TICK_LISTED, .merges = nodes, .merge_count = TICK_LISTED + 1};
@@ -242,16 +242,16 @@ static void of_many_nodes_that_split_or_merged_there_are_a_count_and_a_digest(vo
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tick_of_random_sessions_is_told),
-        cmocka_unit_test(line_is_exactly_this),
+        cmocka_unit_test(lines_of_random_sessions_hold_every_fact),
+        cmocka_unit_test(line_of_a_known_tick_has_the_expected_bytes),
         cmocka_unit_test(tick_without_a_frame_has_neither_frame_nor_scene),
-        cmocka_unit_test(tick_without_a_player_has_null_for_its_places),
-        cmocka_unit_test(every_set_of_events_is_told),
-        cmocka_unit_test(every_double_is_told_to_the_bit),
+        cmocka_unit_test(tick_without_a_player_has_null_positions),
+        cmocka_unit_test(every_set_of_events_is_written),
+        cmocka_unit_test(every_double_is_written_to_the_bit),
         cmocka_unit_test(digest_is_sixteen_hexadecimal_digits),
-        cmocka_unit_test(failure_stays_with_the_stream),
-        cmocka_unit_test(of_a_gap_nothing_is_told_but_why),
-        cmocka_unit_test(of_many_nodes_that_split_or_merged_there_are_a_count_and_a_digest),
+        cmocka_unit_test(write_error_stays_in_the_stream),
+        cmocka_unit_test(gap_has_only_its_tick_and_reason),
+        cmocka_unit_test(many_splits_or_merges_are_written_as_count_and_digest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_view_options.c - the rows of the options of a view. */
+/* test_view_options.c - the table of view options: names, defaults, choices and limits. */
 #include <stdio.h>
 #include <string.h>
 
@@ -17,7 +17,7 @@ static bool parses(const view_option *option, const char *text, view *v, const c
     return parsed;
 }
 
-static void every_row_is_whole_and_found_by_its_name(void **state)
+static void every_row_is_complete_and_found_by_its_name(void **state)
 {
     (void)state;
     for (size_t i = 0; view_option_at(i); i++) {
@@ -32,7 +32,7 @@ static void every_row_is_whole_and_found_by_its_name(void **state)
 }
 
 /* The help names the default in words; the row's `standard` is the value itself. */
-static void the_help_names_the_default_of_its_row(void **state)
+static void help_names_the_default_of_every_row(void **state)
 {
     static const char *const elsewhere[] = {"fit", "layers", "aa"}; /* their help or their choices say it otherwise */
     (void)state;
@@ -64,7 +64,7 @@ static void every_default_is_a_value_of_its_option(void **state)
 }
 
 /* Names are taken as they are, and no others. */
-static void every_choice_is_made_by_its_name(void **state)
+static void every_choice_is_read_by_its_name(void **state)
 {
     static const char *const unknown[] = {"", "is", "isometric", "ISO", " iso", "iso ", "0", "iso,top", "Depth"};
     (void)state;
@@ -85,7 +85,7 @@ static void every_choice_is_made_by_its_name(void **state)
     }
 }
 
-static void values_that_do_not_fit_are_refused(void **state)
+static void values_out_of_range_are_refused(void **state)
 {
     static const char *const rows[][3] = {
         {"size", "640", "--size takes pixels as in 1280x720, not \"640\""},
@@ -122,7 +122,7 @@ static void values_that_do_not_fit_are_refused(void **state)
     }
 }
 
-static void the_ends_of_what_fits_are_taken(void **state)
+static void limits_of_each_range_are_accepted(void **state)
 {
     static const char *const rows[][2] = {{"look", "360,90"},  {"look", "-360,-90"}, {"zoom", "0.001"},
                                           {"zoom", "1000000"}, {"depths", "0:21"},   {"depths", ":0"},
@@ -138,12 +138,12 @@ static void the_ends_of_what_fits_are_taken(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_is_whole_and_found_by_its_name),
-        cmocka_unit_test(the_help_names_the_default_of_its_row),
+        cmocka_unit_test(every_row_is_complete_and_found_by_its_name),
+        cmocka_unit_test(help_names_the_default_of_every_row),
         cmocka_unit_test(every_default_is_a_value_of_its_option),
-        cmocka_unit_test(every_choice_is_made_by_its_name),
-        cmocka_unit_test(values_that_do_not_fit_are_refused),
-        cmocka_unit_test(the_ends_of_what_fits_are_taken),
+        cmocka_unit_test(every_choice_is_read_by_its_name),
+        cmocka_unit_test(values_out_of_range_are_refused),
+        cmocka_unit_test(limits_of_each_range_are_accepted),
     };
     return cmocka_run_group_tests_name("view_options", tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_camera.c - the cameras: turns, bases, what they hold in view, and that neither place nor scale matters. */
+/* test_camera.c - cameras: turns, bases, the visible region, and independence of the position and scale of the world.
+ */
 #include "scenes.h"
 
 #include <float.h>
@@ -128,7 +129,7 @@ static void an_orthographic_world_fills_most_of_the_window(void **state)
     }
 }
 
-static void the_axes_point_where_the_names_of_the_cameras_say(void **state)
+static void axes_point_as_the_camera_names_state(void **state)
 {
     (void)state;
     static const struct {
@@ -168,7 +169,7 @@ static void the_camera_that_follows_looks_at_the_player(void **state)
 
 /* An orbit keeps the world in the window, and fills it but for a margin, with as much room above as below: beside a
  * diagram too, where it is higher than wide. */
-static void an_orbit_fills_the_middle_of_the_window_and_keeps_within(void **state)
+static void an_orbit_keeps_the_world_in_the_window(void **state)
 {
     (void)state;
     static const double windows[][2] = {{960, 720}, {480, 720}, {500, 500}, {1200, 300}};
@@ -219,7 +220,7 @@ static void assert_in_the_middle(const camera *c, const double place[3])
 }
 
 /* At the center zoom moves nothing; elsewhere every distance on the picture is that many times as long. */
-static void a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own(void **state)
+static void look_center_and_zoom_replace_those_of_the_camera(void **state)
 {
     (void)state;
     const octree_box world = {{-10, 0, 5}, {30, 80, 9}};
@@ -277,7 +278,7 @@ static void assert_same_pixels_elsewhere(view_camera kind, double scale, double 
     }
 }
 
-static void neither_place_nor_scale_changes_a_bit_of_a_pixel(void **state)
+static void pixels_do_not_depend_on_position_and_scale_of_the_world(void **state)
 {
     (void)state;
     for (int kind = 0; kind < CAMERA_COUNT; kind++) {
@@ -303,7 +304,7 @@ static octree_box some_box(const octree_box *world, uint64_t *random)
     return box;
 }
 
-static void a_box_is_below_just_what_it_appears_smaller_than(void **state)
+static void a_box_is_below_a_size_if_it_appears_smaller(void **state)
 {
     (void)state;
     static const double near[] = {1e-15, 1e-12, 1e-9, 1e-7, 1e-4, 0.01, 0.3, 0.9};
@@ -335,13 +336,13 @@ int main(void)
         cmocka_unit_test(every_basis_is_orthonormal_and_right_handed),
         cmocka_unit_test(the_corners_of_any_world_are_in_the_window_and_before_the_camera),
         cmocka_unit_test(an_orthographic_world_fills_most_of_the_window),
-        cmocka_unit_test(the_axes_point_where_the_names_of_the_cameras_say),
+        cmocka_unit_test(axes_point_as_the_camera_names_state),
         cmocka_unit_test(the_camera_that_follows_looks_at_the_player),
-        cmocka_unit_test(an_orbit_fills_the_middle_of_the_window_and_keeps_within),
+        cmocka_unit_test(an_orbit_keeps_the_world_in_the_window),
         cmocka_unit_test(only_the_orbit_turns_and_only_the_follower_moves),
-        cmocka_unit_test(a_look_a_center_and_a_zoom_take_the_place_of_the_cameras_own),
-        cmocka_unit_test(a_box_is_below_just_what_it_appears_smaller_than),
-        cmocka_unit_test(neither_place_nor_scale_changes_a_bit_of_a_pixel),
+        cmocka_unit_test(look_center_and_zoom_replace_those_of_the_camera),
+        cmocka_unit_test(a_box_is_below_a_size_if_it_appears_smaller),
+        cmocka_unit_test(pixels_do_not_depend_on_position_and_scale_of_the_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_camera_places.c - cameras where lines run through the eye: inside a node, on a plane, on an edge, at a point,
- * looking any way, straight up too. */
+/* test_camera_places.c - cameras at places where lines run through the eye: inside a node, on a plane, on an edge, at a
+ * point; in any direction, also straight up. */
 #include "frames.h"
 #include "brute.h"
 #include "layer.h"
@@ -106,7 +106,7 @@ static void assert_points_in_front(const scene *s, const brute *points, const do
     free(frame);
 }
 
-static void any_place_and_way_is_drawn_as_a_pinhole_sees_it(void **state)
+static void every_position_and_direction_agrees_with_a_pinhole_camera(void **state)
 {
     (void)state;
     brute points = {0};
@@ -126,7 +126,7 @@ static void any_place_and_way_is_drawn_as_a_pinhole_sees_it(void **state)
 }
 
 /* Nothing that reaches nearer than the camera sees is left out for its size. */
-static void the_node_that_the_camera_is_in_is_never_too_small(void **state)
+static void the_node_around_the_camera_is_never_left_out_as_small(void **state)
 {
     (void)state;
     brute points = {0};
@@ -151,8 +151,8 @@ static void the_node_that_the_camera_is_in_is_never_too_small(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_place_and_way_is_drawn_as_a_pinhole_sees_it),
-        cmocka_unit_test(the_node_that_the_camera_is_in_is_never_too_small),
+        cmocka_unit_test(every_position_and_direction_agrees_with_a_pinhole_camera),
+        cmocka_unit_test(the_node_around_the_camera_is_never_left_out_as_small),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_filter.c - what a view shows of a tree: every node and point that passes its filter, and no other. */
+/* test_filter.c - a view shows exactly the nodes and points that pass its filter. */
 #include "scenes.h"
 #include "brute.h"
 #include "draw_list.h"
@@ -148,7 +148,7 @@ static size_t check_filter(const known_tree *t, const view_filter *f)
     return nodes;
 }
 
-static void without_a_filter_all_is_shown_and_nothing_said(void **state)
+static void without_a_filter_everything_is_shown(void **state)
 {
     (void)state;
     known_tree t = known(OCTREE_SAMPLE_CLUSTERED, 300, 4, 21);
@@ -156,7 +156,7 @@ static void without_a_filter_all_is_shown_and_nothing_said(void **state)
     forget(&t);
 }
 
-static void a_slice_is_one_layer_of_the_cells_that_its_plane_runs_through(void **state)
+static void a_slice_shows_one_layer_of_cells_at_its_plane(void **state)
 {
     (void)state;
     known_tree t = known(OCTREE_SAMPLE_CLUSTERED, 300, 4, 21);
@@ -171,7 +171,7 @@ static void a_slice_is_one_layer_of_the_cells_that_its_plane_runs_through(void *
 }
 
 /* Across a uniform lattice a slice on a plane of the tree has the upper cells alone. */
-static void a_slice_on_a_plane_of_the_tree_has_one_side_of_it(void **state)
+static void a_slice_on_a_plane_of_the_tree_shows_one_side(void **state)
 {
     (void)state;
     known_tree t = known(OCTREE_SAMPLE_LATTICE, 512, 1, 3);
@@ -180,7 +180,7 @@ static void a_slice_on_a_plane_of_the_tree_has_one_side_of_it(void **state)
     forget(&t);
 }
 
-static void depths_leaves_and_regions_show_what_their_rules_say(void **state)
+static void depth_leaf_and_region_filters_follow_their_rules(void **state)
 {
     (void)state;
     known_tree t = known(OCTREE_SAMPLE_CLUSTERED, 300, 4, 21);
@@ -222,7 +222,7 @@ static void a_region_is_closed(void **state)
     forget(&t);
 }
 
-static void an_empty_tree_has_its_root_under_any_filter_that_meets_it(void **state)
+static void an_empty_tree_shows_its_root_if_the_filter_reaches_it(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
@@ -264,7 +264,7 @@ static void the_slice_and_the_region_are_outlined(void **state)
 }
 
 /* Of a program's tree, whose nodes may lie deeper than any of Octreel's. */
-static void depths_of_a_box_are_those_of_its_rule(void **state)
+static void depth_filter_of_a_foreign_box_follows_its_rule(void **state)
 {
     (void)state;
     const octree_box box = cube(-1, 1);
@@ -279,7 +279,7 @@ static void depths_of_a_box_are_those_of_its_rule(void **state)
     }
 }
 
-static void what_can_show_nothing_is_refused_with_the_reason(void **state)
+static void filters_that_can_show_nothing_are_refused(void **state)
 {
     (void)state;
     const octree_def tree = define(cube(-10, 10), 4, 6, OCTREE_GROW);
@@ -313,15 +313,15 @@ static void what_can_show_nothing_is_refused_with_the_reason(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_a_filter_all_is_shown_and_nothing_said),
-        cmocka_unit_test(a_slice_is_one_layer_of_the_cells_that_its_plane_runs_through),
-        cmocka_unit_test(a_slice_on_a_plane_of_the_tree_has_one_side_of_it),
-        cmocka_unit_test(depths_leaves_and_regions_show_what_their_rules_say),
+        cmocka_unit_test(without_a_filter_everything_is_shown),
+        cmocka_unit_test(a_slice_shows_one_layer_of_cells_at_its_plane),
+        cmocka_unit_test(a_slice_on_a_plane_of_the_tree_shows_one_side),
+        cmocka_unit_test(depth_leaf_and_region_filters_follow_their_rules),
         cmocka_unit_test(a_region_is_closed),
-        cmocka_unit_test(depths_of_a_box_are_those_of_its_rule),
-        cmocka_unit_test(an_empty_tree_has_its_root_under_any_filter_that_meets_it),
+        cmocka_unit_test(depth_filter_of_a_foreign_box_follows_its_rule),
+        cmocka_unit_test(an_empty_tree_shows_its_root_if_the_filter_reaches_it),
         cmocka_unit_test(the_slice_and_the_region_are_outlined),
-        cmocka_unit_test(what_can_show_nothing_is_refused_with_the_reason),
+        cmocka_unit_test(filters_that_can_show_nothing_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_fit.c - the box that a fitting camera frames: the points that are shown at tick 0. */
+/* test_fit.c - --fit points frames the smallest box around the points shown at tick 0. */
 #include "scenes.h"
 #include "brute.h"
 #include "camera.h"
@@ -33,7 +33,7 @@ static bool same_box(const octree_box *a, const octree_box *b)
     return same_position(a->min, b->min) && same_position(a->max, b->max);
 }
 
-static void the_box_is_the_smallest_around_the_points(void **state)
+static void the_box_is_the_bounding_box_of_the_points(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -51,7 +51,7 @@ static void the_box_is_the_smallest_around_the_points(void **state)
     }
 }
 
-static void what_a_filter_leaves_out_is_not_framed(void **state)
+static void filtered_points_are_not_framed(void **state)
 {
     (void)state;
     const octree_box world = cube(-1000, 1000);
@@ -175,7 +175,7 @@ static void every_camera_but_the_follower_sees_all_points_of_odd_clouds(void **s
 
 /* Exactly representable scenes at 2^600 times the size, and at 1e15, have the same pixels; without text, since numbers
  * of axes take the room that their digits need. */
-static void neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel(void **state)
+static void fitted_pixels_do_not_depend_on_position_and_scale(void **state)
 {
     (void)state;
     static const double places[][2] = {{0x1p600, 0}, {0x1p-600, 0}, {1, 1e15}};
@@ -212,12 +212,12 @@ static void neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel(void **state
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_box_is_the_smallest_around_the_points),
-        cmocka_unit_test(what_a_filter_leaves_out_is_not_framed),
+        cmocka_unit_test(the_box_is_the_bounding_box_of_the_points),
+        cmocka_unit_test(filtered_points_are_not_framed),
         cmocka_unit_test(other_views_and_empty_trees_frame_the_world),
         cmocka_unit_test(one_point_and_equal_points_are_framed_by_their_cell),
         cmocka_unit_test(every_camera_but_the_follower_sees_all_points_of_odd_clouds),
-        cmocka_unit_test(neither_place_nor_scale_changes_a_bit_of_a_fitted_pixel),
+        cmocka_unit_test(fitted_pixels_do_not_depend_on_position_and_scale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_heat.c - what nodes have seen since tick 0: counted anew from the ticks, drawn on a fixed scale, the same
- * however many of the ticks are filmed.
- */
+/* test_heat.c - the heat of nodes equals the sums over the ticks since tick 0, is drawn on a fixed scale, and does not
+ * depend on which ticks are filmed. */
 #include "scenes.h"
 
 #include <math.h>
@@ -103,7 +102,7 @@ static void check_session(const octree_session *session)
     octree_game_destroy(game);
 }
 
-static void heat_is_what_the_ticks_add_up_to(void **state)
+static void heat_is_the_sum_over_the_ticks(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -117,7 +116,7 @@ static void heat_is_what_the_ticks_add_up_to(void **state)
 
 /* One box takes the octant whole in which the other one looks for neighbours: a tick is one visit, for what the second
  * one prunes there too. */
-static void a_tick_counts_once_however_many_questions_meet(void **state)
+static void a_tick_counts_once_for_any_number_of_queries(void **state)
 {
     (void)state;
     static const octree_body bodies[] = {
@@ -146,7 +145,7 @@ static void a_tick_counts_once_however_many_questions_meet(void **state)
     octree_game_destroy(game);
 }
 
-static void the_scale_is_one_of_powers_of_two_and_never_ends(void **state)
+static void the_scale_has_powers_of_two_without_limit(void **state)
 {
     (void)state;
     for (unsigned shift = 1; shift <= 2; shift++) {
@@ -213,7 +212,7 @@ static void check_marks(const scene *s, const octree_game *game, const heat *h)
     }
 }
 
-static void every_leaf_that_has_seen_something_has_its_mark(void **state)
+static void every_leaf_with_heat_has_a_marker(void **state)
 {
     (void)state;
     for (uint64_t seed = 0; seed < 8; seed++) {
@@ -248,7 +247,7 @@ static void keep_scene(const char *line, size_t number, void *context)
     json_decref(tick);
 }
 
-static void a_frame_has_the_heat_of_all_ticks_up_to_it_filmed_or_not(void **state)
+static void a_frame_has_the_heat_of_unfilmed_ticks_as_well(void **state)
 {
     enum { TICKS = 253, EVERY = 21 };
     static char all[TICKS][17], some[TICKS][17];
@@ -280,7 +279,7 @@ static bool keep_digest(void *context, const film_step *step, octreel_error *err
 }
 
 /* Whoever films a part of a session plays what comes before it. */
-static void a_part_of_a_film_begins_with_the_heat_of_what_came_before(void **state)
+static void a_chunk_begins_with_the_heat_of_earlier_ticks(void **state)
 {
     const octree_session session = octree_session_default();
     film_options options = small_film(place_in(*state, "film").path);
@@ -301,13 +300,13 @@ static void a_part_of_a_film_begins_with_the_heat_of_what_came_before(void **sta
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heat_is_what_the_ticks_add_up_to),
-        cmocka_unit_test(a_tick_counts_once_however_many_questions_meet),
-        cmocka_unit_test(the_scale_is_one_of_powers_of_two_and_never_ends),
-        cmocka_unit_test(every_leaf_that_has_seen_something_has_its_mark),
-        cmocka_unit_test_setup_teardown(a_part_of_a_film_begins_with_the_heat_of_what_came_before, temp_folder_make,
+        cmocka_unit_test(heat_is_the_sum_over_the_ticks),
+        cmocka_unit_test(a_tick_counts_once_for_any_number_of_queries),
+        cmocka_unit_test(the_scale_has_powers_of_two_without_limit),
+        cmocka_unit_test(every_leaf_with_heat_has_a_marker),
+        cmocka_unit_test_setup_teardown(a_chunk_begins_with_the_heat_of_earlier_ticks, temp_folder_make,
                                         nested_folder_remove),
-        cmocka_unit_test_setup_teardown(a_frame_has_the_heat_of_all_ticks_up_to_it_filmed_or_not, temp_folder_make,
+        cmocka_unit_test_setup_teardown(a_frame_has_the_heat_of_unfilmed_ticks_as_well, temp_folder_make,
                                         nested_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

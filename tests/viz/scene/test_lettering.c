@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_lettering.c - letters grow with the picture, by whole multiples, and are never too small or too large in it. */
+/* test_lettering.c - letters grow with the picture in whole multiples, and keep within a range of its height. */
 #include "fixture.h"
 #include "lettering.h"
 
@@ -9,7 +9,7 @@ static lettering text_at(int width, int height)
     return lettering_of_text(&v);
 }
 
-static void common_sizes_have_the_letters_of_the_table(void **state)
+static void common_picture_sizes_have_the_faces_of_the_table(void **state)
 {
     (void)state;
     static const struct {
@@ -44,7 +44,7 @@ static void letters_grow_with_the_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(common_sizes_have_the_letters_of_the_table),
+        cmocka_unit_test(common_picture_sizes_have_the_faces_of_the_table),
         cmocka_unit_test(letters_grow_with_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_point_scale.c - the scale of colours and sizes of painted points: where nearly all of them are, and how far they
- * are from one to the next, whatever the order in which they came. */
+/* test_point_scale.c - the ranges of colours and the spacing of painted points: robust against outliers, and
+ * independent of the order of the points. */
 #include "scenes.h"
 #include "point_scale.h"
 
@@ -36,7 +36,7 @@ static octree *make_plane(uint64_t step)
     return tree;
 }
 
-static void a_few_outliers_do_not_take_the_colours(void **state)
+static void a_few_outliers_do_not_change_the_range(void **state)
 {
     (void)state;
     view v = painting_view();
@@ -63,7 +63,7 @@ static void the_order_of_points_does_not_matter(void **state)
 }
 
 /* Of few and of many values, each of many points; no tree has a say in it. */
-static void a_hundredth_of_the_points_lies_before_its_low_end(void **state)
+static void a_hundredth_of_the_points_lies_below_the_range(void **state)
 {
     (void)state;
     enum { POINTS = 4000, LEFT_OUT = POINTS / 100 };
@@ -93,7 +93,7 @@ static void a_hundredth_of_the_points_lies_before_its_low_end(void **state)
 }
 
 /* So many that a part of them stands for all. */
-static void the_tree_has_no_say_in_the_colours_of_many_points(void **state)
+static void the_range_of_many_points_does_not_depend_on_the_tree(void **state)
 {
     (void)state;
     enum { SIDE = 400 };
@@ -120,7 +120,7 @@ static void the_tree_has_no_say_in_the_colours_of_many_points(void **state)
     }
 }
 
-static void it_is_made_once_and_only_where_points_are_painted(void **state)
+static void the_scale_is_computed_once_and_only_for_painted_points(void **state)
 {
     (void)state;
     view plain = view_default(), given = painting_view();
@@ -133,7 +133,7 @@ static void it_is_made_once_and_only_where_points_are_painted(void **state)
 }
 
 /* A session that is filmed while it is written has them later. */
-static void values_of_points_that_are_not_in_the_tree_do_not_count(void **state)
+static void values_of_points_outside_the_tree_do_not_count(void **state)
 {
     (void)state;
     view v = painting_view();
@@ -153,7 +153,7 @@ static void values_of_points_that_are_not_in_the_tree_do_not_count(void **state)
 }
 
 /* Its numbers are written as JSON. */
-static void it_is_finite_in_the_largest_world(void **state)
+static void the_scale_is_finite_in_the_largest_world(void **state)
 {
     (void)state;
     view v = painting_view();
@@ -178,13 +178,13 @@ static void it_is_finite_in_the_largest_world(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_few_outliers_do_not_take_the_colours),
+        cmocka_unit_test(a_few_outliers_do_not_change_the_range),
         cmocka_unit_test(the_order_of_points_does_not_matter),
-        cmocka_unit_test(a_hundredth_of_the_points_lies_before_its_low_end),
-        cmocka_unit_test(the_tree_has_no_say_in_the_colours_of_many_points),
-        cmocka_unit_test(it_is_made_once_and_only_where_points_are_painted),
-        cmocka_unit_test(values_of_points_that_are_not_in_the_tree_do_not_count),
-        cmocka_unit_test(it_is_finite_in_the_largest_world),
+        cmocka_unit_test(a_hundredth_of_the_points_lies_below_the_range),
+        cmocka_unit_test(the_range_of_many_points_does_not_depend_on_the_tree),
+        cmocka_unit_test(the_scale_is_computed_once_and_only_for_painted_points),
+        cmocka_unit_test(values_of_points_outside_the_tree_do_not_count),
+        cmocka_unit_test(the_scale_is_finite_in_the_largest_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

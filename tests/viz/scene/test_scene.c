@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_scene.c - the draw list of a tick, without any picture: what is in it, how often, and where. What the tick asked
- * is in test_answer_layers.c. */
+/* test_scene.c - the draw list of a tick: which elements it has, how many, and where. test_answer_layers.c tests the
+ * elements of queries. */
 #include "scenes.h"
 
 #include <math.h>
@@ -149,14 +149,14 @@ static void check_session(const octree_session *session, view_camera camera)
     octree_game_destroy(game);
 }
 
-static void every_tick_of_the_default_session_shows_what_happened_and_no_more(void **state)
+static void scenes_of_the_default_session_have_the_expected_elements(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
     check_session(&session, CAMERA_ISO);
 }
 
-static void every_tick_of_random_sessions_shows_what_happened_and_no_more(void **state)
+static void scenes_of_random_sessions_have_the_expected_elements(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 12; seed++) {
@@ -207,7 +207,7 @@ static void check_without_layer(const scene *all, const octree_game *game, const
     scene_release(&s);
 }
 
-static void a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are(void **state)
+static void hiding_a_layer_changes_no_other_layer(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -242,7 +242,7 @@ static void shuffle(octree_body *bodies, size_t count, uint64_t *state)
     }
 }
 
-static void a_tick_is_the_same_scene_whatever_the_order_of_its_bodies(void **state)
+static void the_scene_does_not_depend_on_the_order_of_bodies(void **state)
 {
     (void)state;
     const view v = view_of(320, 180, CAMERA_FOLLOW, VIEW_ALL_LAYERS);
@@ -280,7 +280,7 @@ static octree *tree_from(const octree_body *bodies, size_t first)
     return tree;
 }
 
-static void a_tree_is_the_same_scene_whatever_its_history(void **state)
+static void the_scene_does_not_depend_on_the_history_of_the_tree(void **state)
 {
     (void)state;
     const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
@@ -324,7 +324,7 @@ static void an_empty_tree_shows_its_world_and_its_root(void **state)
     scene_release(&s);
 }
 
-static void elements_that_are_not_finite_are_counted_and_left_out(void **state)
+static void elements_with_infinite_positions_are_counted_and_left_out(void **state)
 {
     (void)state;
     static const double wrong[] = {NAN, INFINITY, -INFINITY};
@@ -361,13 +361,13 @@ static void elements_that_are_not_finite_are_counted_and_left_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tick_of_the_default_session_shows_what_happened_and_no_more),
-        cmocka_unit_test(every_tick_of_random_sessions_shows_what_happened_and_no_more),
-        cmocka_unit_test(a_layer_that_is_off_is_absent_and_the_others_stay_as_they_are),
-        cmocka_unit_test(a_tick_is_the_same_scene_whatever_the_order_of_its_bodies),
-        cmocka_unit_test(a_tree_is_the_same_scene_whatever_its_history),
+        cmocka_unit_test(scenes_of_the_default_session_have_the_expected_elements),
+        cmocka_unit_test(scenes_of_random_sessions_have_the_expected_elements),
+        cmocka_unit_test(hiding_a_layer_changes_no_other_layer),
+        cmocka_unit_test(the_scene_does_not_depend_on_the_order_of_bodies),
+        cmocka_unit_test(the_scene_does_not_depend_on_the_history_of_the_tree),
         cmocka_unit_test(an_empty_tree_shows_its_world_and_its_root),
-        cmocka_unit_test(elements_that_are_not_finite_are_counted_and_left_out),
+        cmocka_unit_test(elements_with_infinite_positions_are_counted_and_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

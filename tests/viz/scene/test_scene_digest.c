@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_scene_digest.c - the digest of a draw list tells any two lists apart, and nothing but the list changes it. */
+/* test_scene_digest.c - different draw lists have different digests, and only the list determines the digest. */
 #include "scenes.h"
 
 #include <string.h>

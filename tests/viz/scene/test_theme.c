@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_theme.c - what the colours may mean, how they fade, and what is left of them without red, green or any hue. */
+/* test_theme.c - the colours of the theme: their meanings, how they fade, and that they stay distinct in grey and for
+ * colour-blind eyes. */
 #include "fixture.h"
 #include "layer.h"
 #include "theme.h"
@@ -50,7 +51,7 @@ static double luminance(theme_color c)
     return 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
 }
 
-static void deeper_nodes_are_lighter_so_that_depth_survives_grey(void **state)
+static void deeper_nodes_are_lighter_also_in_grey(void **state)
 {
     (void)state;
     for (unsigned shade = 0; shade < THEME_SHADES; shade++)
@@ -59,7 +60,7 @@ static void deeper_nodes_are_lighter_so_that_depth_survives_grey(void **state)
                         luminance(theme_color_at(theme_index(theme_node_role(depth - 1), shade))));
 }
 
-static void nodes_beyond_the_ramp_share_its_end(void **state)
+static void nodes_deeper_than_the_ramp_have_its_last_colour(void **state)
 {
     (void)state;
     assert_int_equal(theme_node_role(0), ROLE_NODE);
@@ -73,7 +74,7 @@ static int distance_to_ground(theme_color c)
     return abs(c.r - ground.r) + abs(c.g - ground.g) + abs(c.b - ground.b);
 }
 
-static void farther_shades_come_nearer_to_the_background_and_stay_apart_from_it(void **state)
+static void farther_shades_approach_the_background_and_stay_distinct_from_it(void **state)
 {
     (void)state;
     for (unsigned role = ROLE_BACKGROUND + 1; role < ROLE_COUNT; role++) {
@@ -164,7 +165,7 @@ static const theme_role meanings[] = {ROLE_POINT,   ROLE_PLAYER, ROLE_COLLISION,
 #define MEANINGS (sizeof meanings / sizeof meanings[0])
 #define EYES (sizeof eyes / sizeof eyes[0])
 
-static void meanings_stay_apart_without_red_or_green(void **state)
+static void meanings_stay_distinct_without_red_or_green(void **state)
 {
     (void)state;
     for (size_t eye = 0; eye < EYES; eye++) {
@@ -177,7 +178,7 @@ static void meanings_stay_apart_without_red_or_green(void **state)
 }
 
 /* The line to the nearest neighbour is told from nodes by its dashes: all else here is drawn as solid as they are. */
-static void meanings_stay_apart_from_nodes_unless_they_are_dashed(void **state)
+static void solid_meanings_stay_distinct_from_nodes(void **state)
 {
     (void)state;
     for (size_t eye = 0; eye < EYES; eye++)
@@ -211,7 +212,7 @@ static double contrast(theme_color c, theme_role ground)
 #define RAMP_TESTED 31
 
 /* Steps of equal size to the eye that sees all; to any eye lighter with each, so that grey tells them too. */
-static void the_ramp_is_even_and_grows_lighter_for_every_eye(void **state)
+static void the_ramp_grows_evenly_lighter_for_every_kind_of_sight(void **state)
 {
     (void)state;
     double smallest = 1000, largest = 0;
@@ -230,7 +231,7 @@ static void the_ramp_is_even_and_grows_lighter_for_every_eye(void **state)
     assert_true(contrast(theme_ramp(0), ROLE_BACKGROUND) > 1.5);
 }
 
-static void the_ramp_ends_where_amounts_do(void **state)
+static void the_ramp_has_a_colour_for_the_largest_amount(void **state)
 {
     (void)state;
     const theme_color ends[] = {theme_ramp(0), theme_ramp(1)}, beyond[] = {theme_ramp(-3), theme_ramp(1e300)};
@@ -239,7 +240,7 @@ static void the_ramp_ends_where_amounts_do(void **state)
     assert_memory_equal(&ends[0], &none, sizeof none);
 }
 
-static void kinds_stay_apart_without_red_or_green(void **state)
+static void kinds_of_nodes_stay_distinct_without_red_or_green(void **state)
 {
     (void)state;
     for (size_t eye = 0; eye < EYES; eye++)
@@ -249,7 +250,7 @@ static void kinds_stay_apart_without_red_or_green(void **state)
 }
 
 /* They cross each other and are seen for themselves: far apart, and apart from all that lies on them. */
-static void kinds_of_nodes_are_told_apart_by_any_eye(void **state)
+static void kinds_of_nodes_are_distinct_for_every_kind_of_sight(void **state)
 {
     (void)state;
     for (size_t eye = 0; eye < EYES; eye++)
@@ -317,18 +318,18 @@ int main(int argc, char **argv)
         return propose();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_collision_is_red),
-        cmocka_unit_test(deeper_nodes_are_lighter_so_that_depth_survives_grey),
-        cmocka_unit_test(nodes_beyond_the_ramp_share_its_end),
-        cmocka_unit_test(farther_shades_come_nearer_to_the_background_and_stay_apart_from_it),
+        cmocka_unit_test(deeper_nodes_are_lighter_also_in_grey),
+        cmocka_unit_test(nodes_deeper_than_the_ramp_have_its_last_colour),
+        cmocka_unit_test(farther_shades_approach_the_background_and_stay_distinct_from_it),
         cmocka_unit_test(the_background_has_no_shades_and_is_index_0),
         cmocka_unit_test(every_index_fits_a_byte_and_is_used_once),
-        cmocka_unit_test(meanings_stay_apart_without_red_or_green),
+        cmocka_unit_test(meanings_stay_distinct_without_red_or_green),
         cmocka_unit_test(one_look_has_one_meaning),
-        cmocka_unit_test(the_ramp_is_even_and_grows_lighter_for_every_eye),
-        cmocka_unit_test(the_ramp_ends_where_amounts_do),
-        cmocka_unit_test(kinds_of_nodes_are_told_apart_by_any_eye),
-        cmocka_unit_test(kinds_stay_apart_without_red_or_green),
-        cmocka_unit_test(meanings_stay_apart_from_nodes_unless_they_are_dashed),
+        cmocka_unit_test(the_ramp_grows_evenly_lighter_for_every_kind_of_sight),
+        cmocka_unit_test(the_ramp_has_a_colour_for_the_largest_amount),
+        cmocka_unit_test(kinds_of_nodes_are_distinct_for_every_kind_of_sight),
+        cmocka_unit_test(kinds_of_nodes_stay_distinct_without_red_or_green),
+        cmocka_unit_test(solid_meanings_stay_distinct_from_nodes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_view.c - names of layers, lists of them, and the unit of lines and text. */
+/* test_view.c - names of layers, lists of layers, and the unit of the widths of lines and text. */
 #include "scenes.h"
 
 static void every_layer_is_found_by_its_name(void **state)
@@ -43,7 +43,7 @@ static void lists_of_layers_are_read_from_left_to_right(void **state)
     }
 }
 
-static void unknown_layers_are_pointed_at_and_change_nothing(void **state)
+static void unknown_layers_are_reported_and_change_nothing(void **state)
 {
     (void)state;
     static const struct {
@@ -71,7 +71,7 @@ static void unknown_layers_are_pointed_at_and_change_nothing(void **state)
     }
 }
 
-static void the_default_view_shows_everything_but_heat_in_even_sides(void **state)
+static void the_default_view_shows_all_but_heat_and_has_even_sides(void **state)
 {
     (void)state;
     const view v = view_default();
@@ -81,7 +81,7 @@ static void the_default_view_shows_everything_but_heat_in_even_sides(void **stat
         assert_int_equal(view_shows(&v, (view_layer)i), i != LAYER_VISIT_HEAT && i != LAYER_POINT_HEAT);
 }
 
-static void unit_is_a_whole_pixel_at_least_and_grows_with_the_picture(void **state)
+static void unit_is_a_whole_number_of_pixels_and_grows_with_the_picture(void **state)
 {
     (void)state;
     int last = 1;
@@ -101,9 +101,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_layer_is_found_by_its_name),
         cmocka_unit_test(lists_of_layers_are_read_from_left_to_right),
-        cmocka_unit_test(unknown_layers_are_pointed_at_and_change_nothing),
-        cmocka_unit_test(the_default_view_shows_everything_but_heat_in_even_sides),
-        cmocka_unit_test(unit_is_a_whole_pixel_at_least_and_grows_with_the_picture),
+        cmocka_unit_test(unknown_layers_are_reported_and_change_nothing),
+        cmocka_unit_test(the_default_view_shows_all_but_heat_and_has_even_sides),
+        cmocka_unit_test(unit_is_a_whole_number_of_pixels_and_grows_with_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
