@@ -156,7 +156,7 @@ static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role
     fill_rectangle(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
 }
 
-/* Draw the outline of a triangle: on its side, or upside down on its corner. */
+/* Draw the outline of an upright triangle (`on_side`), or a filled triangle that stands on its corner. */
 static void fill_triangle(pen *p, theme_role role, bool on_side)
 {
     const int middle = SWATCH / 2;

@@ -1,6 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /* node_layers.c - the layers of a tree's nodes and points, within the view's filter, lod and budget.
- */
+ *
+ * One walk over the tree in pre-order adds both layers. Three rules reduce what it adds:
+ *   Filter: nodes and points that the view's filter hides are left out; branches that it hides whole are skipped.
+ *   Lod: a box that appears smaller than `lod` pixels is left out if the box of an ancestor is drawn. The boxes inside
+ * a small box are small too and are not measured. Budget: at most `budget` boxes and at most `budget` points. Boxes are
+ * dropped by whole levels, the deepest first, since half a level would look like a tree with holes. Points are dropped
+ * by a sieve over a hash of their ids (node_boxes.h): each finer sieve drops about half of the points that are left.
+ *
+ * Counting first and drawing afterwards would need two walks. Instead, the walk adds boxes and points until the budget
+ * is exceeded, then removes the deepest level, or about every other point, from the scene, and goes on with that limit.
+ * The result is the same, because levels and sieves are nested. It costs at most one pass over the scene for each of
+ * the 21 levels and each bit of the sieve.
+ *
+ * Kept subtrees: in a large game most of the tree is the same as at the last tick. kept_tree.h stores the boxes and
+ * markers of subtrees with few points, and the walk copies an unchanged subtree instead of visiting its nodes. The
+ * stored points were selected by the last tick's sieve, so the walk starts with that sieve. If this tick needs a finer
+ * sieve, the store is emptied and the walk continues without it. If a looser sieve would do, or memory runs out, the
+ * walk starts again without the store. Either way the scene is the one that a plain walk makes. */
 #include "filter.h"
 #include "foreign_nodes.h"
 #include "kept_tree.h"
@@ -16,7 +33,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FEW_POINTS 32 /* of a leaf: sorted on the stack */
+#define FEW_POINTS 32 /* the points of a leaf with at most this many are sorted on the stack, without malloc */
 
 /* The context of the walk over the nodes. */
 typedef struct tree_walk {
@@ -25,17 +42,16 @@ typedef struct tree_walk {
     const point_values *values;
     uint8_t point_width;
     size_t capacity;
-    bool shows_nodes;                      /* of Octreel's tree; its points are shown with or without them */
-    view_filter filter;                    /* of points */
-    size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* boxes in the scene */
-    int deepest;                           /* boxes below are beyond the budget */
-    uint64_t sieve;                        /* points whose digest has one of these bits are beyond the budget */
-    bool drawn[OCTREE_MAX_DEPTH +
-               2]; /* by depth + 1, on the way from the root: whether a box up to that depth is drawn */
-    bool small[OCTREE_MAX_DEPTH + 2]; /* and whether one is smaller than the view's lod */
-    kept_tree *kept;                  /* null: nothing is kept */
-    size_t looser_count;              /* points that a sieve with a bit less keeps, where subtrees are kept */
-    bool keeping_failed;              /* there was no memory to keep them */
+    bool shows_nodes;                      /* Octreel's nodes are shown; its points may be shown without them */
+    view_filter filter;                    /* the filter that points must pass */
+    size_t at_depth[OCTREE_MAX_DEPTH + 1]; /* the number of boxes in the scene at each depth */
+    int deepest;                           /* boxes at greater depths are beyond the budget */
+    uint64_t sieve;                   /* points whose id has a digest with one of these bits are beyond the budget */
+    bool drawn[OCTREE_MAX_DEPTH + 2]; /* [d + 1]: on the path from the root, a box at depth d or above is drawn */
+    bool small[OCTREE_MAX_DEPTH + 2]; /* [d + 1]: the box at depth d is smaller than the view's lod */
+    kept_tree *kept;                  /* the store of unchanged subtrees; null: not used */
+    size_t looser_count; /* the number of points that a sieve with one bit fewer would keep; counted only with `kept` */
+    bool keeping_failed; /* out of memory for the store: the walk must start again without it */
 } tree_walk;
 
 static void stop_keeping(tree_walk *w)
@@ -47,7 +63,7 @@ static void stop_keeping(tree_walk *w)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Remove about every other point from the scene. */
+/* Use the next finer sieve, and remove the points that it drops from the scene: about every other one. */
 static void thin_points(tree_walk *w)
 {
     scene *s = w->scene;
@@ -72,7 +88,7 @@ static void thin_points_to_budget(tree_walk *w)
         thin_points(w);
 }
 
-/* Whether a point is shown, by the filter and the budget. */
+/* Whether filter and sieve keep a point. Counts the points that the sieve drops. */
 static bool select_point(tree_walk *w, const octree_point *point)
 {
     if (!filter_shows_point(&w->scene->view.filter, point->position))
@@ -86,7 +102,7 @@ static bool select_point(tree_walk *w, const octree_point *point)
     return !out;
 }
 
-/* Points are often in order already. Else insertion sort where there are few. */
+/* Sort points. They are often in order already; otherwise few points are sorted by insertion, and more by qsort. */
 static void sort_points(octree_point *points, size_t count)
 {
     size_t sorted = 1;
@@ -105,7 +121,8 @@ static void sort_points(octree_point *points, size_t count)
     }
 }
 
-/* A leaf's points come in no defined order: they are sorted, so that a scene does not depend on the tree's history. */
+/* Add the points of a leaf. A leaf stores its points in no defined order, so they are sorted: a scene must not depend
+ * on the tree's history. */
 static void add_points(tree_walk *w, const octree_node *leaf)
 {
     scene *s = w->scene;
@@ -130,7 +147,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Remove the deepest level from the scene, so that only whole levels are shown. */
+/* Remove the boxes of the deepest level from the scene. */
 static void drop_level(tree_walk *w)
 {
     scene *s = w->scene;
@@ -171,14 +188,15 @@ static void add_box(tree_walk *w, const scene_box *box)
         drop_level(w);
 }
 
-/* Boxes inside a small box are small too, and need not be measured. */
+/* Whether a box is smaller than the view's lod. A box inside a small box is small without being measured. */
 static bool is_small(const tree_walk *w, const scene_box *box)
 {
     const scene *s = w->scene;
     return w->small[box->depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &box->box, s->view.lod));
 }
 
-/* Whether a node that the filter shows is shown, and all below it may be. */
+/* Add a node's box if filter and lod allow it. `by_filter` says whether the filter shows the node. Return false if the
+ * lod alone leaves it out. */
 static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
 {
     const unsigned depth = box->depth;
@@ -200,7 +218,8 @@ static void show_node(tree_walk *w, const octree_node *node)
 
 /* ---- Kept subtrees ------------------------------------------------------------------------------------------ */
 
-/* All below a node that is left out is left out too: no filter is on. */
+/* Copy a stored subtree into the scene. Where the lod leaves out a node, all nodes below it are left out too, because
+ * the store is used only without a filter. */
 static void add_kept_subtree(tree_walk *w, const kept_subtree *kept)
 {
     scene *s = w->scene;
@@ -234,7 +253,8 @@ static void close_kept_subtree(tree_walk *w)
     w->keeping_failed = w->keeping_failed || !kept_tree_close(w->kept, w->scene);
 }
 
-/* Whether a subtree was added as it was kept. Else it is collected, where it is not a part of another. */
+/* Copy the subtree of a node from the store and return true. Otherwise return false, and begin to store the subtree,
+ * unless it has too many points or is part of a subtree that is being stored. */
 static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
     if (kept_tree_collects(w->kept, node))
@@ -266,7 +286,8 @@ static octree_walk_order add_node(const octree_node *node, void *context)
     return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* What is kept from tick to tick: where the whole tree is shown, and each point as it is alone. */
+/* Return the store of subtrees, or null where it must not be used: it holds only plain points and unfiltered nodes of a
+ * game's own tree, and a small tree does not need it. */
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
@@ -292,7 +313,8 @@ static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
     return true;
 }
 
-/* With the sieve of the last tick, unless a looser one would do now. False when it has to be done unchanged. */
+/* Walk the tree with the store and the sieve of the last tick. Return false when the walk must be repeated without the
+ * store: memory ran out, or a looser sieve would do. */
 static bool walk_with_kept_tree(tree_walk *w, const octree *tree)
 {
     octree_walk(tree, add_node, w);
@@ -324,8 +346,9 @@ static void walk_tree(tree_walk *w, const layer_source *in)
 
 /* ---- Labels ------------------------------------------------------------------------------------------------- */
 
-/* Write the path of a node, or the id of a program's, into the middle of its box, if it fits into the box on screen, so
- * that it is clear whose it is, and covers no other. */
+/* Write the address of a node, or the id of a foreign node, into the middle of its box. The label is left out, and
+ * false is returned, if it is wider than the box on screen (it would not be clear which box it names) or would cover
+ * another label. */
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
     scene_label label = {.id = box->id, .style = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1}};
@@ -345,10 +368,10 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
     return true;
 }
 
-/* Shallow nodes first, then by address. */
+/* Label the boxes of nodes: shallow nodes first, and within a level in the order of the walk. */
 static void add_labels(scene *s)
 {
-    text_space words = text_space_of(s); /* the axes' numbers */
+    text_space words = text_space_of(s); /* the axes' numbers take room too */
     unsigned deepest = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
         if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth > deepest)
@@ -361,15 +384,15 @@ static void add_labels(scene *s)
 
 /* ---- The layers --------------------------------------------------------------------------------------------- */
 
-/* How much farther from each other points are of which one in so many is kept. They are kept at random, which leaves
- * gaps that are wider than those of a scan. */
+/* Return the factor by which the distance between points grows when one point in `one_in` is kept. The sieve keeps
+ * points at random, which leaves wider gaps than a regular scan: hence 1.3. */
 static double thinned_spacing(uint64_t one_in)
 {
     return one_in > 1 ? 1.3 * sqrt((double)one_in) : 1;
 }
 
-/* Both layers in one walk. Points are drawn smaller where there are many: for a game by the session's number, so that
- * it does not change from tick to tick. */
+/* Add both layers in one walk. The more points there are, the smaller they are drawn. A game uses the session's number
+ * of bodies, so that the size does not change from tick to tick. */
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
@@ -379,7 +402,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     w.shows_nodes = view_shows(&s->view, LAYER_NODES) && shows_own_tree(in);
     w.filter = s->view.filter;
     if (!shows_own_tree(in))
-        w.filter.by_depth = false; /* which are those of the other tree */
+        w.filter.by_depth = false; /* the view's depths are depths of the foreign tree */
     walk_tree(&w, in);
     s->tally.deepest = w.deepest;
     if (shows_foreign_tree(in))
@@ -390,7 +413,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
         add_labels(s);
 }
 
-/* A line for each kind that has a colour; Octreel's nodes have none. */
+/* Add a line for each kind of foreign node that has a colour. Octreel's nodes have no kinds. */
 static void add_kinds_legend(legend *l, const layer_source *in)
 {
     const size_t count = shows_foreign_tree(in) ? in->tick->foreign.kind_count : 0;
@@ -404,7 +427,7 @@ static void add_kinds_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_BOLD, "node: any other kind")->role = theme_node_kind_role((unsigned)own);
 }
 
-/* A program's tree has no capacity, and so another scale. */
+/* Add the scales of occupancy. A foreign index has no leaf capacity, so its scale differs. */
 static void add_occupancy_legend(legend *l, const layer_source *in)
 {
     const view *v = &l->scene->view;

@@ -1,8 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* velocity_layer.c - the layer of velocities: for each point that moves and that the view shows an arrow with its id,
- * from where it is along its velocity, up to the world's bounds, where it bounces. Arrows beyond the budget, a
- * thousandth of the view's since more would be indistinct, and arrows shorter than the view's lod are left out and
- * counted. */
+/* velocity_layer.c - the layer of velocities: an arrow for each moving point that the view shows.
+ *
+ * An arrow starts at the point, follows its velocity for velocity_ticks() ticks, and ends at the world's bounds if it
+ * meets them (there the point bounces). The number of ticks depends on the session alone, so lengths can be compared
+ * from tick to tick. A point whose arrow has no length gets none.
+ *
+ * The arrows of a large session would cover the picture, so there is one arrow per thousand boxes of the view's budget.
+ * Arrows are chosen with the sieve that thins out points (node_boxes.h), starting from the sieve that the points of
+ * this scene ended with: an arrow is never shown without its point, and the same points keep their arrows from tick to
+ * tick. One pass counts how many arrows each of the 65 sieves would keep, by the number of zero bits at the end of each
+ * id's digest. The first sieve that keeps few enough is used in a second pass, which adds the arrows. That is O(movers)
+ * whatever the budget. Arrows shorter than the view's lod are left out and counted. */
 #include "velocity_layer.h"
 #include "layer_type.h"
 #include "node_boxes.h"
@@ -12,15 +20,16 @@
 #include <math.h>
 #include <string.h>
 
-#define ARROW_FRACTION 10      /* of the world's longest side: the fastest arrow */
-#define BOXES_PER_ARROW 1000.0 /* of the budget, for which there is one arrow: some hundreds can be told apart */
+#define ARROW_FRACTION 10      /* the fastest arrow is at most 1 / ARROW_FRACTION of the world's longest side */
+#define BOXES_PER_ARROW 1000.0 /* one arrow per this many boxes of the budget: the eye can distinguish some hundreds   \
+                                */
 
 unsigned velocity_ticks(const octree_game *game)
 {
     static const unsigned choices[] = {2, 5, 10, 20, 50, 100, 200, 500, 1000};
     const octree_box *world = &octree_game_session(game)->tree.world;
     const double speed = octree_game_fastest(game);
-    double half = 0; /* of the longest side, which may be more than a double holds */
+    double half = 0; /* half the longest side; the whole side may overflow */
     unsigned ticks = 1;
     for (int axis = 0; axis < 3; axis++)
         half = fmax(half, world->max[axis] / 2 - world->min[axis] / 2);
@@ -40,10 +49,10 @@ static double greater(double a, double b)
     return a > b ? a : b;
 }
 
-/* Its position after so many ticks, or where it meets the bounds before. */
+/* Compute a body's position after some ticks, or the position where it meets the world's bounds earlier. */
 static void extrapolate(const octree_body *body, const octree_box *world, double ticks, double end[3])
 {
-    int stops = -1; /* the axis whose bound it meets */
+    int stops = -1; /* the axis whose bound the body meets first; -1: none */
     for (int i = 0; i < 3; i++) {
         const double bound = body->velocity[i] > 0 ? world->max[i] : world->min[i];
         const double room = body->velocity[i] != 0 ? (bound - body->position[i]) / body->velocity[i] : ticks;
@@ -56,7 +65,7 @@ static void extrapolate(const octree_body *body, const octree_box *world, double
         end[stops] = body->velocity[stops] > 0 ? world->max[stops] : world->min[stops];
 }
 
-/* Whether the view shows the point: its leaf, and its place. */
+/* Whether the view's filter shows a point: by its position and by its leaf. */
 static bool is_shown(const scene *s, const octree *tree, const octree_box *world, const double position[3])
 {
     const view_filter *f = &s->view.filter;
@@ -65,7 +74,7 @@ static bool is_shown(const scene *s, const octree *tree, const octree_box *world
                                 filter_shows_points_of(f, world, &leaf));
 }
 
-/* Shorter than the view's lod, as it appears. */
+/* Whether an arrow appears shorter than the view's lod. */
 static bool is_small(const scene *s, double ends[2][3])
 {
     double from[2], to[2];
@@ -73,7 +82,7 @@ static bool is_small(const scene *s, double ends[2][3])
            fmax(fabs(to[0] - from[0]), fabs(to[1] - from[1])) < s->view.lod;
 }
 
-/* What is the same for all arrows of a tick. */
+/* The facts that all arrows of a tick share. */
 typedef struct arrows {
     const scene *scene;
     const octree *tree;
@@ -81,15 +90,15 @@ typedef struct arrows {
     double ticks;
 } arrows;
 
-/* Whether a body gets on, to this end. */
+/* Compute the end of a body's arrow. Return false if the arrow has no length. */
 static bool find_arrow_end(const arrows *a, const octree_body *body, double end[3])
 {
     extrapolate(body, a->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
 }
 
-/* The same without the end, which most need not look for: they meet no bound, and go far enough for a double to tell,
- * however the bounds are rounded. */
+/* Whether a body's arrow has a length. Most bodies need no exact end: they stay within the bounds, and move far enough
+ * that rounding cannot hide it. */
 static bool has_length(const arrows *a, const octree_body *body)
 {
     bool within = true, far = false;
@@ -102,15 +111,16 @@ static bool has_length(const arrows *a, const octree_body *body)
     return (within && far) || find_arrow_end(a, body, end);
 }
 
-/* Whether a body has an arrow: it has none where it does not get on, or the view does not show it. */
+/* Whether a body has an arrow: the arrow has a length, and the view shows the body. */
 static bool has_arrow(const arrows *a, const octree_body *body)
 {
     return has_length(a, body) && is_shown(a->scene, a->tree, a->world, body->position);
 }
 
-/* Sieves are all ones: an id passes those of no more bits than its digest ends with zeros. */
+/* The number of sieves: a sieve has 0 to 64 low bits set. */
 enum { SIEVES = 65 };
 
+/* Return the number of bits of the finest sieve that keeps an id: the number of zeros at the end of the id's digest. */
 static unsigned count_passed_sieves(uint64_t id)
 {
     unsigned passed = 0;
@@ -119,17 +129,18 @@ static unsigned count_passed_sieves(uint64_t id)
     return passed;
 }
 
-/* At least one, so that there is something to see. */
+/* Return the largest number of arrows in the scene: at least one, so that there is something to see. */
 static size_t max_arrows(const view *v)
 {
     return v->budget ? (size_t)ceil((double)v->budget / BOXES_PER_ARROW) : SIZE_MAX;
 }
 
-/* The first sieve from this one on that lets pass no more arrows than the view's budget has; notes what it leaves out.
- */
+/* Return the first sieve, from `sieve` on, that keeps at most max_arrows() arrows. Store in the tally how many it
+ * leaves out. */
 static uint64_t choose_sieve(scene *s, const arrows *a, const octree_tick *tick, uint64_t sieve)
 {
-    size_t passing[SIEVES] = {0}, all = 0; /* at first: those that are dropped by the next finer one */
+    size_t passing[SIEVES] = {0},
+           all = 0; /* first: arrows that sieve i keeps and sieve i + 1 drops; then: all that sieve i keeps */
     for (size_t i = 0; i < tick->mover_count; i++)
         if (has_arrow(a, &tick->movers[i]))
             passing[count_passed_sieves(tick->movers[i].id)]++;
@@ -152,7 +163,8 @@ static void add(scene *s, const layer_source *in, view_layer own)
                       velocity_ticks(in->game)};
     if (!view_shows(&s->view, own) || tick->mover_count == 0)
         return;
-    const uint64_t points = s->tally.one_in - 1; /* arrows of points that are left out are left out with them */
+    const uint64_t points =
+        s->tally.one_in - 1; /* the sieve of the scene's points: a point that is left out has no arrow */
     const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];

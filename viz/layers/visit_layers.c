@@ -67,8 +67,8 @@ static void add_pruned_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
-/* Write the counts of visited nodes and of nodes taken whole (without looking at their points) into one line, or into
- * two if they do not fit. */
+/* Write the counts of visited nodes and of nodes taken whole (all their points accepted without comparison) into one
+ * line, or into two if they do not fit. */
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* world_layer.c - the world's box, the view's slice and region, and axes with numbers along the box that the camera
- * frames. */
+/* world_layer.c - the layer of the world: its box, the view's slice and region, and axes with numbers along the box
+ * that the camera frames. */
 #include "layer_type.h"
 #include "layout.h"
 #include "number.h"
@@ -9,38 +9,38 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TICK_SPACE 40     /* units of the picture that a number takes at least */
-#define UPRIGHT_SPACE 2   /* lines that it takes of an upright axis */
-#define MOST_TICKS 10     /* of one axis, about */
-#define TICK_LENGTH 0.012 /* of the box's longest side */
-#define END_ON_RATIO 0.1  /* of its length seen from the side */
-#define DIGITS 9          /* of a number */
-#define FIRST_ID 1000     /* of the first axis's ticks */
-#define OUTLINE 1e-3      /* pixels by which the outline of a box is not exact */
-#define LOWEST 16         /* of a level axis a low edge before a left one, unless it is this much steeper */
-#define ROOM 40           /* before both: room at an end */
+#define TICK_SPACE 40     /* the least distance between numbers on a level axis, in units of the picture */
+#define UPRIGHT_SPACE 2   /* the least distance between numbers on an upright axis, in lines */
+#define MOST_TICKS 10     /* the largest number of intervals between numbers on an axis */
+#define TICK_LENGTH 0.012 /* the length of a tick mark, as a part of the box's longest side */
+#define END_ON_RATIO 0.1  /* an axis shorter than this part of its length from the side is seen end on */
+#define DIGITS 9          /* significant digits of a number */
+#define FIRST_ID 1000     /* the id of the first tick mark of the x axis */
+#define OUTLINE 1e-3      /* a corner at most this many pixels outside an edge's line may still lie behind it */
+#define LOWEST 16         /* choose_edge: the weight of being low, against 1 for being at the left; level axes only */
+#define ROOM 40           /* choose_edge: the weight of room for a number at an end */
 
-/* The axes of one scene: the box that they run along, and the room that labels use. Bit i of a corner's number is set
- * at the upper end of axis i. */
+/* The axes of one scene. Corner numbers: bit i is set at the upper end of axis i. */
 typedef struct axes {
     scene *scene;
-    const octree_box *box;
-    double corners[8][2]; /* their pixels */
-    bool whole;           /* all of them are before the camera */
-    text_space words;
+    const octree_box *box; /* the box that the axes run along */
+    double corners[8][2];  /* the corners in pixels */
+    bool whole;            /* all corners are in front of the camera */
+    text_space words;      /* the room that labels already take */
 } axes;
 
 /* The edge of the box that an axis runs along. */
 typedef struct axis_edge {
     int axis;
-    unsigned corner; /* at its lower end */
-    double
-        out[2]; /* on the picture: a unit at right angles to it, away from the box; 0 where no edge is on its outline */
+    unsigned corner; /* the corner at its lower end */
+    double out[2];   /* in the picture: the unit vector normal to the edge, away from the box; 0 if no edge is on the
+                        outline */
 } axis_edge;
 
 static const scene_style axis_style = {.layer = LAYER_WORLD, .role = ROLE_FAINT, .width = 1};
 
-/* Pixels of an axis as seen from its side at the middle of the box: the same wherever an orbit has come to. */
+/* Return the length in pixels that an axis would have if seen from the side, at the distance of the box's middle. An
+ * orbiting camera does not change it. */
 static double side_length(const camera *c, int axis)
 {
     double middle = 0;
@@ -49,7 +49,8 @@ static double side_length(const camera *c, int axis)
     return 2 * c->half[axis] * c->zoom / (c->perspective ? fmax(middle, c->near) : 1);
 }
 
-/* The distance between numbers; 0 when there is no room or they would need too many digits. */
+/* Return the distance between numbers, in world units; 0 when there is no room, or when the numbers would need too many
+ * digits. */
 static double number_step(const axes *a, int axis)
 {
     const double extent = a->box->max[axis] - a->box->min[axis];
@@ -60,7 +61,7 @@ static double number_step(const axes *a, int axis)
         return 0;
     const double step = number_round_up(extent / count);
     const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
-    return step > 0 && largest / step < 1e8 ? step : 0; /* numbers must be told apart by their digits */
+    return step > 0 && largest / step < 1e8 ? step : 0; /* otherwise neighbouring numbers could print the same digits */
 }
 
 static void get_corner(const axes *a, unsigned corner, double at[3])
@@ -69,9 +70,9 @@ static void get_corner(const axes *a, unsigned corner, double at[3])
         at[i] = corner >> i & 1 ? a->box->max[i] : a->box->min[i];
 }
 
-/* ---- Which edges -------------------------------------------------------------------------------------------- */
+/* ---- Choosing edges ------------------------------------------------------------------------------------------ */
 
-/* Whether all of the box lies behind a line through a pixel, as seen from outside. */
+/* Whether no corner of the box lies beyond a line through a pixel; `out` is the line's normal. */
 static bool is_outline(const axes *a, const double at[2], const double out[2])
 {
     for (int i = 0; i < 8; i++)
@@ -80,7 +81,7 @@ static bool is_outline(const axes *a, const double at[2], const double out[2])
     return true;
 }
 
-/* Whether a number beside an end of an edge is within the space view. */
+/* Whether a number beside an end of an edge lies within the space view. */
 static bool has_room(const axes *a, const double at[2], const double out[2])
 {
     const camera_window w = layout_space(a->scene);
@@ -89,8 +90,10 @@ static bool has_room(const axes *a, const double at[2], const double out[2])
     return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
 }
 
-/* On the outline of the box, so that numbers stand beside what is in it: of a level axis the lowest, or else the
- * leftmost edge that has room for them. That of the lowest corner where the camera is in the box. */
+/* Choose the edge that an axis runs along. It lies on the outline of the box, so that numbers stand beside the box and
+ * not on its contents. Each of the four parallel edges is rated in both directions: room for numbers at its ends counts
+ * most; then, for a level axis, being low; then being at the left. If the camera is inside the box, no edge is on the
+ * outline, and the result is the edge at corner 0. */
 static axis_edge choose_edge(const axes *a, int axis)
 {
     axis_edge edge = {.axis = axis};
@@ -111,7 +114,8 @@ static axis_edge choose_edge(const axes *a, int axis)
     return edge;
 }
 
-/* An axis seen end on would have all its numbers at one place, or on what is in the box. */
+/* Whether an axis gets no numbers: it is seen end on and they would be all in one place, or it has no edge on the
+ * outline and they would stand on the contents of the box. */
 static bool is_end_on(const axes *a, const axis_edge *e)
 {
     const double *from = a->corners[e->corner], *to = a->corners[e->corner | 1u << e->axis];
@@ -122,7 +126,8 @@ static bool is_end_on(const axes *a, const axis_edge *e)
 
 /* ---- Ticks and letters -------------------------------------------------------------------------------------- */
 
-/* Beyond the end of a tick, away from the edge; where the camera is in the box, in the direction of the tick. */
+/* Place a number beyond the end of its tick mark: away from the edge or, if the camera is inside the box, in the
+ * direction of the tick mark. Return false when there is no room. */
 static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_label *number)
 {
     double from[2], pixel[2], out[2];
@@ -144,7 +149,7 @@ static double longest_side(const scene *s)
     return s->camera.size / s->camera.scale;
 }
 
-/* A short line away from the box, and the number at its end where there is room. */
+/* Add a tick mark, which leads away from the box, and the number at its end where there is room. */
 static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
 {
     scene *s = a->scene;
@@ -174,7 +179,7 @@ static void add_ticks(axes *a, const axis_edge *e)
         add_tick(a, e, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
-/* Beyond the end of an axis, on the way from its start. False when there is no room. */
+/* Place an axis's letter beyond the end of the axis, in the axis's direction. Return false when there is no room. */
 static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
 {
     const scene *s = a->scene;
@@ -189,8 +194,9 @@ static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
     return text_space_take(&a->words, s, letter->text, pixel, letter->at);
 }
 
-/* The letter at the end of an axis that is not seen end on. Numbers do not cover it. Where there is no room beyond the
- * end, it stands beside it. If the box is not the world's, nothing else draws its edges. */
+/* Add the letter at the end of an axis that is not seen end on. Numbers do not cover it. Without room beyond the end,
+ * it stands at the end itself. `drawn`: also draw the axis's edge, which nothing else draws if the box is not the
+ * world's. */
 static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
     scene_label letter = {.id = (uint64_t)e->axis, .style = axis_style, .text = {(char)('x' + e->axis), 0}};
@@ -208,9 +214,9 @@ static void add_axis(axes *a, const axis_edge *e, bool drawn)
     scene_add_label(a->scene, letter);
 }
 
-/* Three axes along edges of the box that the camera frames, each with its letter, and ticks with round numbers where
- * text is shown. The distance of numbers depends on the camera's kind and on the box, not on where an orbit has come
- * to. */
+/* Add three axes along edges of the box that the camera frames: each with its letter and, where the view shows text,
+ * tick marks with round numbers. The step between numbers depends on the box and the kind of camera, not on the
+ * position of an orbiting camera. */
 static void add_axes(scene *s, const octree_box *world)
 {
     const bool fitted = s->view.fit == FIT_BOX;

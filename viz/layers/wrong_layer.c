@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* wrong_layer.c - the layer of a program's answers that are wrong: what it missed, what it named wrongly, and a ring of
- * a fixed size about the place, so that it is found in the picture, however small it is in the world. */
+/* wrong_layer.c - the layer of wrong foreign answers and wrong foreign nodes. It marks missing and extra points, and
+ * draws a ring of fixed size around each wrong answer, so that it is visible however small it is in the world. */
 #include "foreign_nodes.h"
 #include "judgement.h"
 #include "layer_type.h"
@@ -9,24 +9,24 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In half units. */
+/* Half sizes of marks and rings, and the width of lines, in half units. */
 #define MARK 9
 #define RING 28
 #define LINE_WIDTH 3
 
-/* Marks shrink beyond so many, so that they hide less; and so do rings, all but that of the worst answer. */
+/* Beyond these counts marks and rings shrink, so that they hide less. The ring of the worst answer keeps its size. */
 #define FEW_MARKS 50
 #define FEW_RINGS 3
 
-/* Markers have their point's id; a ring one that no point of a session file has. */
+/* A marker has its point's id. A ring has an id that no point of a session file can have. */
 static uint64_t ring_id(size_t place)
 {
     return UINT64_MAX - place;
 }
 
-#define LEFT_OUT_ID UINT64_MAX /* of a label */
+#define LEFT_OUT_ID UINT64_MAX /* the id of the label "and 3 more wrong" */
 
-/* Lines: the answer and which of its extra points. */
+/* The id of the line to an extra point of an answer. */
 static uint64_t line_id(size_t place, size_t extra)
 {
     return (uint64_t)place << 32 | (uint64_t)extra;
@@ -45,7 +45,8 @@ static bool is_in_session(const octree_session *session)
     return session->foreign_count > 0;
 }
 
-/* The position of the first wrong point; where no point is missing or extra, the middle of the region. */
+/* Find the middle of an answer's ring: the first missing or extra point; otherwise the query's target, or the middle of
+ * its region. */
 static void find_ring_position(const octree_answer *answer, double place[3])
 {
     const octree_point *point = judgement_first_point(&answer->judgement);
@@ -85,7 +86,7 @@ static void mark_answer(scene *s, const octree_answer *answer, size_t place, uns
     text_space_keep_mark(occupied, s, at, ring);
 }
 
-/* Whether there was room for them. */
+/* Write what is wrong with an answer beside its ring. Return false when there is no room. */
 static bool add_answer_label(scene *s, const octree_answer *answer, size_t place, text_space *occupied)
 {
     char words[JUDGEMENT_TEXT];
@@ -96,7 +97,7 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
     return text_add_beside(occupied, s, label, at, RING);
 }
 
-/* In the corner at the right: how many words had no room. */
+/* Write the number of texts without room into the top right corner. */
 static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
     const camera_window w = layout_space(s);
@@ -108,7 +109,7 @@ static void add_left_out_count(scene *s, size_t count, text_space *occupied)
         text_add_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
-/* The words of answers have their room before those of nodes. */
+/* Marks come first, so that texts do not cover them. Texts of answers get room before texts of nodes. */
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     size_t worst, left_out = 0;
@@ -146,7 +147,7 @@ static bool has_point(const octree_point *points, size_t count, uint64_t id)
     return false;
 }
 
-/* The first answer that misses a point, or has it wrongly. */
+/* Return the index of the first answer from which a point is missing, or in which it is extra; answer_count if none. */
 static size_t find_answer(const octree_tick *tick, uint64_t id, bool missed)
 {
     size_t i = 0;
