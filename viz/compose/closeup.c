@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* closeup.c - the layer of the close-up: a scene of its own in the direction of view of the world, with what it
- * shows in its middle, and cut off as far before and behind it as beside it. In the picture stand its frame and the
- * rectangle that it shows, in itself a scale. */
+/* closeup.c - the layer of the close-up.
+ *
+ * A close-up is a scene of its own, built from the same layers. Its camera looks in the same direction as the scene's,
+ * with its subject in the middle, and cuts off everything farther in front of or behind the subject than beside it. The
+ * picture itself gets a frame around the close-up, an outline of the enlarged area, and lines between the two. The
+ * close-up gets a scale. */
 #include "closeup.h"
 #include "number.h"
 
@@ -12,9 +15,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Its scene ---------------------------------------------------------------------------------------------- */
+/* ---- The scene of the close-up ------------------------------------------------------------------------------- */
 
-/* The box in the world around all that the close-up may show: a view's filter leaves out whole branches by it. */
+/* Return a box in the world that holds everything that the close-up can show. The view's filter skips whole branches of
+ * the tree outside it. */
 static octree_box visible_box(const camera *c, const view *v)
 {
     octree_box box;
@@ -40,7 +44,7 @@ static void narrow_region(view_filter *f, const octree_box *region)
     f->by_region = true;
 }
 
-/* As large a part as it has of the picture. */
+/* Return the close-up's part of the view's budget: its part of the picture's pixels, at least 1. */
 static uint64_t budget_share(const view *v, double pixels)
 {
     const double part = (double)v->budget * (pixels / v->width / v->height);
@@ -74,7 +78,7 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     return true;
 }
 
-/* ---- Its frame ---------------------------------------------------------------------------------------------- */
+/* ---- The frame ----------------------------------------------------------------------------------------------- */
 
 enum {
     BORDER_ID,
@@ -85,7 +89,7 @@ enum {
     LEFT_OUT_ID = SCALE_ID + 3
 };
 
-/* A rectangle of the picture: left, top, right, bottom. */
+/* A rectangle in the picture: left, top, right, bottom, in pixels. */
 typedef struct rectangle {
     double side[4];
 } rectangle;
@@ -98,8 +102,8 @@ static void add_flat(scene *s, uint64_t id, double x0, double y0, double x1, dou
                                          .style = {.layer = LAYER_CLOSEUP, .role = (uint8_t)role, .width = 1}});
 }
 
-/* What the close-up shows, in the picture, as far as it is in the space of the world, and never too small to be seen;
- * false where it is not. */
+/* Find the area of the picture that the close-up enlarges, cut at the edges of the space view. It is never too small to
+ * be visible. Return false when it lies outside the space view. */
 static bool find_region(const scene *s, rectangle *r)
 {
     const camera *c = &s->closeup->camera;
@@ -119,7 +123,7 @@ static bool find_region(const scene *s, rectangle *r)
     return r->side[0] < r->side[2] && r->side[1] < r->side[3];
 }
 
-/* The rectangle, and lines from its corners to those of the close-up that are nearest. */
+/* Outline the enlarged area, and draw lines from two of its corners to the nearest corners of the close-up. */
 static void add_region(scene *s, const rectangle *frame)
 {
     rectangle r;
@@ -147,7 +151,7 @@ static void add_frame(scene *s)
     scene_add_rectangle(s, GROUND_ID, c->place, (int[]){width, height}, LAYER_CLOSEUP, ROLE_BACKGROUND);
 }
 
-/* A length of 1, 2 or 5 times a power of ten that takes at most `limit`; 0 where doubles end. */
+/* Return the largest 1, 2 or 5 times a power of ten that is at most `limit`; 0 if that is too small for a double. */
 static double round_length(double limit)
 {
     double power = 1;
@@ -158,7 +162,7 @@ static double round_length(double limit)
     return limit >= 5 * power ? 5 * power : limit >= 2 * power ? 2 * power : power;
 }
 
-/* Leave out the words, and the grounds that they are on, of which a rectangle would cover some. */
+/* Remove the labels that a rectangle would cover at least in part, together with their backgrounds. */
 static void drop_words(scene *s, const int corner[2], const int size[2])
 {
     size_t kept = 0;
@@ -178,7 +182,7 @@ static void drop_words(scene *s, const int corner[2], const int size[2])
     s->labels.count = kept;
 }
 
-/* A bar, its length in the world, and how many times as large all is. */
+/* Add a scale: a bar, its length in world units, and the magnification. */
 static void add_scale(scene *s)
 {
     const int unit = s->unit, margin = 6 * unit;
@@ -203,7 +207,7 @@ static void add_scale(scene *s)
     scene_add_label(s, label);
 }
 
-/* What the budget leaves out. */
+/* Write what the budget leaves out of the close-up. */
 static void add_left_out(scene *s)
 {
     const scene_tally *t = &s->tally;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* closeup.h - what is small in a picture, larger, in a part of it. */
+/* closeup.h - the close-up: a part of the picture that shows a small area of the world enlarged. */
 #ifndef COMPOSE_CLOSEUP_H
 #define COMPOSE_CLOSEUP_H
 
 #include "layer_type.h"
 
-/* Begin the close-up of a scene whose camera is set: s->closeup is empty, with a view and a camera of its own, of
- * this place, so many times as large. False when there is no memory. `close` becomes what it is filled from. */
+/* Begin the close-up of a scene whose camera is set. s->closeup becomes an empty scene with a view and a camera of its
+ * own, which shows `place` (in the world) enlarged `times` times. `close` becomes the input for its layers. Return
+ * false when there is no memory. */
 bool closeup_begin(scene *s, const layer_source *in, const double place[3], double times, layer_source *close);
 
 #endif

@@ -1,8 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-/* closeup_course.c - what a close-up shows.
+/* closeup_course.c - chooses the place and the magnification of the close-up.
  *
- * It follows step by step: kept still until what it shows leaves it, it would jump by as much as it shows. Its scale
- * stays, since nothing in it could be compared from tick to tick otherwise. */
+ * The problem: the close-up should show whatever happens in a tick, but a viewer must be able to follow it from frame
+ * to frame, and a recorder does not know the ticks to come.
+ *
+ * The subjects of a tick are boxes: the player, or the requested node, the answers, or the changes of the tick. The
+ * first pass collects subjects that appear small in the view, and a second pass all others; a subject joins the group
+ * if the whole group still fits into the close-up. The middle of the group is the middle of the close-up.
+ *
+ * The magnification is fixed by the first small subject and never changes again: otherwise sizes could not be compared
+ * from tick to tick. It is a round number that makes the subject about WANTED of the picture's height. The place
+ * follows the player or the queries at every tick. A close-up that stood still until its subject left it would jump by
+ * its whole width. Changes without queries happen here and there, so there the close-up moves only if it does not show
+ * them all. A moving point counts together with its position in the next tick, so that it does not leave the close-up
+ * at once. */
 #include "closeup_course.h"
 #include "layer_type.h"
 #include "layout.h"
@@ -11,14 +22,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Parts of the height of the picture. */
-#define SMALL (32.0 / 720)     /* what appears larger needs no close-up, */
-#define WANTED (68.0 / 720)    /* and a close-up makes it about so large, */
-#define STILL 0.4              /* or, where nothing moves, this part of itself. */
-#define SURROUNDED (8.0 / 720) /* Neighbours are visible_part with so much around them, or with their leaf, */
-#define CHANGED (31.0 / 720)   /* and what is moved with so much: what is around it at other ticks is not known */
-#define LEAF_PART 0.5          /* The part of a leaf that counts, which is then seen as a whole */
-#define MAX_MAGNIFICATION 1e6  /* as --zoom */
+/* Sizes as parts of the picture's height. */
+#define SMALL (32.0 / 720)     /* a subject that appears larger than this needs no close-up */
+#define WANTED (68.0 / 720)    /* the close-up enlarges the subject to about this size */
+#define STILL 0.4              /* in a tree alone nothing moves: up to this part of the close-up instead */
+#define SURROUNDED (8.0 / 720) /* neighbours are shown with surroundings of at least this size, or with their leaf */
+#define CHANGED (31.0 / 720)   /* changes are shown with larger surroundings: those of other ticks are not known */
+#define LEAF_PART 0.5          /* of a leaf's half extent: enough to see the whole leaf in the close-up */
+#define MAX_MAGNIFICATION 1e6  /* the limit of --zoom */
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
@@ -43,7 +54,7 @@ static void widen_by_cell(octree_box *box, const octree_box *world, octree_addre
     widen(box, cell.min, cell.max);
 }
 
-/* Half of the longest extent, which may overflow. */
+/* Return half the longest side of a box. The whole side could overflow. */
 static double half_extent(const octree_box *box)
 {
     double reach = 0;
@@ -52,9 +63,9 @@ static double half_extent(const octree_box *box)
     return reach;
 }
 
-/* ---- What there is to be seen ------------------------------------------------------------------------------- */
+/* ---- Subjects ------------------------------------------------------------------------------------------------ */
 
-/* The region of a query; of a query for neighbours its target and the neighbours found. */
+/* Return the region of a query or, for a query for neighbours, the box around its target and the neighbours found. */
 static octree_box answer_box(const octree_answer *answer)
 {
     octree_box box = nothing;
@@ -66,7 +77,7 @@ static octree_box answer_box(const octree_answer *answer)
     return box;
 }
 
-/* Where a point moves to in the next tick, too: a close-up is of no use to one that leaves it at once. */
+/* Widen a box by a moving point's position at this tick and at the next. */
 static void widen_by_movement(octree_box *box, const octree_body *mover)
 {
     double next[3];
@@ -76,7 +87,7 @@ static void widen_by_movement(octree_box *box, const octree_body *mover)
     widen(box, next, next);
 }
 
-/* What a tick edits, moves, splits and merges. */
+/* Return the box around everything that a tick edits, moves, splits and merges. */
 static octree_box changes_box(const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -90,8 +101,8 @@ static octree_box changes_box(const layer_source *in)
     return box;
 }
 
-/* The height of a picture in pixels, and how long a pixel is in world units at the distance of what the camera looks
- * at: that of tick 0, since an orbit does not show everything at the same size at every tick. */
+/* The height of the picture in pixels, and the length of a pixel in world units at the distance that the camera looks
+ * at. The camera is that of tick 0: an orbiting camera does not show a thing at the same size at every tick. */
 typedef struct measure {
     double height, pixel;
 } measure;
@@ -99,7 +110,7 @@ typedef struct measure {
 static measure measure_of(const layer_source *in)
 {
     scene with = {.has_closeup = true};
-    double center[3]; /* what it looks at does not matter */
+    double center[3]; /* any point will do: only the distance counts */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
     const camera c = camera_make(in->view, layout_camera(&with, &in->world), &in->world, center, 0);
@@ -111,15 +122,15 @@ static double part_of_height(const measure *m, double reach)
     return 2 * reach / m->pixel / m->height;
 }
 
-/* Whether anything is: else what there is to be seen is what a tick changes. */
+/* Whether the subjects are queries (or a tree alone), not the changes of a tick. */
 static bool has_queries(const layer_source *in)
 {
     return in->answer_count > 0 || !in->tick;
 }
 
-/* ---- How large ---------------------------------------------------------------------------------------------- */
+/* ---- Magnification ------------------------------------------------------------------------------------------- */
 
-/* The greatest of 1, 2, 3, 4, 5, 6 and 8 times a power of ten that is at most `limit`, which is at least 1. */
+/* Return the greatest of 1, 2, 3, 4, 5, 6 and 8 times a power of ten that is at most `limit`; limit is at least 1. */
 static double round_down(double limit)
 {
     static const double steps[] = {8, 6, 5, 4, 3, 2, 1};
@@ -132,15 +143,15 @@ static double round_down(double limit)
     return power;
 }
 
-/* The part that a close-up shows, which is as many times as large. */
+/* Return the part of the picture's height that a close-up shows at a magnification. */
 static double visible_part(const layer_source *in, const measure *m, double times)
 {
     const camera_window w = layout_closeup(in->view);
     return fmin(w.width, w.height) / m->height / times;
 }
 
-/* Of what has this reach; 0 where that is large enough already, or nothing. Where nothing moves it may fill the
- * close-up. */
+/* Return the magnification for a subject of this half extent; 0 if the subject has no extent or appears large enough
+ * already. In a tree alone the subject may fill more of the close-up. */
 static double magnification_for(double reach, const layer_source *in, const measure *m)
 {
     const double part = part_of_height(m, reach),
@@ -154,7 +165,7 @@ double closeup_magnification(const closeup_course *course, const layer_source *i
     return in->view->closeup && layout_closeup(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
-/* Where neighbours are very near, they alone say nothing. */
+/* Return the half extent of a subject with some surroundings. Very near neighbours alone would show no context. */
 static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const measure *m)
 {
     double middle[3];
@@ -165,18 +176,19 @@ static double half_extent_with_leaf(const layer_source *in, const octree_box *se
     return fmax(half_extent(seen), fmin(has_leaf ? LEAF_PART * half_extent(&leaf.box) : INFINITY, around));
 }
 
-/* ---- Where -------------------------------------------------------------------------------------------------- */
+/* ---- Place --------------------------------------------------------------------------------------------------- */
 
-/* What is gathered for a close-up. */
+/* The search for the group of subjects that a close-up shows. */
 typedef struct group_search {
     const layer_source *in;
     measure m;
-    double most;  /* nothing is taken in that takes a larger part */
-    double reach; /* of the first that is small; 0: there was none */
+    double most;  /* larger subjects are ignored: a part of the picture's height */
+    double reach; /* the half extent of the first small subject; 0: none yet */
     octree_box group;
 } group_search;
 
-/* What has no size of its own, which somebody asked for, is visible_part with its leaf. */
+/* Add a subject to the group if all of it then fits into the close-up. The first subject fixes the reach. `is_sized`
+ * says that the user chose the subject's size; any other subject is shown with its leaf. */
 static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
 {
     octree_box both = g->group;
@@ -214,7 +226,7 @@ static void add_candidates(group_search *g)
     }
 }
 
-/* Those that are small come first. */
+/* Find the group: first from small subjects, then from all. */
 static group_search find_group(const closeup_course *course, const layer_source *in)
 {
     group_search g = {in, measure_of(in), SMALL, course->reach, nothing};
@@ -224,7 +236,7 @@ static group_search find_group(const closeup_course *course, const layer_source 
     return g;
 }
 
-/* Whether a close-up at a place shows it all. */
+/* Whether a close-up at `place` shows the whole group. */
 static bool is_within(const group_search *g, const double place[3])
 {
     double reach = 0;
@@ -233,8 +245,7 @@ static bool is_within(const group_search *g, const double place[3])
     return part_of_height(&g->m, reach) < visible_part(g->in, &g->m, magnification_for(g->reach, g->in, &g->m));
 }
 
-/* What is asked is followed as a player is. Changes are here and there, and those that a close-up shows need not move
- * it. */
+/* Follow the queries at every tick; follow changes only if the close-up does not show them all. */
 static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
     const group_search g = find_group(course, in);
@@ -246,7 +257,7 @@ static void follow_queries_or_changes(closeup_course *course, const layer_source
         course->place[i] = fmin(fmax(course->place[i], in->world.min[i]), in->world.max[i]);
 }
 
-/* A close-up is of no use to a player that leaves it at once by its step. */
+/* Follow the player. The reach includes half a step, so that a step does not leave the close-up. */
 static void follow_player(closeup_course *course, const layer_source *in)
 {
     const octree_player *player = &in->session->player;

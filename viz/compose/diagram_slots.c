@@ -1,4 +1,13 @@
 /* SPDX-License-Identifier: MIT */
+/* diagram_slots.c - arranges the nodes of a tree across the diagram (diagram_slots.h explains the layout).
+ *
+ * The tree's statistics give the number of nodes at each depth, and with it the deepest level that can fit at all. One
+ * walk copies the nodes down to that level, in pre-order. A pass from the last node to the first adds up the shares,
+ * since children come after their parent. If rounding up has made the sum larger than the room, the deepest level is
+ * dropped and the shares are added again. A pass from the first node to the last then assigns the slots, with one
+ * record for each depth that holds how much of the ancestor's slot is assigned. Everything is tried first with room
+ * for empty octants and, if the whole tree does not fit that way, again without. Each pass is O(nodes copied), and
+ * there is at most one pair of passes for each of the 21 levels. */
 #include "diagram_slots.h"
 #include "octree/octree.h"
 
@@ -7,13 +16,13 @@
 
 #define OCTANTS 8
 
-/* ---- Which nodes -------------------------------------------------------------------------------------------- */
+/* ---- Choosing levels ----------------------------------------------------------------------------------------- */
 
-/* The deepest level that may fit, before shares are rounded up: the shares are the leaves of the tree cut off there,
- * and its empty octants if they count. */
+/* Return the deepest level that can fit before shares are rounded up. The shares are then the leaves of the tree cut
+ * off at that level and, if they count, its empty octants. */
 static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size_t room)
 {
-    size_t leaves = 0, inner = 0; /* above */
+    size_t leaves = 0, inner = 0; /* at the levels down to `depth` */
     unsigned depth = 0;
     for (; depth < stats->depth; depth++) {
         leaves += stats->leaves_at_depth[depth];
@@ -56,7 +65,7 @@ static void drop_level(diagram_slots *slots)
 
 /* ---- Shares ------------------------------------------------------------------------------------------------- */
 
-/* Up to the next of 1, 2, 3, 4, 6, 8, 12, 16, 24 ... */
+/* Round up to the next of 1, 2, 3, 4, 6, 8, 12, 16, 24 ... */
 static uint64_t round_up(uint64_t shares)
 {
     uint64_t step = 1;
@@ -83,10 +92,10 @@ static unsigned empty_octants(const diagram_node *node)
     return empty;
 }
 
-/* From the last node to the first: a node's children come after it. Returns the share of the root's octants. */
+/* Add up the shares, from the last node to the first. Return the sum of the shares of the root's octants. */
 static uint64_t add_shares(diagram_slots *slots)
 {
-    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* the sums of each depth, until their parent comes */
+    uint64_t below[OCTREE_MAX_DEPTH + 2] = {0}; /* [d]: the sum of the shares at depth d since the last parent */
     for (size_t i = slots->count; i-- > 0;) {
         diagram_node *node = &slots->nodes[i];
         const unsigned depth = node->depth;
@@ -106,7 +115,7 @@ typedef struct slot_progress {
     uint64_t assigned;
 } slot_progress;
 
-/* The slot of the child at `octant`; those between the last one and it are empty. */
+/* Assign the slot of the child at `octant`. The octants between the last child and this one are empty. */
 static void assign_slot(slot_progress *d, unsigned empty, unsigned octant, uint64_t share, diagram_node *child)
 {
     const double left = d->node->left, width = d->node->right - left, all = (double)d->node->child_shares;
@@ -132,7 +141,7 @@ static void place_nodes(diagram_slots *slots)
     }
 }
 
-/* Take the levels that may fit, and drop those that do not. */
+/* Copy the levels that can fit, and drop levels until the shares fit into the room. */
 static bool arrange(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
 {
     slots->empty = empty;
@@ -167,13 +176,13 @@ void diagram_slots_release(diagram_slots *slots)
     memset(slots, 0, sizeof *slots);
 }
 
-/* ---- What is folded ----------------------------------------------------------------------------------------- */
+/* ---- Folded levels ------------------------------------------------------------------------------------------- */
 
 typedef struct folding {
     const diagram_slots *slots;
-    size_t next;               /* of the slots' nodes, which come in the same order */
-    const diagram_node *above; /* the last one */
-    size_t before;             /* points of `above` that have been passed */
+    size_t next;               /* the index of the next node in slots->nodes; the walk has the same order */
+    const diagram_node *above; /* the last node at the deepest unfolded levels */
+    size_t before;             /* the points of `above` that the walk has passed */
     diagram_visitor visit;
     void *context;
 } folding;

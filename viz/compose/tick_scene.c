@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tick_scene.c - the table of layers, and scenes made by it. */
+/* tick_scene.c - the table of layers, and the functions that compose scenes from it. */
 #include "tick_scene.h"
 #include "closeup.h"
 #include "layer_type.h"
@@ -21,8 +21,9 @@ view_layer layer_of_query(octree_query_kind kind)
     return layers[kind];
 }
 
-/* With a player moved by keys some are known in advance: those that the session asks in each tick, and the nearest
- * point by a key. Of the others only those asked so far: a session that is filmed while it is written has no more. */
+/* Whether a query of a layer's kind was asked so far, or is known to come. A player moved by keys can ask for the
+ * nearest point, and such a session also lists the queries of every tick. Other queries count only once they are asked:
+ * a session that is filmed while it is written does not contain later ones. */
 static bool has_query_of(const layer_source *in, view_layer layer)
 {
     const bool known = in->game && in->session->player.kind == OCTREE_PLAYER_KEYS;
@@ -55,7 +56,7 @@ static void add_layer(scene *s, const layer_source *in, view_layer layer)
             type->add_answer(s, &in->answers[i], i, layer);
 }
 
-/* The panel counts what the others left out, and so comes last. */
+/* Add all layers. The panel comes last because it counts what the other layers left out. */
 static void add_layers(scene *s, const layer_source *in)
 {
     for (int i = 0; i < LAYER_ALL; i++)
@@ -64,7 +65,7 @@ static void add_layers(scene *s, const layer_source *in)
     add_layer(s, in, LAYER_TEXT);
 }
 
-/* The close-up is a scene of the same layers. */
+/* Fill the close-up's scene with the same layers. */
 static void add_closeup(scene *s, const layer_source *in, const double place[3], double times)
 {
     layer_source close;
@@ -144,7 +145,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .values = subject->values,
                        .title = subject->title,
                        .requested = subject->node};
-    double center[3]; /* what the camera follows without a player */
+    double center[3]; /* the camera looks at it, as it looks at the player of a game */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
     return build_scene(s, &in, center, (closeup_course){0});
 }
