@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* diagram.c - the layer of the diagram: the tree drawn as a tree, the paper's Figure 2.
+/* diagram.c - the layer of the diagram: the tree drawn as a tree, as in the paper's Figure 2.
  *
- * A row a level, the root at the top. Nodes that have room are drawn one by one, with a line from row_step to its
- * parent: inner nodes as squares, leaves as squares of half the side; in the colours of the space view, or grey if the
- * view's filter hides them. Levels that do not fit are folded into bars that show how many nodes are in a column of the
- * picture: each doubling is a sixteenth of the row higher. See diagram_slots.h for the layout.
- */
+ * The problem: a reader wants to see the whole structure, but a tree of 40,000 leaves has more nodes than the picture
+ * has pixels across. The idea: draw the upper levels node by node and fold the lower ones.
+ *   - Each level is a row, the root at the top. diagram_slots.h decides where a node stands and which levels have room.
+ *   - Nodes that have room are squares (leaves with half the side), in the colours of the space view, or grey if the
+ *     view's filter hides them. A line leads from each node to its parent: bold if a query visited the node, dashed if
+ *     a query pruned it.
+ *   - The other levels are folded into bars. A bar stands for the nodes in a column two units wide. Its height is
+ *     logarithmic: each doubling of the number of nodes adds a sixteenth of the row.
+ *   - The path from the root to the player's leaf, or to the requested node, is drawn on top of both.
+ * In a game, rows are added four at a time, so that they seldom move when the tree grows deeper. The cost is at most
+ * two walks over the tree for the slots and one for the bars. */
 #include "diagram_slots.h"
 #include "foreign_nodes.h"
 #include "layer_type.h"
@@ -21,27 +27,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In units. */
-#define NODE 6      /* the side of an inner node; a leaf's is half as long */
-#define RING 2      /* by which the ring around a node on the path is larger than the node, both sides together */
-#define EDGE 8      /* the margin of a diagram without words */
-#define NARROWEST 2 /* of a slot */
+/* Sizes in units of the picture. */
+#define NODE 6      /* the side of an inner node; a leaf's side is half as long */
+#define RING 2      /* the width that a ring adds to a node on the path, both sides together */
+#define EDGE 8      /* the margin of a diagram without text */
+#define NARROWEST 2 /* the least width of a share */
 #define BAR 2       /* the width of a bar */
 
-/* Room for words beside the nodes, in letters, and above and below them, in lines; and the letters and lines that a
- * diagram with words has at least. */
+/* The margins for text: left and right in letters, above and below in lines; and the least width in letters and height
+ * in lines of a diagram with text. */
 enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_WIDTH = 25, WORDS_HEIGHT = 9 };
 
-#define BAR_STEPS 16       /* of a bar's height; as high as a row */
-#define ROWS_AT_ONCE 4     /* rows are added in steps, so that they seldom move when the tree grows deeper */
-#define MOST_DIGITS 999999 /* a longer number is rounded */
+#define BAR_STEPS 16       /* the steps of a bar's height; the last one fills the row */
+#define ROWS_AT_ONCE 4     /* the number of rows is a multiple of this, so that rows seldom move */
+#define MOST_DIGITS 999999 /* a larger number is rounded to three digits */
 
-/* Ids of panels: a node's address; those of other panels have a highest bit that no address has. */
+/* Ids of panels. A node's panel has its address. Other panels have an id whose highest bit is one that no address has.
+ */
 #define GROUND_ID UINT64_C(0)
-#define BAR_ID (UINT64_C(1) << 61)  /* and the depth above 32 bits of the column */
-#define PATH_ID (UINT64_C(1) << 62) /* and the depth; with a bit of 32 the ring that keeps mark and node apart */
+#define BAR_ID (UINT64_C(1) << 61)  /* plus depth << 32 plus column */
+#define PATH_ID (UINT64_C(1) << 62) /* plus depth; plus 32 for the dark ring between a node and its ring */
 
-/* Where a line meets a node: at its head from above, and at its foot from below. */
+/* The points where lines meet a node, in pixels: at the top from its parent, at the bottom from its children. */
 typedef struct anchor {
     double x, head, foot;
 } anchor;
@@ -52,17 +59,17 @@ typedef struct diagram {
     diagram_slots slots;
     size_t capacity;
     camera_window window;
-    double left, width; /* of the slots */
-    double top, pitch;  /* of the rows */
+    double left, width; /* the interval of pixels that all slots share */
+    double top, pitch;  /* the top of the first row, and the height of a row, in pixels */
     unsigned rows;
     uint64_t next_label;
-    bool words;                           /* there is room for words */
-    octree_address path;                  /* the node at the end of the path that is shown; 0: no path */
-    octree_node end;                      /* that node */
-    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* the nodes on it */
+    bool words;                           /* there is room for text */
+    octree_address path;                  /* the address of the node at the end of the path; 0: no path */
+    octree_node end;                      /* the node at the end of the path */
+    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* [d]: the anchor of the path's node at depth d */
 } diagram;
 
-/* Of a tree alone as many as there are levels. */
+/* Return the number of rows: for a tree alone the number of levels, for a game a multiple of ROWS_AT_ONCE. */
 static unsigned count_rows(const diagram *d, unsigned depth)
 {
     const octree *tree = d->in->tree;
@@ -73,8 +80,8 @@ static unsigned count_rows(const diagram *d, unsigned depth)
     return rows < most ? rows : most;
 }
 
-/* Measure the area of the picture, and arrange the tree in it. False when there is no room, or no memory
- * (s->out_of_memory). */
+/* Divide the diagram's area of the picture, and arrange the tree in it. Return false when there is no room, or no
+ * memory (s->out_of_memory). */
 static bool arrange(diagram *d)
 {
     scene *s = d->scene;
@@ -106,20 +113,20 @@ static bool is_on_path(const diagram *d, octree_address node, unsigned depth)
     return d->path && depth <= deep && d->path >> 3 * (deep - depth) == node;
 }
 
-/* The middle of a row. */
+/* Return the y of the middle of a row. */
 static double row_middle(const diagram *d, unsigned depth)
 {
     return d->top + (depth + 0.5) * d->pitch;
 }
 
-/* The anchor of a node of this height whose middle is at `middle`, 0 to 1. */
+/* Return the anchor of a node. `middle` is its position, 0 to 1; `height` is in pixels. */
 static anchor anchor_at(const diagram *d, unsigned depth, double middle, double height)
 {
     const double y = row_middle(d, depth);
     return (anchor){d->left + d->width * middle, y - height / 2, y + height / 2};
 }
 
-/* A rectangle about a pixel; at least one pixel wide and high. */
+/* Fill a rectangle centred at a pixel, at least one pixel wide and high. */
 static void fill_box(const diagram *d, uint64_t id, double x, double y, double width, double height, unsigned role)
 {
     const int across = width < 1 ? 1 : (int)width, along = height < 1 ? 1 : (int)height;
@@ -135,7 +142,7 @@ static scene_style line_style(theme_role role, scene_stroke stroke, unsigned wid
         .layer = LAYER_DIAGRAM, .role = (uint8_t)role, .stroke = (uint8_t)stroke, .width = (uint8_t)width};
 }
 
-/* A node and a visit by the order of a walk: the root first, and each node before its children. */
+/* Compare a node's address and a visit in the order of a walk: each node comes before its children. */
 static int compare_in_walk_order(const void *node, const void *visit)
 {
     const octree_address a = *(const octree_address *)node, b = ((const octree_visit *)visit)->node;
@@ -145,7 +152,7 @@ static int compare_in_walk_order(const void *node, const void *visit)
     return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
 }
 
-/* The tick's visit of a node, or null. */
+/* Return the tick's visit of a node, or null. */
 static const octree_visit *find_visit(const octree_tick *tick, octree_address node)
 {
     return tick && tick->visit_count
@@ -153,7 +160,7 @@ static const octree_visit *find_visit(const octree_tick *tick, octree_address no
                : NULL;
 }
 
-/* The line to a node from its parent: bold if visited, dashed if pruned, as in the space view. */
+/* Return the style of the line from a node to its parent: bold if visited, dashed if pruned, as in the space view. */
 static scene_style edge_style(const diagram *d, octree_address node, theme_role role)
 {
     const octree_visit *visit = find_visit(d->in->tick, node);
@@ -165,7 +172,7 @@ static scene_style edge_style(const diagram *d, octree_address node, theme_role 
     return line_style(role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
-/* As high as the row allows, and as wide as the slot: a leaf is half as large as an inner node. */
+/* Compute the width and height of a node: limited by its slot and its row; a leaf is half as large as an inner node. */
 static void measure(const diagram *d, const diagram_node *node, double size[2])
 {
     const int unit = d->scene->unit;
@@ -182,7 +189,7 @@ static unsigned role_of(const diagram *d, const diagram_node *node)
                : ROLE_WORLD;
 }
 
-/* From the foot of a node to the head of its child. */
+/* Add the line from the bottom of a node to the top of its child. */
 static void add_line(const diagram *d, octree_address child, const anchor *from, const anchor *to, scene_style style)
 {
     scene_add_segment(d->scene, (scene_segment){.id = child,
@@ -191,7 +198,7 @@ static void add_line(const diagram *d, octree_address child, const anchor *from,
                                                 .style = style});
 }
 
-/* A ring around a node on the path, separated from the node by a dark ring. */
+/* Draw a ring around a node on the path, with a dark ring between the two. */
 static void add_ring(const diagram *d, unsigned depth, double x, const double size[2])
 {
     const double y = row_middle(d, depth);
@@ -210,11 +217,11 @@ static void add_node(diagram *d, const diagram_node *node, double x, const doubl
     d->scene->tally.drawn++;
 }
 
-/* The nodes that are drawn one by one, and the lines between them; or only those on the path, which are drawn on top.
+/* Draw the unfolded nodes and their lines. `on_path` selects the nodes on the path, which are drawn later and on top.
  */
 static void add_nodes(diagram *d, bool on_path)
 {
-    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* of the ancestors: parents come before their children */
+    anchor anchors[OCTREE_MAX_DEPTH + 1]; /* [d]: the current ancestor at depth d; parents come before their children */
     for (size_t i = 0; i < d->slots.count; i++) {
         const diagram_node *node = &d->slots.nodes[i];
         const unsigned depth = node->depth, role = role_of(d, node);
@@ -232,7 +239,7 @@ static void add_nodes(diagram *d, bool on_path)
     }
 }
 
-/* The path from the root, on top of the other lines and of bars. */
+/* Draw the path from the root, on top of the other lines and of the bars. */
 static void add_path(const diagram *d)
 {
     const unsigned deep = octree_address_depth(d->path);
@@ -247,18 +254,18 @@ static void add_path(const diagram *d)
     }
 }
 
-/* ---- Levels that are folded --------------------------------------------------------------------------------- */
+/* ---- Folded levels ------------------------------------------------------------------------------------------- */
 
-/* The nodes in a column of a level. */
+/* The nodes of one level in one column. */
 typedef struct bar {
     size_t nodes, leaves;
-    size_t points; /* of the leaves */
-    bool shown;    /* some of them, by the view's filter */
+    size_t points; /* in the leaves */
+    bool shown;    /* the view's filter shows at least one of the nodes */
 } bar;
 
 typedef struct folding {
     diagram *d;
-    bar *bars; /* of a level after the other, from the first that is folded */
+    bar *bars; /* level by level, from the first folded one; `columns` bars a level */
     size_t columns;
 } folding;
 
@@ -277,7 +284,7 @@ static void count_node(const octree_node *node, double middle, void *context)
         d->anchors[node->depth] = anchor_at(d, node->depth, middle, fmin(NODE * d->scene->unit, d->pitch));
 }
 
-/* 1 for a node, 2 for two or three, 3 for four to seven ... */
+/* Return the height of a bar in steps: 1 for one node, 2 for two or three, 3 for four to seven ... */
 static unsigned bar_steps(size_t nodes)
 {
     unsigned steps = 0;
@@ -318,7 +325,7 @@ static void add_bars(diagram *d)
     free(f.bars);
 }
 
-/* ---- Words -------------------------------------------------------------------------------------------------- */
+/* ---- Text ---------------------------------------------------------------------------------------------------- */
 
 static void write_words(diagram *d, double x, double y, theme_role role, const char *format, ...)
 {
@@ -332,14 +339,14 @@ static void write_words(diagram *d, double x, double y, theme_role role, const c
     scene_add_label(d->scene, label);
 }
 
-/* Where a text begins that ends at the right edge. */
+/* Return the x at which a text must begin to end at the right edge. */
 static double right_aligned_x(const diagram *d, const char *text)
 {
     const scene *s = d->scene;
     return d->window.x + d->window.width - EDGE * s->unit - (double)strlen(text) * s->text.width;
 }
 
-/* At the right edge, where all counts end. */
+/* Write a number of nodes at the right edge. */
 static void write_count(diagram *d, double y, size_t count)
 {
     char text[NUMBER_TEXT];
@@ -354,8 +361,9 @@ static void write_rows(diagram *d)
 {
     const scene *s = d->scene;
     const double left = d->window.x + EDGE * s->unit, top = d->window.y + s->text.line / 2;
-    const unsigned row_step = (unsigned)ceil(s->text.height / d->pitch); /* rows too low have words but now and then */
-    /* Where the picture shows a program's tree, this is another one. */
+    const unsigned row_step =
+        (unsigned)ceil(s->text.height / d->pitch); /* where rows are lower than letters, only every n-th has text */
+    /* The diagram always shows Octreel's own tree; say so if the space view shows foreign nodes instead. */
     write_words(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
     write_words(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += row_step) {
@@ -366,7 +374,7 @@ static void write_rows(diagram *d)
     }
 }
 
-/* The node at the end of the path. A long address is cut: the diagram shows the whole path. */
+/* Describe the node at the end of the path. A long address is cut, since the diagram shows the whole path. */
 static void write_end(diagram *d)
 {
     const octree_node *end = &d->end;
@@ -386,7 +394,7 @@ static void write_end(diagram *d)
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
 
-/* The path leads to the player's leaf, or in a tree alone to the requested node. */
+/* Find the end of the path: the player's leaf or, in a tree alone, the requested node. */
 static void find_path(diagram *d)
 {
     const layer_source *in = d->in;
@@ -402,7 +410,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     d.capacity = octree_definition(in->tree).leaf_capacity;
     if (!view_shows(&s->view, own))
         return;
-    /* Covers what the space view has drawn beyond its area. */
+    /* The background covers elements of the space view that reach into the diagram. */
     scene_add_rectangle(s, GROUND_ID, (int[]){(int)d.window.x, (int)d.window.y},
                         (int[]){(int)d.window.width, (int)d.window.height}, own, ROLE_BACKGROUND);
     if (!arrange(&d))

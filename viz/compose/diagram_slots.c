@@ -181,7 +181,7 @@ void diagram_slots_release(diagram_slots *slots)
 typedef struct folding {
     const diagram_slots *slots;
     size_t next;               /* the index of the next node in slots->nodes; the walk has the same order */
-    const diagram_node *above; /* the last node at the deepest unfolded levels */
+    const diagram_node *above; /* the last node on the walk that is drawn one by one */
     size_t before;             /* the points of `above` that the walk has passed */
     diagram_visitor visit;
     void *context;

@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* panel.c - the text layer: the column at the left, which describes the tick. */
+/* panel.c - the text layer: the column at the left that describes the tick, or the tree.
+ *
+ * A reader compares frames, so a fact should stand at the same place in every frame. Rows come in a fixed order: title
+ * and key, events, keys, player, statistics, what the view leaves out, hits, wrong answers, answers, refusals. A
+ * missing player leaves its rows empty, and the player's coordinates keep the same number of decimals all session long.
+ * Rows whose number varies come last; the legend fills the bottom of the column.
+ *
+ * The column has a fixed number of letters, so every value is cut or rounded to fit. If the rows need more lines than
+ * the picture has, the last ones are replaced by a line that counts them. A picture too small for a column shows only
+ * the most important lines, in its corner.
+ *
+ * This layer is added last, because it counts what the other layers left out (scene_tally). */
 #include "foreign_nodes.h"
 #include "judgement.h"
 #include "layer_type.h"
@@ -16,9 +27,9 @@
 /* ---- Numbers in columns ------------------------------------------------------------------------------------- */
 
 #define MOST_DECIMALS 9
-#define WORLD_NUMBER 12 /* letters of a number of the world */
+#define WORLD_NUMBER 12 /* letters of a coordinate of the world or the region */
 
-/* The decimals that a number is written with. */
+/* Return the number of decimals that a number needs; more than MOST_DECIMALS if it needs an exponent. */
 static int decimals_of(double value)
 {
     char text[NUMBER_TEXT];
@@ -26,8 +37,9 @@ static int decimals_of(double value)
     return strchr(text, 'e') ? MOST_DECIMALS + 1 : point ? (int)strlen(point + 1) : 0;
 }
 
-/* The decimals that all places have where a player can come to by its keys, so that its numbers keep their place from
- * tick to tick; more than MOST_DECIMALS where they need an exponent. Another player's have six digits of the world. */
+/* Return the number of decimals of the player's coordinates, the same at every tick, so that digits keep their place.
+ * For a player moved by keys it suits every position that the keys can reach; more than MOST_DECIMALS if they need an
+ * exponent. For any other player the world's largest coordinate has six digits. */
 static int decimals_of_player(const layer_source *in)
 {
     const octree_player *player = &in->session->player;
@@ -46,7 +58,7 @@ static int decimals_of_player(const layer_source *in)
     return decimals;
 }
 
-/* A row an axis. */
+/* Write a position: one row for each axis. */
 static void write_position(pen *p, const char *name, const double position[3], int decimals)
 {
     for (int i = 0; i < 3; i++) {
@@ -60,7 +72,7 @@ static void write_position(pen *p, const char *name, const double position[3], i
     }
 }
 
-/* A row an axis, of the ends of a box. */
+/* Write the ends of a box: one row for each axis. */
 static void write_box_rows(pen *p, const char *name, const octree_box *box)
 {
     char from[NUMBER_TEXT], to[NUMBER_TEXT], both[SCENE_TEXT * 2];
@@ -75,9 +87,9 @@ static void write_box_rows(pen *p, const char *name, const octree_box *box)
     }
 }
 
-/* ---- What the tick did -------------------------------------------------------------------------------------- */
+/* ---- The tick ------------------------------------------------------------------------------------------------ */
 
-/* Of a foreign index. */
+/* Write the statistics of a foreign index. */
 static void write_foreign(pen *p, const octree_foreign_state *foreign)
 {
     write_row(p, "program nodes", "%zu", foreign->node_count);
@@ -85,7 +97,7 @@ static void write_foreign(pen *p, const octree_foreign_state *foreign)
     write_row(p, "program depth", "%u", foreign->depth);
 }
 
-/* Of the trees that are shown. */
+/* Write the statistics of the trees that the view shows. */
 static void write_statistics(pen *p, const layer_source *in, const octree_stats *stats)
 {
     const octree *tree = in->tree;
@@ -115,7 +127,7 @@ static const char *key_meaning(char key)
     return "";
 }
 
-/* The words for a tick without events. */
+/* Return the text for a tick without events. */
 static const char *no_event_text(const layer_source *in)
 {
     if (in->tick->key == 'n')
@@ -123,7 +135,8 @@ static const char *no_event_text(const layer_source *in)
     return !in->tick->number ? "start" : has_keys(in) ? "waited" : "no event";
 }
 
-/* What the tick did, in words, but for what happened to a tree that is not shown; the most urgent gives the colour. */
+/* Write the names of the tick's events, except splits and merges of a tree that is not shown. The most urgent event
+ * sets the colour. */
 static void write_events(pen *p, const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -140,7 +153,7 @@ static void write_events(pen *p, const layer_source *in)
     write_wrapped(p, role, words[0] ? words : no_event_text(in));
 }
 
-/* In the colours of the answers' layers. */
+/* Write the answers, each in the colour of its layer. */
 static void write_answers(pen *p, const layer_source *in)
 {
     for (size_t i = 0; i < in->answer_count; i++) {
@@ -151,7 +164,7 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* How many of the program's answers are wrong, and the kind of the worst and what is wrong with it. */
+/* Write how many foreign answers are wrong, the query kind of the worst, and what is wrong with it. */
 static void write_wrong(pen *p, const layer_source *in)
 {
     char words[JUDGEMENT_TEXT];
@@ -167,7 +180,7 @@ static void write_wrong(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* How much is wrong with the program's nodes, and what is first. */
+/* Write the number of faults in the foreign nodes, and the first fault. */
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
     char text[FOREIGN_FAULT_TEXT];
@@ -193,7 +206,7 @@ static void write_refusals(pen *p, const octree_tick *tick)
         write_row(p, "", "and %zu more", tick->refusal_count - 2);
 }
 
-/* A few keys before and after this tick's, which is in brackets and always at the same place. */
+/* Write this tick's key in brackets, always at the same place, and a few keys before and after it. */
 static void write_keys(pen *p, const layer_source *in)
 {
     const uint64_t now = in->tick->number;
@@ -204,7 +217,7 @@ static void write_keys(pen *p, const layer_source *in)
     if (!count)
         return;
     for (uint64_t i = 0; i <= KEYS_BEHIND + KEYS_AHEAD; i++) {
-        const uint64_t tick = now + i - KEYS_BEHIND; /* from 1; below that it wraps around */
+        const uint64_t tick = now + i - KEYS_BEHIND; /* counts from 1; smaller values wrap around and give a blank */
         const char key = tick - 1 < count ? keys[tick - 1] : ' ';
         used += (size_t)snprintf(text + used, sizeof text - used,
                                  i != KEYS_BEHIND ? "%c "
@@ -228,8 +241,8 @@ static void write_broken(pen *p, const layer_source *in)
     write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
-/* The title, in its own letters where there is room for them and for so many small ones at the right. Returns the
- * height of its letters. */
+/* Write the title: in title letters if they leave room for `beside` small letters at the right, otherwise in small
+ * ones. Return the height of the letters. */
 static int write_title(pen *p, const char *text, size_t beside)
 {
     const scene *s = p->scene;
@@ -242,7 +255,7 @@ static int write_title(pen *p, const char *text, size_t beside)
     return fits ? s->title.height : s->text.height;
 }
 
-/* The tick, and at its right the key that was pressed and what it does. */
+/* Write the tick's number, and at its right the key that was pressed and its meaning. */
 static void write_tick_title(pen *p, const layer_source *in, const char *title)
 {
     const char key = in->tick->key;
@@ -297,7 +310,7 @@ static void write_folded(pen *p, const scene_tally *tally)
         write_row(p, "drawn as bars", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
-/* A row for each kind of what is smaller than the view's lod. */
+/* Write a row for each kind of element that is smaller than the view's lod. */
 static void write_small(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
@@ -312,7 +325,7 @@ static void write_small(pen *p, const scene_tally *tally)
     }
 }
 
-/* How many nodes and points are shown, if not all. */
+/* Write how many nodes and points are shown, if the view leaves some out. */
 static void write_shown(pen *p, const scene_tally *tally)
 {
     const view *v = &p->scene->view;
@@ -325,7 +338,8 @@ static void write_shown(pen *p, const scene_tally *tally)
         write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu point%s", tally->points, plural(tally->points));
 }
 
-/* A line for each thing that leaves something out or folds it, and how much is shown. */
+/* Write a row for each rule that leaves out or folds elements, and how many are shown. Without such a row there is no
+ * rule line either. */
 static void write_left_out(pen *p)
 {
     const scene_tally *tally = &p->scene->tally;
@@ -352,7 +366,7 @@ static void write_left_out(pen *p)
 
 /* ---- The column --------------------------------------------------------------------------------------------- */
 
-/* Leave out the rules of the column from this pixel on. */
+/* Remove the rule lines of the column that begin at pixel row `from` or below. */
 static void drop_rules(scene *s, int from)
 {
     size_t kept = 0;
@@ -362,11 +376,12 @@ static void drop_rules(scene *s, int from)
     s->panels.count = kept;
 }
 
-/* Rows that do not fit are replaced by a line that counts them. */
+/* Replace the rows that do not fit by a line that counts them. */
 static void cut_rows(pen *p)
 {
     scene *s = p->scene;
-    const int last = s->view.height - s->text.height, line = s->text.line; /* where the last row may begin */
+    const int last = s->view.height - s->text.height,
+              line = s->text.line; /* `last`: the lowest y at which a row may begin */
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
     char text[SCENE_TEXT];
@@ -389,7 +404,8 @@ static void cut_rows(pen *p)
     write_line(p, ROLE_WARNING, text);
 }
 
-/* If the session has a player. What it may lack leaves its room, so that the rows below stay where they are. */
+/* Write the player's rows, if the session has a player. A player that is away leaves its room empty, so that the rows
+ * below stay where they are. */
 static void write_player(pen *p, const layer_source *in)
 {
     const int end = p->y + 3 * p->scene->text.line;
@@ -437,7 +453,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
     write_answers(p, in);
 }
 
-/* When there is no room for the column, its most important lines are written on the picture. */
+/* Write only the most important lines, on top of a picture without room for the column. */
 static void add_lines(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_corner(s);
