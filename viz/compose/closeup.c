@@ -94,7 +94,7 @@ typedef struct rectangle {
     double side[4];
 } rectangle;
 
-static void add_flat(scene *s, uint64_t id, double x0, double y0, double x1, double y1, unsigned role)
+static void add_picture_line(scene *s, uint64_t id, double x0, double y0, double x1, double y1, unsigned role)
 {
     scene_add_segment(s, (scene_segment){.id = id,
                                          .in_picture = true,
@@ -104,7 +104,7 @@ static void add_flat(scene *s, uint64_t id, double x0, double y0, double x1, dou
 
 /* Find the area of the picture that the close-up enlarges, cut at the edges of the space view. It is never too small to
  * be visible. Return false when it lies outside the space view. */
-static bool find_region(const scene *s, rectangle *r)
+static bool find_enlarged_area(const scene *s, rectangle *r)
 {
     const camera *c = &s->closeup->camera;
     const view *v = &s->closeup->view;
@@ -124,19 +124,19 @@ static bool find_region(const scene *s, rectangle *r)
 }
 
 /* Outline the enlarged area, and draw lines from two of its corners to the nearest corners of the close-up. */
-static void add_region(scene *s, const rectangle *frame)
+static void add_enlarged_area(scene *s, const rectangle *frame)
 {
     rectangle r;
-    if (!find_region(s, &r))
+    if (!find_enlarged_area(s, &r))
         return;
     const double *at = r.side, *to = frame->side;
-    add_flat(s, REGION_ID, at[0], at[1], at[2], at[1], ROLE_FAINT);
-    add_flat(s, REGION_ID + 1, at[0], at[3], at[2], at[3], ROLE_FAINT);
-    add_flat(s, REGION_ID + 2, at[0], at[1], at[0], at[3], ROLE_FAINT);
-    add_flat(s, REGION_ID + 3, at[2], at[1], at[2], at[3], ROLE_FAINT);
+    add_picture_line(s, REGION_ID, at[0], at[1], at[2], at[1], ROLE_FAINT);
+    add_picture_line(s, REGION_ID + 1, at[0], at[3], at[2], at[3], ROLE_FAINT);
+    add_picture_line(s, REGION_ID + 2, at[0], at[1], at[0], at[3], ROLE_FAINT);
+    add_picture_line(s, REGION_ID + 3, at[2], at[1], at[2], at[3], ROLE_FAINT);
     const bool beside = at[2] <= to[0];
-    add_flat(s, LEADER_ID, at[beside ? 2 : 0], at[beside ? 1 : 3], to[0], to[1], ROLE_FAINT);
-    add_flat(s, LEADER_ID + 1, at[2], at[3], to[beside ? 0 : 2], to[beside ? 3 : 1], ROLE_FAINT);
+    add_picture_line(s, LEADER_ID, at[beside ? 2 : 0], at[beside ? 1 : 3], to[0], to[1], ROLE_FAINT);
+    add_picture_line(s, LEADER_ID + 1, at[2], at[3], to[beside ? 0 : 2], to[beside ? 3 : 1], ROLE_FAINT);
 }
 
 static void add_frame(scene *s)
@@ -145,7 +145,7 @@ static void add_frame(scene *s)
     const int unit = s->unit, line = unit / 2 > 1 ? unit / 2 : 1, x = c->place[0], y = c->place[1];
     const int width = c->view.width, height = c->view.height;
     const rectangle frame = {{x - line, y - line, x + width + line, y + height + line}};
-    add_region(s, &frame);
+    add_enlarged_area(s, &frame);
     scene_add_rectangle(s, BORDER_ID, (int[]){x - line, y - line}, (int[]){width + 2 * line, height + 2 * line},
                         LAYER_CLOSEUP, ROLE_FAINT);
     scene_add_rectangle(s, GROUND_ID, c->place, (int[]){width, height}, LAYER_CLOSEUP, ROLE_BACKGROUND);
@@ -163,7 +163,7 @@ static double round_length(double limit)
 }
 
 /* Remove the labels that a rectangle would cover at least in part, together with their backgrounds. */
-static void drop_words(scene *s, const int corner[2], const int size[2])
+static void drop_covered_labels(scene *s, const int corner[2], const int size[2])
 {
     size_t kept = 0;
     for (size_t i = 0; i < s->labels.count; i++) {
@@ -199,11 +199,11 @@ static void add_scale(scene *s)
     const int wide = (int)fmax(end - margin, (double)strlen(label.text) * s->text.width);
     const int corner[2] = {margin - unit, (int)label.at[1] - unit};
     const int size[2] = {wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit};
-    drop_words(s, corner, size);
+    drop_covered_labels(s, corner, size);
     scene_add_rectangle(s, SCALE_ID, corner, size, LAYER_CLOSEUP, ROLE_BACKGROUND);
-    add_flat(s, SCALE_ID, x, y, end, y, ROLE_TEXT);
-    add_flat(s, SCALE_ID + 1, x, y - rise, x, y + 1, ROLE_TEXT);
-    add_flat(s, SCALE_ID + 2, end, y - rise, end, y + 1, ROLE_TEXT);
+    add_picture_line(s, SCALE_ID, x, y, end, y, ROLE_TEXT);
+    add_picture_line(s, SCALE_ID + 1, x, y - rise, x, y + 1, ROLE_TEXT);
+    add_picture_line(s, SCALE_ID + 2, end, y - rise, end, y + 1, ROLE_TEXT);
     scene_add_label(s, label);
 }
 

@@ -103,21 +103,21 @@ static octree_box changes_box(const layer_source *in)
 
 /* The height of the picture in pixels, and the length of a pixel in world units at the distance that the camera looks
  * at. The camera is that of tick 0: an orbiting camera does not show a thing at the same size at every tick. */
-typedef struct measure {
+typedef struct view_scale {
     double height, pixel;
-} measure;
+} view_scale;
 
-static measure measure_of(const layer_source *in)
+static view_scale make_view_scale(const layer_source *in)
 {
     scene with = {.has_closeup = true};
     double center[3]; /* any point will do: only the distance counts */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
     const camera c = camera_make(in->view, layout_camera(&with, &in->world), &in->world, center, 0);
-    return (measure){view_height_in_wide(in->view), camera_pixel_length(&c)};
+    return (view_scale){view_height_in_wide(in->view), camera_pixel_length(&c)};
 }
 
-static double part_of_height(const measure *m, double reach)
+static double part_of_height(const view_scale *m, double reach)
 {
     return 2 * reach / m->pixel / m->height;
 }
@@ -144,7 +144,7 @@ static double round_down(double limit)
 }
 
 /* Return the part of the picture's height that a close-up shows at a magnification. */
-static double visible_part(const layer_source *in, const measure *m, double times)
+static double visible_part(const layer_source *in, const view_scale *m, double times)
 {
     const camera_window w = layout_closeup(in->view);
     return fmin(w.width, w.height) / m->height / times;
@@ -152,7 +152,7 @@ static double visible_part(const layer_source *in, const measure *m, double time
 
 /* Return the magnification for a subject of this half extent; 0 if the subject has no extent or appears large enough
  * already. In a tree alone the subject may fill more of the close-up. */
-static double magnification_for(double reach, const layer_source *in, const measure *m)
+static double magnification_for(double reach, const layer_source *in, const view_scale *m)
 {
     const double part = part_of_height(m, reach),
                  wanted = in->game ? WANTED : fmax(WANTED, STILL * visible_part(in, m, 1));
@@ -161,12 +161,12 @@ static double magnification_for(double reach, const layer_source *in, const meas
 
 double closeup_magnification(const closeup_course *course, const layer_source *in)
 {
-    const measure m = measure_of(in);
+    const view_scale m = make_view_scale(in);
     return in->view->closeup && layout_closeup(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
 /* Return the half extent of a subject with some surroundings. Very near neighbours alone would show no context. */
-static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const measure *m)
+static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const view_scale *m)
 {
     double middle[3];
     octree_node leaf;
@@ -181,7 +181,7 @@ static double half_extent_with_leaf(const layer_source *in, const octree_box *se
 /* The search for the group of subjects that a close-up shows. */
 typedef struct group_search {
     const layer_source *in;
-    measure m;
+    view_scale m;
     double most;  /* larger subjects are ignored: a part of the picture's height */
     double reach; /* the half extent of the first small subject; 0: none yet */
     octree_box group;
@@ -229,7 +229,7 @@ static void add_candidates(group_search *g)
 /* Find the group: first from small subjects, then from all. */
 static group_search find_group(const closeup_course *course, const layer_source *in)
 {
-    group_search g = {in, measure_of(in), SMALL, course->reach, nothing};
+    group_search g = {in, make_view_scale(in), SMALL, course->reach, nothing};
     add_candidates(&g);
     g.most = INFINITY;
     add_candidates(&g);
@@ -237,7 +237,7 @@ static group_search find_group(const closeup_course *course, const layer_source 
 }
 
 /* Whether a close-up at `place` shows the whole group. */
-static bool is_within(const group_search *g, const double place[3])
+static bool shows_group(const group_search *g, const double place[3])
 {
     double reach = 0;
     for (int i = 0; i < 3; i++)
@@ -249,7 +249,7 @@ static bool is_within(const group_search *g, const double place[3])
 static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
     const group_search g = find_group(course, in);
-    if (is_empty(&g.group) || (course->reach > 0 && !has_queries(in) && is_within(&g, course->place)))
+    if (is_empty(&g.group) || (course->reach > 0 && !has_queries(in) && shows_group(&g, course->place)))
         return;
     course->reach = g.reach;
     scene_box_middle(&g.group, course->place);

@@ -82,7 +82,7 @@ static unsigned count_rows(const diagram *d, unsigned depth)
 
 /* Divide the diagram's area of the picture, and arrange the tree in it. Return false when there is no room, or no
  * memory (s->out_of_memory). */
-static bool arrange(diagram *d)
+static bool arrange_tree(diagram *d)
 {
     scene *s = d->scene;
     const int unit = s->unit;
@@ -127,7 +127,7 @@ static anchor anchor_at(const diagram *d, unsigned depth, double middle, double 
 }
 
 /* Fill a rectangle centred at a pixel, at least one pixel wide and high. */
-static void fill_box(const diagram *d, uint64_t id, double x, double y, double width, double height, unsigned role)
+static void fill_centered(const diagram *d, uint64_t id, double x, double y, double width, double height, unsigned role)
 {
     const int across = width < 1 ? 1 : (int)width, along = height < 1 ? 1 : (int)height;
     scene_add_rectangle(d->scene, id, (int[]){(int)floor(x - across / 2.0 + 0.5), (int)floor(y - along / 2.0 + 0.5)},
@@ -173,7 +173,7 @@ static scene_style edge_style(const diagram *d, octree_address node, theme_role 
 }
 
 /* Compute the width and height of a node: limited by its slot and its row; a leaf is half as large as an inner node. */
-static void measure(const diagram *d, const diagram_node *node, double size[2])
+static void measure_node(const diagram *d, const diagram_node *node, double size[2])
 {
     const int unit = d->scene->unit;
     const double largest = (node->leaf ? NODE / 2 : NODE) * unit;
@@ -204,8 +204,8 @@ static void add_ring(const diagram *d, unsigned depth, double x, const double si
     const double y = row_middle(d, depth);
     for (int dark = 0; dark < 2; dark++) {
         const double more = (dark ? RING : 2 * RING) * d->scene->unit;
-        fill_box(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
-                 dark ? ROLE_BACKGROUND : ROLE_PLAYER);
+        fill_centered(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
+                      dark ? ROLE_BACKGROUND : ROLE_PLAYER);
     }
 }
 
@@ -213,7 +213,7 @@ static void add_node(diagram *d, const diagram_node *node, double x, const doubl
 {
     if (is_on_path(d, node->address, node->depth))
         add_ring(d, node->depth, x, size);
-    fill_box(d, node->address, x, row_middle(d, node->depth), size[0], size[1], role);
+    fill_centered(d, node->address, x, row_middle(d, node->depth), size[0], size[1], role);
     d->scene->tally.drawn++;
 }
 
@@ -226,7 +226,7 @@ static void add_nodes(diagram *d, bool on_path)
         const diagram_node *node = &d->slots.nodes[i];
         const unsigned depth = node->depth, role = role_of(d, node);
         double size[2];
-        measure(d, node, size);
+        measure_node(d, node, size);
         anchors[depth] = anchor_at(d, depth, (node->left + node->right) / 2, size[1]);
         if (is_on_path(d, node->address, depth) != on_path)
             continue;
@@ -248,8 +248,8 @@ static void add_path(const diagram *d)
         if (depth)
             add_line(d, d->path >> 3 * (deep - depth), at - 1, at, line_style(ROLE_PLAYER, STROKE_SOLID, 2));
         if (depth > d->slots.deepest)
-            fill_box(d, PATH_ID | depth, at->x, row_middle(d, depth), RING * d->scene->unit, at->foot - at->head,
-                     ROLE_PLAYER);
+            fill_centered(d, PATH_ID | depth, at->x, row_middle(d, depth), RING * d->scene->unit, at->foot - at->head,
+                          ROLE_PLAYER);
         d->scene->tally.path++;
     }
 }
@@ -300,8 +300,8 @@ static void add_bar(const folding *f, unsigned depth, size_t column, const bar *
     const double height = fmax(floor((d->pitch - 2 * unit) * bar_steps(b->nodes) / BAR_STEPS), 1);
     const double x = d->left + ((double)column + 0.5) * width;
     const node_traits look = {depth, b->leaves ? b->points / b->leaves : 0, d->capacity, b->leaves > 0};
-    fill_box(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_middle(d, depth), fmax(width - unit / 2, 1),
-             height, b->shown ? node_role(&d->scene->view, look) : ROLE_WORLD);
+    fill_centered(d, BAR_ID | (uint64_t)depth << 32 | (uint64_t)column, x, row_middle(d, depth),
+                  fmax(width - unit / 2, 1), height, b->shown ? node_role(&d->scene->view, look) : ROLE_WORLD);
     d->scene->tally.folded += b->nodes;
 }
 
@@ -327,7 +327,7 @@ static void add_bars(diagram *d)
 
 /* ---- Text ---------------------------------------------------------------------------------------------------- */
 
-static void write_words(diagram *d, double x, double y, theme_role role, const char *format, ...)
+static void write_label(diagram *d, double x, double y, theme_role role, const char *format, ...)
 {
     scene_label label = {.id = d->next_label++,
                          .at = {floor(x), floor(y)},
@@ -354,7 +354,7 @@ static void write_count(diagram *d, double y, size_t count)
         snprintf(text, sizeof text, "%zu", count);
     else
         number_text((double)count, 3, text);
-    write_words(d, right_aligned_x(d, text), y, ROLE_TEXT, "%s", text);
+    write_label(d, right_aligned_x(d, text), y, ROLE_TEXT, "%s", text);
 }
 
 static void write_rows(diagram *d)
@@ -364,24 +364,24 @@ static void write_rows(diagram *d)
     const unsigned row_step =
         (unsigned)ceil(s->text.height / d->pitch); /* where rows are lower than letters, only every n-th has text */
     /* The diagram always shows Octreel's own tree; say so if the space view shows foreign nodes instead. */
-    write_words(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
-    write_words(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
+    write_label(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
+    write_label(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += row_step) {
         const double y = row_middle(d, depth) - s->text.height / 2;
-        write_words(d, left, y, ROLE_FAINT, "%u", depth);
+        write_label(d, left, y, ROLE_FAINT, "%u", depth);
         if (d->slots.stats.nodes_at_depth[depth])
             write_count(d, y, d->slots.stats.nodes_at_depth[depth]);
     }
 }
 
 /* Describe the node at the end of the path. A long address is cut, since the diagram shows the whole path. */
-static void write_end(diagram *d)
+static void write_path_end(diagram *d)
 {
     const octree_node *end = &d->end;
     const int unit = d->scene->unit;
-    const lettering *letters_of = &d->scene->text;
-    const size_t letters = (size_t)((d->window.width - 2 * EDGE * unit) / letters_of->width);
-    const double foot = d->window.y + d->window.height - letters_of->line / 2 - letters_of->height;
+    const lettering *font = &d->scene->text;
+    const size_t letters = (size_t)((d->window.width - 2 * EDGE * unit) / font->width);
+    const double foot = d->window.y + d->window.height - font->line / 2 - font->height;
     char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT * 2];
     const size_t length =
         (size_t)snprintf(text, sizeof text, "%s of %zu point%s: %s", end->leaf ? "leaf" : "node", end->count,
@@ -389,7 +389,7 @@ static void write_end(diagram *d)
     const size_t room = letters < SCENE_TEXT ? letters : SCENE_TEXT - 1;
     if (length > room)
         memcpy(text + room - 3, "...", 4);
-    write_words(d, d->window.x + EDGE * unit, foot, ROLE_PLAYER, "%s", text);
+    write_label(d, d->window.x + EDGE * unit, foot, ROLE_PLAYER, "%s", text);
 }
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
@@ -413,7 +413,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     /* The background covers elements of the space view that reach into the diagram. */
     scene_add_rectangle(s, GROUND_ID, (int[]){(int)d.window.x, (int)d.window.y},
                         (int[]){(int)d.window.width, (int)d.window.height}, own, ROLE_BACKGROUND);
-    if (!arrange(&d))
+    if (!arrange_tree(&d))
         return;
     find_path(&d);
     add_bars(&d);
@@ -424,7 +424,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     if (d.words) {
         write_rows(&d);
         if (d.path)
-            write_end(&d);
+            write_path_end(&d);
     }
     diagram_slots_release(&d.slots);
 }

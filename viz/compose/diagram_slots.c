@@ -33,7 +33,7 @@ static unsigned deepest_possible(const octree_stats *stats, unsigned empty, size
     return depth;
 }
 
-static size_t nodes_down_to(const octree_stats *stats, unsigned depth)
+static size_t count_nodes_down_to(const octree_stats *stats, unsigned depth)
 {
     size_t count = 0;
     for (unsigned i = 0; i <= depth; i++)
@@ -142,12 +142,12 @@ static void place_nodes(diagram_slots *slots)
 }
 
 /* Copy the levels that can fit, and drop levels until the shares fit into the room. */
-static bool arrange(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
+static bool arrange_levels(diagram_slots *slots, const octree *tree, unsigned empty, size_t room)
 {
     slots->empty = empty;
     slots->deepest = deepest_possible(&slots->stats, empty, room);
     slots->count = 0;
-    slots->nodes = malloc(nodes_down_to(&slots->stats, slots->deepest) * sizeof *slots->nodes);
+    slots->nodes = malloc(count_nodes_down_to(&slots->stats, slots->deepest) * sizeof *slots->nodes);
     if (!slots->nodes)
         return false;
     octree_walk(tree, append_node, slots);
@@ -160,10 +160,10 @@ bool diagram_arrange(diagram_slots *slots, const octree *tree, size_t room)
 {
     *slots = (diagram_slots){0};
     octree_statistics(tree, &slots->stats);
-    bool ok = arrange(slots, tree, 1, room);
+    bool ok = arrange_levels(slots, tree, 1, room);
     if (ok && slots->deepest < slots->stats.depth) {
         free(slots->nodes);
-        ok = arrange(slots, tree, 0, room);
+        ok = arrange_levels(slots, tree, 0, room);
     }
     if (ok)
         place_nodes(slots);

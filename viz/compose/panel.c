@@ -75,10 +75,10 @@ static void write_position(pen *p, const char *name, const double position[3], i
 /* Write the ends of a box: one row for each axis. */
 static void write_box_rows(pen *p, const char *name, const octree_box *box)
 {
-    char from[NUMBER_TEXT], to[NUMBER_TEXT], both[SCENE_TEXT * 2];
-    snprintf(both, sizeof both, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
+    char from[NUMBER_TEXT], to[NUMBER_TEXT], heading[SCENE_TEXT * 2];
+    snprintf(heading, sizeof heading, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
     write_text(p, 0, ROLE_FAINT, name);
-    write_right_aligned(p, ROLE_FAINT, both);
+    write_right_aligned(p, ROLE_FAINT, heading);
     p->y += p->scene->text.line;
     for (int i = 0; i < 3; i++) {
         const char axis[2] = {(char)('x' + i), 0};
@@ -90,7 +90,7 @@ static void write_box_rows(pen *p, const char *name, const octree_box *box)
 /* ---- The tick ------------------------------------------------------------------------------------------------ */
 
 /* Write the statistics of a foreign index. */
-static void write_foreign(pen *p, const octree_foreign_state *foreign)
+static void write_foreign_statistics(pen *p, const octree_foreign_state *foreign)
 {
     write_row(p, "program nodes", "%zu", foreign->node_count);
     write_row(p, "program leaves", "%zu", foreign->leaf_count);
@@ -103,7 +103,7 @@ static void write_statistics(pen *p, const layer_source *in, const octree_stats 
     const octree *tree = in->tree;
     write_row(p, "points", "%zu", stats->points);
     if (shows_foreign_tree(in))
-        write_foreign(p, &in->tick->foreign);
+        write_foreign_statistics(p, &in->tick->foreign);
     if (!shows_own_tree(in))
         return;
     write_row(p, "nodes", "%zu", stats->nodes);
@@ -302,7 +302,7 @@ static void write_budget(pen *p, const scene_tally *tally)
         write_row(p, "arrows", "1 in %" PRIu64, tally->arrows.one_in);
 }
 
-static void write_folded(pen *p, const scene_tally *tally)
+static void write_folded_depths(pen *p, const scene_tally *tally)
 {
     if (tally->folded && tally->folded_from == tally->folded_to)
         write_row(p, "drawn as bars", "depth %u", tally->folded_from);
@@ -311,7 +311,7 @@ static void write_folded(pen *p, const scene_tally *tally)
 }
 
 /* Write a row for each kind of element that is smaller than the view's lod. */
-static void write_small(pen *p, const scene_tally *tally)
+static void write_small_counts(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
     static const char *const words[][2] = {{"node", "nodes"}, {"node met", "nodes met"}, {"arrow", "arrows"}};
@@ -326,7 +326,7 @@ static void write_small(pen *p, const scene_tally *tally)
 }
 
 /* Write how many nodes and points are shown, if the view leaves some out. */
-static void write_shown(pen *p, const scene_tally *tally)
+static void write_shown_counts(pen *p, const scene_tally *tally)
 {
     const view *v = &p->scene->view;
     if (!filter_is_on(&v->filter) && !tally->small && !tally->beyond && !tally->thinned)
@@ -340,17 +340,17 @@ static void write_shown(pen *p, const scene_tally *tally)
 
 /* Write a row for each rule that leaves out or folds elements, and how many are shown. Without such a row there is no
  * rule line either. */
-static void write_left_out(pen *p)
+static void write_view_limits(pen *p)
 {
     const scene_tally *tally = &p->scene->tally;
     const int before = p->y;
     write_gap(p);
     const int begin = p->y;
     p->value = ROLE_WARNING;
-    write_folded(p, tally);
+    write_folded_depths(p, tally);
     p->value = ROLE_TEXT;
-    write_shown(p, tally);
-    write_small(p, tally);
+    write_shown_counts(p, tally);
+    write_small_counts(p, tally);
     p->value = ROLE_WARNING;
     write_budget(p, tally);
     p->value = ROLE_TEXT;
@@ -429,7 +429,7 @@ static void write_tick_rows(pen *p, const layer_source *in)
     write_rule(p);
     write_player(p, in);
     write_statistics(p, in, &tick->stats);
-    write_left_out(p);
+    write_view_limits(p);
     if (tick->has_player || in->answer_count || tick->refusal_count)
         write_rule(p);
     if (tick->has_player)
@@ -445,7 +445,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
     octree_stats stats;
     octree_statistics(in->tree, &stats);
     write_statistics(p, in, &stats);
-    write_left_out(p);
+    write_view_limits(p);
     write_rule(p);
     write_box_rows(p, "world", &in->world);
     if (in->answer_count)
@@ -454,7 +454,7 @@ static void write_tree_rows(pen *p, const layer_source *in)
 }
 
 /* Write only the most important lines, on top of a picture without room for the column. */
-static void add_lines(scene *s, const layer_source *in, const char *title)
+static void add_corner_lines(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_corner(s);
     if (in->tick) {
@@ -463,7 +463,7 @@ static void add_lines(scene *s, const layer_source *in, const char *title)
         write_wrong(&p, in);
         write_wrong_nodes(&p, in);
     }
-    write_left_out(&p);
+    write_view_limits(&p);
     write_broken(&p, in);
     cut_rows(&p);
 }
@@ -495,7 +495,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
         snprintf(title, sizeof title, "%s", in->title);
     make_printable(title);
     if (panel_width(&s->view) == 0)
-        add_lines(s, in, title);
+        add_corner_lines(s, in, title);
     else
         add_column(s, in, title);
 }

@@ -38,7 +38,7 @@ static theme_role role_of(const view *v, const octree_foreign_place *place)
 }
 
 /* The depth as scene_box stores it: at most 255. */
-static unsigned level_of(const octree_foreign_place *place)
+static unsigned clamped_depth(const octree_foreign_place *place)
 {
     return place->depth < UINT8_MAX ? place->depth : UINT8_MAX;
 }
@@ -48,7 +48,7 @@ static void add_box(scene *s, const octree_foreign_place *place, scene_style sty
     scene_add_box(s, (scene_box){.id = foreign_element(place->node->id),
                                  .box = place->node->box,
                                  .style = style,
-                                 .depth = (uint8_t)level_of(place)});
+                                 .depth = (uint8_t)clamped_depth(place)});
 }
 
 static bool passes_filter(const scene *s, const octree_foreign_place *place)
@@ -75,7 +75,7 @@ static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
     int level = 0;
     for (size_t i = 0; i < foreign->node_count; i++)
         if (passes_filter(s, &foreign->nodes[i]) && !is_small(s, &foreign->nodes[i]))
-            at_level[level_of(&foreign->nodes[i])]++;
+            at_level[clamped_depth(&foreign->nodes[i])]++;
     while (level <= UINT8_MAX && (!s->view.budget || (sum += at_level[level]) <= s->view.budget))
         level++;
     return level - 1;
@@ -92,7 +92,7 @@ void add_foreign_nodes(scene *s, const layer_source *in)
         const octree_foreign_place *place = &foreign->nodes[i];
         if (!passes_filter(s, place))
             continue;
-        const bool small = is_small(s, place), out = !small && (int)level_of(place) > deepest;
+        const bool small = is_small(s, place), out = !small && (int)clamped_depth(place) > deepest;
         s->tally.small += small;
         s->tally.beyond += out;
         if (small || out)
@@ -151,7 +151,7 @@ static const char *short_fault_text(octree_wrong_node_kind kind)
 
 /* Return the index of the first wrong node at or after `place`; node_count when there is none, or when `marked` nodes
  * are already as many as the layer marks. */
-static size_t next_fault(const octree_foreign_state *foreign, size_t place, size_t marked)
+static size_t next_wrong_node(const octree_foreign_state *foreign, size_t place, size_t marked)
 {
     while (place < foreign->node_count && !foreign->nodes[place].wrong)
         place++;
@@ -168,8 +168,8 @@ void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
     octree_point point;
-    for (size_t i = next_fault(foreign, 0, 0), marked = 1; i < foreign->node_count;
-         i = next_fault(foreign, i + 1, marked++))
+    for (size_t i = next_wrong_node(foreign, 0, 0), marked = 1; i < foreign->node_count;
+         i = next_wrong_node(foreign, i + 1, marked++))
         add_box(s, &foreign->nodes[i], layer_style(own, STROKE_DASHED, 2));
     for (size_t i = 0; i < foreign->listed_count; i++) {
         if (!find_lost_point(in, i, &point))
@@ -194,8 +194,8 @@ size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, te
     const octree_foreign_state *foreign = &in->tick->foreign;
     octree_point point;
     size_t left_out = 0;
-    for (size_t i = next_fault(foreign, 0, 0), marked = 1; i < foreign->node_count;
-         i = next_fault(foreign, i + 1, marked++)) {
+    for (size_t i = next_wrong_node(foreign, 0, 0), marked = 1; i < foreign->node_count;
+         i = next_wrong_node(foreign, i + 1, marked++)) {
         octree_wrong_node_kind kind = 0;
         while (!(foreign->nodes[i].wrong >> kind & 1))
             kind++;
@@ -211,7 +211,7 @@ size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, te
 
 /* ---- Descriptions -------------------------------------------------------------------------------------------- */
 
-static const octree_foreign_place *find_place(const octree_foreign_state *foreign, uint64_t id)
+static const octree_foreign_place *find_foreign_node(const octree_foreign_state *foreign, uint64_t id)
 {
     for (size_t i = 0; i < foreign->node_count; i++)
         if (foreign->nodes[i].node->id == id)
@@ -221,7 +221,7 @@ static const octree_foreign_place *find_place(const octree_foreign_state *foreig
 
 void describe_foreign_node(description *d, uint64_t element)
 {
-    const octree_foreign_place *place = find_place(&d->tick->foreign, foreign_node_of(element));
+    const octree_foreign_place *place = find_foreign_node(&d->tick->foreign, foreign_node_of(element));
     append_text(d, "foreign node %" PRIu64, foreign_node_of(element));
     if (!place)
         return;

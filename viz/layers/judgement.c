@@ -8,20 +8,20 @@
 #include <stdio.h>
 
 /* A ratio below this is printed as a percentage above 1. */
-#define NEARLY 1.01
+#define PERCENT_BELOW 1.01
 
 static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])
 {
     char number[NUMBER_TEXT];
     if (isinf(ratio))
         snprintf(text, JUDGEMENT_TEXT, "infinite ratio");
-    else if (ratio < NEARLY)
+    else if (ratio < PERCENT_BELOW)
         snprintf(text, JUDGEMENT_TEXT, "%s%% farther", number_text((ratio - 1) * 100, 2, number));
     else
         snprintf(text, JUDGEMENT_TEXT, "%s times as far", number_text(ratio, 3, number));
 }
 
-static void print_points(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
+static void print_point_counts(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
 {
     if (judgement->missing_count && judgement->extra_count)
         snprintf(text, JUDGEMENT_TEXT, "%zu missed, %zu extra", judgement->missing_count, judgement->extra_count);
@@ -51,7 +51,7 @@ const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMEN
         break;
     case OCTREE_WRONG_MISSING:
     case OCTREE_WRONG_EXTRA:
-        print_points(judgement, text);
+        print_point_counts(judgement, text);
         break;
     default:
         snprintf(text, JUDGEMENT_TEXT, "right");

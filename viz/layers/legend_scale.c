@@ -18,21 +18,21 @@
 #define DIGITS 9 /* significant digits of a number */
 
 /* A number below the bar, and its tick mark. */
-typedef struct mark {
+typedef struct scale_number {
     double part; /* its position on the bar, from 0 (left end) to 1 */
     char text[NUMBER_TEXT];
-} mark;
+} scale_number;
 
-typedef struct marks {
-    mark items[MOST_NUMBERS + 2];
+typedef struct scale_numbers {
+    scale_number items[MOST_NUMBERS + 2];
     int count;
-} marks;
+} scale_numbers;
 
-static void add_mark(marks *m, double part, double value)
+static void add_number(scale_numbers *m, double part, double value)
 {
     char text[NUMBER_TEXT];
     if (m->count < MOST_NUMBERS + 2) {
-        mark *it = &m->items[m->count++];
+        scale_number *it = &m->items[m->count++];
         it->part = part;
         snprintf(it->text, sizeof it->text, "%s", number_text(value, DIGITS, text));
     }
@@ -40,38 +40,38 @@ static void add_mark(marks *m, double part, double value)
 
 /* Mark every second power of two: low, 4 low, 16 low ... The last number gets a "+": it stands for all larger amounts.
  */
-static marks mark_powers(const legend_scale *scale)
+static scale_numbers number_powers(const legend_scale *scale)
 {
-    marks m = {.count = 0};
+    scale_numbers m = {.count = 0};
     int powers = 0;
     for (double at = scale->low; at < scale->high; at *= 2)
         powers++;
     for (int power = 0; power <= powers; power += 2)
-        add_mark(&m, (double)power / powers, ldexp(scale->low, power));
+        add_number(&m, (double)power / powers, ldexp(scale->low, power));
     if (m.count)
         strcat(m.items[m.count - 1].text, "+");
     return m;
 }
 
-static marks mark_round_numbers(const legend_scale *scale, int count)
+static scale_numbers number_round_steps(const legend_scale *scale, int count)
 {
-    marks m = {.count = 0};
+    scale_numbers m = {.count = 0};
     const double extent = scale->high - scale->low, step = number_round_up(extent / count);
     const double first = step > 0 ? ceil(scale->low / step) : 0, last = step > 0 ? floor(scale->high / step) : -1;
     for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* + 0.0: no minus zero */
-        add_mark(&m, (i * step - scale->low) / extent, i * step + 0.0);
+        add_number(&m, (i * step - scale->low) / extent, i * step + 0.0);
     return m;
 }
 
 /* Return the x of a number's left end: centred under its tick mark, but within the bar. */
-static int number_left(const pen *p, const mark *m, int width)
+static int number_left(const pen *p, const scale_number *m, int width)
 {
     const int size = (int)strlen(m->text) * p->scene->text.width, left = (int)(m->part * width) - size / 2;
     return left < 0 ? 0 : left + size > width ? width - size : left;
 }
 
 /* Whether all numbers fit below the bar with a letter's space between them. */
-static bool numbers_fit(const pen *p, const marks *m, int width)
+static bool numbers_fit(const pen *p, const scale_numbers *m, int width)
 {
     for (int i = 0; i < m->count; i++) {
         const int left = number_left(p, &m->items[i], width), letter = p->scene->text.width;
@@ -82,17 +82,17 @@ static bool numbers_fit(const pen *p, const marks *m, int width)
     return true;
 }
 
-static marks choose_marks(const pen *p, const legend_scale *scale, int width)
+static scale_numbers choose_numbers(const pen *p, const legend_scale *scale, int width)
 {
-    marks m = {.count = 0};
+    scale_numbers m = {.count = 0};
     if (scale->doubling)
-        return mark_powers(scale);
+        return number_powers(scale);
     if (!(scale->low < scale->high) || !isfinite(scale->high - scale->low)) {
-        add_mark(&m, 0.5, scale->low / 2 + scale->high / 2);
+        add_number(&m, 0.5, scale->low / 2 + scale->high / 2);
         return m;
     }
     for (int count = MOST_NUMBERS; count > 0; count--) {
-        m = mark_round_numbers(scale, count);
+        m = number_round_steps(scale, count);
         if (m.count > 0 && numbers_fit(p, &m, width))
             return m;
     }
@@ -112,7 +112,7 @@ void write_scale(pen *p, const legend_scale *scale)
     const lettering *text = &p->scene->text;
     const int width = p->letters * text->width, high = text->height / 2,
               dot = text->height < 24 ? 1 : text->height / 12;
-    const marks m = choose_marks(p, scale, width);
+    const scale_numbers m = choose_numbers(p, scale, width);
     for (int x = 0; x < width; x += dot) {
         const int left = width - dot - x, tall = bar_height(scale, x < left ? x : left > 0 ? left : 0, high, dot);
         fill_rectangle_in_color(p, x, text->height / 4 + (high - tall) / 2, dot, tall,

@@ -138,7 +138,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
     const size_t before = s->markers.count;
     scene_add_points(s, some, count, SHAPE_SQUARE, style);
     if (style.role == ROLE_OWN)
-        color_points(&s->view, w->values, leaf, s->markers.items + before, s->markers.count - before);
+        color_points(&s->view, w->values, leaf, s->markers.items + before, s->markers.count - scene_before);
     s->tally.points += count;
     thin_points_to_budget(w);
     if (some != few)
@@ -327,17 +327,17 @@ static bool walk_with_kept_tree(tree_walk *w, const octree *tree)
 static void walk_tree(tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
-    const tree_walk unchanged = *w;
-    const scene before = *s;
+    const tree_walk initial = *w;
+    const scene scene_before = *s;
     kept_tree *kept = get_kept_tree(w, in);
     if (!begin_kept_tree(w, in->tree, kept)) {
         octree_walk(in->tree, add_node, w);
     } else if (!walk_with_kept_tree(w, in->tree)) {
         stop_keeping(w);
-        *w = unchanged;
-        s->boxes.count = before.boxes.count;
-        s->markers.count = before.markers.count;
-        s->tally = before.tally;
+        *w = initial;
+        s->boxes.count = scene_before.boxes.count;
+        s->markers.count = scene_before.markers.count;
+        s->tally = scene_before.tally;
         octree_walk(in->tree, add_node, w);
     }
     if (kept)

@@ -65,7 +65,7 @@ void write_line(pen *p, theme_role role, const char *text)
 
 /* Write a row's value at the right and move to the next line. The value is cut if it does not fit behind the first
  * `taken` letters. */
-static void end_row(pen *p, size_t taken, char *value)
+static void write_row_value(pen *p, size_t taken, char *value)
 {
     const size_t room = (size_t)p->letters > taken + 1 ? (size_t)p->letters - taken - 1 : 0;
     if (strlen(value) > room && room > 2)
@@ -82,7 +82,7 @@ void write_row(pen *p, const char *name, const char *format, ...)
     vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
     write_text(p, 0, p->name, name);
-    end_row(p, strlen(name), value);
+    write_row_value(p, strlen(name), value);
 }
 
 void write_detailed_row(pen *p, const char *name, const char *detail, const char *format, ...)
@@ -101,7 +101,7 @@ void write_detailed_row(pen *p, const char *name, const char *detail, const char
     write_text(p, 0, p->name, name);
     if (*cut)
         write_text(p, DETAIL, ROLE_FAINT, cut);
-    end_row(p, *cut ? DETAIL + strlen(cut) : strlen(name), value);
+    write_row_value(p, *cut ? DETAIL + strlen(cut) : strlen(name), value);
 }
 
 void write_gap(pen *p)

@@ -14,7 +14,7 @@ static double fraction_between(double value, double low, double high)
 }
 
 /* Whether a leaf is a dark cell of the chessboard pattern. Two leaves of the same depth that share a face differ. */
-static bool is_dark(const octree_node *leaf)
+static bool is_dark_cell(const octree_node *leaf)
 {
     const unsigned octant = (unsigned)(leaf->address & 7);
     return (octant ^ octant >> 1 ^ octant >> 2) & 1;
@@ -89,7 +89,7 @@ void color_points(const view *v, const point_values *values, const octree_node *
 {
     const theme_role role = v->point_color == POINTS_BY_DEPTH ? theme_node_role(leaf->depth) : ROLE_POINT;
     const painting p = {v, values, theme_color_at(theme_index(role, 0))};
-    const int light = v->point_color == POINTS_BY_LEAF && is_dark(leaf) ? DARK : 256;
+    const int light = v->point_color == POINTS_BY_LEAF && is_dark_cell(leaf) ? DARK : 256;
     for (size_t i = 0; i < count; i++)
         markers[i].color = theme_fade(color_of_marker(&p, &markers[i]), light);
 }

@@ -20,9 +20,10 @@
 #include <math.h>
 #include <string.h>
 
-#define ARROW_FRACTION 10      /* the fastest arrow is at most 1 / ARROW_FRACTION of the world's longest side */
-#define BOXES_PER_ARROW 1000.0 /* one arrow per this many boxes of the budget: the eye can distinguish some hundreds   \
-                                */
+#define ARROW_FRACTION 10 /* the fastest arrow is at most 1 / ARROW_FRACTION of the world's longest side */
+#define BOXES_PER_ARROW                                                                                                \
+    1000.0 /* one arrow per this many boxes of the budget: the eye can distinguish some hundreds                       \
+            */
 
 unsigned velocity_ticks(const octree_game *game)
 {
@@ -66,7 +67,7 @@ static void extrapolate(const octree_body *body, const octree_box *world, double
 }
 
 /* Whether the view's filter shows a point: by its position and by its leaf. */
-static bool is_shown(const scene *s, const octree *tree, const octree_box *world, const double position[3])
+static bool is_body_shown(const scene *s, const octree *tree, const octree_box *world, const double position[3])
 {
     const view_filter *f = &s->view.filter;
     octree_node leaf;
@@ -83,15 +84,15 @@ static bool is_small(const scene *s, double ends[2][3])
 }
 
 /* The facts that all arrows of a tick share. */
-typedef struct arrows {
+typedef struct arrow_context {
     const scene *scene;
     const octree *tree;
     const octree_box *world;
     double ticks;
-} arrows;
+} arrow_context;
 
 /* Compute the end of a body's arrow. Return false if the arrow has no length. */
-static bool find_arrow_end(const arrows *a, const octree_body *body, double end[3])
+static bool find_arrow_end(const arrow_context *a, const octree_body *body, double end[3])
 {
     extrapolate(body, a->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
@@ -99,7 +100,7 @@ static bool find_arrow_end(const arrows *a, const octree_body *body, double end[
 
 /* Whether a body's arrow has a length. Most bodies need no exact end: they stay within the bounds, and move far enough
  * that rounding cannot hide it. */
-static bool has_length(const arrows *a, const octree_body *body)
+static bool has_arrow_length(const arrow_context *a, const octree_body *body)
 {
     bool within = true, far = false;
     double end[3];
@@ -112,9 +113,9 @@ static bool has_length(const arrows *a, const octree_body *body)
 }
 
 /* Whether a body has an arrow: the arrow has a length, and the view shows the body. */
-static bool has_arrow(const arrows *a, const octree_body *body)
+static bool has_arrow(const arrow_context *a, const octree_body *body)
 {
-    return has_length(a, body) && is_shown(a->scene, a->tree, a->world, body->position);
+    return has_arrow_length(a, body) && is_body_shown(a->scene, a->tree, a->world, body->position);
 }
 
 /* The number of sieves: a sieve has 0 to 64 low bits set. */
@@ -137,7 +138,7 @@ static size_t max_arrows(const view *v)
 
 /* Return the first sieve, from `sieve` on, that keeps at most max_arrows() arrows. Store in the tally how many it
  * leaves out. */
-static uint64_t choose_sieve(scene *s, const arrows *a, const octree_tick *tick, uint64_t sieve)
+static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
 {
     size_t passing[SIEVES] = {0},
            all = 0; /* first: arrows that sieve i keeps and sieve i + 1 drops; then: all that sieve i keeps */
@@ -159,8 +160,8 @@ static uint64_t choose_sieve(scene *s, const arrows *a, const octree_tick *tick,
 static void add(scene *s, const layer_source *in, view_layer own)
 {
     const octree_tick *tick = in->tick;
-    const arrows a = {s, octree_game_tree(in->game), &octree_game_session(in->game)->tree.world,
-                      velocity_ticks(in->game)};
+    const arrow_context a = {s, octree_game_tree(in->game), &octree_game_session(in->game)->tree.world,
+                             velocity_ticks(in->game)};
     if (!view_shows(&s->view, own) || tick->mover_count == 0)
         return;
     const uint64_t points =
@@ -170,7 +171,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
         if (sieve_drops(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) ||
-            !is_shown(s, a.tree, a.world, body->position))
+            !is_body_shown(s, a.tree, a.world, body->position))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
         if (is_small(s, arrow.ends))

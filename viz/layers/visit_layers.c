@@ -56,14 +56,14 @@ static void add_hit_leaves(scene *s, const layer_source *in, view_layer own)
 }
 
 /* Return the number of nodes with this kind of visit, in the trees that the view shows. */
-static size_t count_shown(const layer_source *in, size_t own, octree_node_visit visit)
+static size_t count_shown_visits(const layer_source *in, size_t own, octree_node_visit visit)
 {
     return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
 }
 
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
-    const size_t pruned = count_shown(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_NODE_PRUNED);
+    const size_t pruned = count_shown_visits(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_NODE_PRUNED);
     legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
 }
 
@@ -72,7 +72,7 @@ static void add_pruned_legend(legend *l, const layer_source *in)
 static void add_visited_legend(legend *l, const layer_source *in)
 {
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
-    const size_t visited = count_shown(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
+    const size_t visited = count_shown_visits(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
     char rest[SCENE_TEXT];
     legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken whole", taken);
@@ -84,7 +84,7 @@ static void add_visited_legend(legend *l, const layer_source *in)
 
 static void add_hit_legend(legend *l, const layer_source *in)
 {
-    const size_t leaves = count_shown(in, in->tick->hit_leaf_count, OCTREE_NODE_HIT);
+    const size_t leaves = count_shown_visits(in, in->tick->hit_leaf_count, OCTREE_NODE_HIT);
     legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
 }
 

@@ -68,7 +68,7 @@ static void mark_points(scene *s, const octree_point *points, size_t count, scen
         text_space_keep_mark(occupied, s, points[i].position, style.width);
 }
 
-static void mark_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *occupied)
+static void mark_wrong_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *occupied)
 {
     const octree_judgement *judgement = &answer->judgement;
     const unsigned size = judgement->missing_count + judgement->extra_count <= FEW_MARKS ? MARK : MARK / 2;
@@ -117,7 +117,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     text_space occupied = {.count = 0};
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong)
-            mark_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);
+            mark_wrong_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);
     if (shows_foreign_tree(in))
         mark_foreign_faults(s, in, own, &occupied);
     for (size_t i = 0; i < in->answer_count; i++)
