@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* fixture.h - what every test program of the library needs: cmocka, small trees, random numbers, neighbours of a
- * double.
- */
+/* fixture.h - helpers of most tests: cmocka, small trees, random numbers, neighbouring doubles. */
 #ifndef FIXTURE_H
 #define FIXTURE_H
 
@@ -17,16 +15,16 @@
 /* The box [low, high] on every axis. */
 octree_box cube(double low, double high);
 
-/* A definition with malloc for its memory; with a shuffled executor where OCTREE_TEST_EXECUTOR is set. */
+/* A definition that uses malloc; with a shuffled executor if the environment has OCTREE_TEST_EXECUTOR. */
 octree_def define(octree_box world, size_t capacity, size_t depth, octree_full_leaf full_leaf);
 
-/* A new tree; the test fails when there is none. */
+/* A new tree; the test fails if it cannot be created. */
 octree *make_tree(octree_box world, size_t capacity, size_t depth, octree_full_leaf full_leaf);
 
-/* Insert points (x, y, z), numbered from 1; the test fails when one is refused. */
+/* Insert points with ids from 1 on; the test fails if one is refused. */
 void insert_all(octree *tree, const double (*positions)[3], size_t count);
 
-/* The test fails, with the validator's sentence, when an invariant does not hold. */
+/* The test fails with the sentence of octree_check() if an invariant does not hold. */
 void assert_valid(const octree *tree);
 
 /* The number of nodes of a tree. */
@@ -40,7 +38,7 @@ double next_down(double value);
 uint64_t random_below(uint64_t *state, uint64_t limit);
 double random_between(uint64_t *state, double low, double high);
 
-/* One of the numbers at which arithmetic goes wrong, from 0 and the least subnormal to DBL_MAX, of either sign. */
+/* A random number from a list of critical ones: 0, the smallest subnormal, ..., DBL_MAX, with either sign. */
 double random_extreme(uint64_t *state);
 
 /* Whether coordinates are equal as numbers (-0.0 is +0.0), and whether a closed box holds a position. */

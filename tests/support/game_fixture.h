@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* game_fixture.h - a small session and the steps of playing one, for tests of the game.
- */
+/* game_fixture.h - a small session and functions to play it, for tests of the game. */
 #ifndef GAME_FIXTURE_H
 #define GAME_FIXTURE_H
 
@@ -9,10 +8,10 @@
 /* The player, id 100, rests in the middle of [-10, 10]^3: step 1, box size 0.5. Capacity 2, depth 5. */
 octree_session small_session(const octree_body *bodies, size_t body_count);
 
-/* Start a session; the test fails when it cannot be. */
+/* Create the game of a session; the test fails if that fails. */
 octree_game *start_game(const octree_session *session);
 
-/* Play one key; the test fails when the game does, or when the tree is no longer valid. */
+/* Play one key; the test fails if the game fails or its tree violates an invariant. */
 const octree_tick *play_key(octree_game *game, char key);
 
 #endif

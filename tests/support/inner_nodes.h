@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* inner_nodes.h - the inner nodes of a tree before and after a tick, against which its splits and merges are held. */
+/* inner_nodes.h - the inner nodes of a tree before and after a tick, to check the splits and merges of the tick. */
 #ifndef INNER_NODES_H
 #define INNER_NODES_H
 
@@ -15,8 +15,8 @@ typedef struct inner_nodes {
 
 void look_at_inner(const octree *tree, inner_nodes *inner);
 
-/* The test fails unless the tick's splits are the inner nodes that its tree has and had not before, in pre-order, its
- * merges those that it had and has not, and its events say so. What it has takes the place of what it had. */
+/* The test fails unless the tick's splits are exactly the new inner nodes, its merges exactly the former inner nodes,
+ * both in pre-order, and its events agree. Then *before becomes the present inner nodes. */
 void assert_splits_and_merges(const octree_tick *tick, const octree *tree, inner_nodes *before);
 
 #endif

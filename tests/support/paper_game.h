@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* paper_game.h - the paper's game loop upon its own algorithms, to compare with octree/game.h tick by tick.
+/* paper_game.h - the paper's game loop with the paper's algorithms, to compare with octree/game.h tick by tick.
  *
- * It plays sessions without velocities, edits and queries: the paper has none. Two things are done as in our game,
- * because the paper is silent on them: the player is a point of the tree, and it is the first one inserted; its
- * position is start + net steps * step.
+ * It plays sessions without velocities, edits and queries, which the paper does not have. Where the paper is silent, it
+ * follows the game: the player is the first point of the tree, and its position is start + net steps * step.
  */
 #ifndef PAPER_GAME_H
 #define PAPER_GAME_H
@@ -16,7 +15,7 @@ typedef struct paper_game {
     const octree_session *session;
     octree_point player;
     int64_t steps[3]; /* net steps on each axis */
-    /* What the last tick did. */
+    /* the results of the last tick */
     bool moved;
     bool refused;
     bool full;

@@ -22,11 +22,11 @@ typedef struct random_session {
     octree_query queries[RANDOM_SESSION_QUERIES];
 } random_session;
 
-/* What the paper can play: resting bodies, no edits; the one query is the player's nearest neighbour, every tick. */
+/* A session that the paper can play: resting bodies, no edits, and one query, the player's nearest neighbour. */
 void random_session_plain(random_session *made, uint64_t seed);
 
-/* The same with velocities, edits (some of them of ids that are taken or unknown) and queries of every kind; a third of
- * them are swept. */
+/* A session with velocities, edits (some with duplicate or unknown ids) and queries of every kind. One in three such
+ * sessions has swept collisions. */
 void random_session_full(random_session *made, uint64_t seed);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* recount.h - what a tick's questions met, counted anew: by a walk over all nodes that looks at their boxes alone.
+/* recount.h - recounts the nodes that the queries of a tick visited: a walk over all nodes compares their boxes.
  *
- * Comparisons are plain ones of doubles: true for boxes and balls whose faces and squares are exact, as those of small
- * dyadic coordinates are, and for those that keep clear of planes.
+ * The comparisons use doubles. They are correct for boxes and balls whose faces and squares are exact, as with small
+ * dyadic coordinates, and for those that are not close to planes.
  */
 #ifndef RECOUNT_H
 #define RECOUNT_H
@@ -13,26 +13,26 @@ typedef struct recount {
     octree_visit *visits; /* after recount_tick: each node once, the strongest touch, in pre-order */
     size_t count, room;
     size_t touched[OCTREE_TRACE_KINDS];
-    octree_address *leaves; /* of the hits and answers, in pre-order */
+    octree_address *leaves; /* leaves with hits or answers, in pre-order */
     size_t leaf_count, leaf_room;
 } recount;
 
 /* An empty one is {0}. */
 void recount_free(recount *all);
 
-/* Add the nodes that a box or a ball meets; returns what the question costs. */
+/* Add the nodes that intersect a box or a ball; returns the cost of the query. */
 octree_cost recount_box(recount *all, const octree *tree, const octree_box *box);
 octree_cost recount_ball(recount *all, const octree *tree, const double center[3], double radius);
 
-/* Add the nodes that a neighbour query met: by its own trace, which the test of traces holds against the distances. */
+/* Add the nodes of a neighbour query. They come from its trace, which the test of traces checks by distances. */
 octree_cost recount_neighbors(recount *all, const octree *tree, const double target[3], size_t k,
                               const octree_search *how);
 
-/* Count the game's last tick anew, and hold the costs that it tells against those counted. `before` is the player's
- * place at the tick before: the collision test was made with the player still there. */
+/* Recount the last tick of the game; the test fails if the tick has other costs. `before` is the player's position at
+ * the tick before: the collision test ran while the player was still there. */
 void recount_tick(recount *all, const octree_game *game, const double before[3]);
 
-/* The test fails unless the tick tells just these visits and leaves. */
+/* The test fails unless the tick has exactly these visits and leaves. */
 void assert_recount(const recount *all, const octree_tick *tick);
 
 #endif

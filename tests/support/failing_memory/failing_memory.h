@@ -8,16 +8,16 @@
 
 #include <stdbool.h>
 
-/* Let so many of this thread succeed, and none that follows; below 0: all. */
+/* Let this number of allocations of the calling thread succeed, and all further ones fail; below 0: none fails. */
 void memory_fails_after(long count);
 
-/* From now on one fails, and those that follow succeed: what is not noticed at once is not noticed at all. */
+/* Let only one allocation fail instead, and all after it succeed: this reveals failures that are not checked. */
 void memory_fails_alone(void);
 
-/* End that. Returns whether one has failed. */
+/* End the failures. Returns whether an allocation failed. */
 bool memory_has_failed(void);
 
-/* The same of the threads that do not call it, of which the one behind so many fails. */
+/* The same for all threads but the calling one: the allocation after this number of successful ones fails. */
 void memory_fails_elsewhere_after(long count);
 bool memory_has_failed_elsewhere(void);
 

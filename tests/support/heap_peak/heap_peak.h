@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* heap_peak.h - the most memory at one time, of a test that is linked with octreel_heap_peak: malloc, calloc, realloc
- * and free of the program lead through here, and with glibc and without sanitizers those of shared libraries too.
- */
+/* heap_peak.h - measures the peak of heap memory in a test that links octreel_heap_peak. It replaces malloc, calloc,
+ * realloc and free of the program; with glibc and without sanitizers, also those of shared libraries. */
 #ifndef HEAP_PEAK_H
 #define HEAP_PEAK_H
 
 #include <stddef.h>
 
-/* Count from here on. */
+/* Begin a measurement. */
 void heap_peak_begin(void);
 
-/* The most bytes since then that were there at one time beyond those that were there before. */
+/* The peak since heap_peak_begin(), in bytes above the memory that was in use then. */
 size_t heap_peak(void);
 
 #endif

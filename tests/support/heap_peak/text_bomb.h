@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* text_bomb.h - texts that are made to take as much memory as they can. */
+/* text_bomb.h - texts that are built to make their reader use as much memory as possible. */
 #ifndef TEXT_BOMB_H
 #define TEXT_BOMB_H
 
@@ -9,16 +9,16 @@
 
 enum { TEXT_BOMB_SIZE = 300000 };
 
-/* The head, then again and again what is repeated, then the end. In what is repeated each '@' becomes so many digits
- * that count. */
+/* The text is `head`, then `repeated` many times, then `end`. Each '@' in `repeated` becomes a counter. */
 typedef struct text_bomb {
     const char *name, *head, *repeated, *end;
 } text_bomb;
 
-/* Of a little more than TEXT_BOMB_SIZE bytes, ended by a zero; the caller frees it. */
+/* Make a text of a little more than TEXT_BOMB_SIZE bytes and a final zero; the caller frees it. */
 char *text_bomb_make(const text_bomb *bomb, size_t *size);
 
-/* Make it, read it, and release all that was read. The most memory for each of its bytes, itself included. */
+/* Make a text, read it, and release the result. Returns the peak of memory per byte of text, which includes the text.
+ */
 typedef void text_bomb_reader(char *text, size_t size);
 double text_bomb_measure(const text_bomb *bomb, text_bomb_reader *read);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* exact_oracle.h - real squared distances as whole numbers of GMP: the truth about near ties and extreme scales.
+/* exact_oracle.h - exact squared distances as GMP integers: the oracle for near ties and extreme scales.
  *
  * Every finite double is a whole multiple of 2^-1074; scaled by that, sums and squares are exact.
  */
@@ -15,8 +15,8 @@ int exact_compare(const double target[3], const double a[3], const double b[3]);
 const octree_point *exact_nearest(const octree_point *points, size_t count, const double target[3], octree_skip skip,
                                   uint64_t skip_id);
 
-/* All points that a skip rule leaves in, by the real distance, then by id, then by position, into `sorted`. Returns how
- * many they are. */
+/* Store all points that the skip rule keeps in `sorted`: by real distance, then by id, then by position. Returns their
+ * number. */
 size_t exact_nearest_sorted(const octree_point *points, size_t count, const double target[3], octree_skip skip,
                             uint64_t skip_id, octree_point *sorted);
 
@@ -35,7 +35,7 @@ bool exact_distance_is(double distance, unsigned steps, const double a[3], const
 /* Whether |p - center| <= size. */
 bool exact_within(double center, double size, double p);
 
-/* Whether a box position +- size on its way from one place to another touches a point on its way from p to q. */
+/* Whether a box that moves from `from` to `to` touches a point that moves from p to q in the same time. */
 bool exact_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3]);
 
 /* Whether the plane k/2^depth of [low, high] is a double; then *plane is that double. */

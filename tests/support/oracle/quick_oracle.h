@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* quick_oracle.h - what exact_oracle.h decides, a hundred times faster: by long doubles of 64 bits and a wide exponent,
- * whose rounding is bounded, and by exact_oracle.h itself where that bound cannot tell. It owes nothing to the library.
- */
+/* quick_oracle.h - the decisions of exact_oracle.h, a hundred times faster. It computes with long doubles of 64 bits
+ * and a wide exponent, bounds their rounding errors, and calls exact_oracle.h if the bound does not decide. It shares
+ * no code with the library. */
 #ifndef QUICK_ORACLE_H
 #define QUICK_ORACLE_H
 
@@ -25,10 +25,10 @@ bool quick_distance_is(double distance, unsigned steps, const double a[3], const
 /* Whether |p - center| <= size, on one axis. */
 bool quick_within(double center, double size, double p);
 
-/* Whether the box position +- size, on its way between two places, touches p. */
+/* Whether a box that moves from `from` to `to` touches the resting point p. */
 bool quick_touches(const double from[3], const double to[3], double size, const double p[3]);
 
-/* The most neighbours that quick_nearest_k looks for. */
+/* The largest k of quick_nearest_k(). */
 #define QUICK_NEAREST_MOST 16
 
 /* The k nearest points by the real distance, ties to the lowest id, into nearest[0 .. min(k, count) - 1]; ids differ.

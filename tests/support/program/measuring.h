@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* measuring.h - what a time is, and which of several is told. */
+/* measuring.h - measures processor time, and computes the median of several times. */
 #ifndef MEASURING_H
 #define MEASURING_H
 
 #include <stddef.h>
 
-/* Nanoseconds of this process alone: what else the machine does is not counted. */
+/* Processor time of this process, in nanoseconds. */
 double processor_time(void);
 
-/* Of at least one value; they are sorted in place. */
+/* The median of one or more values, which are sorted in place. */
 double median(double *values, size_t count);
 
 #endif

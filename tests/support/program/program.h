@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* program.h - what the benches, the campaign and the trade-off have in common as commands: a sentence and status 2 for
- * what cannot be done, and the reading of arguments.
- */
+/* program.h - the common parts of the programs bench, campaign and tradeoff: error messages with status 2, and parsing
+ * of arguments. */
 #ifndef PROGRAM_H
 #define PROGRAM_H
 
@@ -9,25 +8,25 @@
 
 enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
 
-/* Each program says its own name, which sentences begin with. */
+/* Each program defines its name; messages begin with it. */
 extern const char program_name[];
 
-/* Say why on standard error and end with EXIT_TROUBLE. */
+/* Print a message to standard error and exit with EXIT_TROUBLE. */
 _Noreturn void stop(const char *format, ...);
 
-/* As realloc, or stop. */
+/* realloc(), or stop() if there is no memory. */
 void *memory(void *old, size_t size);
 
-/* A whole number from least to most, which are below 2^53, also as in 1e6; or stop. */
+/* Parse a whole number from `least` to `most`, both below 2^53; 1e6 is allowed. Otherwise stop(). */
 double take_whole(const char *option, const char *text, double least, double most);
 
-/* Take in one entry of a list, or stop. */
+/* Parse one entry of a list, or stop(). */
 typedef void take_entry(void *options, const char *entry);
 
-/* Take in what stands between the commas of a list, which is cut in place. */
+/* Parse each entry of a list with commas; the text is cut in place. */
 void take_list(void *options, char *list, take_entry *take);
 
-/* End with a status, or stop if standard output could not be written. */
+/* Exit with a status, or stop() if standard output could not be written. */
 _Noreturn void finish(int status);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* background.h - octreel run beside a test, which watches it and sends it signals. */
+/* background.h - runs octreel in the background of a test, which watches it and sends it signals. */
 #ifndef BACKGROUND_H
 #define BACKGROUND_H
 
@@ -10,22 +10,22 @@
 
 typedef struct background {
     pid_t pid;
-    int err; /* what it says on stderr comes from here; its stdout is lost */
+    int err; /* a pipe from its stderr; its stdout is discarded */
 } background;
 
-/* Start octreel with the arguments that a format gives, in a process group of its own. */
+/* Start octreel with formatted arguments in a new process group. */
 background start_octreel(const char *format, ...);
 
-/* Wait until there is a file of this name. False when octreel ends without it, and after half a minute. */
+/* Wait until a file exists. False if octreel ends before, and after half a minute. */
 bool file_comes(const background *b, const char *path);
 
-/* The same; the test fails where that is false. */
+/* file_comes(), and the test fails if it returns false. */
 void wait_for_file(background *b, const char *path);
 
-/* A child of a process, the place-th of those that there are; 0 when there are no more, or no /proc to ask. */
+/* The child of a process with this index; 0 if there are fewer children, or no /proc. */
 pid_t child_of(pid_t parent, unsigned place);
 
-/* Wait for its end. Of the result, `out` is empty. */
+/* Wait until octreel ends. `out` of the result is empty. */
 command_result end_of(background *b);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* browser.h - headless Chromium: what becomes of a page that is opened from the disk. */
+/* browser.h - opens pages from the disk in headless Chromium, and runs scripts in them. */
 #ifndef BROWSER_H
 #define BROWSER_H
 
@@ -9,11 +9,11 @@
 
 bool browser_is_there(void);
 
-/* Skip the test, and say so, where there is no Chromium. */
+/* Skip the test with a note if there is no Chromium. */
 void need_browser(void);
 
-/* Open a file as file://...#hash and return its elements as they are five seconds later, by the page's own clock, which
- * does not wait. `own` takes the browser's files. The caller frees it. */
+/* Open a file as file://...#hash and return its HTML after five seconds of the page's virtual clock, which runs ahead
+ * of real time. The browser stores its files in `own`. The caller frees the text. */
 char *browser_open(const temp_folder *own, const char *path, const char *hash);
 
 /* Open a copy of a page, beside it, with a script behind all of its own, which uses it as people do and ends by adding
@@ -21,10 +21,10 @@ char *browser_open(const temp_folder *own, const char *path, const char *hash);
  * them; the caller frees it. The test fails when the script does not come to its end. */
 char *browser_drive(const temp_folder *own, const char *page, const char *script);
 
-/* The same with several scripts, one behind the other; a null ends them. */
+/* browser_drive() with several scripts, run in order; the list ends with null. */
 char *browser_drive_all(const temp_folder *own, const char *page, const char *const scripts[]);
 
-/* What was said about something; the caller frees it. The test fails when nothing was. */
+/* The value that the script reported under a name; the caller frees it. The test fails if there is none. */
 char *said_about(const char *said, const char *what);
 void assert_said_about(const char *said, const char *what, const char *expected);
 

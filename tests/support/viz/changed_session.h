@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* changed_session.h - a random session and the same with one change, for tests that ask what the change is. */
+/* changed_session.h - a random session and a copy with one change, for tests that find the change. */
 #ifndef CHANGED_SESSION_H
 #define CHANGED_SESSION_H
 
@@ -8,20 +8,20 @@
 
 #define CHANGED_SHAPES 8
 
-/* A random session, the same with one change, and what the change is. */
+/* A random session, its copy with one change, and a description of the change. */
 typedef struct changed_session {
     random_session made;
     octree_session changed;
     octree_shape shapes[2][CHANGED_SHAPES]; /* of both */
     octree_body bodies[RANDOM_SESSION_BODIES];
     octree_edit edits[RANDOM_SESSION_EDITS + 1];
-    const char *where; /* the one fact of the change: in which place, and how, */
+    const char *where; /* the expected fact: where the change is, and how */
     cause_change change;
     uint64_t tick, id; /* or CAUSE_NO_TICK, CAUSE_NO_ID */
-    char text[640];    /* what the headline begins with */
+    char text[640];    /* the expected beginning of the headline */
 } changed_session;
 
-/* Make one, and change it at a tick where the change has one. False where the session has nothing to change so. */
+/* Make a session and change it, at a tick if the change has one. False if the session has nothing to change. */
 typedef bool session_change(changed_session *t, uint64_t tick, uint64_t *state);
 bool try_change(changed_session *t, uint64_t seed, session_change *change);
 

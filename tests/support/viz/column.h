@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* column.h - the words and swatches beside a picture, as tests look at them. */
+/* column.h - finds texts and swatches in the column beside a picture. */
 #ifndef SUPPORT_VIZ_COLUMN_H
 #define SUPPORT_VIZ_COLUMN_H
 
 #include "scene.h"
 
-/* The first text of the column that has these words in it, or null. */
+/* The first label of the column that contains a text, or null. */
 const scene_label *find_text(const scene *s, const char *text);
 
-/* Whether there is one. */
+/* Whether a label of the column contains a text. */
 bool says(const scene *s, const char *text);
 
-/* The pixel at which the words of the legend begin. */
+/* The x coordinate at which the texts of the legend begin, in pixels. */
 int legend_words(const scene *s);
 
 /* Whether a panel has this colour. */
 bool has_swatch(const scene *s, unsigned role);
 
-/* Elements have their own ids, texts end, all begins within the column. */
+/* The test fails unless ids are unique, texts are terminated, and every element begins in the column. */
 void check_place(const scene *s);
 
 #endif

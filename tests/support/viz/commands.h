@@ -1,44 +1,44 @@
 /* SPDX-License-Identifier: MIT */
-/* commands.h - the program octreel, or a line of shell, run as a child: what it says, and how it ends. */
+/* commands.h - runs octreel or a line of shell as a child process, and returns its output and status. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The surroundings of a run; zeros are those of the test. */
+/* The environment of a run; zeros mean that of the test. */
 typedef struct command_setting {
-    const char *environment[4]; /* "NAME=value", beside what is there; the first null ends them */
-    const char *input, *output; /* files in place of stdin and stdout */
+    const char *environment[4]; /* "NAME=value", added to the environment; the list ends with null */
+    const char *input, *output; /* files that replace stdin and stdout */
     size_t file_limit;          /* no file can grow beyond this many bytes; 0 is no limit */
     bool terminal;              /* stderr is a terminal, of TERM=xterm unless the environment says otherwise, */
-    unsigned columns;           /* so wide; 0: it does not say */
+    unsigned columns;           /* width of the terminal; 0: unknown */
 } command_setting;
 
 typedef struct command_result {
-    int status; /* of the exit, or the signal's number and 128 */
-    char *out;  /* all that came from stdout, zero-terminated */
-    char *err;  /* likewise, stderr */
+    int status; /* the exit status, or 128 + the number of the signal */
+    char *out;  /* the output to stdout, zero-terminated */
+    char *err;  /* the output to stderr, zero-terminated */
 } command_result;
 
-/* Run octreel with the arguments that a format gives, blanks between them. `setting` may be null. The test fails when
- * the program cannot be run. */
+/* Run octreel with formatted arguments, separated by blanks. `setting` may be null. The test fails if the program
+ * cannot be run. */
 command_result run_octreel(const command_setting *setting, const char *format, ...);
 
-/* A word of a shell's line that is read as some text, whatever is in it. */
+/* A text, quoted as one word of a shell line. */
 typedef struct shell_word {
     char text[2048];
 } shell_word;
 
 shell_word shell_quote(const char *text);
 
-/* The path of octreel as such a word: folders have any names. */
+/* The path of octreel, quoted for a shell line. */
 const char *octreel_program(void);
 
-/* Run a line as a shell does. The test fails when there is no shell. */
+/* Run a line of shell. The test fails if there is no shell. */
 command_result run_shell(const char *line);
 
-/* The same for the line that a format gives. */
+/* Run a formatted line of shell. */
 command_result run_script(const char *format, ...);
 
 /* Whether a shell finds a program of this name. */
@@ -46,14 +46,14 @@ bool program_is_there(const char *name);
 
 void command_release(command_result *result);
 
-/* It ended with status 0 and said nothing on stderr. */
+/* The test fails unless the status is 0 and stderr is empty. */
 void assert_done(const command_result *result);
 
-/* It ended with status 2, said nothing on stdout, and said one line on stderr: "octreel: " and a sentence that holds
- * `part`. The result is released. */
+/* The test fails unless the status is 2, stdout is empty, and stderr is one line: "octreel: " and a sentence that
+ * contains `part`. Releases the result. */
 void assert_trouble(command_result *result, const char *part);
 
-/* False where the system gives no pseudo-terminals, as in a bare container. */
+/* False if the system has no pseudo-terminals, as in a bare container. */
 bool command_has_terminals(void);
 
 #endif

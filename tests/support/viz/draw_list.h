@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* draw_list.h - what a scene has in a layer, for tests. */
+/* draw_list.h - counts and finds the elements of a layer in a scene. */
 #ifndef DRAW_LIST_H
 #define DRAW_LIST_H
 
@@ -12,13 +12,13 @@ typedef struct layer_counts {
 
 layer_counts count_layer(const scene *s, unsigned layer);
 
-/* The one box of a layer with this id; the test fails when there is another number of them. */
+/* The box of a layer with this id; the test fails unless there is exactly one. */
 const scene_box *only_box(const scene *s, unsigned layer, uint64_t id);
 
-/* The markers of a layer that have this id and place. */
+/* The number of markers of a layer with this id and position. */
 size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3]);
 
-/* The segments of a layer that have this id and these ends. */
+/* The number of segments of a layer with this id and these ends. */
 size_t lines_between(const scene *s, unsigned layer, uint64_t id, const double from[3], const double to[3]);
 
 bool same_box(const octree_box *a, const octree_box *b);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* driven_page.h - what a page said while scripts played it, drive.js the first of them, held against the program. */
+/* driven_page.h - runs scripts in a page, drive.js first, and compares what they report with the program octreel. */
 #ifndef DRIVEN_PAGE_H
 #define DRIVEN_PAGE_H
 
@@ -11,23 +11,23 @@
 
 #include "files.h"
 
-/* Whether a page holds the program. */
+/* Whether a page contains the WebAssembly module. */
 bool page_has_module(const char *page);
 
-/* Whether there are a browser and a page that plays; where not, the test is skipped and says so. */
+/* Skip the test with a note if there is no browser, or the page has no WebAssembly module. */
 void need_playing_page(const char *page);
 
 /* Play a page by the scripts of tests/support/viz with these names, or by whole paths, behind drive.js; a null ends
  * them. The lines that were said, or null where there is no browser or the page does not play. */
 char *play_page(const temp_folder *own, const char *page, const char *const scripts[]);
 
-/* The same for any page, where there is a browser. */
+/* play_page() for any page; null if there is no browser. */
 char *drive_page_by(const temp_folder *own, const char *page, const char *const scripts[]);
 
 /* A script for them that defines `given`, in whose texts no '<' is. */
 place write_given(const temp_folder *own, const json_t *given);
 
-/* Of the colours of a PNG, four bytes a pixel, as drive.js does. */
+/* The digest of a PNG's colours, four bytes per pixel, as drive.js computes it. */
 uint32_t digest_of_png(const char *path);
 
 /* What was said of "<name> <tick>" is what the recording in the folder has of all its ticks, which are `count`: facts,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* edits.h - recordings that somebody changed by hand, for tests. The test fails where there is nothing to change. */
+/* edits.h - changes files of a recording, as by hand. The test fails if there is nothing to change. */
 #ifndef EDITS_H
 #define EDITS_H
 
@@ -7,28 +7,28 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* In a file of a folder, put `to` in the place of the first `from`. */
+/* Replace the first occurrence of `from` in a file by `to`. */
 void edit_file(const char *folder, const char *name, const char *from, const char *to);
 
-/* The same within one line of ticks.jsonl, the first being 0. */
+/* Replace the first `from` in one line of ticks.jsonl, counted from 0, by `to`. */
 void edit_line(const char *folder, size_t line, const char *from, const char *to);
 
-/* Put other lines in the place of one of ticks.jsonl: "", or text with its newlines. */
+/* Replace a line of ticks.jsonl by a text: "", or lines with their newlines. */
 void replace_line(const char *folder, size_t line, const char *text);
 
 /* A line of ticks.jsonl with its newline; the caller frees it. */
 char *copy_line(const char *folder, size_t line);
 
-/* Keep the first `size` bytes of a file; a file that is shorter is made longer by zeros. */
+/* Set the size of a file: truncate it, or fill it up with zeros. */
 void cut_file(const char *folder, const char *name, size_t size);
 
-/* A copy of a file, in the same folder. */
+/* Copy a file within a folder. */
 void file_copy(const char *folder, const char *from, const char *to);
 
-/* Write the frame of a tick anew with a pixel changed. With `as_drawn` its texts say that it was drawn so. */
+/* Rewrite the frame of a tick with one pixel changed. With `as_drawn`, its PNG texts match the changed pixels. */
 void spoil_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn);
 
-/* Write it as other programs save it: the picture alone, with `spoilt` a pixel of it changed. */
+/* Rewrite the frame without its PNG texts, as other programs save it; with `spoilt`, with one pixel changed. */
 void lose_texts(const char *folder, uint64_t tick, bool spoilt);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* explained.h - recordings that tests film to compare them, and why they differ. */
+/* explained.h - films pairs of recordings for tests, compares them, and explains their differences. */
 #ifndef EXPLAINED_H
 #define EXPLAINED_H
 
@@ -16,7 +16,7 @@ place film_twins(const temp_folder *own, const char *keys, place *b);
 /* Compare two recordings and explain the first `most` pairs. */
 comparison_of assert_explained(const place *a, const place *b, uint64_t most);
 
-/* The text, which may be null, has this part. */
+/* The test fails unless the text contains a part; a null text fails. */
 void assert_holds(const char *text, const char *part);
 
 #endif

@@ -22,14 +22,14 @@ place place_below(const char *folder, const char *name);
 /* A teardown for temp_folder_make: removes folders in the folder too, with all they hold. */
 int nested_folder_remove(void **state);
 
-/* From now on no file that this process writes can grow beyond so many bytes: a disk that is full. SIZE_MAX ends that.
- * What does not fit fails with "File too large". */
+/* Simulate a full disk: no file of this process can grow beyond this number of bytes, and writing more fails with "File
+ * too large". SIZE_MAX ends the simulation. */
 void disk_has_room_for(size_t bytes);
 
-/* Whether there is anything of this name. */
+/* Whether a file or folder with this path exists. */
 bool file_exists(const char *path);
 
-/* Whether it is a folder, and no link to one. */
+/* Whether the path is a folder, and not a link to one. */
 bool folder_is(const char *path);
 
 /* The bytes of a file, with a zero behind them; the caller frees them. `size` may be null. */

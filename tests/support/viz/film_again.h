@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* film_again.h - what a recorder made is the recording of its session, for tests. */
+/* film_again.h - checks that filming the session of a recorder's recording yields the same recording. */
 #ifndef FILM_AGAIN_H
 #define FILM_AGAIN_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* foreign_session.h - the session of a program that has a tree of its own: right at tick 0, wrong from tick 1 on. */
+/* foreign_session.h - a session with foreign nodes: correct at tick 0, wrong from tick 1 on. */
 #ifndef FOREIGN_SESSION_H
 #define FOREIGN_SESSION_H
 

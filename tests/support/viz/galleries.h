@@ -22,12 +22,12 @@ place gallery_make(const temp_folder *in, const char *folder, const char *names)
 /* The test fails, with the sentence, where a side cannot be opened or compared. */
 diff_side assert_side(const char *path);
 
-/* Both sides, what came of them, and why. */
+/* Two sides, the result of their comparison, and its explanation. */
 typedef struct comparison_of {
     diff_side a, b;
     diff_result result;
-    explanation why;     /* zeroed until somebody explains */
-    frame_groups groups; /* likewise, until somebody groups */
+    explanation why;     /* zero until the test explains */
+    frame_groups groups; /* zero until the test groups */
 } comparison_of;
 
 comparison_of assert_compared(const char *a, const char *b, const diff_options *options);
@@ -49,7 +49,7 @@ void comparison_release(comparison_of *made);
 /* What was found for a name; the test fails when there is no such pair. */
 diff_finding finding_of(const comparison_of *made, const char *name);
 
-/* No comparison: the sentence holds `part`. */
+/* The test fails unless the comparison is refused with a sentence that contains `part`. */
 void assert_not_compared(const char *a, const char *b, const diff_options *options, const char *part);
 
 #endif

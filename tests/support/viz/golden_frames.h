@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* golden_frames.h - the frames of golden/: each shows one thing. */
+/* golden_frames.h - the reference frames in golden/; each shows one thing. */
 #ifndef GOLDEN_FRAMES_H
 #define GOLDEN_FRAMES_H
 

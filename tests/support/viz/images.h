@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* images.h - pictures for the tests of viz/image. */
+/* images.h - makes, writes and reads pictures for the tests of viz/image. */
 #ifndef IMAGES_H
 #define IMAGES_H
 
@@ -23,7 +23,7 @@ typedef struct image_twins {
 image_twins make_twins(int width, int height);
 void release_twins(image_twins *twins);
 
-/* The test fails, with the sentence, when the file cannot be written or read. */
+/* Write or read a file; the test fails with the error if that fails. */
 void assert_written(const image *image, const char *path);
 image assert_read(const char *path);
 

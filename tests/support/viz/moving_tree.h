@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* moving_tree.h - a program with a tree of its own, for tests of what records it: points come, move, change places and
- * go, and it asks and shows something at every tick.
- */
+/* moving_tree.h - a program with its own tree, for tests of the recorder: it inserts, moves, swaps and removes points,
+ * and has queries and shapes at every tick. */
 #ifndef MOVING_TREE_H
 #define MOVING_TREE_H
 
@@ -12,7 +11,7 @@
 typedef struct moving_tree {
     octree *tree;
     uint64_t random;
-    octree_point points[MOVING_TREE_MOST]; /* by no order */
+    octree_point points[MOVING_TREE_MOST]; /* unsorted */
     size_t count;
     octree_query queries[OCTREE_QUERY_KINDS];
     octree_shape shapes[OCTREE_SHAPE_KINDS];
@@ -27,10 +26,10 @@ typedef struct moving_tree {
 void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed);
 void moving_tree_release(moving_tree *m);
 
-/* Let some points come, go, move to where there is room, or change places with another. */
+/* Insert, remove, move and swap some points. */
 void moving_tree_step(moving_tree *m);
 
-/* Small frames of such a tree. */
+/* A recorder of small frames for the tree. */
 octreel_recorder_def small_recorder(const moving_tree *m, const char *folder);
 
 /* Hand it over; the test fails, with the sentence, when that is refused. */
@@ -47,13 +46,13 @@ typedef struct moving_edits {
 
 void moving_edits_make(moving_edits *e, const moving_tree *m);
 
-/* How a program without an octree says what points it has. */
+/* How a program hands its points to the recorder: its octree, a list, or changes. */
 typedef enum moving_tree_source { MOVING_TREE, MOVING_LIST, MOVING_CHANGES } moving_tree_source;
 
 /* Hand it over by its tree, by a list of its points, or by the edits. */
 octreel_status hand_over(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source, moving_edits *e);
 
-/* Step and record so many times. */
+/* Step and record this number of times. */
 void record_steps(octreel_recorder *recorder, moving_tree *m, int ticks);
 
 /* Open; the test fails, with the sentence, when it is not done. */

@@ -8,16 +8,16 @@
 /* A pixel's red, green and blue as numbers from 0 to 1. */
 void naive_color(const image *image, int x, int y, double rgb[3]);
 
-/* The distance of two colours in IMAGE_DELTA_UNIT: each of them turned into YIQ by itself. */
+/* The distance of two colours in IMAGE_DELTA_UNIT; each is converted to YIQ separately. */
 double naive_delta(const double a[3], const double b[3]);
 
-/* What pixelmatch calls anti-aliased, in either image. */
+/* Whether pixelmatch would call the pixel anti-aliased, in either image. */
 bool naive_antialiased(const image *a, const image *b, int x, int y);
 
 /* The same counts and places as image_compare_within(). */
 image_difference naive_compare(const image *a, const image *b, const image_tolerance *tolerance);
 
-/* The test fails where two differences are not the same; worst_delta may differ by rounding. */
+/* The test fails unless two differences are equal; worst_delta may differ by rounding. */
 void assert_same_difference(const image_difference *a, const image_difference *b);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* png_by_hand.h - PNG files made and taken apart chunk by chunk with zlib alone, so that libpng is not its own witness.
+/* png_by_hand.h - writes and parses PNG files chunk by chunk, with zlib but without libpng, to check libpng's output.
  */
 #ifndef PNG_BY_HAND_H
 #define PNG_BY_HAND_H

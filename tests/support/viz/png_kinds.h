@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* png_kinds.h - a picture stored in each way that PNG has. */
+/* png_kinds.h - one picture, stored with every colour type and depth of PNG. */
 #ifndef PNG_KINDS_H
 #define PNG_KINDS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* recordings.h - recordings for tests: made small, and looked through. */
+/* recordings.h - films small recordings for tests, and inspects them. */
 #ifndef RECORDINGS_H
 #define RECORDINGS_H
 
@@ -7,11 +7,11 @@
 #include "film.h"
 #include "image.h"
 
-/* The size of most films of the tests. */
+/* The frame size of most recordings in tests. */
 #define SMALL_WIDTH 160
 #define SMALL_HEIGHT 90
 
-/* Every tick, all layers, small, into this folder. */
+/* Options for small frames of every tick with all layers, in this folder. */
 film_options small_film(const char *folder);
 
 /* The default session with these keys alone. */
@@ -26,7 +26,7 @@ film_options stopped_after(film_options options, uint64_t *ticks);
 /* The path of a frame. */
 place frame_place(const char *folder, uint64_t tick);
 
-/* Film; the test fails, with the sentence, when it is not done. */
+/* Film a session; the test fails with the error if that fails. */
 film_summary assert_filmed(const octree_session *session, const film_options *options);
 
 /* A frame, decoded: the test fails unless it is whole, 8-bit indexed, of this size and of the theme's table. */

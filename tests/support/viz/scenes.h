@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scenes.h - scenes for tests: by hand, of games, and of games that are moved and scaled.
- */
+/* scenes.h - scenes for tests: built by hand, from games, and from scaled and translated games. */
 #ifndef SCENES_H
 #define SCENES_H
 
@@ -41,7 +40,7 @@ void build_hot_tick(scene *s, const view *v, const octree_game *game, const heat
 /* Fill a scene with a tree alone, or the test fails. */
 void build_tree(scene *s, const view *v, const octree *tree, const char *title);
 
-/* The default session's tick 30, with everything on. */
+/* Tick 30 of the default session, with all layers and options. */
 scene busy_scene(int width, int height, view_camera camera);
 
 /* Corner 0..7 of a box: bit 0 takes x from its maximum, bit 1 y, bit 2 z. */

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* session_texts.h - sessions read from texts, and written into them. */
+/* session_texts.h - converts texts to sessions and sessions to texts. */
 #ifndef TESTS_SESSION_TEXTS_H
 #define TESTS_SESSION_TEXTS_H
 
 #include "session_file.h"
 
-/* The test fails with the reader's sentence where it is refused. To be released. */
+/* Read a session from text; the caller releases it. The test fails with the error if it is refused. */
 session_file session_of_text(const char *text);
 
-/* `values` may be null. The caller frees it. */
+/* Write a session as text, which the caller frees. `values` may be null. */
 char *text_of_session(const octree_session *session, const point_values *values);
 
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* session_variant.h - a small session, the same with one change, and the line that says in what they differ. */
+/* session_variant.h - compares a small session with a changed copy, and checks the headline of the difference. */
 #ifndef SESSION_VARIANT_H
 #define SESSION_VARIANT_H
 
 #include "octree/game.h"
 #include "point_values.h"
 
-/* Where nothing that happens differs. */
+/* The text for sessions in which the same happens. */
 #define SAME_TICKS "the same happens in all ticks that both have"
 
 /* A session that a test may change in any part. */
@@ -19,10 +19,10 @@ typedef struct variant {
     point_values values; /* released when they have been compared */
 } variant;
 
-/* The headline of the causes of a session and the same with one change is this. */
+/* The test fails unless this headline describes the difference between the small session and its changed copy. */
 void assert_says(void change(variant *v), const char *expected);
 
-/* The same; what `prepare` does, where it is not null, is done to both before. */
+/* assert_says(), after `prepare` (may be null) has changed both sessions. */
 void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected);
 
 #endif

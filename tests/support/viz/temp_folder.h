@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* temp_folder.h - a folder of its own for a test, so that what is left behind can be counted.
+/* temp_folder.h - a temporary folder for one test, in which leftover files can be counted.
  *
  * cmocka_unit_test_setup_teardown(test, temp_folder_make, temp_folder_remove) puts a temp_folder into *state.
  */

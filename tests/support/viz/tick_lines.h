@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tick_lines.h - lines of ticks.jsonl, held against the ticks of a game. */
+/* tick_lines.h - compares lines of ticks.jsonl with the ticks of a game. */
 #ifndef TICK_LINES_H
 #define TICK_LINES_H
 

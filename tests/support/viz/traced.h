@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* traced.h - octreel run call by call: what would be left if it were killed at one of them can be looked at. */
+/* traced.h - runs octreel one system call at a time, to see what it leaves behind if it is killed at any of them. */
 #ifndef TRACED_H
 #define TRACED_H
 

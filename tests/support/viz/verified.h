@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* verified.h - a short recording, and what verifying says of it, for tests. */
+/* verified.h - films a short recording, and checks the report of `octreel verify`. */
 #ifndef VERIFIED_H
 #define VERIFIED_H
 
@@ -14,19 +14,19 @@
 /* The beginning of the paper's session: ticks 0 to 13, frames of 0, 3, 6, 9 and 12. */
 place film_short(const temp_folder *own);
 
-/* The folder of the test anew, empty. */
+/* Empty the folder of the test. */
 void start_over(void **state);
 
-/* Verify; the test fails, with the sentence, when it cannot be done. */
+/* Verify a recording; the test fails with the error if that is impossible. */
 verify_report verify(const place *folder);
 
-/* No finding, and these many ticks and frames. */
+/* The test fails unless there is no finding, and this number of ticks and frames. */
 void assert_identical(const place *folder, uint64_t ticks, uint64_t frames);
 
-/* One finding in a short recording, about this tick, whose sentence holds `part`; the ticks before it are the same. */
+/* The test fails unless verifying finds one difference, at this tick, with a sentence that contains `part`. */
 verify_report assert_found(const place *folder, verify_kind kind, uint64_t tick, const char *part);
 
-/* It cannot be verified, and the sentence holds `part`. */
+/* The test fails unless verifying is refused with a sentence that contains `part`. */
 void assert_not_verified(const place *folder, const char *part);
 
 #endif
