@@ -425,11 +425,11 @@ static void recordings_keep_answers_and_judgements(void **state)
     char *ticks = file_read(place_in(*state, "film/ticks.jsonl").path, NULL);
     assert_non_null(strstr(ticks, "\"events\": [\"wrong\"]"));
     assert_non_null(strstr(ticks,
-                           "\"judged\": {\"answer\": [3], \"wrong\": \"farther\", \"expected\": 1, \"missed\": [1], "
+                           "\"judged\": {\"answer\": [3], \"wrong\": \"farther\", \"expected\": 1, \"missing\": [1], "
                            "\"extra\": [3], \"rank\": 1, \"ratio\": 3.605551275463989}"));
     assert_non_null(strstr(ticks,
                            "\"judged\": {\"answer\": [1, 2], \"wrong\": \"unknown\", \"wrong_id\": 2, \"expected\": 2, "
-                           "\"missed\": [3]}"));
+                           "\"missing\": [3]}"));
     assert_non_null(strstr(ticks, "\"judged\": {\"answer\": [3, 2, 1], \"wrong\": \"none\", \"expected\": 3}"));
     free(ticks);
     result = run_octreel(NULL, "verify %s", folder.path);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause_nodes.c - two sessions that differ in the nodes of a program's own tree, and the line that says so. */
+/* test_cause_nodes.c - two sessions that differ in their foreign nodes, and the sentence that reports it. */
 #include "fixture.h"
 #include "session_variant.h"
 
@@ -101,13 +101,14 @@ static void other_nodes_met_are_told_by_their_number(void **state)
 {
     (void)state;
     assert_says_of(meet_one, meet_two,
-                   "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of the program's "
+                   "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
                    "nodes visited (2, was 1)");
     assert_says_of(meet_one, meet_another,
                    "the query met other nodes at tick 0; the same happens in all ticks that both have");
-    assert_says_of(meet_one_always, meet_two_always,
-                   "3 queries met other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of the "
-                   "program's nodes visited (2, was 1)");
+    assert_says_of(
+        meet_one_always, meet_two_always,
+        "3 queries met other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of foreign "
+        "nodes visited (2, was 1)");
 }
 
 static void long_lists_are_not_told_whole(void **state)
@@ -117,23 +118,23 @@ static void long_lists_are_not_told_whole(void **state)
         meet_one, meet_many_elsewhere,
         "another query at tick 0 (radius 1, at (0.5, 0, 0), was (0, 0, 0), visited (5, 6, 5, 6 and 3 more), "
         "was (5)); tick 0: another center in the radius query ((0.5, 0, 0), was (0, 0, 0)), another number of "
-        "the program's nodes visited (2, was 1)");
+        "foreign nodes visited (2, was 1)");
 }
 
-static void a_fault_more_is_told_with_its_tick(void **state)
+static void a_wrong_node_more_is_named_with_its_tick(void **state)
 {
     (void)state;
     assert_says_of(give_right, give_wrong,
                    "another foreign node at tick 0 (id 6, parent 5, box (0, -1, -1) to "
-                   "(2, 1, 1), was (0, -1, -1) to (1, 1, 1)); tick 0: one more fault in the "
-                   "program's nodes (fault \"outside_parent\", node 6)");
+                   "(2, 1, 1), was (0, -1, -1) to (1, 1, 1)); tick 0: one more wrong foreign "
+                   "node (wrong \"outside_parent\", node 6)");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_node_more_is_told),
-        cmocka_unit_test(a_fault_more_is_told_with_its_tick),
+        cmocka_unit_test(a_wrong_node_more_is_named_with_its_tick),
         cmocka_unit_test(other_nodes_met_are_told_by_their_number),
         cmocka_unit_test(long_lists_are_not_told_whole),
     };

@@ -150,10 +150,10 @@ static void ticks_list_foreign_nodes_and_wrong_nodes(void **state)
         "\", \"visited\": 1, \"pruned\": 1, \"hit\": 0, \"wrong\": {\"count\": 4, \"unknown_point\": 1, "
         "\"outside_point\": 1, "
         "\"unknown_node\": 1, \"pruned_point\": 1, \"first\": ["
-        "{\"fault\": \"outside_point\", \"node\": 4, \"point\": 1}, "
-        "{\"fault\": \"unknown_point\", \"node\": 4, \"point\": 3}, "
-        "{\"fault\": \"unknown_node\", \"node\": 5, \"answer\": 0}, "
-        "{\"fault\": \"pruned_point\", \"node\": 4, \"point\": 2, \"answer\": 0}]}}, \"refusals\"";
+        "{\"wrong\": \"outside_point\", \"node\": 4, \"point\": 1}, "
+        "{\"wrong\": \"unknown_point\", \"node\": 4, \"point\": 3}, "
+        "{\"wrong\": \"unknown_node\", \"node\": 5, \"answer\": 0}, "
+        "{\"wrong\": \"pruned_point\", \"node\": 4, \"point\": 2, \"answer\": 0}]}}, \"refusals\"";
     if (strncmp(at, rest, strlen(rest)) != 0)
         fail_msg("%s", at);
     free(text);
