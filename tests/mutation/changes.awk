@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# Every change of one line that could be made of the sources named: FILE:LINE:COLUMN:LENGTH:INSTEAD.
+# Print every possible mutation of the given sources: FILE:LINE:COLUMN:LENGTH:REPLACEMENT.
 
 function put(at, size, instead) { print FILENAME ":" FNR ":" at ":" size ":" instead }
-# The line, with blanks for what is in quotes and comments.
+# Return the line with quoted text and comments replaced by blanks.
 function blanked(text) {
     while (match(text, /"([^"\\]|\\.)*"|\047([^\047\\]|\\.)+\047|\/\*.*\*\/|\/\*.*$/))
         text = substr(text, 1, RSTART - 1) sprintf("%" RLENGTH "s", "") substr(text, RSTART + RLENGTH)
@@ -24,7 +24,7 @@ function numbers(code,    from, at, word) {
             put(at, length(word), word - 1)
     }
 }
-# Two arguments side by side that are names, members or numbers.
+# Swap two adjacent arguments that are names, members or numbers.
 function arguments(code,    from, at, pair, parts) {
     for (from = 1; match(substr(code, from), /(\(|, )[&*A-Za-z0-9_.>-]+, [&*A-Za-z0-9_.>-]+[,)]/); from = at + 1) {
         at = from + RSTART - 1
@@ -35,7 +35,7 @@ function arguments(code,    from, at, pair, parts) {
         put(at, length(pair), parts[2] ", " parts[1])
     }
 }
-# What is in the parentheses that begin at a column, if they end on this line.
+# Return the text in the parentheses that begin at a column, if they end on the same line.
 function negation(code, at,    i, deep, c) {
     for (i = at; i <= length(code); i++) {
         c = substr(code, i, 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What tests/mutation/run asks of lib: its sources, its objects in each set, and its tests.
+# The part of tests/mutation/run for lib: its sources, its objects in each set, and its tests.
 # shellcheck shell=sh disable=SC2034,SC2154 # variables of run
 
 sets='whole shared portable'
@@ -78,7 +78,7 @@ compile_tests()
     done
 }
 
-# As tests/CMakeLists.txt has it, but that all tests are for the portable library.
+# As in tests/CMakeLists.txt, except that all tests also run with the portable library.
 is_of()
 {
     case $1:$2 in

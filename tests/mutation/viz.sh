@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What tests/mutation/run asks of viz: its sources, its objects, and its tests, of which those are taken that run the line.
+# The part of tests/mutation/run for viz: its sources, its objects, and the tests that run a line.
 # shellcheck shell=sh disable=SC2034,SC2154 # variables of run
 
 sets=whole
@@ -18,8 +18,8 @@ compile_one()
     eval "$(cat "flags/$(basename "$3")") $(flags_of "$1") -o $3 -c $PWD/$2"
 }
 
-# All rooms with the program are one library, so that a mutant is one object and one link. A child that ends by _exit()
-# would not write what it counted.
+# All rooms and the program are one library, so that a mutant needs one compilation and one link. A child that ends with
+# _exit() would not write its counters.
 link_library()
 {
     if [ "$1" = counted ]; then
@@ -66,7 +66,7 @@ is_newer()
     [ -n "$(find "$1" -newer "$2" 2>log)" ]
 }
 
-# The objects of everything, by cmake: those of tests are linked here, those of viz made once more for each set.
+# Build all objects with cmake. Those of the tests are linked here; those of viz are compiled again for each set.
 build_all()
 {
     cmake -S . -B build -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="-O1 $types" \
@@ -97,7 +97,7 @@ build_all()
         sort -u | tr '\n' ' ') -lpthread"
 }
 
-# Every test, with libviz.so instead of the rooms, and the program that tests run.
+# Link every test, and the program that tests run, with libviz.so instead of the rooms.
 link_tests()
 {
     mkdir -p programs
@@ -113,7 +113,7 @@ link_tests()
     "$cc" -o build/bin/octreel -Lwhole -lviz || stop 'octreel does not link'
 }
 
-# Run a test with counters. One that they disturb is run without: where it fails then, too, it is left out.
+# Run a test with counters. If it fails, run it without them; if it still fails, it is not used.
 see_what_runs()
 {
     rm -f counted/*.gcda "reached/$1.spent"
@@ -132,7 +132,7 @@ see_what_runs()
     fi
 }
 
-# The tests that run the line, or, of a line without a counter, another of the file: those of its room first.
+# The tests that run the line, or any line of the file if the line has no counter; those of its room first.
 tests_for()
 {
     where="$2:$3"
