@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_closeup.c - the close-up of what appears small: when there is one, what it shows, and where. */
+/* test_closeup.c - tests when a scene has a close-up of the player, what it shows, and where it stands. */
 #include "extreme_worlds.h"
 #include "layout.h"
 #include "octree/sample.h"
@@ -71,7 +71,7 @@ static void a_close_up_follows_the_player_and_is_fixed_in_the_picture(void **sta
 }
 
 /* What is about it in the world appears `times` as large, where a camera is orthographic everywhere. */
-static void everything_is_as_many_times_as_large_as_it_says(void **state)
+static void everything_is_enlarged_by_the_printed_factor(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -98,7 +98,7 @@ static void everything_is_as_many_times_as_large_as_it_says(void **state)
     octree_game_destroy(game);
 }
 
-static void what_is_large_or_not_wanted_has_none(void **state)
+static void large_or_unwanted_subject_has_no_close_up(void **state)
 {
     (void)state;
     octree_session session = octree_session_default();
@@ -128,7 +128,7 @@ static void what_is_large_or_not_wanted_has_none(void **state)
 
 /* It overlaps neither text nor diagram nor the world's space, and the frame of what it shows lies in that. Two lines
  * lead from there to corners of its border. */
-static void it_has_a_place_of_its_own(void **state)
+static void close_up_overlaps_nothing_else(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1280, 720}, {640, 360}, {3840, 2160}, {720, 1280}, {960, 540}, {500, 500}};
@@ -166,7 +166,7 @@ static void it_has_a_place_of_its_own(void **state)
 }
 
 /* Nodes and points far from the player are not in it, and those about it are, smaller ones too. */
-static void it_has_what_is_around_the_player_and_nothing_else(void **state)
+static void close_up_shows_only_the_players_surroundings(void **state)
 {
     (void)state;
     enum { MANY = 20000 };
@@ -216,7 +216,7 @@ static void it_has_what_is_around_the_player_and_nothing_else(void **state)
 }
 
 /* The rectangle of what it shows is seen in the picture at any scale. */
-static void what_it_shows_is_outlined_however_small(void **state)
+static void enlarged_area_is_outlined_however_small(void **state)
 {
     (void)state;
     octree_session session = octree_session_default();
@@ -237,7 +237,7 @@ static void what_it_shows_is_outlined_however_small(void **state)
 }
 
 /* At the edges of doubles too. */
-static void it_is_the_same_at_every_scale(void **state)
+static void close_up_is_the_same_at_every_scale_of_the_world(void **state)
 {
     (void)state;
     static const double scales[] = {1e-300, 1e-12, 1, 1e12, 1e300};
@@ -280,7 +280,7 @@ static void every_world_has_a_close_up_of_finite_numbers(void **state)
     }
 }
 
-static void the_digest_counts_it(void **state)
+static void scene_digest_covers_the_close_up(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -301,7 +301,7 @@ static void the_digest_counts_it(void **state)
 }
 
 /* Numbers of elements go on where those of the scene end. */
-static void its_elements_are_numbered_after_those_of_the_scene(void **state)
+static void close_up_elements_are_numbered_after_the_scene(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -322,7 +322,7 @@ static void its_elements_are_numbered_after_those_of_the_scene(void **state)
 }
 
 /* Of a part of the world it shows what lies in that part. */
-static void a_close_up_of_a_region_shows_no_more_than_it(void **state)
+static void close_up_respects_the_region_filter(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -348,16 +348,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_close_up_follows_the_player_and_is_fixed_in_the_picture),
-        cmocka_unit_test(everything_is_as_many_times_as_large_as_it_says),
-        cmocka_unit_test(what_is_large_or_not_wanted_has_none),
-        cmocka_unit_test(it_has_a_place_of_its_own),
-        cmocka_unit_test(it_has_what_is_around_the_player_and_nothing_else),
-        cmocka_unit_test(what_it_shows_is_outlined_however_small),
-        cmocka_unit_test(it_is_the_same_at_every_scale),
+        cmocka_unit_test(everything_is_enlarged_by_the_printed_factor),
+        cmocka_unit_test(large_or_unwanted_subject_has_no_close_up),
+        cmocka_unit_test(close_up_overlaps_nothing_else),
+        cmocka_unit_test(close_up_shows_only_the_players_surroundings),
+        cmocka_unit_test(enlarged_area_is_outlined_however_small),
+        cmocka_unit_test(close_up_is_the_same_at_every_scale_of_the_world),
         cmocka_unit_test(every_world_has_a_close_up_of_finite_numbers),
-        cmocka_unit_test(the_digest_counts_it),
-        cmocka_unit_test(its_elements_are_numbered_after_those_of_the_scene),
-        cmocka_unit_test(a_close_up_of_a_region_shows_no_more_than_it),
+        cmocka_unit_test(scene_digest_covers_the_close_up),
+        cmocka_unit_test(close_up_elements_are_numbered_after_the_scene),
+        cmocka_unit_test(close_up_respects_the_region_filter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

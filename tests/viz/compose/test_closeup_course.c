@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_closeup_course.c - where close-ups are without a player: of ticks that ask, of ticks that change something, and
- * of trees. */
+/* test_closeup_course.c - tests the place of close-ups without a player: in ticks with queries or changes, and of
+ * trees. */
 #include "brute.h"
 #include "extreme_worlds.h"
 #include "layout.h"
@@ -72,7 +72,7 @@ static octree_query ball(uint64_t tick, double x, double y, double z, double rad
 
 /* From the first tick on that asks anything small it is there, as many times as large at each, and stays where it was
  * while nothing is asked. */
-static void it_follows_what_is_asked_from_the_first_that_is_small(void **state)
+static void close_up_follows_queries_from_the_first_small_one(void **state)
 {
     (void)state;
     const octree_query queries[] = {ball(0, 0, 0, 0, 700), ball(2, 500, 0, 0, 20), ball(3, -500, 100, 0, 30)};
@@ -96,7 +96,7 @@ static void it_follows_what_is_asked_from_the_first_that_is_small(void **state)
 }
 
 /* Of two far from each other the first, and not the empty middle; of two that it shows both, the middle. */
-static void of_things_far_apart_it_shows_the_first(void **state)
+static void close_up_shows_the_first_of_distant_subjects(void **state)
 {
     (void)state;
     const octree_query queries[] = {ball(0, 0, 0, 0, 700),    ball(0, 500, 0, 0, 20), ball(0, -500, 100, 0, 20),
@@ -119,7 +119,7 @@ static void of_things_far_apart_it_shows_the_first(void **state)
 }
 
 /* A neighbour that is found belongs to what is asked; and a place that is a point is shown with its leaf. */
-static void neighbours_are_shown_with_what_they_are_near_to(void **state)
+static void neighbours_are_shown_with_their_surroundings(void **state)
 {
     (void)state;
     static const octree_body bodies[] = {
@@ -149,7 +149,7 @@ static void neighbours_are_shown_with_what_they_are_near_to(void **state)
 }
 
 /* What edits do near each other is shown from the first on, and a close-up that shows them stays. */
-static void it_stays_at_changes_that_it_shows_and_goes_on_to_others(void **state)
+static void close_up_stays_at_shown_changes_and_moves_to_others(void **state)
 {
     (void)state;
     octree_edit edits[] = {
@@ -176,7 +176,7 @@ static void it_stays_at_changes_that_it_shows_and_goes_on_to_others(void **state
 }
 
 /* One that moves is followed, in steps; many that move everywhere have none. */
-static void what_moves_is_followed_and_a_crowd_is_not(void **state)
+static void single_mover_is_followed_and_a_crowd_is_not(void **state)
 {
     (void)state;
     octree_body bodies[20] = {{.id = 1, .position = {-500, 0, 0}, .velocity = {25, 0, 0}}};
@@ -206,8 +206,8 @@ static void what_moves_is_followed_and_a_crowd_is_not(void **state)
     film_end(&f);
 }
 
-/* Of a gap nothing is known. */
-static void a_gap_leaves_it_where_it_is(void **state)
+/* The contents of a gap are unknown. */
+static void gap_does_not_move_the_close_up(void **state)
 {
     (void)state;
     const octree_query queries[] = {ball(0, 500, 0, 0, 20), ball(1, -500, 100, 0, 30)};
@@ -227,7 +227,7 @@ static void a_gap_leaves_it_where_it_is(void **state)
 }
 
 /* The history says where it is, and the view whether it is wanted and how many times as large. */
-static void views_change_while_it_is_followed(void **state)
+static void history_serves_every_view(void **state)
 {
     (void)state;
     const octree_query query = ball(0, 500, 0, 0, 20);
@@ -277,7 +277,7 @@ static octree *sampled_tree(octree_box world, size_t count)
 }
 
 /* What a tree is asked, in every camera and size, where it appears small; and nothing else. */
-static void a_tree_has_one_of_what_it_is_asked(void **state)
+static void close_up_of_a_tree_shows_its_queries(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1280, 720}, {640, 360}, {3840, 2160}, {720, 1280}};
@@ -317,7 +317,7 @@ static octree_walk_order keep_deepest(const octree_node *node, void *context)
 }
 
 /* A small node that is asked for is in the middle; a large one has none. */
-static void a_tree_has_one_of_its_node_that_is_asked_for(void **state)
+static void close_up_of_a_tree_shows_the_requested_node(void **state)
 {
     (void)state;
     octree *tree = sampled_tree(cube(-1000, 1000), 2000);
@@ -336,7 +336,7 @@ static void a_tree_has_one_of_its_node_that_is_asked_for(void **state)
 }
 
 /* Whatever is asked, at the edges of doubles, of a tree or of nothing. */
-static void every_world_has_one_of_finite_numbers(void **state)
+static void close_ups_of_extreme_worlds_are_finite(void **state)
 {
     (void)state;
     const view v = view_default();
@@ -370,16 +370,16 @@ static void every_world_has_one_of_finite_numbers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_follows_what_is_asked_from_the_first_that_is_small),
-        cmocka_unit_test(of_things_far_apart_it_shows_the_first),
-        cmocka_unit_test(neighbours_are_shown_with_what_they_are_near_to),
-        cmocka_unit_test(it_stays_at_changes_that_it_shows_and_goes_on_to_others),
-        cmocka_unit_test(what_moves_is_followed_and_a_crowd_is_not),
-        cmocka_unit_test(a_gap_leaves_it_where_it_is),
-        cmocka_unit_test(views_change_while_it_is_followed),
-        cmocka_unit_test(a_tree_has_one_of_what_it_is_asked),
-        cmocka_unit_test(a_tree_has_one_of_its_node_that_is_asked_for),
-        cmocka_unit_test(every_world_has_one_of_finite_numbers),
+        cmocka_unit_test(close_up_follows_queries_from_the_first_small_one),
+        cmocka_unit_test(close_up_shows_the_first_of_distant_subjects),
+        cmocka_unit_test(neighbours_are_shown_with_their_surroundings),
+        cmocka_unit_test(close_up_stays_at_shown_changes_and_moves_to_others),
+        cmocka_unit_test(single_mover_is_followed_and_a_crowd_is_not),
+        cmocka_unit_test(gap_does_not_move_the_close_up),
+        cmocka_unit_test(history_serves_every_view),
+        cmocka_unit_test(close_up_of_a_tree_shows_its_queries),
+        cmocka_unit_test(close_up_of_a_tree_shows_the_requested_node),
+        cmocka_unit_test(close_ups_of_extreme_worlds_are_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

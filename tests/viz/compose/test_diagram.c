@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_diagram.c - the tree drawn as a tree: each node once or in a bar, in its colour, and the way to one of them;
- * counted again by walking the tree. */
+/* test_diagram.c - tests the diagram against a walk over the tree: each node is drawn once or in a bar, in its colour,
+ * and the path to one node is marked. */
 #include "scenes.h"
 
 #include <math.h>
@@ -233,7 +233,7 @@ static void check_tick(const scene *s, const octree_game *game)
     check_way(s, player.leaf);
 }
 
-static void every_tick_shows_each_node_once_and_the_way_to_the_player(void **state)
+static void every_tick_shows_each_node_once_and_the_path_to_the_player(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -275,7 +275,7 @@ static scene look_at(const view *v, const octree *tree, octree_address node)
     return s;
 }
 
-static void levels_that_have_no_room_are_folded_and_counted(void **state)
+static void levels_without_room_are_folded_and_counted(void **state)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
@@ -292,7 +292,7 @@ static void levels_that_have_no_room_are_folded_and_counted(void **state)
 }
 
 /* 40,000 leaves in all but an instant, and the words say what is folded. */
-static void a_tree_of_forty_thousand_leaves_still_reads(void **state)
+static void tree_of_forty_thousand_leaves_is_readable(void **state)
 {
     (void)state;
     octree *tree = sampled(OCTREE_SAMPLE_CLUSTERED, 80000, 4);
@@ -368,7 +368,7 @@ static octree_walk_order grey_unless_leaf(const octree_node *node, void *context
     return OCTREE_WALK_ON;
 }
 
-static void nodes_that_the_filter_leaves_out_are_grey(void **state)
+static void filtered_nodes_are_grey(void **state)
 {
     (void)state;
     octree *tree = sampled(OCTREE_SAMPLE_UNIFORM, 40, 4);
@@ -382,7 +382,7 @@ static void nodes_that_the_filter_leaves_out_are_grey(void **state)
     octree_destroy(tree);
 }
 
-static void only_the_diagram_and_words_are_left_of_a_tick(void **state)
+static void diagram_only_view_has_only_diagram_and_panel(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -406,7 +406,7 @@ static void only_the_diagram_and_words_are_left_of_a_tick(void **state)
 }
 
 /* Beside the space view the same of it is shown as alone: the same boxes, points, lines and marks of the world. */
-static void the_space_view_beside_has_all_that_it_has_alone(void **state)
+static void space_view_beside_the_diagram_has_all_its_elements(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -472,13 +472,13 @@ static void a_diagram_of_any_size_stays_in_its_part(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tick_shows_each_node_once_and_the_way_to_the_player),
-        cmocka_unit_test(levels_that_have_no_room_are_folded_and_counted),
-        cmocka_unit_test(a_tree_of_forty_thousand_leaves_still_reads),
+        cmocka_unit_test(every_tick_shows_each_node_once_and_the_path_to_the_player),
+        cmocka_unit_test(levels_without_room_are_folded_and_counted),
+        cmocka_unit_test(tree_of_forty_thousand_leaves_is_readable),
         cmocka_unit_test(filling_an_empty_octant_moves_nothing),
-        cmocka_unit_test(nodes_that_the_filter_leaves_out_are_grey),
-        cmocka_unit_test(only_the_diagram_and_words_are_left_of_a_tick),
-        cmocka_unit_test(the_space_view_beside_has_all_that_it_has_alone),
+        cmocka_unit_test(filtered_nodes_are_grey),
+        cmocka_unit_test(diagram_only_view_has_only_diagram_and_panel),
+        cmocka_unit_test(space_view_beside_the_diagram_has_all_its_elements),
         cmocka_unit_test(a_diagram_of_any_size_stays_in_its_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

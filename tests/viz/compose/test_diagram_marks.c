@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_diagram_marks.c - how the tick met nodes in the diagram: bold and dashed lines, as a recount has them. */
+/* test_diagram_marks.c - tests the bold and dashed lines of visited and pruned nodes in the diagram against a recount.
+ */
 #include "scenes.h"
 
 #include <stdio.h>
@@ -86,7 +87,7 @@ static size_t check_session(const octree_session *session, unsigned layers, view
     return told;
 }
 
-static void lines_tell_what_the_tick_met(void **state)
+static void lines_show_visited_and_pruned_nodes(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -99,7 +100,7 @@ static void lines_tell_what_the_tick_met(void **state)
     }
 }
 
-static void layers_that_are_off_are_not_told_in_the_diagram(void **state)
+static void diagram_ignores_hidden_layers(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -112,8 +113,8 @@ static void layers_that_are_off_are_not_told_in_the_diagram(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_tell_what_the_tick_met),
-        cmocka_unit_test(layers_that_are_off_are_not_told_in_the_diagram),
+        cmocka_unit_test(lines_show_visited_and_pruned_nodes),
+        cmocka_unit_test(diagram_ignores_hidden_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_panel.c - the words and swatches beside a picture: what they tell, and that they fit their place. */
+/* test_panel.c - tests the texts and swatches of the panel, and that they fit their room. */
 #include "scenes.h"
 #include "brute.h"
 #include "column.h"
@@ -31,7 +31,7 @@ static void check_red_words(const scene *s, const octree_tick *tick)
         assert_non_null(find_text(s, "collided"));
 }
 
-static void every_tick_tells_its_number_and_its_events(void **state)
+static void panel_shows_every_ticks_number_and_events(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1280, 720}, {320, 180}, {640, 360}, {3840, 2160}};
@@ -53,7 +53,7 @@ static void every_tick_tells_its_number_and_its_events(void **state)
     scene_release(&s);
 }
 
-static void a_sweep_is_told(void **state)
+static void panel_shows_a_swept_test(void **state)
 {
     (void)state;
     const view v = view_default();
@@ -71,7 +71,7 @@ static void a_sweep_is_told(void **state)
     }
 }
 
-static void answers_are_told_in_words(void **state)
+static void panel_shows_answers(void **state)
 {
     (void)state;
     static const octree_body bodies[] = {{.id = 41, .position = {3, 4, 0}},
@@ -112,7 +112,7 @@ static size_t count_rows(const scene *s, int below)
 }
 
 /* Nothing is written below the picture; what would be is counted in its last row. */
-static void rows_that_have_no_room_are_counted(void **state)
+static void rows_without_room_are_counted(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -149,7 +149,7 @@ static void rows_that_have_no_room_are_counted(void **state)
 }
 
 /* A list of ids is cut between two of them, whatever their length, and says how many more there are. */
-static void ids_that_have_no_room_are_counted(void **state)
+static void ids_without_room_are_counted(void **state)
 {
     (void)state;
     static const struct {
@@ -209,7 +209,7 @@ static void the_column_never_takes_more_than_half_the_picture(void **state)
     }
 }
 
-static void a_picture_too_small_for_the_column_has_its_facts_all_the_same(void **state)
+static void picture_without_room_for_the_column_shows_the_main_facts(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -225,7 +225,7 @@ static void a_picture_too_small_for_the_column_has_its_facts_all_the_same(void *
 }
 
 /* The longest of everything: ids of twenty digits, positions of many, titles beyond the room of a text. */
-static void numbers_of_any_length_stay_texts(void **state)
+static void texts_of_any_length_stay_within_bounds(void **state)
 {
     (void)state;
     octree_body bodies[40];
@@ -265,14 +265,14 @@ static void numbers_of_any_length_stay_texts(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tick_tells_its_number_and_its_events),
-        cmocka_unit_test(a_sweep_is_told),
-        cmocka_unit_test(answers_are_told_in_words),
-        cmocka_unit_test(rows_that_have_no_room_are_counted),
-        cmocka_unit_test(ids_that_have_no_room_are_counted),
+        cmocka_unit_test(panel_shows_every_ticks_number_and_events),
+        cmocka_unit_test(panel_shows_a_swept_test),
+        cmocka_unit_test(panel_shows_answers),
+        cmocka_unit_test(rows_without_room_are_counted),
+        cmocka_unit_test(ids_without_room_are_counted),
         cmocka_unit_test(the_column_never_takes_more_than_half_the_picture),
-        cmocka_unit_test(a_picture_too_small_for_the_column_has_its_facts_all_the_same),
-        cmocka_unit_test(numbers_of_any_length_stay_texts),
+        cmocka_unit_test(picture_without_room_for_the_column_shows_the_main_facts),
+        cmocka_unit_test(texts_of_any_length_stay_within_bounds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* test_panel_counts.c - every number that the column tells of a tick is that of its line in ticks.jsonl, and that of a
- * recount from the points alone: by looking at each of them, and by dividing the world among them again. What the
- * tick met is held so in test_visit_layers.c, what is left out in test_lod.c. */
+/* test_panel_counts.c - tests every number in the panel against the tick's line in ticks.jsonl and against a recount
+ * from the points alone, which divides the world again. test_visit_layers.c does the same for visited nodes, test_lod.c
+ * for elements left out. */
 #include "scenes.h"
 
 #include <math.h>
@@ -363,14 +363,14 @@ static void check_session(const octree_session *session)
     octree_game_destroy(game);
 }
 
-static void the_default_session_tells_what_a_recount_finds(void **state)
+static void panel_counts_of_the_default_session_match_a_recount(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
     check_session(&session);
 }
 
-static void random_sessions_tell_what_a_recount_finds(void **state)
+static void panel_counts_of_random_sessions_match_a_recount(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 12; seed++) {
@@ -383,8 +383,8 @@ static void random_sessions_tell_what_a_recount_finds(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default_session_tells_what_a_recount_finds),
-        cmocka_unit_test(random_sessions_tell_what_a_recount_finds),
+        cmocka_unit_test(panel_counts_of_the_default_session_match_a_recount),
+        cmocka_unit_test(panel_counts_of_random_sessions_match_a_recount),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_scene_memory.c - the n-th allocation fails while a scene is made, n = 0, 1, 2 ...: there is no scene, or it is
- * the one that is made with all memory. */
+/* test_scene_memory.c - lets the n-th allocation fail, n = 0, 1, 2 ..., while a scene is made: building fails, or the
+ * scene is the same as with enough memory. */
 #include "fixture.h"
 
 #include <stdlib.h>
@@ -36,7 +36,7 @@ static bool make_scene(const golden_play *play, const tick_history *h, long coun
     return failed;
 }
 
-static void a_scene_is_whole_or_there_is_none(void **state)
+static void scene_is_complete_or_fails_without_memory(void **state)
 {
     (void)state;
     for (size_t i = 0; i < golden_frame_count; i++) {
@@ -64,7 +64,7 @@ static void a_scene_is_whole_or_there_is_none(void **state)
 
 /* ---- Histories ---------------------------------------------------------------------------------------------- */
 
-static void a_history_without_memory_says_so(void **state)
+static void history_reports_lack_of_memory(void **state)
 {
     const octree_session session = octree_session_default();
     const view v = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
@@ -82,7 +82,7 @@ static void a_history_without_memory_says_so(void **state)
     octree_game_destroy(game);
 }
 
-static void what_points_are_like_is_measured_or_memory_is_missed(void **state)
+static void point_scale_is_measured_or_reports_lack_of_memory(void **state)
 {
     const octree_session session = octree_session_default();
     view measured = view_of(320, 180, CAMERA_ISO, VIEW_ALL_LAYERS);
@@ -160,7 +160,7 @@ static bool play_scenes(const kept_play *p, uint64_t tick, long count, uint64_t 
     return failed;
 }
 
-static void a_scene_without_memory_spoils_none_that_are_made_in_its_place(void **state)
+static void failed_scene_does_not_spoil_the_next_one(void **state)
 {
     kept_play *p = make_kept_play();
     uint64_t expected[5], digests[5];
@@ -181,10 +181,10 @@ static void a_scene_without_memory_spoils_none_that_are_made_in_its_place(void *
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_scene_is_whole_or_there_is_none),
-        cmocka_unit_test(a_history_without_memory_says_so),
-        cmocka_unit_test(what_points_are_like_is_measured_or_memory_is_missed),
-        cmocka_unit_test(a_scene_without_memory_spoils_none_that_are_made_in_its_place),
+        cmocka_unit_test(scene_is_complete_or_fails_without_memory),
+        cmocka_unit_test(history_reports_lack_of_memory),
+        cmocka_unit_test(point_scale_is_measured_or_reports_lack_of_memory),
+        cmocka_unit_test(failed_scene_does_not_spoil_the_next_one),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     memory_fails_alone();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_answer_layers.c - what a tick asked, in its draw list: each answer in the layer of its kind, and nothing else.
+/* test_answer_layers.c - tests that each answer of a tick is drawn in the layer of its query kind, and nothing else is.
  */
 #include "scenes.h"
 
@@ -177,7 +177,7 @@ static void every_answer_of_random_sessions_is_shown_in_its_layer(void **state)
 }
 
 /* Points at one pixel: the nearest of them is numbered, and those elsewhere. */
-static void a_number_never_covers_that_of_a_nearer_one(void **state)
+static void rank_of_a_neighbour_never_covers_the_rank_of_a_nearer_one(void **state)
 {
     (void)state;
     static const octree_body bodies[] = {{.id = 1, .position = {5, 0, 5}},
@@ -202,7 +202,7 @@ static void a_number_never_covers_that_of_a_nearer_one(void **state)
 }
 
 /* Where the ball reaches beyond all doubles, its chords are counted and left out; the points in it are marked. */
-static void a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn(void **state)
+static void chords_of_a_ball_beyond_all_doubles_are_counted_and_left_out(void **state)
 {
     (void)state;
     static const octree_query query = {.kind = OCTREE_QUERY_RADIUS, .target = {DBL_MAX, 0, 0}, .radius = DBL_MAX};
@@ -222,7 +222,7 @@ static void a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn(void *
 }
 
 /* What a tree was asked is drawn as what a tick asked: the same elements. */
-static void answers_of_a_tree_are_drawn_as_those_of_a_tick(void **state)
+static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -249,7 +249,7 @@ static void answers_of_a_tree_are_drawn_as_those_of_a_tick(void **state)
 }
 
 /* A few are easy to see; of many none hides the others. */
-static void marks_are_smaller_where_there_are_many(void **state)
+static void many_marks_are_smaller_than_few(void **state)
 {
     (void)state;
     static const size_t counts[] = {1, 50, 51, 500, 501, 2000};
@@ -274,10 +274,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_answer_of_a_session_is_shown_in_its_layer),
         cmocka_unit_test(every_answer_of_random_sessions_is_shown_in_its_layer),
-        cmocka_unit_test(a_number_never_covers_that_of_a_nearer_one),
-        cmocka_unit_test(a_ball_beyond_the_doubles_is_counted_where_it_cannot_be_drawn),
-        cmocka_unit_test(answers_of_a_tree_are_drawn_as_those_of_a_tick),
-        cmocka_unit_test(marks_are_smaller_where_there_are_many),
+        cmocka_unit_test(rank_of_a_neighbour_never_covers_the_rank_of_a_nearer_one),
+        cmocka_unit_test(chords_of_a_ball_beyond_all_doubles_are_counted_and_left_out),
+        cmocka_unit_test(answers_of_a_tree_are_drawn_like_answers_of_a_tick),
+        cmocka_unit_test(many_marks_are_smaller_than_few),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

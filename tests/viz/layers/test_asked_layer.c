@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_asked_layer.c - the node that inspect is asked for: marked in the space view, named in the legend. */
+/* test_asked_layer.c - tests that the node that inspect is asked for is marked in the space view and named in the
+ * legend. */
 #include "scenes.h"
 
 #include <stdio.h>
@@ -50,7 +51,7 @@ static octree_walk_order check_asked(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-static void the_node_that_is_asked_for_is_marked_and_named(void **state)
+static void requested_node_is_marked_and_named(void **state)
 {
     (void)state;
     const octree_box world = cube(-1000, 1000);
@@ -66,7 +67,7 @@ static void the_node_that_is_asked_for_is_marked_and_named(void **state)
     octree_destroy(tree);
 }
 
-static void without_a_node_or_its_layer_nothing_is_marked(void **state)
+static void nothing_is_marked_without_a_requested_node_or_its_layer(void **state)
 {
     (void)state;
     const octree_box world = cube(-1000, 1000);
@@ -91,8 +92,8 @@ static void without_a_node_or_its_layer_nothing_is_marked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_node_that_is_asked_for_is_marked_and_named),
-        cmocka_unit_test(without_a_node_or_its_layer_nothing_is_marked),
+        cmocka_unit_test(requested_node_is_marked_and_named),
+        cmocka_unit_test(nothing_is_marked_without_a_requested_node_or_its_layer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_axes.c - the numbers along the edges of the world: round, where they say, apart from each other. */
+/* test_axes.c - tests that the numbers along the world's edges are round, stand at their values, and do not overlap. */
 #include "scenes.h"
 #include "camera.h"
 
@@ -146,7 +146,7 @@ static bool is_apart(const scene *s, const scene_label *number, double corners[8
     return false;
 }
 
-static void numbers_stand_beside_the_box_and_never_on_what_is_in_it(void **state)
+static void axis_numbers_stand_beside_the_box_and_never_on_its_contents(void **state)
 {
     (void)state;
     const octree_box worlds[] = {cube(-1000, 1000), {{512049, 5403029, 290}, {513149, 5404129, 420}}};
@@ -167,7 +167,7 @@ static void numbers_stand_beside_the_box_and_never_on_what_is_in_it(void **state
 
 /* Along a level axis numbers are in the middle of their ticks and on one line; along an upright one they end at one
  * pixel. They are as far from the ends of their ticks in any camera. */
-static void numbers_of_level_and_upright_axes_stand_in_line(void **state)
+static void axis_numbers_are_aligned(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{640, 360}, {1280, 720}, {720, 1280}};
@@ -198,7 +198,7 @@ static void numbers_of_level_and_upright_axes_stand_in_line(void **state)
     }
 }
 
-static void numbers_are_round_and_stand_at_their_ticks_and_apart(void **state)
+static void axis_numbers_are_round_stand_at_their_tick_marks_and_do_not_touch(void **state)
 {
     (void)state;
     static const octree_box worlds[] = {
@@ -224,7 +224,7 @@ static void numbers_are_round_and_stand_at_their_ticks_and_apart(void **state)
     }
 }
 
-static void a_fitted_box_has_the_axes_and_not_the_world(void **state)
+static void axes_run_along_the_fitted_box_and_not_the_world(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1000, 1000), 1, 21, OCTREE_GROW);
@@ -249,7 +249,7 @@ static void a_fitted_box_has_the_axes_and_not_the_world(void **state)
     octree_destroy(tree);
 }
 
-static void without_text_or_world_there_are_none(void **state)
+static void axes_have_no_numbers_without_the_text_or_world_layer(void **state)
 {
     (void)state;
     const octree_box world = cube(-1000, 1000);
@@ -263,7 +263,7 @@ static void without_text_or_world_there_are_none(void **state)
     }
 }
 
-static void an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter(void **state)
+static void axis_seen_end_on_has_no_numbers_and_no_letter(void **state)
 {
     (void)state;
     static const struct {
@@ -316,7 +316,7 @@ static void a_letter_stands_beyond_the_end_of_its_axis(void **state)
 }
 
 /* Numbers of an orbit do not come and go with another distance between them. */
-static void an_orbit_keeps_its_ticks(void **state)
+static void orbiting_camera_keeps_the_step_between_numbers(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -339,7 +339,7 @@ static void an_orbit_keeps_its_ticks(void **state)
 }
 
 /* Nor do they hang, where extents overflow, underflow, or have no digits of their own. */
-static void worlds_without_room_for_numbers_have_none(void **state)
+static void extreme_worlds_have_no_axis_numbers(void **state)
 {
     (void)state;
     static const octree_box worlds[] = {
@@ -382,15 +382,15 @@ static void numbers_of_seven_digits_have_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_round_and_stand_at_their_ticks_and_apart),
-        cmocka_unit_test(numbers_stand_beside_the_box_and_never_on_what_is_in_it),
-        cmocka_unit_test(numbers_of_level_and_upright_axes_stand_in_line),
-        cmocka_unit_test(a_fitted_box_has_the_axes_and_not_the_world),
-        cmocka_unit_test(without_text_or_world_there_are_none),
-        cmocka_unit_test(an_axis_that_is_seen_end_on_has_neither_numbers_nor_a_letter),
+        cmocka_unit_test(axis_numbers_are_round_stand_at_their_tick_marks_and_do_not_touch),
+        cmocka_unit_test(axis_numbers_stand_beside_the_box_and_never_on_its_contents),
+        cmocka_unit_test(axis_numbers_are_aligned),
+        cmocka_unit_test(axes_run_along_the_fitted_box_and_not_the_world),
+        cmocka_unit_test(axes_have_no_numbers_without_the_text_or_world_layer),
+        cmocka_unit_test(axis_seen_end_on_has_no_numbers_and_no_letter),
         cmocka_unit_test(a_letter_stands_beyond_the_end_of_its_axis),
-        cmocka_unit_test(an_orbit_keeps_its_ticks),
-        cmocka_unit_test(worlds_without_room_for_numbers_have_none),
+        cmocka_unit_test(orbiting_camera_keeps_the_step_between_numbers),
+        cmocka_unit_test(extreme_worlds_have_no_axis_numbers),
         cmocka_unit_test(numbers_of_seven_digits_have_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

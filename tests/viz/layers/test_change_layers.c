@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_change_layers.c - splits, merges and a broken invariant in the draw list: each where it is, and nothing else. */
+/* test_change_layers.c - tests that splits, merges and a broken invariant are drawn where they happen, and nothing else
+ * is. */
 #include "scenes.h"
 #include "layout.h"
 
@@ -135,7 +136,7 @@ static void check_broken(const scene *s, const octree_box *world, octree_address
     assert_string_equal(told, sentence);
 }
 
-static void a_broken_invariant_is_crossed_out_and_told(void **state)
+static void broken_invariant_is_crossed_out_and_reported(void **state)
 {
     (void)state;
     static const octree_body bodies[] = {{.id = 1, .position = {5, 5, 5}},
@@ -170,8 +171,8 @@ static void a_broken_invariant_is_crossed_out_and_told(void **state)
     octree_game_destroy(game);
 }
 
-/* All that the validator can say is told whole, however the lines break. */
-static void every_sentence_is_told_whole(void **state)
+/* Every sentence of the validator is shown whole, however its lines break. */
+static void every_sentence_of_the_validator_is_shown_whole(void **state)
 {
     (void)state;
     static const char *const sentences[] = {
@@ -220,8 +221,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_split_and_merge_is_shown_where_it_happened),
         cmocka_unit_test(a_split_at_the_greatest_depth_is_shown),
-        cmocka_unit_test(a_broken_invariant_is_crossed_out_and_told),
-        cmocka_unit_test(every_sentence_is_told_whole),
+        cmocka_unit_test(broken_invariant_is_crossed_out_and_reported),
+        cmocka_unit_test(every_sentence_of_the_validator_is_shown_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

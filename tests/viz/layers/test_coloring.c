@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_coloring.c - what the colour of a node tells, and that the legend explains it. */
+/* test_coloring.c - tests the colours of nodes under each --color, and the legend's lines about them. */
 #include "scenes.h"
 #include "brute.h"
 
@@ -50,7 +50,7 @@ static uint32_t legend_roles(const scene *s)
     return roles;
 }
 
-static void the_colour_of_each_node_is_that_of_its_depth_its_points_or_none(void **state)
+static void node_colour_shows_depth_or_occupancy_or_nothing(void **state)
 {
     (void)state;
     const octree_box world = cube(-1000, 1000);
@@ -83,7 +83,7 @@ static void the_colour_of_each_node_is_that_of_its_depth_its_points_or_none(void
     brute_free(&points);
 }
 
-static void steps_of_other_amounts_are_powers_of_two(void **state)
+static void occupancy_steps_without_a_capacity_are_powers_of_two(void **state)
 {
     (void)state;
     static const size_t counts[] = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256};
@@ -96,7 +96,7 @@ static void steps_of_other_amounts_are_powers_of_two(void **state)
 }
 
 /* Fuller ones, as under OCTREE_GROW, have the last colour. */
-static void occupancy_goes_up_to_the_capacity_of_the_tree(void **state)
+static void occupancy_scale_ends_at_the_leaf_capacity(void **state)
 {
     (void)state;
     static const struct {
@@ -129,9 +129,9 @@ static void occupancy_goes_up_to_the_capacity_of_the_tree(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_colour_of_each_node_is_that_of_its_depth_its_points_or_none),
-        cmocka_unit_test(occupancy_goes_up_to_the_capacity_of_the_tree),
-        cmocka_unit_test(steps_of_other_amounts_are_powers_of_two),
+        cmocka_unit_test(node_colour_shows_depth_or_occupancy_or_nothing),
+        cmocka_unit_test(occupancy_scale_ends_at_the_leaf_capacity),
+        cmocka_unit_test(occupancy_steps_without_a_capacity_are_powers_of_two),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_describe.c - every element that a tick can show is told in words, of what it is about. */
+/* test_describe.c - tests that every element that a tick can show has a description of the right node or point. */
 #include "describe.h"
 #include "golden_frames.h"
 #include "scenes.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What the words about an element of a layer and kind hold, whichever it is. */
+/* The text that the description of every element of a layer and kind contains. */
 static const struct {
     view_layer layer;
     scene_kind kind;
@@ -88,7 +88,7 @@ static bool is_ring(const scene *s, scene_element element)
     return element.kind == SCENE_MARKER && s->markers.items[element.index].shape == SHAPE_RING;
 }
 
-/* The mark that has the player's id, and is none of what was hit. */
+/* Whether an element is the cross on the collision box: it has the player's id, and the player is never a hit. */
 static bool is_cross(const octree_game *game, const scene *s, scene_element element)
 {
     return element.kind == SCENE_MARKER && scene_head_of(s, element).style.layer == LAYER_BOX &&
@@ -124,7 +124,7 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     seen[i]++;
 }
 
-static void every_element_of_every_layer_is_told(void **state)
+static void every_element_of_every_layer_is_described(void **state)
 {
     size_t seen[EXPECTED] = {0};
     octree_game *game;
@@ -154,7 +154,7 @@ static void every_element_of_every_layer_is_told(void **state)
     octree_game_destroy(game);
 }
 
-/* One phrase: it begins with a word, and has none twice in a row nor a hole. */
+/* Check that a text is a phrase: it begins with a word and has no gap and no repeated word. */
 static void assert_is_a_phrase(const char *text)
 {
     static const char *const holes[] = {"(null)", "  ", " ,", ",,", "( ", "the the "};
@@ -166,8 +166,8 @@ static void assert_is_a_phrase(const char *text)
             fail_msg("\"%s\" has \"%s\"", text, holes[i]);
 }
 
-/* Also of frames with a close-up, bars, points painted, and another program's nodes. */
-static void every_element_of_the_reference_frames_is_told_in_a_phrase(void **state)
+/* The golden frames also have a close-up, bars, painted points and foreign nodes. */
+static void every_element_of_the_golden_frames_is_described_in_a_phrase(void **state)
 {
     bool told_scale = false, told_frame = false, told_bar = false, told_way = false;
     (void)state;
@@ -201,7 +201,7 @@ static void every_element_of_the_reference_frames_is_told_in_a_phrase(void **sta
     assert_true(told_scale && told_frame && told_bar && told_way);
 }
 
-static void words_of_a_node_and_of_a_point_are_these(void **state)
+static void descriptions_of_a_node_and_a_point_are_exact(void **state)
 {
     octree_game *game;
     scene s = {0};
@@ -235,9 +235,9 @@ static void words_of_a_node_and_of_a_point_are_these(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_element_of_every_layer_is_told),
-        cmocka_unit_test(every_element_of_the_reference_frames_is_told_in_a_phrase),
-        cmocka_unit_test(words_of_a_node_and_of_a_point_are_these),
+        cmocka_unit_test(every_element_of_every_layer_is_described),
+        cmocka_unit_test(every_element_of_the_golden_frames_is_described_in_a_phrase),
+        cmocka_unit_test(descriptions_of_a_node_and_a_point_are_exact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

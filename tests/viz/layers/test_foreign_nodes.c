@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_foreign_nodes.c - the nodes of a program's own tree in scenes: where Octreel's own are, and instead of them. */
+/* test_foreign_nodes.c - tests foreign nodes in scenes: beside Octreel's own nodes, and in their place. */
 #include "foreign_nodes.h"
 #include "scenes.h"
 
@@ -52,7 +52,7 @@ static bool says(const char *text)
     return false;
 }
 
-static void the_view_says_whose_nodes_are_shown(void **state)
+static void view_chooses_between_own_and_foreign_nodes(void **state)
 {
     (void)state;
     const size_t own = 9; /* the octree of eight points, two in a leaf */
@@ -71,8 +71,8 @@ static void the_view_says_whose_nodes_are_shown(void **state)
     }
 }
 
-/* Octreel's own tree splits where nobody sees it, and the diagram, which is of that tree, says so. */
-static void what_is_said_of_the_tree_that_is_not_shown_is_told_apart(void **state)
+/* A split of Octreel's hidden tree is no event in the panel, and the diagram is labelled as Octreel's. */
+static void hidden_own_tree_has_no_events_and_its_diagram_is_labelled(void **state)
 {
     (void)state;
     view own = view_by(TREE_OWN), program = view_by(TREE_FOREIGN);
@@ -89,7 +89,7 @@ static void what_is_said_of_the_tree_that_is_not_shown_is_told_apart(void **stat
     assert_true(says("Octreel's depth"));
 }
 
-static void nodes_have_the_looks_of_octreels_own(void **state)
+static void foreign_nodes_look_like_own_nodes(void **state)
 {
     (void)state;
     const view v = view_by(TREE_AUTO);
@@ -111,7 +111,7 @@ static void nodes_have_the_looks_of_octreels_own(void **state)
     assert_true(says("3 nodes visited") && says("2 nodes pruned") && says("1 leaf hit"));
 }
 
-static void nodes_are_coloured_by_kind_and_by_their_points(void **state)
+static void foreign_nodes_are_coloured_by_kind_and_by_occupancy(void **state)
 {
     (void)state;
     view v = view_by(TREE_AUTO);
@@ -136,7 +136,7 @@ static void nodes_are_coloured_by_kind_and_by_their_points(void **state)
     assert_true(says(own) && says("program's, 0-256+ points"));
 }
 
-static void kinds_beyond_those_that_have_a_colour_share_the_last(void **state)
+static void kinds_beyond_the_colours_share_the_last_colour(void **state)
 {
     (void)state;
     static const char kinds[][OCTREE_NODE_KIND] = {"a", "b", "c", "d", "e", "f", "g", "h"};
@@ -153,7 +153,7 @@ static void kinds_beyond_those_that_have_a_colour_share_the_last(void **state)
     assert_true(says("node: f") && !says("node: g") && says("node: any other kind"));
 }
 
-static void filters_budget_and_lod_are_for_them_too(void **state)
+static void filter_budget_and_lod_apply_to_foreign_nodes(void **state)
 {
     (void)state;
     view v = view_by(TREE_AUTO);
@@ -184,7 +184,7 @@ static void filters_budget_and_lod_are_for_them_too(void **state)
     assert_int_equal(shown.tally.small, 4);
 }
 
-static void what_is_wrong_is_marked_and_told(void **state)
+static void faults_of_foreign_nodes_are_marked_and_described(void **state)
 {
     (void)state;
     const view v = view_by(TREE_AUTO);
@@ -220,7 +220,7 @@ static const char *told(view_layer layer, scene_kind kind, uint64_t id)
     return "";
 }
 
-static void nodes_are_told_in_words(void **state)
+static void foreign_nodes_are_described(void **state)
 {
     (void)state;
     view v = view_by(TREE_AUTO);
@@ -240,8 +240,8 @@ static void nodes_are_told_in_words(void **state)
                         "point 8 at (900, -100, 600), which is in no foreign node");
 }
 
-/* Those begin with a bit at a multiple of 3. */
-static void no_address_has_the_id_of_a_programs_node(void **state)
+/* The highest set bit of an address is at a multiple of 3. */
+static void element_ids_of_foreign_nodes_differ_from_all_addresses(void **state)
 {
     (void)state;
     for (unsigned depth = 0; depth <= OCTREE_MAX_DEPTH; depth++) {
@@ -265,15 +265,15 @@ static int end(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_view_says_whose_nodes_are_shown),
-        cmocka_unit_test(what_is_said_of_the_tree_that_is_not_shown_is_told_apart),
-        cmocka_unit_test(nodes_have_the_looks_of_octreels_own),
-        cmocka_unit_test(nodes_are_coloured_by_kind_and_by_their_points),
-        cmocka_unit_test(kinds_beyond_those_that_have_a_colour_share_the_last),
-        cmocka_unit_test(filters_budget_and_lod_are_for_them_too),
-        cmocka_unit_test(what_is_wrong_is_marked_and_told),
-        cmocka_unit_test(nodes_are_told_in_words),
-        cmocka_unit_test(no_address_has_the_id_of_a_programs_node),
+        cmocka_unit_test(view_chooses_between_own_and_foreign_nodes),
+        cmocka_unit_test(hidden_own_tree_has_no_events_and_its_diagram_is_labelled),
+        cmocka_unit_test(foreign_nodes_look_like_own_nodes),
+        cmocka_unit_test(foreign_nodes_are_coloured_by_kind_and_by_occupancy),
+        cmocka_unit_test(kinds_beyond_the_colours_share_the_last_colour),
+        cmocka_unit_test(filter_budget_and_lod_apply_to_foreign_nodes),
+        cmocka_unit_test(faults_of_foreign_nodes_are_marked_and_described),
+        cmocka_unit_test(foreign_nodes_are_described),
+        cmocka_unit_test(element_ids_of_foreign_nodes_differ_from_all_addresses),
     };
     return cmocka_run_group_tests(tests, NULL, end);
 }

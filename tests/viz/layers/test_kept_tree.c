@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* test_kept_tree.c - scenes made one after the other in the same memory keep what did not change, and are those that
- * are made from nothing. */
+/* test_kept_tree.c - tests that a scene that reuses unchanged subtrees of the scene before equals a scene made from
+ * nothing.
+ */
 #include "kept_tree.h"
 #include "octree/sample.h"
 #include "scenes.h"
@@ -159,7 +160,7 @@ static view look(void)
 }
 
 /* But for the first, and after those of many changes. */
-static void test_kept_scenes_are_those_made_from_nothing(void **state)
+static void scenes_with_kept_subtrees_equal_scenes_made_from_nothing(void **state)
 {
     view v = look();
     (void)state;
@@ -173,7 +174,7 @@ static void test_kept_scenes_are_those_made_from_nothing(void **state)
     assert_true(compare_scenes(&v, 1) >= TICKS / 2);
 }
 
-static void test_small_nodes_are_left_out_of_what_is_kept(void **state)
+static void small_nodes_are_left_out_of_kept_subtrees(void **state)
 {
     view v = look();
     (void)state;
@@ -182,7 +183,7 @@ static void test_small_nodes_are_left_out_of_what_is_kept(void **state)
 }
 
 /* Some of them are above the number of points at one time and below it at another. */
-static void test_budgets_thin_what_is_kept_as_anything_else(void **state)
+static void budgets_thin_kept_subtrees_like_others(void **state)
 {
     static const uint64_t budgets[] = {1, 700, 2600, 2700, 4000, 4900, 5000};
     view v = look();
@@ -196,7 +197,7 @@ static void test_budgets_thin_what_is_kept_as_anything_else(void **state)
 }
 
 /* With a filter, or another look from tick to tick. */
-static void test_what_was_kept_is_not_shown_by_another_view(void **state)
+static void kept_subtrees_are_not_used_by_another_view(void **state)
 {
     played *p = make_session();
     octree_game *game;
@@ -223,10 +224,10 @@ static void test_what_was_kept_is_not_shown_by_another_view(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kept_scenes_are_those_made_from_nothing),
-        cmocka_unit_test(test_small_nodes_are_left_out_of_what_is_kept),
-        cmocka_unit_test(test_budgets_thin_what_is_kept_as_anything_else),
-        cmocka_unit_test(test_what_was_kept_is_not_shown_by_another_view),
+        cmocka_unit_test(scenes_with_kept_subtrees_equal_scenes_made_from_nothing),
+        cmocka_unit_test(small_nodes_are_left_out_of_kept_subtrees),
+        cmocka_unit_test(budgets_thin_kept_subtrees_like_others),
+        cmocka_unit_test(kept_subtrees_are_not_used_by_another_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_labels.c - the paths on nodes: right, at their nodes, none on another, and none left out without a reason. */
+/* test_labels.c - tests the addresses on nodes: correct, at their nodes, not overlapping, and left out only for a
+ * reason. */
 #include "scenes.h"
 #include "brute.h"
 #include "layout.h"
@@ -159,7 +160,7 @@ static size_t check_labels(const octree *tree, const view *v)
     return labels;
 }
 
-static void labels_are_paths_at_their_nodes_wherever_there_is_room(void **state)
+static void every_node_with_room_is_labelled_with_its_address(void **state)
 {
     (void)state;
     octree *tree = clustered(600);
@@ -175,7 +176,7 @@ static void labels_are_paths_at_their_nodes_wherever_there_is_room(void **state)
     octree_destroy(tree);
 }
 
-static void where_all_fit_nothing_is_said(void **state)
+static void panel_has_no_label_count_when_all_labels_fit(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1000, 1000), 1, 21, OCTREE_GROW);
@@ -185,7 +186,7 @@ static void where_all_fit_nothing_is_said(void **state)
     octree_destroy(tree);
 }
 
-static void nobody_who_does_not_ask_has_labels(void **state)
+static void labels_are_off_by_default(void **state)
 {
     (void)state;
     octree *tree = clustered(50);
@@ -203,7 +204,7 @@ static void nobody_who_does_not_ask_has_labels(void **state)
 }
 
 /* Where there is no room at all, a label is there all the same. */
-static void labels_of_shapes_stand_beside_each_other(void **state)
+static void labels_of_shapes_do_not_overlap(void **state)
 {
     (void)state;
     enum { LABELS = 5 };
@@ -247,10 +248,10 @@ static void labels_of_shapes_stand_beside_each_other(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(labels_are_paths_at_their_nodes_wherever_there_is_room),
-        cmocka_unit_test(where_all_fit_nothing_is_said),
-        cmocka_unit_test(nobody_who_does_not_ask_has_labels),
-        cmocka_unit_test(labels_of_shapes_stand_beside_each_other),
+        cmocka_unit_test(every_node_with_room_is_labelled_with_its_address),
+        cmocka_unit_test(panel_has_no_label_count_when_all_labels_fit),
+        cmocka_unit_test(labels_are_off_by_default),
+        cmocka_unit_test(labels_of_shapes_do_not_overlap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

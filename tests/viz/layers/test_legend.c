@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_legend.c - which layers the legend explains, and which it leaves out where there is no room for all. */
+/* test_legend.c - tests which layers the legend lists, and which lines it drops without room for all. */
 #include "scenes.h"
 #include "brute.h"
 #include "column.h"
@@ -64,7 +64,7 @@ static octree_game *start_asking(const octree_session *session)
 }
 
 /* Each layer alone has its line and no other; without it, all others have theirs. There is room for all. */
-static void the_legend_has_the_layers_that_are_shown(void **state)
+static void legend_lists_the_shown_layers(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -91,8 +91,8 @@ static void the_legend_has_the_layers_that_are_shown(void **state)
     scene_release(&s);
 }
 
-/* How soon a row goes when there is no room: what has nothing in the frame, what explains itself, what is told beside
- * its answer, all others. */
+/* The order in which rows are dropped: layers without elements in the frame, self-explanatory layers, layers whose
+ * answer the panel shows, all others. */
 static unsigned worth_of(const scene *s, const struct legend_row *row)
 {
     static const unsigned answers = 1u << LAYER_RANGE | 1u << LAYER_RADIUS | 1u << LAYER_KNEAREST | 1u << LAYER_NEAREST;
@@ -102,8 +102,9 @@ static unsigned worth_of(const scene *s, const struct legend_row *row)
     return row->layer == LAYER_POINTS || row->layer == LAYER_PLAYER ? 1 : answers >> row->layer & 1 ? 2 : 3;
 }
 
-/* Of each worth all rows are there, or some of less worth are not; of the last the first ones; and how many more. */
-static void the_legend_leaves_out_what_is_needed_least(void **state)
+/* A row is dropped only after all rows with an earlier drop order. The rows dropped last go from the end. The last line
+ * counts the dropped rows. */
+static void legend_drops_lines_in_drop_order(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -144,7 +145,7 @@ static void the_legend_leaves_out_what_is_needed_least(void **state)
     scene_release(&s);
 }
 
-static void the_legend_has_the_queries_that_are_asked_in_each_tick_and_none_to_come(void **state)
+static void legend_lists_queries_of_every_tick_but_no_later_ones(void **state)
 {
     (void)state;
     static const theme_role roles[OCTREE_QUERY_KINDS] = {ROLE_RANGE, ROLE_NEAREST, ROLE_KNEAREST, ROLE_RADIUS};
@@ -168,7 +169,7 @@ static void the_legend_has_the_queries_that_are_asked_in_each_tick_and_none_to_c
 }
 
 /* What a program asks next is not known while its session is made. */
-static void the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is(void **state)
+static void legend_without_a_player_lists_queries_asked_so_far(void **state)
 {
     (void)state;
     const view v = view_default();
@@ -197,7 +198,7 @@ static void the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_w
 }
 
 /* The word, and the line of the legend that a sweep needs. */
-static void the_legend_has_what_the_diagram_shows(void **state)
+static void legend_lists_the_elements_of_the_diagram(void **state)
 {
     (void)state;
     brute all = {0};
@@ -225,7 +226,7 @@ static void the_legend_has_what_the_diagram_shows(void **state)
 }
 
 /* Each in a place of its own: of two in one place the second would be missing. */
-static void every_layer_that_is_listed_has_a_place_and_words(void **state)
+static void every_listed_layer_has_a_place_and_text(void **state)
 {
     (void)state;
     for (int i = 0; i <= LAYER_COUNT; i++) {
@@ -236,7 +237,7 @@ static void every_layer_that_is_listed_has_a_place_and_words(void **state)
     }
 }
 
-static void every_kind_of_query_has_a_layer_and_a_row_of_the_panel(void **state)
+static void every_query_kind_has_a_layer_and_a_panel_row(void **state)
 {
     (void)state;
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
@@ -249,13 +250,13 @@ static void every_kind_of_query_has_a_layer_and_a_row_of_the_panel(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_legend_has_the_layers_that_are_shown),
-        cmocka_unit_test(the_legend_leaves_out_what_is_needed_least),
-        cmocka_unit_test(the_legend_has_the_queries_that_are_asked_in_each_tick_and_none_to_come),
-        cmocka_unit_test(the_legend_without_keys_has_the_queries_asked_so_far_and_no_player_where_none_is),
-        cmocka_unit_test(the_legend_has_what_the_diagram_shows),
-        cmocka_unit_test(every_layer_that_is_listed_has_a_place_and_words),
-        cmocka_unit_test(every_kind_of_query_has_a_layer_and_a_row_of_the_panel),
+        cmocka_unit_test(legend_lists_the_shown_layers),
+        cmocka_unit_test(legend_drops_lines_in_drop_order),
+        cmocka_unit_test(legend_lists_queries_of_every_tick_but_no_later_ones),
+        cmocka_unit_test(legend_without_a_player_lists_queries_asked_so_far),
+        cmocka_unit_test(legend_lists_the_elements_of_the_diagram),
+        cmocka_unit_test(every_listed_layer_has_a_place_and_text),
+        cmocka_unit_test(every_query_kind_has_a_layer_and_a_panel_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

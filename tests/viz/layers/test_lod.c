@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_lod.c - what is left out because it is small or because there is too much of it: exactly that, and the frame
- * says so. */
+/* test_lod.c - tests that lod and budget leave out exactly the right elements, and that the frame reports it. */
 #include "scenes.h"
 #include "brute.h"
 #include "draw_list.h"
@@ -129,7 +128,7 @@ static void assert_lod(const octree *tree, const view *v)
     scene_release(&s);
 }
 
-static void boxes_that_appear_smaller_are_left_out_and_no_others(void **state)
+static void only_boxes_below_the_lod_are_left_out(void **state)
 {
     (void)state;
     octree *tree = clustered(900, 4);
@@ -145,7 +144,7 @@ static void boxes_that_appear_smaller_are_left_out_and_no_others(void **state)
 }
 
 /* Nothing else would mark them. */
-static void small_boxes_without_a_drawn_ancestor_stay(void **state)
+static void small_boxes_without_a_drawn_ancestor_are_shown(void **state)
 {
     (void)state;
     octree *tree = clustered(900, 4);
@@ -172,7 +171,7 @@ static octree_walk_order check_children(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-static void what_is_in_a_box_appears_no_larger(void **state)
+static void contents_of_a_box_appear_no_larger_than_the_box(void **state)
 {
     (void)state;
     octree *tree = clustered(300, 2);
@@ -212,7 +211,7 @@ static void nodes_beyond_the_budget_are_left_out_by_whole_levels(void **state)
     octree_destroy(tree);
 }
 
-static void a_level_that_is_too_large_by_itself_is_said_to_be_left_out(void **state)
+static void panel_reports_that_even_the_first_level_exceeds_the_budget(void **state)
 {
     (void)state;
     octree *tree = clustered(900, 4);
@@ -266,7 +265,7 @@ static void points_beyond_the_budget_are_left_out_by_their_ids(void **state)
     brute_free(&moved);
 }
 
-static void a_budget_that_does_not_bite_changes_nothing_and_says_nothing(void **state)
+static void large_budget_changes_and_reports_nothing(void **state)
 {
     (void)state;
     octree *tree = clustered(500, 4);
@@ -283,13 +282,13 @@ static void a_budget_that_does_not_bite_changes_nothing_and_says_nothing(void **
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(boxes_that_appear_smaller_are_left_out_and_no_others),
-        cmocka_unit_test(small_boxes_without_a_drawn_ancestor_stay),
-        cmocka_unit_test(what_is_in_a_box_appears_no_larger),
+        cmocka_unit_test(only_boxes_below_the_lod_are_left_out),
+        cmocka_unit_test(small_boxes_without_a_drawn_ancestor_are_shown),
+        cmocka_unit_test(contents_of_a_box_appear_no_larger_than_the_box),
         cmocka_unit_test(nodes_beyond_the_budget_are_left_out_by_whole_levels),
-        cmocka_unit_test(a_level_that_is_too_large_by_itself_is_said_to_be_left_out),
+        cmocka_unit_test(panel_reports_that_even_the_first_level_exceeds_the_budget),
         cmocka_unit_test(points_beyond_the_budget_are_left_out_by_their_ids),
-        cmocka_unit_test(a_budget_that_does_not_bite_changes_nothing_and_says_nothing),
+        cmocka_unit_test(large_budget_changes_and_reports_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

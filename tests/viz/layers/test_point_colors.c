@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_point_colors.c - what the colour of a painted point tells, and that the legend says it with round numbers. */
+/* test_point_colors.c - tests the colours of painted points, and the legend's scale with round numbers. */
 #include "scenes.h"
 #include "brute.h"
 #include "point_colors.h"
@@ -154,7 +154,7 @@ static theme_color expected_color(view_point_color color, uint64_t id)
     return color == POINTS_BY_CLASS ? theme_kind(id % 2 ? 1 : 3) : (theme_color){(uint8_t)id, 7, 9};
 }
 
-static void values_are_those_of_the_points_id_and_points_without_are_plain(void **state)
+static void points_have_the_colours_of_their_values_or_the_plain_colour(void **state)
 {
     (void)state;
     point_values values = make_values();
@@ -178,7 +178,7 @@ static void values_are_those_of_the_points_id_and_points_without_are_plain(void 
     point_values_release(&values);
 }
 
-static void every_colouring_builds_without_values_and_says_what_it_lacks(void **state)
+static void every_colouring_works_without_values_and_reports_the_lack(void **state)
 {
     (void)state;
     static const char *const said[POINTS_BY_COUNT] = {[POINTS_BY_PLAIN] = "point",
@@ -202,7 +202,7 @@ static void every_colouring_builds_without_values_and_says_what_it_lacks(void **
 }
 
 /* The classes of LAS 1.4, of which 19 and more are a program's own. */
-static void classes_are_of_these_kinds(void **state)
+static void class_kinds_follow_las(void **state)
 {
     static const char *const kinds[] = {"unclassified",
                                         "unclassified",
@@ -236,9 +236,9 @@ int main(void)
         cmocka_unit_test(higher_points_are_lighter),
         cmocka_unit_test(numbers_stand_under_the_middle_of_their_marks),
         cmocka_unit_test(leaves_beside_each_other_are_dark_and_light),
-        cmocka_unit_test(values_are_those_of_the_points_id_and_points_without_are_plain),
-        cmocka_unit_test(every_colouring_builds_without_values_and_says_what_it_lacks),
-        cmocka_unit_test(classes_are_of_these_kinds),
+        cmocka_unit_test(points_have_the_colours_of_their_values_or_the_plain_colour),
+        cmocka_unit_test(every_colouring_works_without_values_and_reports_the_lack),
+        cmocka_unit_test(class_kinds_follow_las),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_velocity_layer.c - arrows of points that move: those and nothing else, each along its point's velocity, and
- * what is left out is told. */
+/* test_velocity_layer.c - tests that exactly the moving points have arrows, along their velocities, and that arrows
+ * left out are counted. */
 #include "scenes.h"
 
 #include <math.h>
@@ -41,7 +41,8 @@ static bool says(const scene *s, const char *text)
     return false;
 }
 
-/* From the point along its velocity for so many ticks; or as far as a face that it would pass by then. */
+/* An arrow leads from the point along its velocity for `ticks` ticks, or ends at the world's face that it would pass.
+ */
 static void check_arrow(const scene_segment *arrow, const octree_body *body, const octree_box *world, double ticks)
 {
     const double *end = arrow->ends[1];
@@ -100,7 +101,7 @@ static octree_session moving_session(octree_body *bodies, size_t count, double s
 
 enum { BODIES = 40 };
 
-static void each_mover_has_its_arrow_and_nothing_else_has(void **state)
+static void every_mover_and_nothing_else_has_an_arrow(void **state)
 {
     (void)state;
     static const double speeds[] = {0.01, 0.4, 3, 17, 60};
@@ -123,7 +124,7 @@ static void each_mover_has_its_arrow_and_nothing_else_has(void **state)
 }
 
 /* 20 units wide: the fastest arrow is at most 2 long, or a tick. */
-static void an_arrow_shows_so_many_ticks_that_it_can_be_seen(void **state)
+static void arrow_scale_makes_movement_visible(void **state)
 {
     (void)state;
     static const struct {
@@ -151,7 +152,7 @@ static void an_arrow_shows_so_many_ticks_that_it_can_be_seen(void **state)
     }
 }
 
-static void where_nothing_moves_there_is_neither_arrow_nor_legend(void **state)
+static void session_without_movers_has_no_arrows_and_no_legend_line(void **state)
 {
     (void)state;
     const octree_session still = octree_session_default();
@@ -172,7 +173,7 @@ static void where_nothing_moves_there_is_neither_arrow_nor_legend(void **state)
     }
 }
 
-static void a_point_that_the_filter_leaves_out_has_no_arrow(void **state)
+static void filtered_point_has_no_arrow(void **state)
 {
     (void)state;
     octree_body bodies[BODIES];
@@ -207,7 +208,7 @@ static double pixels_of(const scene *s, const scene_segment *arrow)
     return fmax(fabs(a[0] - b[0]), fabs(a[1] - b[1]));
 }
 
-static void arrows_that_appear_short_are_left_out_and_counted(void **state)
+static void arrows_below_the_lod_are_left_out_and_counted(void **state)
 {
     (void)state;
     octree_body bodies[BODIES];
@@ -248,7 +249,7 @@ static void arrows_that_appear_short_are_left_out_and_counted(void **state)
 enum { MANY = 100000 };
 
 /* Each shows about as many as its budget allows; a smaller one shows a part of what a larger one shows. */
-static void of_a_hundred_thousand_the_budget_shows_some_and_says_so(void **state)
+static void budget_thins_a_hundred_thousand_arrows_and_reports_it(void **state)
 {
     (void)state;
     static octree_body bodies[MANY];
@@ -287,8 +288,8 @@ static void of_a_hundred_thousand_the_budget_shows_some_and_says_so(void **state
     octree_game_destroy(game);
 }
 
-/* An arrow without its point would begin nowhere. */
-static void points_that_the_budget_leaves_out_have_no_arrow(void **state)
+/* An arrow without its point would begin in empty space. */
+static void points_beyond_the_budget_have_no_arrow(void **state)
 {
     (void)state;
     octree_body bodies[BODIES];
@@ -309,13 +310,13 @@ static void points_that_the_budget_leaves_out_have_no_arrow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_mover_has_its_arrow_and_nothing_else_has),
-        cmocka_unit_test(an_arrow_shows_so_many_ticks_that_it_can_be_seen),
-        cmocka_unit_test(where_nothing_moves_there_is_neither_arrow_nor_legend),
-        cmocka_unit_test(a_point_that_the_filter_leaves_out_has_no_arrow),
-        cmocka_unit_test(arrows_that_appear_short_are_left_out_and_counted),
-        cmocka_unit_test(of_a_hundred_thousand_the_budget_shows_some_and_says_so),
-        cmocka_unit_test(points_that_the_budget_leaves_out_have_no_arrow),
+        cmocka_unit_test(every_mover_and_nothing_else_has_an_arrow),
+        cmocka_unit_test(arrow_scale_makes_movement_visible),
+        cmocka_unit_test(session_without_movers_has_no_arrows_and_no_legend_line),
+        cmocka_unit_test(filtered_point_has_no_arrow),
+        cmocka_unit_test(arrows_below_the_lod_are_left_out_and_counted),
+        cmocka_unit_test(budget_thins_a_hundred_thousand_arrows_and_reports_it),
+        cmocka_unit_test(points_beyond_the_budget_have_no_arrow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

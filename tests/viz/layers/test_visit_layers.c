@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_visit_layers.c - what a tick's questions met, in its draw list and in words, held against a recount. */
+/* test_visit_layers.c - tests the layers and legend lines of visited, pruned and hit nodes against an independent
+ * recount. */
 #include "scenes.h"
 
 #include <stdio.h>
@@ -69,7 +70,8 @@ static bool says(const scene *s, const char *text)
     return false;
 }
 
-/* Each node that was met is in the layer of its touch, each leaf of what was found in another, and nothing else is. */
+/* Each visited or pruned node is in its layer, each leaf with a found point is in the layer of hits, and nothing else
+ * is. */
 static void check_visits(const scene *s, const recount *met, const octree *tree)
 {
     static const scene_style styles[OCTREE_TRACE_KINDS] = {
@@ -155,7 +157,7 @@ static void check_session(const octree_session *session, const view *v, bool wor
     octree_game_destroy(game);
 }
 
-static void the_default_session_shows_what_a_recount_finds(void **state)
+static void visits_of_the_default_session_match_a_recount(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -163,7 +165,7 @@ static void the_default_session_shows_what_a_recount_finds(void **state)
     check_session(&session, &v, true);
 }
 
-static void random_sessions_show_what_a_recount_finds(void **state)
+static void visits_of_random_sessions_match_a_recount(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 12; seed++) {
@@ -197,7 +199,7 @@ static octree_session clustered_session(octree_body bodies[BODIES])
     return session;
 }
 
-static void what_the_view_leaves_out_is_left_out_of_what_was_met(void **state)
+static void filter_and_lod_apply_to_visited_nodes(void **state)
 {
     (void)state;
     static octree_body bodies[BODIES];
@@ -219,7 +221,7 @@ static void what_the_view_leaves_out_is_left_out_of_what_was_met(void **state)
 }
 
 /* Shallower boxes give shared edges their colour, so that nodes look as they do in their own layer. */
-static void nodes_that_were_met_keep_their_colour(void **state)
+static void visited_nodes_keep_their_colour(void **state)
 {
     (void)state;
     static octree_body bodies[BODIES];
@@ -247,10 +249,10 @@ static void nodes_that_were_met_keep_their_colour(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default_session_shows_what_a_recount_finds),
-        cmocka_unit_test(random_sessions_show_what_a_recount_finds),
-        cmocka_unit_test(what_the_view_leaves_out_is_left_out_of_what_was_met),
-        cmocka_unit_test(nodes_that_were_met_keep_their_colour),
+        cmocka_unit_test(visits_of_the_default_session_match_a_recount),
+        cmocka_unit_test(visits_of_random_sessions_match_a_recount),
+        cmocka_unit_test(filter_and_lod_apply_to_visited_nodes),
+        cmocka_unit_test(visited_nodes_keep_their_colour),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_wrong_layer.c - a program's answers that are wrong, in the draw list: what was missed, what is wrongly there,
- * and the ring about each. */
+/* test_wrong_layer.c - tests the marks of wrong foreign answers: missing points, extra points, and the ring around each
+ * answer. */
 #include "column.h"
 #include "layout.h"
 #include "draw_list.h"
@@ -70,7 +70,7 @@ static bool is_empty(const scene *s)
     return found.boxes + found.segments + found.markers + found.labels + found.panels == 0;
 }
 
-static void a_farther_neighbour_is_marked_and_the_true_one_ringed(void **state)
+static void farther_neighbour_is_marked_and_the_nearest_ringed(void **state)
 {
     (void)state;
     static const uint64_t farther[] = {3};
@@ -93,7 +93,7 @@ static void a_farther_neighbour_is_marked_and_the_true_one_ringed(void **state)
 }
 
 /* Its size is of the picture, not of the world. */
-static void a_ring_is_as_large_wherever_the_camera_is(void **state)
+static void ring_has_the_same_size_in_every_camera(void **state)
 {
     (void)state;
     static const uint64_t farther[] = {3};
@@ -113,7 +113,7 @@ static void a_ring_is_as_large_wherever_the_camera_is(void **state)
     octree_game_destroy(game);
 }
 
-static void a_ball_has_marks_on_what_was_missed_and_what_is_outside(void **state)
+static void missing_and_extra_points_of_a_ball_are_marked(void **state)
 {
     (void)state;
     static const uint64_t named[] = {4, 2};
@@ -131,8 +131,8 @@ static void a_ball_has_marks_on_what_was_missed_and_what_is_outside(void **state
     scene_release(&s);
 }
 
-/* An id that no point has: what was asked is ringed. */
-static void an_answer_without_a_point_is_ringed_at_its_target(void **state)
+/* The answer names an id that no point has: the ring is at the query's target. */
+static void answer_with_an_unknown_id_is_ringed_at_its_target(void **state)
 {
     (void)state;
     static const uint64_t both[] = {1, 1}, box_ids[] = {9};
@@ -150,7 +150,7 @@ static void an_answer_without_a_point_is_ringed_at_its_target(void **state)
 }
 
 /* Of many the worst has the large ring, and the words. */
-static void of_many_wrong_answers_the_worst_is_seen_first(void **state)
+static void worst_of_many_wrong_answers_has_the_large_ring(void **state)
 {
     (void)state;
     static const uint64_t ids[] = {2, 2, 4, 2, 2, 3};
@@ -174,7 +174,7 @@ static void of_many_wrong_answers_the_worst_is_seen_first(void **state)
 }
 
 /* The words stay clear of the panel, of each other and of the picture's edges. */
-static void words_that_have_no_room_are_left_out(void **state)
+static void texts_without_room_are_left_out(void **state)
 {
     (void)state;
     static const uint64_t far[] = {4};
@@ -203,7 +203,7 @@ static void words_that_have_no_room_are_left_out(void **state)
 
 /* Of nodes that have one corner together as of points that are at one place: no words cover others, and what has no
  * room is counted. */
-static void words_at_one_place_do_not_cover_each_other(void **state)
+static void texts_at_one_place_do_not_overlap(void **state)
 {
     (void)state;
     enum { SAME = 12 };
@@ -242,7 +242,7 @@ static void words_at_one_place_do_not_cover_each_other(void **state)
 }
 
 /* Nothing is added for right answers but lines of the legend, and nothing at all where no program answered. */
-static void what_is_right_or_unanswered_stays_as_it_was(void **state)
+static void right_or_missing_answers_add_only_legend_lines(void **state)
 {
     (void)state;
     static const uint64_t right[] = {1};
@@ -264,7 +264,7 @@ static void what_is_right_or_unanswered_stays_as_it_was(void **state)
     scene_release(&s);
 }
 
-static void a_ratio_near_one_is_told_by_what_it_is_above(void **state)
+static void ratio_near_one_is_printed_as_a_percentage(void **state)
 {
     const struct {
         double ratio;
@@ -285,15 +285,15 @@ static void a_ratio_near_one_is_told_by_what_it_is_above(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_farther_neighbour_is_marked_and_the_true_one_ringed),
-        cmocka_unit_test(a_ring_is_as_large_wherever_the_camera_is),
-        cmocka_unit_test(a_ball_has_marks_on_what_was_missed_and_what_is_outside),
-        cmocka_unit_test(an_answer_without_a_point_is_ringed_at_its_target),
-        cmocka_unit_test(of_many_wrong_answers_the_worst_is_seen_first),
-        cmocka_unit_test(words_that_have_no_room_are_left_out),
-        cmocka_unit_test(words_at_one_place_do_not_cover_each_other),
-        cmocka_unit_test(what_is_right_or_unanswered_stays_as_it_was),
-        cmocka_unit_test(a_ratio_near_one_is_told_by_what_it_is_above),
+        cmocka_unit_test(farther_neighbour_is_marked_and_the_nearest_ringed),
+        cmocka_unit_test(ring_has_the_same_size_in_every_camera),
+        cmocka_unit_test(missing_and_extra_points_of_a_ball_are_marked),
+        cmocka_unit_test(answer_with_an_unknown_id_is_ringed_at_its_target),
+        cmocka_unit_test(worst_of_many_wrong_answers_has_the_large_ring),
+        cmocka_unit_test(texts_without_room_are_left_out),
+        cmocka_unit_test(texts_at_one_place_do_not_overlap),
+        cmocka_unit_test(right_or_missing_answers_add_only_legend_lines),
+        cmocka_unit_test(ratio_near_one_is_printed_as_a_percentage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
