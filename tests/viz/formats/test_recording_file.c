@@ -119,7 +119,7 @@ static void write_text(const view *v, char text[2048])
     assert_int_equal(fclose(stream), 0);
 }
 
-/* --camera-from has no member of its own: it sets all others. */
+/* --camera-from is not a member of recording.json: it sets other members. */
 static void every_option_of_the_command_line_is_kept(void **state)
 {
     static const char *const samples[][2] = {
@@ -281,7 +281,7 @@ static void assert_same_view_files(const char *a, const char *b)
     free(second);
 }
 
-/* The second film plays other keys, and another camera would be chosen for its points. */
+/* The second recording has other keys, so that its own camera would be different. */
 static void camera_from_takes_the_whole_view_of_another_recording(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b"), c = place_in(*state, "c"),

@@ -104,7 +104,7 @@ static void recording_json_takes_at_most_100_bytes_of_memory_per_byte(void **sta
         measure(&views[i], read_recording);
 }
 
-/* What a few bytes ask for is refused by name before there is memory for it. */
+/* A short text that asks for a huge amount is refused, with the name of the member, before memory is allocated. */
 static void numbers_beyond_limits_are_refused(void **state)
 {
     static const char *const rows[][2] = {

@@ -14,7 +14,7 @@
 
 #define HEADER "{\"octreel\":\"session\",\"version\":2,\n"
 
-/* A text and the beginning of the sentence that refuses it, without the file's name. */
+/* An invalid text and the beginning of its expected error, without the file's name. */
 typedef struct refusal {
     const char *text, *sentence;
 } refusal;
@@ -34,7 +34,7 @@ static void assert_refuses(const char *text, size_t size, const char *sentence)
     assert_int_equal(file.session.edit_count + file.session.query_count, 0);
 }
 
-/* So far, or farther where the session says how long it is. */
+/* At most 1000000 ticks after the last object, or more if the header has "ticks". */
 static void distant_ticks_are_read_if_keys_or_ticks_reach_them(void **state)
 {
     static const char *const texts[] = {

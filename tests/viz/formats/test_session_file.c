@@ -45,7 +45,7 @@ static void header_without_members_has_the_defaults(void **state)
     session_release(&file);
 }
 
-/* As a cloud's; errors count lines as before. */
+/* A byte order mark does not change the line numbers of errors. */
 static void byte_order_mark_before_the_header_is_skipped(void **state)
 {
     static const char text[] = "\xef\xbb\xbf{\"octreel\":\"session\",\"version\":2,\n\"ticks\":7}",

@@ -20,7 +20,7 @@
 
 #define HEADER "{\"octreel\": \"session\", \"version\": 2, "
 
-/* Each has another part of what a session may have. */
+/* Between them, the texts have most members of a session. */
 static const char *const texts[] = {
     HEADER
     "\"columns\": [\"class\", \"color\", \"intensity\"], \"player\": {\"id\": 7, \"position\": [1, 1, 1]}, "
@@ -42,7 +42,7 @@ static const char *const texts[] = {
 
 enum { TEXTS = sizeof texts / sizeof texts[0], CASES = TEXTS + 2 };
 
-/* Those, and what programs tell. The caller frees it. */
+/* The i-th text, or the text of a session with every layer or with foreign nodes. The caller frees it. */
 static char *make_text(size_t i)
 {
     const octree_session asking = asking_session(), foreign = foreign_session();
@@ -53,7 +53,7 @@ static char *make_text(size_t i)
     return strcpy(copy, texts[i]);
 }
 
-/* Where jansson has no memory, what it says may be of the text. */
+/* If jansson has no memory, its message may wrongly be about the text. */
 static bool jansson_fails;
 
 static bool is_about_memory(const octreel_error *error)
@@ -95,7 +95,7 @@ static bool read_text(const char *text, session_file *out, octreel_error *error)
     return session_parse("s.json", "", text, strlen(text), out, error);
 }
 
-/* As a copy, by itself. */
+/* Copying a session, without reading it. */
 static session_file original;
 
 static bool copy_original(const char *text, session_file *out, octreel_error *error)
@@ -139,7 +139,7 @@ static void a_session_is_copied_whole_or_not_at_all(void **state)
     }
 }
 
-/* Read all of a stream. What belongs to tick 0 and the number of ticks are counted. */
+/* Read a whole stream, and count the items of tick 0 and the ticks. */
 static session_stream_state read_stream(const char *path, size_t *count, octreel_error *error)
 {
     const int file = open(path, O_RDONLY);

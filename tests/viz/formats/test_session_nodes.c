@@ -107,7 +107,7 @@ static void invalid_nodes_are_refused_with_line_and_member(void **state)
                    "s.json:3: queries[0].pruned[1]: expected a whole number from 0 to 9007199254740991, found \"a\"");
 }
 
-/* Ids are read only where the program says that it lists points. */
+/* Without has_points, the list of ids is not read: here it is a null pointer with a count of 7. */
 static void copy_ignores_points_without_has_points(void **state)
 {
     (void)state;

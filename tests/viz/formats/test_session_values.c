@@ -13,7 +13,7 @@
 
 #define HEADER "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 3, "
 
-/* A session is written with this, and reads back to the same. */
+/* The test fails unless the written session contains a text, and writing it after reading yields the same. */
 static void assert_writes(const session_file *file, const char *part)
 {
     char *text = text_of_session(&file->session, &file->values);
@@ -154,7 +154,7 @@ static void invalid_values_are_refused(void **state)
     }
 }
 
-/* An id that had values before may be inserted without them, and keeps its own; and one that is new may have some. */
+/* An id with values may be inserted again without them and keeps its values. A new id may have values. */
 static void inserted_points_keep_the_values_of_their_id(void **state)
 {
     session_file file = session_of_text(
@@ -199,7 +199,7 @@ static void values_of_a_file_are_read(void **state)
     session_release(&file);
 }
 
-/* The player's id is passed over. */
+/* Default ids skip the player's id. */
 static void values_of_a_file_skip_the_id_of_the_player(void **state)
 {
     session_file file =

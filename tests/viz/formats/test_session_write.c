@@ -13,7 +13,7 @@
 
 #define HEADER "{\"octreel\":\"session\",\"version\":2"
 
-/* In all that is read of a player of its kind. */
+/* Compare the members that the kind of player has. */
 static void assert_same_player(const octree_player *a, const octree_player *b)
 {
     assert_int_equal(a->kind, b->kind);
@@ -309,7 +309,7 @@ static void write_reports_a_full_disk(void **state)
     fclose(full);
 }
 
-/* So many points that anything quadratic is felt. */
+/* With this number of points, any quadratic algorithm would be noticeably slow. */
 static void many_points_survive_the_round_trip(void **state)
 {
     session_file file =

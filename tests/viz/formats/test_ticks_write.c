@@ -35,7 +35,7 @@ static void assert_told(const octree_tick *tick, const octree *tree)
     free(text);
 }
 
-/* A tick that was made by hand, of an empty tree. */
+/* A tick of an empty tree, built by hand. */
 static void assert_made_is_told(octree_tick tick)
 {
     octree *tree = make_tree(cube(-1, 1), 2, 5, OCTREE_REFUSE);
@@ -224,7 +224,7 @@ static void assert_nodes(const octree_tick *tick, bool whole, const char *part)
     free(text);
 }
 
-/* To the last that is listed the line is as it ever was; of more it has the same length whatever their number. */
+/* Up to TICK_LISTED nodes the line lists all of them; for more, its length does not depend on their number. */
 static void many_splits_or_merges_are_written_as_count_and_digest(void **state)
 {
     octree_address nodes[TICK_LISTED + 1];

@@ -31,10 +31,10 @@ static void every_row_is_complete_and_found_by_its_name(void **state)
     assert_null(view_option_named("camera-at"));
 }
 
-/* The help names the default in words; the row's `standard` is the value itself. */
+/* The help describes the default in words; `standard` in the row is its value. */
 static void help_names_the_default_of_every_row(void **state)
 {
-    static const char *const elsewhere[] = {"fit", "layers", "aa"}; /* their help or their choices say it otherwise */
+    static const char *const elsewhere[] = {"fit", "layers", "aa"}; /* described in another way */
     (void)state;
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
@@ -63,7 +63,7 @@ static void every_default_is_a_value_of_its_option(void **state)
     assert_true(usual.layers == VIEW_DEFAULT_LAYERS && usual.lod == 2 && usual.budget == 250000 && usual.aa == 1);
 }
 
-/* Names are taken as they are, and no others. */
+/* Only exact names are accepted. */
 static void every_choice_is_read_by_its_name(void **state)
 {
     static const char *const unknown[] = {"", "is", "isometric", "ISO", " iso", "iso ", "0", "iso,top", "Depth"};

@@ -56,7 +56,7 @@ static void every_basis_is_orthonormal_and_right_handed(void **state)
             for (int i = 0; i < 3; i++)
                 for (int j = 0; j < 3; j++)
                     assert_true(fabs(dot(axes[i], axes[j]) - (i == j)) < 1e-15);
-            for (int i = 0; i < 3; i++) { /* right x up points towards the eye */
+            for (int i = 0; i < 3; i++) { /* the cross product of right and up points toward the eye */
                 const int j = (i + 1) % 3, k = (i + 2) % 3;
                 assert_true(fabs(c.right[j] * c.up[k] - c.right[k] * c.up[j] + c.forward[i]) < 1e-15);
             }
@@ -64,7 +64,7 @@ static void every_basis_is_orthonormal_and_right_handed(void **state)
     }
 }
 
-/* Worlds of every shape that a tree takes. */
+/* Worlds of all shapes that a tree accepts. */
 static const octree_box worlds[] = {
     {{-1000, -1000, -1000}, {1000, 1000, 1000}},
     {{0, 0, 0}, {1, 2, 3}},
@@ -167,8 +167,8 @@ static void the_camera_that_follows_looks_at_the_player(void **state)
     }
 }
 
-/* An orbit keeps the world in the window, and fills it but for a margin, with as much room above as below: beside a
- * diagram too, where it is higher than wide. */
+/* An orbit keeps the world in the window and fills it up to a margin, which is equal above and below. This also holds
+ * beside a diagram, where the window is higher than wide. */
 static void an_orbit_keeps_the_world_in_the_window(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void an_orbit_keeps_the_world_in_the_window(void **state)
         const double *size = windows[i % 4];
         const octree_box *world = &worlds[i / 4];
         const view v = {.width = (int)size[0], .height = (int)size[1], .camera = CAMERA_ORBIT};
-        double most = 0; /* of the way from the middle to a side */
+        double most = 0; /* as a fraction of the distance from the middle to a side */
         double low = 0, high = 0;
         for (uint64_t tick = 0; tick < 480; tick++) {
             const camera c = camera_make(&v, (camera_window){0, 0, size[0], size[1]}, world, world->min, tick);
@@ -219,7 +219,7 @@ static void assert_in_the_middle(const camera *c, const double place[3])
     assert_true(fabs(pixel[1] - (window.y + window.height / 2)) < 1e-9);
 }
 
-/* At the center zoom moves nothing; elsewhere every distance on the picture is that many times as long. */
+/* Zoom keeps the center in place and multiplies all distances in the picture. */
 static void look_center_and_zoom_replace_those_of_the_camera(void **state)
 {
     (void)state;
@@ -291,7 +291,7 @@ static void pixels_do_not_depend_on_position_and_scale_of_the_world(void **state
     }
 }
 
-/* A box of any size anywhere in a world, or one that is as small as it can be. */
+/* A random box in a world, of any size down to the smallest possible. */
 static octree_box some_box(const octree_box *world, uint64_t *random)
 {
     octree_box box;

@@ -20,7 +20,7 @@ static octree *scattered(brute *points)
     return brute_tree(points, world, 4, 21);
 }
 
-/* Where the camera stands in the world, and the three ways of its basis. */
+/* The position of the camera in the world, and the three axes of its basis. */
 typedef struct stand {
     double eye[3], right[3], up[3], forward[3];
 } stand;
@@ -29,7 +29,7 @@ static const double places[][3] = {
     {317, -411, 92},    /* inside a leaf */
     {317, -411, 0},     /* on the plane that the root splits at */
     {500, 0, 0},        /* where two planes meet */
-    {0, 0, 0},          /* where three do: every first line runs through the eye */
+    {0, 0, 0},          /* where three planes meet: the lines of the root pass through the eye */
     {250, 250, 250},    /* at a point */
     {1000, 1000, 1000}, /* the world's corner */
 };
@@ -72,7 +72,8 @@ static size_t assert_drawable(const scene *s)
     return count;
 }
 
-/* A point in front is lit where a pinhole puts it; behind, it is not: as many marks are lit as there are in front. */
+/* A point in front of the camera is drawn where a pinhole camera shows it. A point behind is not drawn: the number of
+ * marks is the number of points in front. */
 static void assert_points_in_front(const scene *s, const brute *points, const double place[3], const double way[3][3])
 {
     uint8_t *frame = draw_once(s), *expected = calloc(SIDE, SIDE);
@@ -86,7 +87,7 @@ static void assert_points_in_front(const scene *s, const brute *points, const do
             continue;
         const double x = floor(SIDE / 2 + s->camera.zoom * seen[0] / seen[2]),
                      y = floor(SIDE / 2 - s->camera.zoom * seen[1] / seen[2]);
-        for (int j = 0; j < 9; j++) { /* a mark of three pixels, give or take one */
+        for (int j = 0; j < 9; j++) { /* a mark of three pixels, plus or minus one */
             const double px = x + j % 3 - 1, py = y + j / 3 - 1;
             if (px >= 0 && px < SIDE && py >= 0 && py < SIDE)
                 expected[(int)py * SIDE + (int)px] = 1;
@@ -117,7 +118,7 @@ static void every_position_and_direction_agrees_with_a_pinhole_camera(void **sta
             assert_points_in_front(&s, &points, places[i], ways[j]);
             scene_release(&s);
             s = scene_from(tree, 1u << LAYER_NODES | 1u << LAYER_WORLD, places[i], ways[j]);
-            assert_true(assert_drawable(&s) > 0 || places[i][2] == 1000); /* from the corner there may be nothing */
+            assert_true(assert_drawable(&s) > 0 || places[i][2] == 1000); /* from the corner, no point may be visible */
             scene_release(&s);
         }
     }
@@ -125,7 +126,7 @@ static void every_position_and_direction_agrees_with_a_pinhole_camera(void **sta
     brute_free(&points);
 }
 
-/* Nothing that reaches nearer than the camera sees is left out for its size. */
+/* A box that reaches in front of the near plane is never left out as too small. */
 static void the_node_around_the_camera_is_never_left_out_as_small(void **state)
 {
     (void)state;

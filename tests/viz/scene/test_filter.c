@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A tree and all that is in it, counted by hand. */
+/* A tree with its expected nodes and points. */
 typedef struct known_tree {
     octree *tree;
     octree_box world;
@@ -46,7 +46,7 @@ static void forget(known_tree *t)
     free(t->nodes);
 }
 
-/* Whether a point at `at` on an axis would go the way to a node, by comparing with each plane on that way. */
+/* Whether a coordinate leads to a node on an axis: compare it with each plane on the path from the root. */
 static bool way_leads_to(octree_address address, const octree_box *world, int axis, double at)
 {
     const unsigned depth = octree_address_depth(address), bit = 2 - (unsigned)axis;
@@ -80,8 +80,8 @@ static bool node_passes(const known_tree *t, const view_filter *f, const octree_
     return branch_passes(t, f, node) && deep_enough && (!f->leaves || node->leaf);
 }
 
-/* A point lies in a leaf of the slice, in the region, and in a node of the range of depths: its leaf, of leaves alone.
- */
+/* A point passes if it lies in a leaf of the slice, in the region, and in a node in the range of depths, which is its
+ * leaf if only leaves are shown. */
 static bool point_passes(const known_tree *t, const view_filter *f, const octree_point *point)
 {
     octree_node leaf;
@@ -123,7 +123,8 @@ static bool has_count(const scene *s, const char *noun, size_t count)
     return false;
 }
 
-/* Each node and point that passes is there once, and nothing else; the frame says how many. Returns the nodes. */
+/* The test fails unless the scene has each node and point that passes once, and no other, and the frame states their
+ * numbers. Returns the number of nodes. */
 static size_t check_filter(const known_tree *t, const view_filter *f)
 {
     view v = view_default();
@@ -170,7 +171,7 @@ static void a_slice_shows_one_layer_of_cells_at_its_plane(void **state)
     forget(&t);
 }
 
-/* Across a uniform lattice a slice on a plane of the tree has the upper cells alone. */
+/* In a uniform lattice, a slice on a plane of the tree shows only the cells above the plane. */
 static void a_slice_on_a_plane_of_the_tree_shows_one_side(void **state)
 {
     (void)state;
@@ -239,7 +240,7 @@ static void an_empty_tree_shows_its_root_if_the_filter_reaches_it(void **state)
     octree_destroy(tree);
 }
 
-/* Where a slice and a region are is drawn on the layer of the world, dashed. */
+/* The outlines of the slice and the region are drawn dashed, in the layer of the world. */
 static void the_slice_and_the_region_are_outlined(void **state)
 {
     (void)state;
@@ -263,7 +264,7 @@ static void the_slice_and_the_region_are_outlined(void **state)
     forget(&t);
 }
 
-/* Of a program's tree, whose nodes may lie deeper than any of Octreel's. */
+/* Boxes of foreign nodes, which may be deeper than any node of Octreel's tree. */
 static void depth_filter_of_a_foreign_box_follows_its_rule(void **state)
 {
     (void)state;

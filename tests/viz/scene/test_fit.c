@@ -15,7 +15,7 @@ static view fitting(view_camera camera)
     return v;
 }
 
-/* The smallest box around the points, found by looking at each. */
+/* The bounding box of the points. */
 static octree_box box_around(const brute *points)
 {
     octree_box box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
@@ -110,7 +110,7 @@ static void one_point_and_equal_points_are_framed_by_their_cell(void **state)
     }
 }
 
-/* Trees whose points fill no volume, or lie where doubles end. */
+/* Trees whose points fill no volume, or have coordinates near the limits of doubles. */
 static octree *odd_tree(size_t kind)
 {
     static const double line[][3] = {{-0.5, 0.25, 0.25}, {0, 0.25, 0.25}, {0.5, 0.25, 0.25}, {0.75, 0.25, 0.25}};
@@ -173,8 +173,8 @@ static void every_camera_but_the_follower_sees_all_points_of_odd_clouds(void **s
     }
 }
 
-/* Exactly representable scenes at 2^600 times the size, and at 1e15, have the same pixels; without text, since numbers
- * of axes take the room that their digits need. */
+/* Scenes that are scaled by 2^600 or moved to 1e15 without rounding have the same pixels. Text is off, because the
+ * numbers of the axes have different widths. */
 static void fitted_pixels_do_not_depend_on_position_and_scale(void **state)
 {
     (void)state;

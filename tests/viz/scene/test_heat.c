@@ -16,7 +16,7 @@
 #include "playback.h"
 #include "tick_lines.h"
 
-/* Counts by address, in a plain list. */
+/* An unsorted list of counts by address. */
 typedef struct count {
     octree_address node;
     uint64_t visits, points;
@@ -38,7 +38,7 @@ static count *count_of(counts *all, octree_address node)
     return &all->items[i];
 }
 
-/* How a tick met a node: by itself, or taken whole with one above it. */
+/* The visit of a node in a tick: its own, or that of an ancestor that was taken whole. */
 static bool was_visited(const recount *met, octree_address node)
 {
     for (octree_address at = node; at; at >>= 3)
@@ -73,7 +73,7 @@ static octree_walk_order check_node(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* A session whose nodes are counted anew at every tick. */
+/* A session, with visits that the test recounts at every tick. */
 static void check_session(const octree_session *session)
 {
     static counts all;
@@ -94,7 +94,7 @@ static void check_session(const octree_session *session)
         if (octree_game_over(game))
             break;
     }
-    for (size_t i = 0; i < all.size; i++) /* those of nodes that are gone are kept */
+    for (size_t i = 0; i < all.size; i++) /* counts of deleted nodes are kept */
         assert_int_equal(heat_at(&h, all.items[i].node).points, all.items[i].points);
     assert_int_equal(heat_at(&h, UINT64_MAX).points, 0);
     heat_release(&h);
@@ -114,8 +114,8 @@ static void heat_is_the_sum_over_the_ticks(void **state)
     }
 }
 
-/* One box takes the octant whole in which the other one looks for neighbours: a tick is one visit, for what the second
- * one prunes there too. */
+/* One query takes an octant whole, and another one searches neighbours in it. The tick counts as one visit of a node,
+ * also of nodes that the second query prunes. */
 static void a_tick_counts_once_for_any_number_of_queries(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void the_scale_has_powers_of_two_without_limit(void **state)
     }
 }
 
-/* What a walk over the leaves holds the marks against. */
+/* The context of the walk that compares leaves with markers. */
 typedef struct mark_check {
     const scene *scene;
     const heat *heat;
@@ -278,7 +278,7 @@ static bool keep_digest(void *context, const film_step *step, octreel_error *err
     return true;
 }
 
-/* Whoever films a part of a session plays what comes before it. */
+/* Filming a chunk plays the ticks before it as well. */
 static void a_chunk_begins_with_the_heat_of_earlier_ticks(void **state)
 {
     const octree_session session = octree_session_default();

@@ -24,8 +24,8 @@ static void common_picture_sizes_have_the_faces_of_the_table(void **state)
     }
 }
 
-/* A cell is never less than a multiple of its face's, a larger picture never has smaller letters, and from 360 lines on
- * between 27 and 54 lines of text fit. */
+/* Cells of letters are whole multiples of their face's cell, and larger pictures never have smaller letters. From a
+ * height of 360 pixels on, 27 to 54 lines of text fit. */
 static void letters_grow_with_the_picture(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@ static view painting_view(void)
     return v;
 }
 
-/* A plane of points one apart, and outliers far above and below; `step` sets the order. */
+/* A plane of points at a distance of one, and outliers far above and below; `step` determines the order. */
 static octree *make_plane(uint64_t step)
 {
     const uint64_t count = GRID * GRID;
@@ -62,7 +62,7 @@ static void the_order_of_points_does_not_matter(void **state)
     octree_destroy(other);
 }
 
-/* Of few and of many values, each of many points; no tree has a say in it. */
+/* For few and many values, with many points; the result does not depend on the tree. */
 static void a_hundredth_of_the_points_lies_below_the_range(void **state)
 {
     (void)state;
@@ -92,7 +92,7 @@ static void a_hundredth_of_the_points_lies_below_the_range(void **state)
         }
 }
 
-/* So many that a part of them stands for all. */
+/* With this number of points, the scale is computed from a sample. */
 static void the_range_of_many_points_does_not_depend_on_the_tree(void **state)
 {
     (void)state;
@@ -132,7 +132,7 @@ static void the_scale_is_computed_once_and_only_for_painted_points(void **state)
     octree_destroy(tree);
 }
 
-/* A session that is filmed while it is written has them later. */
+/* The values of points that are inserted later may be known already; they must not change the scale. */
 static void values_of_points_outside_the_tree_do_not_count(void **state)
 {
     (void)state;
@@ -152,7 +152,7 @@ static void values_of_points_outside_the_tree_do_not_count(void **state)
     octree_destroy(tree);
 }
 
-/* Its numbers are written as JSON. */
+/* The numbers are written as JSON, which has no infinities. */
 static void the_scale_is_finite_in_the_largest_world(void **state)
 {
     (void)state;

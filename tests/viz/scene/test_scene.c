@@ -8,7 +8,7 @@
 #include "draw_list.h"
 #include "random_session.h"
 
-/* What a walk over the nodes is compared with. */
+/* The context of the walk that compares nodes with the scene. */
 typedef struct node_check {
     const scene *scene;
     size_t nodes, points;
@@ -70,7 +70,7 @@ static bool has_way(const scene *s, uint64_t id, const double from[3], const dou
     return false;
 }
 
-/* The ways of a swept collision: from corner to corner of the player's box, and of the hits that moved. */
+/* The lines of a swept collision: between the corners of the player's box, and the paths of hit points that moved. */
 static size_t ways_shown(const scene *s, const octree_tick *tick, double size)
 {
     size_t ways = 0;
@@ -171,7 +171,7 @@ static size_t elements(layer_counts of)
     return of.boxes + of.segments + of.markers + of.labels + of.panels;
 }
 
-/* Elements are compared by the digest of a scene that holds them and nothing else. */
+/* Compare elements by the digests of scenes that contain only them. */
 static uint64_t layer_digest(const scene *s, unsigned layer)
 {
     scene alone = {.view = {.layers = 1u << layer}};
@@ -191,9 +191,8 @@ static uint64_t layer_digest(const scene *s, unsigned layer)
     return digest;
 }
 
-/* The text tells what the other layers show: it alone may change with them. The numbers of the world's axes are text
- * too, and words about wrong answers and of shapes keep clear of the panel.
- */
+/* Only the text layer may change when another layer is hidden, because it describes the others. The numbers of the axes
+ * are text as well, and the labels of wrong answers and of shapes avoid the panel. */
 static void check_without_layer(const scene *all, const octree_game *game, const heat *h, unsigned off)
 {
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << off));
@@ -215,7 +214,7 @@ static void hiding_a_layer_changes_no_other_layer(void **state)
     octree_game *game = start_game(&session);
     scene all = {0};
     heat h = {0};
-    bool shown[LAYER_COUNT] = {[LAYER_BROKEN] = true, [LAYER_ASKED] = true}; /* those have tests of their own */
+    bool shown[LAYER_COUNT] = {[LAYER_BROKEN] = true, [LAYER_ASKED] = true}; /* other tests cover these */
     while (!octree_game_over(game)) {
         play_tick(game);
         assert_true(heat_add_tick(&h, game));
@@ -268,7 +267,7 @@ static void the_scene_does_not_depend_on_the_order_of_bodies(void **state)
 
 #define POINTS 300
 
-/* Half of the points share coordinates, and some share an id. Before `first` and after it round to it again. */
+/* Half of the points share coordinates, and some share an id. The index starts at `first` and wraps around. */
 static octree *tree_from(const octree_body *bodies, size_t first)
 {
     octree *tree = make_tree(cube(-8, 8), 3, 5, OCTREE_GROW);

@@ -19,7 +19,7 @@ static scene one_of_each(void)
     return s;
 }
 
-/* Change a member, ask for the digest, and change it back. */
+/* Change a member, compute the digest, and restore the member. */
 static void assert_member_counts(const scene *s, void *member, size_t size, const void *other)
 {
     unsigned char kept[sizeof(double)];
@@ -160,7 +160,7 @@ static void memory_and_the_sign_of_zero_do_not_count(void **state)
     for (int i = 0; i < 1000; i++)
         scene_add_box(&s, s.boxes.items[0]);
     s.boxes.count = 1;
-    memset(s.labels.items[0].text + 5, 'x', SCENE_TEXT - 6); /* behind the text's end */
+    memset(s.labels.items[0].text + 5, 'x', SCENE_TEXT - 6); /* after the end of the text */
     assert_true(scene_digest(&s) == scene_digest(&fresh));
     s.markers.items[0].at[0] = 0.0;
     fresh.markers.items[0].at[0] = -0.0;

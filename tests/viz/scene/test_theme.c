@@ -101,7 +101,7 @@ static void every_index_fits_a_byte_and_is_used_once(void **state)
 {
     (void)state;
     bool used[256] = {false};
-    assert_true(THEME_COLORS < 256); /* and one of painted points: THEME_OWN */
+    assert_true(THEME_COLORS < 256); /* and one for painted points: THEME_OWN */
     for (unsigned role = 0; role < ROLE_COUNT; role++) {
         const unsigned step = role < ROLE_KIND ? 1 : THEME_SHADES / THEME_KIND_SHADES;
         for (unsigned shade = 0; shade < THEME_SHADES; shade += step) {
@@ -114,8 +114,8 @@ static void every_index_fits_a_byte_and_is_used_once(void **state)
         assert_int_equal(distance_to_ground(theme_color_at((uint8_t)index)), 0);
 }
 
-/* Severity 1.0 of Machado, Oliveira and Fernandes (2009), on linear light: without red, green or blue; and the eye that
- * sees all. */
+/* Simulation of colour blindness by Machado, Oliveira and Fernandes (2009), severity 1.0, on linear light: without red,
+ * green or blue; and normal sight. */
 static const double eyes[][3][3] = {
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}},
@@ -123,7 +123,7 @@ static const double eyes[][3][3] = {
     {{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}},
 };
 
-/* A colour as an eye sees it, in CIE L*a*b* (D65). */
+/* A colour as a kind of sight perceives it, in CIE L*a*b* (D65). */
 static void to_lab(theme_color c, const double eye[3][3], double lab[3])
 {
     static const double xyz_of[3][3] = {{0.4124564 / 0.95047, 0.3575761 / 0.95047, 0.1804375 / 0.95047},
@@ -157,7 +157,7 @@ static double apart(theme_role a, theme_role b, const double eye[3][3])
     return colors_apart(theme_color_at(theme_index(a, 0)), theme_color_at(theme_index(b, 0)), eye);
 }
 
-/* Where a difference of 2 or 3 is just seen side by side. */
+/* A minimum distance in L*a*b*; colours at a distance of 2 or 3 are just distinct side by side. */
 #define CLEARLY_APART 12
 
 static const theme_role meanings[] = {ROLE_POINT,   ROLE_PLAYER, ROLE_COLLISION, ROLE_RANGE, ROLE_RADIUS, ROLE_KNEAREST,
@@ -177,7 +177,7 @@ static void meanings_stay_distinct_without_red_or_green(void **state)
     }
 }
 
-/* The line to the nearest neighbour is told from nodes by its dashes: all else here is drawn as solid as they are. */
+/* The line to the nearest neighbour differs from nodes by its dashes. All other meanings are drawn with solid lines. */
 static void solid_meanings_stay_distinct_from_nodes(void **state)
 {
     (void)state;
@@ -187,8 +187,8 @@ static void solid_meanings_stay_distinct_from_nodes(void **state)
                 assert_true(apart(meanings[i], theme_node_role(depth), eyes[eye]) > CLEARLY_APART);
 }
 
-/* Points, leaves that hold what was found, changes of the tree and velocities are told apart by their colours; splits
- * and merges, which are one thing, by their dashes. */
+/* Points, leaves with found points, changes of the tree and velocities differ by colour. Splits and merges have one
+ * colour and differ by dashes. */
 static void one_look_has_one_meaning(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void one_look_has_one_meaning(void **state)
     assert_int_equal(layer_rows[LAYER_SPLITS].role, layer_rows[LAYER_MERGES].role);
 }
 
-/* The contrast of WCAG 2.1, of a colour that is lighter than its ground; 4.5 is asked for letters. */
+/* The contrast by WCAG 2.1 of a colour that is lighter than its background; text needs 4.5. */
 static double contrast(theme_color c, theme_role ground)
 {
     return (luminance(c) + 0.05) / (luminance(theme_color_at(theme_index(ground, 0))) + 0.05);
@@ -211,7 +211,8 @@ static double contrast(theme_color c, theme_role ground)
 
 #define RAMP_TESTED 31
 
-/* Steps of equal size to the eye that sees all; to any eye lighter with each, so that grey tells them too. */
+/* The steps are equal for normal sight, and each is lighter for every kind of sight, so that grey shows them as well.
+ */
 static void the_ramp_grows_evenly_lighter_for_every_kind_of_sight(void **state)
 {
     (void)state;
@@ -249,7 +250,7 @@ static void kinds_of_nodes_stay_distinct_without_red_or_green(void **state)
                 assert_true(colors_apart(theme_kind(i), theme_kind(j), eyes[eye]) > CLEARLY_APART);
 }
 
-/* They cross each other and are seen for themselves: far apart, and apart from all that lies on them. */
+/* Boxes of several kinds cross each other: their colours differ clearly from each other and from elements on them. */
 static void kinds_of_nodes_are_distinct_for_every_kind_of_sight(void **state)
 {
     (void)state;
@@ -268,7 +269,7 @@ static void kinds_of_nodes_are_distinct_for_every_kind_of_sight(void **state)
 
 /* ---- A colour for a new role -------------------------------------------------------------------------------- */
 
-/* How far a colour is from that of every role by every eye, at least; 0 where it is reddish, or hard to see on the
+/* The smallest distance of a colour from any role, for any kind of sight; 0 if it is reddish, or hard to see on the
  * background or the panel. */
 static double worth_of(theme_color c)
 {
@@ -286,7 +287,7 @@ static double worth_of(theme_color c)
 
 enum { PROPOSALS = 5, STEP = 6 };
 
-/* The colours that are farthest from all others, and from those that were proposed before them. */
+/* Propose the colours with the greatest distance from all roles and from the colours proposed before. */
 static int propose(void)
 {
     theme_color told[PROPOSALS];
