@@ -26,7 +26,8 @@
 #define SMALL (32.0 / 720)     /* a subject that appears larger than this needs no close-up */
 #define WANTED (68.0 / 720)    /* the close-up enlarges the subject to about this size */
 #define STILL 0.4              /* in a tree alone nothing moves: up to this part of the close-up instead */
-#define SURROUNDED (8.0 / 720) /* neighbours are shown with surroundings of at least this size, or with their leaf */
+#define SURROUNDED (8.0 / 720) /* neighbours are shown with surroundings of this size, or less if their leaf is small  \
+                                */
 #define CHANGED (31.0 / 720)   /* changes are shown with larger surroundings: those of other ticks are not known */
 #define LEAF_PART 0.5          /* of a leaf's half extent: enough to see the whole leaf in the close-up */
 #define MAX_MAGNIFICATION 1e6  /* the limit of --zoom */
@@ -182,8 +183,8 @@ static double half_extent_with_leaf(const layer_source *in, const octree_box *se
 typedef struct group_search {
     const layer_source *in;
     view_scale m;
-    double most;  /* larger subjects are ignored: a part of the picture's height */
-    double reach; /* the half extent of the first small subject; 0: none yet */
+    double size_limit; /* larger subjects are ignored; a part of the picture's height */
+    double reach;      /* the half extent of the first small subject; 0: none yet */
     octree_box group;
 } group_search;
 
@@ -196,7 +197,7 @@ static void add_to_group(group_search *g, const octree_box *more, bool is_sized)
     for (int i = 0; i < 3; i++)
         if (!(more->min[i] <= world->max[i] && more->max[i] >= world->min[i]))
             return;
-    if (!(part_of_height(&g->m, half_extent(more)) < g->most))
+    if (!(part_of_height(&g->m, half_extent(more)) < g->size_limit))
         return;
     const double own =
         is_sized && half_extent(more) > 0 ? half_extent(more) : half_extent_with_leaf(g->in, more, &g->m);
@@ -231,7 +232,7 @@ static group_search find_group(const closeup_course *course, const layer_source 
 {
     group_search g = {in, make_view_scale(in), SMALL, course->reach, nothing};
     add_candidates(&g);
-    g.most = INFINITY;
+    g.size_limit = INFINITY;
     add_candidates(&g);
     return g;
 }

@@ -63,7 +63,7 @@ typedef struct diagram {
     double top, pitch;  /* the top of the first row, and the height of a row, in pixels */
     unsigned rows;
     uint64_t next_label;
-    bool words;                           /* there is room for text */
+    bool has_text;                        /* there is room for text */
     octree_address path;                  /* the address of the node at the end of the path; 0: no path */
     octree_node end;                      /* the node at the end of the path */
     anchor anchors[OCTREE_MAX_DEPTH + 1]; /* [d]: the anchor of the path's node at depth d */
@@ -88,10 +88,11 @@ static bool arrange_tree(diagram *d)
     const int unit = s->unit;
     const camera_window w = d->window;
     const int letter = s->text.width, line = s->text.line, edge = EDGE * unit;
-    d->words = view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * letter && w.height >= WORDS_HEIGHT * line;
-    const int left = d->words ? edge + WORDS_LEFT * letter : edge,
-              right = d->words ? edge + WORDS_RIGHT * letter : edge;
-    const int above = d->words ? WORDS_ABOVE * line : edge, below = d->words ? WORDS_BELOW * line : edge;
+    d->has_text =
+        view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * letter && w.height >= WORDS_HEIGHT * line;
+    const int left = d->has_text ? edge + WORDS_LEFT * letter : edge,
+              right = d->has_text ? edge + WORDS_RIGHT * letter : edge;
+    const int above = d->has_text ? WORDS_ABOVE * line : edge, below = d->has_text ? WORDS_BELOW * line : edge;
     d->left = w.x + left;
     d->width = w.width - (left + right);
     d->top = w.y + above;
@@ -421,7 +422,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
     add_nodes(&d, true);
     if (d.path)
         add_path(&d);
-    if (d.words) {
+    if (d.has_text) {
         write_rows(&d);
         if (d.path)
             write_path_end(&d);

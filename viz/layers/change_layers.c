@@ -16,7 +16,7 @@ static uint64_t line_id(octree_address node, unsigned axis)
     return node << 2 | axis;
 }
 
-/* Draw three lines through the point where a cell's three planes cross: the lowest corner of its last octant. */
+/* Draw three lines through the point where a node's three planes cross: the lowest corner of its last octant. */
 static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;

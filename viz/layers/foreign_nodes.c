@@ -145,9 +145,9 @@ static const char *short_fault_text(octree_wrong_node_kind kind)
     return words[kind];
 }
 
-/* The bits of an element id that marks a point that no foreign node lists. No other element of the layer has both. */
+/* An element with both bits marks a point that no foreign node lists. No other element of the layer has both. */
 #define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
-#define LOST_MARK 6 /* half units */
+#define LOST_MARK 6 /* half the size of such a mark, in half units */
 
 /* Return the index of the first wrong node at or after `place`; node_count when there is none, or when `marked` nodes
  * are already as many as the layer marks. */

@@ -35,7 +35,7 @@ unsigned kind_of_class(unsigned class)
 typedef struct painting {
     const view *view;
     const point_values *values;
-    theme_color plain; /* of points with a missing value */
+    theme_color plain; /* the colour of points with a missing value */
 } painting;
 
 static theme_color color_of_value(const painting *p, uint64_t id)

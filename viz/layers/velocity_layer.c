@@ -140,8 +140,8 @@ static size_t max_arrows(const view *v)
  * leaves out. */
 static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
 {
-    size_t passing[SIEVES] = {0},
-           all = 0; /* first: arrows that sieve i keeps and sieve i + 1 drops; then: all that sieve i keeps */
+    size_t passing[SIEVES] = {0}, all = 0; /* [i]: first the arrows for which sieve i is the finest that keeps them,
+                                              then all arrows that sieve i keeps */
     for (size_t i = 0; i < tick->mover_count; i++)
         if (has_arrow(a, &tick->movers[i]))
             passing[count_passed_sieves(tick->movers[i].id)]++;

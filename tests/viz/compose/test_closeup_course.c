@@ -20,7 +20,7 @@ typedef struct film {
     scene scene;
 } film;
 
-/* Nobody, in the default world, with a few points. */
+/* A session without a player, in the default world, with a few points. */
 static octree_session nobodys_session(void)
 {
     octree_session session = octree_session_default();
@@ -70,8 +70,8 @@ static octree_query ball(uint64_t tick, double x, double y, double z, double rad
     return (octree_query){.tick = tick, .kind = OCTREE_QUERY_RADIUS, .target = {x, y, z}, .radius = radius};
 }
 
-/* From the first tick on that asks anything small it is there, as many times as large at each, and stays where it was
- * while nothing is asked. */
+/* The close-up begins at the first tick with a small query, keeps its magnification, and stays in place while nothing
+ * is asked. */
 static void close_up_follows_queries_from_the_first_small_one(void **state)
 {
     (void)state;
@@ -175,7 +175,7 @@ static void close_up_stays_at_shown_changes_and_moves_to_others(void **state)
     film_end(&f);
 }
 
-/* One that moves is followed, in steps; many that move everywhere have none. */
+/* A single moving point is followed, in steps. Many points that move everywhere have no close-up. */
 static void single_mover_is_followed_and_a_crowd_is_not(void **state)
 {
     (void)state;
@@ -226,7 +226,7 @@ static void gap_does_not_move_the_close_up(void **state)
     film_end(&f);
 }
 
-/* The history says where it is, and the view whether it is wanted and how many times as large. */
+/* The history holds the place; the view decides whether there is a close-up and how much it enlarges. */
 static void history_serves_every_view(void **state)
 {
     (void)state;
@@ -316,7 +316,7 @@ static octree_walk_order keep_deepest(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* A small node that is asked for is in the middle; a large one has none. */
+/* A small requested node is in the middle of the close-up; a large one has no close-up. */
 static void close_up_of_a_tree_shows_the_requested_node(void **state)
 {
     (void)state;

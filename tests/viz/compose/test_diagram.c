@@ -94,7 +94,7 @@ static void check_panel(recount *r, const octree_node *node, const scene_panel *
     assert_true(depth == 0 || panel->y >= r->foot[depth - 1]);
 }
 
-/* From the foot of the parent to the head of the child. */
+/* A line leads from the bottom of the parent to the top of the child. */
 static void check_line(recount *r, const octree_node *node, const scene_panel *panel)
 {
     const scene_segment *line = find_line(r->s, node->address);
@@ -185,7 +185,7 @@ static recount check_diagram(const scene *s, const octree *tree, octree_address 
 
 /* ---- The way ------------------------------------------------------------------------------------------------ */
 
-/* The leaf that holds a point, by looking into all of them. */
+/* Find the leaf that holds a point by searching all leaves. */
 typedef struct search {
     uint64_t id;
     octree_address leaf;
@@ -200,7 +200,7 @@ static octree_walk_order look_into(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* All of the way is marked, and nothing else. */
+/* All nodes on the path are marked, and no others. */
 static void check_way(const scene *s, octree_address leaf)
 {
     char text[OCTREE_ADDRESS_TEXT], wanted[OCTREE_ADDRESS_TEXT + 8];

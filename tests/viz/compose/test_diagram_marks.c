@@ -18,7 +18,7 @@ static bool panel_says(const scene *s, const char *text)
     return false;
 }
 
-/* How a recount says that a node was met; OCTREE_TRACE_KINDS where it was not. */
+/* Return how a query visited a node according to a recount; OCTREE_TRACE_KINDS if none did. */
 static unsigned touch_of(const recount *met, octree_address node)
 {
     for (size_t i = 0; i < met->count; i++)

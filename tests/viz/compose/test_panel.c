@@ -20,7 +20,7 @@ static void check_facts(const scene *s, const octree_game *game)
             assert_non_null(find_text(s, octree_event_name(1u << i)));
 }
 
-/* A hit is told in words and not by its colour alone; without one nothing but the legend's swatch is red. */
+/* A hit is reported in text, not by colour alone. Without a hit only the legend's swatch is red. */
 static void check_red_words(const scene *s, const octree_tick *tick)
 {
     size_t words = 0;
@@ -111,7 +111,7 @@ static size_t count_rows(const scene *s, int below)
     return rows;
 }
 
-/* Nothing is written below the picture; what would be is counted in its last row. */
+/* Nothing is written below the picture. The last row counts the rows that have no room. */
 static void rows_without_room_are_counted(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static void picture_without_room_for_the_column_shows_the_main_facts(void **stat
     scene_release(&s);
 }
 
-/* The longest of everything: ids of twenty digits, positions of many, titles beyond the room of a text. */
+/* The longest values: ids of twenty digits, positions of many digits, titles longer than a text can be. */
 static void texts_of_any_length_stay_within_bounds(void **state)
 {
     (void)state;

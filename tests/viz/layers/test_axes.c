@@ -57,7 +57,7 @@ static bool is_round(double value, double extent)
     return false;
 }
 
-/* A number is that of its tick, which leads away from an edge of the box. */
+/* A number is the coordinate of its tick mark, which leads away from an edge of the box. */
 static void check_numbers(const scene *s, const octree_box *box)
 {
     for (size_t i = 0; i < s->labels.count; i++) {
@@ -80,7 +80,7 @@ static void check_numbers(const scene *s, const octree_box *box)
     }
 }
 
-/* Numbers and letters are told from what lies behind them by a rim, and hide no more of it. */
+/* Numbers and letters have a rim that separates them from the picture, and no background. */
 static void check_rims(const scene *s)
 {
     for (size_t i = 0; i < s->panels.count; i++)
@@ -122,7 +122,7 @@ static void project(const scene *s, const octree_box *box, double corners[8][2])
     }
 }
 
-/* How far a pixel is on the left of the way from another to a third. */
+/* Return the distance of a pixel from the line between two others; positive at the left. */
 static double left_of(const double from[2], const double to[2], const double at[2])
 {
     return ((to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])) /
@@ -315,7 +315,7 @@ static void a_letter_stands_beyond_the_end_of_its_axis(void **state)
     scene_release(&s);
 }
 
-/* Numbers of an orbit do not come and go with another distance between them. */
+/* The step between numbers stays the same while the camera orbits. */
 static void orbiting_camera_keeps_the_step_between_numbers(void **state)
 {
     (void)state;
@@ -338,7 +338,7 @@ static void orbiting_camera_keeps_the_step_between_numbers(void **state)
     octree_game_destroy(game);
 }
 
-/* Nor do they hang, where extents overflow, underflow, or have no digits of their own. */
+/* Worlds whose extent overflows, underflows, or is lost in rounding have no numbers, and nothing hangs. */
 static void extreme_worlds_have_no_axis_numbers(void **state)
 {
     (void)state;

@@ -105,7 +105,7 @@ static void a_split_at_the_greatest_depth_is_shown(void **state)
     scene_release(&s);
 }
 
-/* The panel's words about a finding, put together again. */
+/* Join the panel's lines in the colour of warnings into one sentence. */
 static void collect_warning(const scene *s, char text[256])
 {
     text[0] = 0;

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* The points whose way from the root leads through a node. */
+/* Count the points in a node and its descendants. */
 static size_t points_in(const brute *points, const octree *tree, octree_address address)
 {
     size_t count = 0;
@@ -95,7 +95,7 @@ static void occupancy_steps_without_a_capacity_are_powers_of_two(void **state)
     assert_int_equal(theme_step(SIZE_MAX, 1), THEME_NODE_DEPTHS - 1);
 }
 
-/* Fuller ones, as under OCTREE_GROW, have the last colour. */
+/* Leaves with more points than the capacity, as under OCTREE_GROW, have the last colour. */
 static void occupancy_scale_ends_at_the_leaf_capacity(void **state)
 {
     (void)state;

@@ -37,7 +37,7 @@ static const scene_label *label_of(const scene *s, uint64_t id)
     return found;
 }
 
-/* The way down from the root, taken by looking at which eighth of its parent each cell is. */
+/* Compute a node's address from the root down, from the octant of its parent that each cell is. */
 static void path_of(octree_address address, char *text)
 {
     const octree_box world = cube(-1000, 1000);
@@ -68,7 +68,7 @@ static bool overlap(const room *a, const room *b, double slack)
            b->top < a->bottom + slack;
 }
 
-/* Some reason there must be: too small a box, no place in the picture, or a label there. */
+/* A label may be missing only for a reason: the box is too small, outside the picture, or another label is there. */
 static bool has_no_room(const scene *s, const scene_box *box, const char *path)
 {
     const double width = (double)strlen(path) * s->text.width, height = s->text.height, slack = 3 * s->unit;

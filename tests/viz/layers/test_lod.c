@@ -78,7 +78,7 @@ static double size_on_screen(const scene *s, const octree_box *box)
     return longest;
 }
 
-/* What the walk over all nodes compares with. */
+/* The context of the walk over all nodes. */
 typedef struct lod_check {
     const scene *scene;
     size_t drawn, left_out;
@@ -143,7 +143,7 @@ static void only_boxes_below_the_lod_are_left_out(void **state)
     octree_destroy(tree);
 }
 
-/* Nothing else would mark them. */
+/* They are shown because no drawn box marks their place. */
 static void small_boxes_without_a_drawn_ancestor_are_shown(void **state)
 {
     (void)state;

@@ -101,7 +101,7 @@ static void numbers_stand_under_the_middle_of_their_marks(void **state)
     release(&p);
 }
 
-/* Of the same height, so that nothing but the leaves tells them apart. */
+/* All points have the same height, so that only their leaves make their colours differ. */
 static void leaves_beside_each_other_are_dark_and_light(void **state)
 {
     (void)state;

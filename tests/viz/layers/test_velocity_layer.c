@@ -82,7 +82,7 @@ static void check_tick(const scene *s, const octree_game *game, double ticks)
     assert_int_equal(found.boxes + found.markers + found.labels + found.panels, 0);
 }
 
-/* Some at rest, some fast enough to cross the world in a tick. */
+/* Some bodies are at rest, and some cross the world in one tick. */
 static octree_session moving_session(octree_body *bodies, size_t count, double speed)
 {
     uint64_t random = 3;

@@ -17,7 +17,7 @@ static const octree_body bodies[] = {{.id = 1, .position = {1, 0, 1}},
                                      {.id = 3, .position = {5, 3, 1}},
                                      {.id = 4, .position = {-7, 4, 1}}};
 
-/* Nobody but the bodies, with these queries in tick 0. */
+/* A session without a player: the bodies, and these queries in tick 0. */
 static octree_session session_of(const octree_query *queries, size_t count)
 {
     octree_session session = small_session(bodies, 4);
@@ -92,7 +92,7 @@ static void farther_neighbour_is_marked_and_the_nearest_ringed(void **state)
     }
 }
 
-/* Its size is of the picture, not of the world. */
+/* The size of a ring is fixed in the picture, not in the world. */
 static void ring_has_the_same_size_in_every_camera(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void answer_with_an_unknown_id_is_ringed_at_its_target(void **state)
     scene_release(&s);
 }
 
-/* Of many the worst has the large ring, and the words. */
+/* Of many wrong answers only the worst has a large ring and a text. */
 static void worst_of_many_wrong_answers_has_the_large_ring(void **state)
 {
     (void)state;
