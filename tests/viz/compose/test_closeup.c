@@ -165,7 +165,7 @@ static void close_up_overlaps_nothing_else(void **state)
     octree_game_destroy(game);
 }
 
-/* Nodes and points far from the player are not in it, and those about it are, smaller ones too. */
+/* The close-up has the nodes and points around the player, small ones too, and none that are far away. */
 static void close_up_shows_only_the_players_surroundings(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void close_up_shows_only_the_players_surroundings(void **state)
     free(positions);
 }
 
-/* The rectangle of what it shows is seen in the picture at any scale. */
+/* The outline of the enlarged area is visible at any scale. */
 static void enlarged_area_is_outlined_however_small(void **state)
 {
     (void)state;
@@ -236,7 +236,7 @@ static void enlarged_area_is_outlined_however_small(void **state)
     octree_game_destroy(game);
 }
 
-/* At the edges of doubles too. */
+/* Worlds of extreme sizes have close-ups too. */
 static void close_up_is_the_same_at_every_scale_of_the_world(void **state)
 {
     (void)state;
@@ -300,7 +300,7 @@ static void scene_digest_covers_the_close_up(void **state)
     octree_game_destroy(game);
 }
 
-/* Numbers of elements go on where those of the scene end. */
+/* The numbers of the close-up's elements continue after the scene's. */
 static void close_up_elements_are_numbered_after_the_scene(void **state)
 {
     (void)state;
@@ -321,7 +321,7 @@ static void close_up_elements_are_numbered_after_the_scene(void **state)
     octree_game_destroy(game);
 }
 
-/* Of a part of the world it shows what lies in that part. */
+/* With a region filter, the close-up shows only elements within the region. */
 static void close_up_respects_the_region_filter(void **state)
 {
     (void)state;

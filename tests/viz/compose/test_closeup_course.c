@@ -95,7 +95,7 @@ static void close_up_follows_queries_from_the_first_small_one(void **state)
     film_end(&f);
 }
 
-/* Of two far from each other the first, and not the empty middle; of two that it shows both, the middle. */
+/* Of two distant subjects it shows the first, not the empty middle. If both fit, their middle is its middle. */
 static void close_up_shows_the_first_of_distant_subjects(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void close_up_shows_the_first_of_distant_subjects(void **state)
     film_end(&f);
 }
 
-/* A neighbour that is found belongs to what is asked; and a place that is a point is shown with its leaf. */
+/* A found neighbour is part of the subject. A subject without extent is shown with its leaf. */
 static void neighbours_are_shown_with_their_surroundings(void **state)
 {
     (void)state;
@@ -148,7 +148,7 @@ static void neighbours_are_shown_with_their_surroundings(void **state)
     film_end(&f);
 }
 
-/* What edits do near each other is shown from the first on, and a close-up that shows them stays. */
+/* Edits near each other are shown from the first one on, and the close-up stays while it shows them all. */
 static void close_up_stays_at_shown_changes_and_moves_to_others(void **state)
 {
     (void)state;
@@ -253,7 +253,7 @@ static void history_serves_every_view(void **state)
 
 /* ---- Trees -------------------------------------------------------------------------------------------------- */
 
-/* The scene of a tree that is asked this, and its node; 0 for none. */
+/* Build the scene of a tree with these queries and a requested node; 0: no node. */
 static void build_asked(scene *s, const view *v, const octree *tree, const octree_query *queries, size_t count,
                         octree_address node)
 {
@@ -276,7 +276,7 @@ static octree *sampled_tree(octree_box world, size_t count)
     return tree;
 }
 
-/* What a tree is asked, in every camera and size, where it appears small; and nothing else. */
+/* A tree's queries are enlarged in every camera and picture size if they appear small, and otherwise not. */
 static void close_up_of_a_tree_shows_its_queries(void **state)
 {
     (void)state;
@@ -335,7 +335,7 @@ static void close_up_of_a_tree_shows_the_requested_node(void **state)
     octree_destroy(tree);
 }
 
-/* Whatever is asked, at the edges of doubles, of a tree or of nothing. */
+/* In worlds of extreme sizes, a close-up has finite numbers whatever the queries are. */
 static void close_ups_of_extreme_worlds_are_finite(void **state)
 {
     (void)state;

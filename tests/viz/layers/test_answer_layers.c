@@ -41,7 +41,7 @@ static void check_nearest(const scene *s, const octree_answer *answer, size_t pl
 #define BALL_CIRCLES 3
 #define BALL_CHORDS 96
 
-/* The rank that a label of this id tells beside a place, or null. */
+/* Return the label with this id and rank at a position, or null. */
 static const scene_label *rank_of(const scene *s, uint64_t id, size_t rank, const double at[3])
 {
     char number[24];
@@ -72,7 +72,8 @@ static bool is_behind_the_eye(const scene *s, const double at[3])
     return s->camera.perspective && seen[2] < s->camera.near;
 }
 
-/* A line from the target to each neighbour, and beside the first nine their ranks, but where one covers another's. */
+/* Each neighbour has a line from the target. The first nine have their ranks beside them, except a rank that would
+ * cover another. */
 static void check_knearest(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
 {
     const double *numbered[9];
@@ -92,7 +93,7 @@ static void check_knearest(const scene *s, const octree_answer *answer, size_t p
     due->labels += numbers;
 }
 
-/* Three closed chains of chords: each in a plane through the centre, and its ends at the radius from it. */
+/* A ball is three closed chains of chords. Each chain lies in a plane through the centre, its corners on the ball. */
 static void check_radius(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
 {
     size_t in_plane[3] = {0, 0, 0};
@@ -176,7 +177,7 @@ static void every_answer_of_random_sessions_is_shown_in_its_layer(void **state)
     }
 }
 
-/* Points at one pixel: the nearest of them is numbered, and those elsewhere. */
+/* Of several points at one pixel only the nearest is numbered; points elsewhere are numbered too. */
 static void rank_of_a_neighbour_never_covers_the_rank_of_a_nearer_one(void **state)
 {
     (void)state;
@@ -221,7 +222,7 @@ static void chords_of_a_ball_beyond_all_doubles_are_counted_and_left_out(void **
     scene_release(&s);
 }
 
-/* What a tree was asked is drawn as what a tick asked: the same elements. */
+/* The same queries of a tree and of a tick are drawn with the same elements. */
 static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
 {
     (void)state;
@@ -229,7 +230,7 @@ static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree_game *game = start_game(&session);
     scene tick = {0}, tree = {0};
-    while (octree_game_tick(game)->number < 219) /* which asks all that there is, by key and by session */
+    while (octree_game_tick(game)->number < 219) /* the tick that asks every kind of query */
         play_tick(game);
     build_tick(&tick, &v, game);
     const octree_tick *asked = octree_game_tick(game);
@@ -248,7 +249,7 @@ static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
     octree_game_destroy(game);
 }
 
-/* A few are easy to see; of many none hides the others. */
+/* A few marks are large and easy to see; many marks are small and do not hide each other. */
 static void many_marks_are_smaller_than_few(void **state)
 {
     (void)state;

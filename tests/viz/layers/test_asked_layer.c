@@ -23,7 +23,7 @@ static bool says(const scene *s, const char *text)
     return false;
 }
 
-/* Its box and nothing else; and a mark on it where it appears too small to be found. */
+/* The layer has the node's box and nothing else, except a mark if the box is too small to be found. */
 static octree_walk_order check_asked(const octree_node *node, void *context)
 {
     asking *a = context;

@@ -45,7 +45,7 @@ static const scene_segment *tick_of(const scene *s, uint64_t id)
     return found;
 }
 
-/* A whole multiple of 1, 2 or 5 times a power of ten that is at least a thousandth of the extent. */
+/* Whether a number is a multiple of 1, 2 or 5 times a power of ten, which is at least a thousandth of the extent. */
 static bool is_round(double value, double extent)
 {
     double power = pow(10, floor(log10(extent)) - 3);
@@ -90,7 +90,7 @@ static void check_rims(const scene *s)
             assert_int_equal(s->labels.items[i].style.stroke, STROKE_CUT);
 }
 
-/* By the room that their letters take in pixels. */
+/* Whether the rectangles that the letters of two labels take overlap. */
 static bool overlap(const scene *s, const scene_label *a, const scene_label *b)
 {
     const double width[2] = {(double)strlen(a->text) * s->text.width, (double)strlen(b->text) * s->text.width};
@@ -129,7 +129,7 @@ static double left_of(const double from[2], const double to[2], const double at[
            hypot(to[0] - from[0], to[1] - from[1]);
 }
 
-/* Whether a line through two corners has all of them at its left, and the letters of a number at its right. */
+/* Whether all corners lie at the left of a line through two corners, and the letters of a number at its right. */
 static bool is_apart(const scene *s, const scene_label *number, double corners[8][2])
 {
     const double width = (double)strlen(number->text) * s->text.width, height = s->text.height;
@@ -361,7 +361,7 @@ static void extreme_worlds_have_no_axis_numbers(void **state)
     scene_release(&s);
 }
 
-/* As of a map in metres: those of an upright axis stand at the left, where the column of text ends. */
+/* Coordinates of a map in metres. The numbers of an upright axis stand at the left, beside the text column. */
 static void numbers_of_seven_digits_have_room(void **state)
 {
     (void)state;

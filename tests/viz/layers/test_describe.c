@@ -108,7 +108,8 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     if (!strstr(subject.text, expected[i].part) && !(element.kind == SCENE_PANEL && strstr(subject.text, "diagram")) &&
         !(element.kind == SCENE_PANEL && strstr(subject.text, "a symbol or a rule in the panel")))
         fail_msg("\"%s\" says nothing of \"%s\"", subject.text, expected[i].part);
-    if (expected[i].layer == LAYER_BOX && element.kind == SCENE_BOX) /* of two, one is where it is */
+    if (expected[i].layer == LAYER_BOX &&
+        element.kind == SCENE_BOX) /* there are two boxes; one is the box around the player */
         assert_int_equal(strncmp(subject.text, "the player's", 12) == 0,
                          scene_head_of(s, element).id == octree_game_session(game)->player.id);
     assert_true(strlen(subject.text) + 1 < ELEMENT_TEXT);
@@ -161,7 +162,7 @@ static void assert_is_a_phrase(const char *text)
     if (!*text || strchr(" ,;:", *text) || strlen(text) + 1 >= ELEMENT_TEXT)
         fail_msg("\"%s\" is no phrase", text);
     for (size_t i = 0; strncmp(text, "text ", 5) != 0 && i < sizeof holes / sizeof *holes;
-         i++) /* what quotes a text may have them */
+         i++) /* a quoted text may contain them */
         if (strstr(text, holes[i]))
             fail_msg("\"%s\" has \"%s\"", text, holes[i]);
 }

@@ -202,7 +202,7 @@ static void faults_of_foreign_nodes_are_marked_and_described(void **state)
                         "node 4: its box leaves its parent's");
 }
 
-/* By layer and kind, of the element with an id. */
+/* Return the description of the element with this layer, kind and id. */
 static const char *told(view_layer layer, scene_kind kind, uint64_t id)
 {
     static element_subject subject;

@@ -30,7 +30,7 @@ static void add_edit(played *p, uint64_t tick, octree_edit_kind kind, size_t bod
     p->gone[body] = kind == OCTREE_EDIT_REMOVE;
 }
 
-/* Points crowd round others, so that leaves split, and go away, so that they merge. */
+/* Points gather around others, so that leaves split, and leave again, so that nodes merge. */
 static void add_few(played *p, uint64_t tick)
 {
     for (size_t i = 0; i < FEW; i++) {
@@ -42,7 +42,7 @@ static void add_few(played *p, uint64_t tick)
     }
 }
 
-/* Half of all points go in one tick, and come again in a later one: what a budget leaves out changes. */
+/* Half of all points go in one tick and return in a later one, which changes the points that the budget drops. */
 static void add_many(played *p, uint64_t tick, bool go)
 {
     size_t count = 0;
@@ -108,7 +108,7 @@ static void expect_same(const scene *kept, const scene *whole)
     assert_true(scene_digest(kept) == scene_digest(whole));
 }
 
-/* How many subtrees are in the same memory as one of the scene before. */
+/* Count the subtrees that are in the same memory as a subtree of the scene before. */
 static size_t count_kept_on(const kept_list *now)
 {
     static const kept_node *before[BODIES];
@@ -123,7 +123,7 @@ static size_t count_kept_on(const kept_list *now)
     return count;
 }
 
-/* Scenes of every so many ticks; in how many something was kept. */
+/* Make a scene every few ticks. Return the number of scenes that reused a subtree. */
 static unsigned compare_scenes(const view *v, uint64_t every)
 {
     played *p = make_session();
@@ -159,7 +159,7 @@ static view look(void)
     return v;
 }
 
-/* But for the first, and after those of many changes. */
+/* At least half of the scenes reuse subtrees; the first and those after many changes do not. */
 static void scenes_with_kept_subtrees_equal_scenes_made_from_nothing(void **state)
 {
     view v = look();
@@ -182,7 +182,7 @@ static void small_nodes_are_left_out_of_kept_subtrees(void **state)
         assert_true(compare_scenes(&v, 1) >= TICKS / 2);
 }
 
-/* Some of them are above the number of points at one time and below it at another. */
+/* Some subtrees have more points than the limit at one time and fewer at another. */
 static void budgets_thin_kept_subtrees_like_others(void **state)
 {
     static const uint64_t budgets[] = {1, 700, 2600, 2700, 4000, 4900, 5000};
@@ -196,7 +196,7 @@ static void budgets_thin_kept_subtrees_like_others(void **state)
     assert_true(compare_scenes(&v, 2) > 0);
 }
 
-/* With a filter, or another look from tick to tick. */
+/* A filter, or a view that changes from tick to tick, must not use kept subtrees. */
 static void kept_subtrees_are_not_used_by_another_view(void **state)
 {
     played *p = make_session();

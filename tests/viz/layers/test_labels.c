@@ -203,7 +203,7 @@ static void labels_are_off_by_default(void **state)
     octree_destroy(tree);
 }
 
-/* Where there is no room at all, a label is there all the same. */
+/* A label of a shape is drawn even without room. */
 static void labels_of_shapes_do_not_overlap(void **state)
 {
     (void)state;

@@ -54,7 +54,7 @@ static bool is_explained(const scene *s, const struct legend_row *row)
     return false;
 }
 
-/* At the first tick by which each kind of query has been asked. */
+/* Play to the first tick by which each kind of query has been asked. */
 static octree_game *start_asking(const octree_session *session)
 {
     octree_game *game = start_game(session);
@@ -63,7 +63,8 @@ static octree_game *start_asking(const octree_session *session)
     return game;
 }
 
-/* Each layer alone has its line and no other; without it, all others have theirs. There is room for all. */
+/* A layer shown alone has its line and no other. If one layer is hidden, all others have theirs. There is room for all.
+ */
 static void legend_lists_the_shown_layers(void **state)
 {
     (void)state;
@@ -161,14 +162,14 @@ static void legend_lists_queries_of_every_tick_but_no_later_ones(void **state)
         session.query_count = kind < 0 ? 1 : 2;
         octree_game *game = start_game(&session);
         build_tick(&s, &v, game);
-        for (int i = 0; i < OCTREE_QUERY_KINDS; i++) /* n names the nearest in every session */
+        for (int i = 0; i < OCTREE_QUERY_KINDS; i++) /* the key n can ask for the nearest point in every session */
             assert_int_equal(has_swatch(&s, roles[i]), i == kind || i == OCTREE_QUERY_NEAREST);
         octree_game_destroy(game);
     }
     scene_release(&s);
 }
 
-/* What a program asks next is not known while its session is made. */
+/* The later queries of a program are unknown while its session is recorded. */
 static void legend_without_a_player_lists_queries_asked_so_far(void **state)
 {
     (void)state;
@@ -225,7 +226,7 @@ static void legend_lists_the_elements_of_the_diagram(void **state)
     octree_destroy(large);
 }
 
-/* Each in a place of its own: of two in one place the second would be missing. */
+/* Each layer has its own legend_place: of two layers with the same place the second would be missing. */
 static void every_listed_layer_has_a_place_and_text(void **state)
 {
     (void)state;

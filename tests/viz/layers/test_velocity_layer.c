@@ -66,7 +66,7 @@ static void check_arrow(const scene_segment *arrow, const octree_body *body, con
     assert_true(on_face || part > 1 - 1e-9);
 }
 
-/* The arrows of a tick are those of its movers, which the tree holds where they begin. */
+/* The arrows of a tick belong to its movers, and the tree holds each mover where its arrow begins. */
 static void check_tick(const scene *s, const octree_game *game, double ticks)
 {
     const octree_tick *tick = octree_game_tick(game);
@@ -199,7 +199,7 @@ static void filtered_point_has_no_arrow(void **state)
     octree_game_destroy(game);
 }
 
-/* How long an arrow is in the picture, along the longer side. */
+/* Return the length of an arrow in the picture: the larger of its width and height in pixels. */
 static double pixels_of(const scene *s, const scene_segment *arrow)
 {
     double a[2], b[2];
@@ -248,7 +248,7 @@ static void arrows_below_the_lod_are_left_out_and_counted(void **state)
 
 enum { MANY = 100000 };
 
-/* Each shows about as many as its budget allows; a smaller one shows a part of what a larger one shows. */
+/* Each budget shows about as many arrows as it allows. A smaller budget shows a subset. */
 static void budget_thins_a_hundred_thousand_arrows_and_reports_it(void **state)
 {
     (void)state;

@@ -30,7 +30,7 @@ static octree_node node_or_cell(const octree *tree, octree_address address)
     return node;
 }
 
-/* Whether a node that a tick names is too small beside those above it. */
+/* Whether a visited node is below the lod and has a shown ancestor. */
 static bool is_small(const scene *s, const octree_node *node)
 {
     const view *v = &s->view;
@@ -39,7 +39,7 @@ static bool is_small(const scene *s, const octree_node *node)
     return below_another && camera_box_pixels(&s->camera, &node->box) < v->lod;
 }
 
-/* What is due in a scene, and what is too small for it. */
+/* The number of elements that a scene must have, and of those that are too small for it. */
 typedef struct dues {
     size_t boxes[LAYER_COUNT], small;
 } dues;
@@ -98,7 +98,7 @@ static void check_visits(const scene *s, const recount *met, const octree *tree)
     assert_int_equal(says(s, text), due.small > 0);
 }
 
-/* The words of the legend, as a recount has them. */
+/* The legend's counts must match the recount. */
 static void check_words(const scene *s, const recount *met)
 {
     char text[SCENE_TEXT];
@@ -114,7 +114,7 @@ static void check_words(const scene *s, const recount *met)
     assert_true(says(s, text));
 }
 
-/* The line of ticks.jsonl says the same. */
+/* The tick's line in ticks.jsonl must have the same counts. */
 static void check_line(const octree_game *game, const recount *met)
 {
     char *text = NULL;
