@@ -16,9 +16,9 @@ void need_browser(void);
  * of real time. The browser stores its files in `own`. The caller frees the text. */
 char *browser_open(const temp_folder *own, const char *path, const char *hash);
 
-/* Open a copy of a page, beside it, with a script behind all of its own, which uses it as people do and ends by adding
- * <pre id="said"> with a line "what<tab>value" for each thing that it saw. Returns these lines, an empty one before
- * them; the caller frees it. The test fails when the script does not come to its end. */
+/* Open a copy of a page, in the same folder, with a script after the page's own scripts. The script acts like a user
+ * and finally adds <pre id="said"> with a line "name<tab>value" for each observation. Returns these lines, after an
+ * empty line; the caller frees them. The test fails if the script does not finish. */
 char *browser_drive(const temp_folder *own, const char *page, const char *script);
 
 /* browser_drive() with several scripts, run in order; the list ends with null. */

@@ -7,12 +7,12 @@
 
 #include <stdint.h>
 
-/* The recording is whole, verifies, has so many ticks, and is to the byte what the session and the view in it are
- * filmed to anew, in `again`. */
+/* The test fails unless the recording is complete, verifies, has this number of ticks, and filming its session with its
+ * view into `again` yields the same bytes. */
 void assert_films_again(const place *folder, const place *again, uint64_t ticks);
 
-/* The digest of the tree that each line of ticks.jsonl tells, into digests[0 .. room - 1]; 0 for a gap; their number.
- * No line tells of a refusal: what the program's tree took is taken. */
+/* Store the tree digest of each line of ticks.jsonl in digests[0 .. room - 1], 0 for a gap. Returns their number. The
+ * test fails if a line has a refusal: every point of the program's tree must have been accepted. */
 size_t tree_digests(const char *folder, uint64_t *digests, size_t room);
 
 #endif

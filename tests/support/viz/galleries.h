@@ -12,11 +12,12 @@
 /* A picture whose pixels follow from `seed`; release it. */
 image gallery_picture(uint64_t seed);
 
-/* Write it, with `spoilt` of its pixels (at most 16, from the first one of row 3 on) one level of green off. */
+/* Write the picture of a seed. In `spoilt` of its pixels (at most 16, from the start of row 3), green is one level off.
+ */
 void gallery_write(const char *path, uint64_t seed, int spoilt);
 
-/* Make a folder in a test's folder and write picture i of the seed i into it for each of the names, which have blanks
- * between them. */
+/* Make a folder in a test's folder. For each of the names, which are separated by blanks, write a picture; picture i
+ * has the seed i. */
 place gallery_make(const temp_folder *in, const char *folder, const char *names);
 
 /* The test fails, with the sentence, where a side cannot be opened or compared. */
@@ -32,10 +33,10 @@ typedef struct comparison_of {
 
 comparison_of assert_compared(const char *a, const char *b, const diff_options *options);
 
-/* Group the frames by what is found and explained so far, or each by itself. */
+/* Group the frames by finding and cause; with `each`, every frame is a group of its own. */
 const frame_groups *group_frames(comparison_of *made, bool each);
 
-/* Each group by its frames, or by all but its first, a line each; the caller frees it. */
+/* List the groups, one line each: the names of all frames, or with `others`, all but the first. The caller frees it. */
 char *tell_groups(comparison_of *made, bool each, bool others);
 void assert_groups(comparison_of *made, bool each, const char *expected);
 
@@ -46,7 +47,7 @@ const char *cause_of(const comparison_of *made, const char *name);
 void give_cause(comparison_of *made, size_t i, const char *text);
 void comparison_release(comparison_of *made);
 
-/* What was found for a name; the test fails when there is no such pair. */
+/* The finding for the pair with a name; the test fails if there is no such pair. */
 diff_finding finding_of(const comparison_of *made, const char *name);
 
 /* The test fails unless the comparison is refused with a sentence that contains `part`. */

@@ -13,7 +13,7 @@ typedef struct golden_frame {
     const char *name; /* golden/<name>.ref.png */
     const char *camera;
     const char *layers;
-    uint64_t tick;      /* of the session that `points` says */
+    uint64_t tick;      /* of the session that `points` selects */
     const char *points; /* null: the default session; else "two", "three" or "clustered" points in its world, or what is
                            asked about sampled ones: "knearest", "radius", "answered"; or "swept", or "foreign" nodes */
     int width, height;  /* 0: 320 x 180 */
@@ -32,16 +32,16 @@ typedef struct golden_play {
     octree_game *game;
 } golden_play;
 
-/* Whether it is a tick of a session: two are of a tree alone, or of one that is broken. */
+/* Whether the frame shows a tick of a session; two frames show a single tree, or a broken one. */
 bool golden_is_played(const golden_frame *frame);
 
 /* Tick 0 of its session; the caller destroys the game. */
 bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *error);
 
-/* What one shows; *s is to be released, also where it fails. */
+/* Compose the scene of a frame; the caller releases *s, also on failure. */
 bool golden_scene(const golden_frame *frame, scene *s, octreel_error *error);
 
-/* Draw one. `renderer` receives who drew it. */
+/* Draw a frame. `renderer` receives the name of the renderer. */
 bool golden_draw(const golden_frame *frame, draw_fill fill, image *drawn, char *renderer, size_t size,
                  octreel_error *error);
 

@@ -10,7 +10,7 @@ enum { LAS_VERSIONS = 6, LAS_FORMATS = 11 };
 
 extern const unsigned las_header_sizes[LAS_VERSIONS], las_record_sizes[LAS_FORMATS];
 
-/* What a file of two records says of itself; zeroed: LAS 1.0 of point format 0 and nothing more than that has. */
+/* The header values of a file with two records. Zeroed: LAS 1.0, point format 0, and no optional part. */
 typedef struct las {
     unsigned minor, format;
     unsigned records_before; /* bytes between the header and the points */
@@ -20,15 +20,15 @@ typedef struct las {
     uint64_t count; /* that the header has; 0: the two */
 } las;
 
-/* Records that are two_points: not each of them is a number of hundredths, so the scales are what makes them. */
+/* A file of two_points. Not every coordinate is a multiple of 0.01, so the scales of the header matter. */
 extern const las two;
 las two_of(unsigned minor, unsigned format);
 
-/* The fields of the table "Public Header Block" in their order; what no reader needs for positions is set to a pattern
- * that would show. */
+/* The fields of the table "Public Header Block" in their order. Fields that positions do not need have a pattern that
+ * would be noticed if a reader used it. */
 void put_header(bytes *file, const las *l);
 
-/* A record whose further fields are all ones, but for the flags. */
+/* A record. All bits of its other fields are ones, except the flags. */
 void put_record(bytes *file, const las *l, const int32_t point[3]);
 
 /* The whole file. */

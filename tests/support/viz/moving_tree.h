@@ -32,11 +32,10 @@ void moving_tree_step(moving_tree *m);
 /* A recorder of small frames for the tree. */
 octreel_recorder_def small_recorder(const moving_tree *m, const char *folder);
 
-/* Hand it over; the test fails, with the sentence, when that is refused. */
+/* Record a tick; the test fails with the error if the recorder refuses it. */
 void assert_recorded(octreel_recorder *recorder, const moving_tree *m);
 
-/* What changed since moving_edits_make() was called last, with more steps than it takes. A zeroed one begins with no
- * points. */
+/* The edits since the last moving_edits_make(), on purpose more than necessary. A zeroed structure has no points. */
 typedef struct moving_edits {
     octree_point before[MOVING_TREE_MOST];
     size_t before_count;
@@ -49,7 +48,7 @@ void moving_edits_make(moving_edits *e, const moving_tree *m);
 /* How a program hands its points to the recorder: its octree, a list, or changes. */
 typedef enum moving_tree_source { MOVING_TREE, MOVING_LIST, MOVING_CHANGES } moving_tree_source;
 
-/* Hand it over by its tree, by a list of its points, or by the edits. */
+/* Record a tick by handing over the tree, a list of its points, or the edits. */
 octreel_status hand_over(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source, moving_edits *e);
 
 /* Step and record this number of times. */

@@ -32,12 +32,12 @@ film_summary assert_filmed(const octree_session *session, const film_options *op
 /* A frame, decoded: the test fails unless it is whole, 8-bit indexed, of this size and of the theme's table. */
 image assert_whole_frame(const char *path, int width, int height);
 
-/* What a run that broke off may leave: whole frames of the small size, whole lines in ticks.jsonl but for the last
- * one, whole JSON in the other files, and no .part. */
+/* The test fails unless an interrupted run left only: complete frames of the small size, complete lines in ticks.jsonl
+ * except the last one, complete JSON in the other files, and no .part file. */
 void assert_nothing_half_written(const char *folder);
 
-/* Do something with each line of ticks.jsonl, which is zero-terminated without its newline; `visit` may be null.
- * Returns their number. */
+/* Call visit() for each line of ticks.jsonl, zero-terminated and without its newline; `visit` may be null. Returns the
+ * number of lines. */
 size_t for_each_line(const char *folder, void (*visit)(const char *line, size_t number, void *context), void *context);
 
 #endif

@@ -7,13 +7,13 @@
 
 #include "octree/game.h"
 
-/* Parse one JSON object; the test fails when it is none, or is followed by anything but blanks. Numbers are reals. */
+/* Parse one JSON object; the test fails if the text is anything else. Numbers become reals. */
 json_t *json_read(const char *text);
 
-/* The member of an object; the test fails when there is none. */
+/* The member of an object; the test fails if it is missing. */
 json_t *json_member(const json_t *object, const char *name);
 
-/* The members of an object are those named, no less and no more. `names` has blanks between them. */
+/* The test fails unless the object has exactly the members in `names`, which are separated by blanks. */
 void assert_members(const json_t *object, const char *names);
 
 /* A whole number. */
@@ -22,7 +22,8 @@ void assert_whole_number(const json_t *value, uint64_t expected);
 /* A digest, as files have it. */
 void assert_digest(const json_t *value, uint64_t expected);
 
-/* The line tells all of the tick, and what a count of the tree's nodes gives. Whether it names a frame is not asked. */
+/* The test fails unless the line has all facts of the tick, and the counts of the tree's nodes. The member "frame" is
+ * not checked. */
 void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree);
 
 #endif

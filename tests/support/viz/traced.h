@@ -6,10 +6,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Run octreel with these arguments, blanks between them, and stop it before each call with which its first thread
- * opens, writes, cuts, closes, renames, links or removes a file, once there is something of the name `since`. visit()
- * is told how many such calls there were before; where it returns false the program is killed there. Returns false
- * where the system does not let one process follow another. The test fails when the program fails. */
+/* Run octreel with these arguments, separated by blanks. Once a file named `since` exists, stop it before each call
+ * with which its first thread opens, writes, truncates, closes, renames, links or removes a file, and call visit() with
+ * the number of such calls so far. If visit() returns false, octreel is killed there. Returns false if the system does
+ * not allow tracing. The test fails if octreel fails. */
 bool trace_octreel(const char *arguments, const char *since, bool (*visit)(size_t call, void *context), void *context);
 
 #endif
