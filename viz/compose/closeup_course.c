@@ -2,7 +2,7 @@
 /* closeup_course.c - chooses the place and the magnification of the close-up.
  *
  * The problem: the close-up should show whatever happens in a tick, but a viewer must be able to follow it from frame
- * to frame, and a recorder does not know the ticks to come.
+ * to frame, and it may depend only on the ticks up to the present one.
  *
  * The subjects of a tick are boxes: the player, or the requested node, the answers, or the changes of the tick. The
  * first pass collects subjects that appear small in the view, and a second pass all others; a subject joins the group
@@ -26,9 +26,8 @@
 #define SMALL (32.0 / 720)     /* a subject that appears larger than this needs no close-up */
 #define WANTED (68.0 / 720)    /* the close-up enlarges the subject to about this size */
 #define STILL 0.4              /* in a tree alone nothing moves: up to this part of the close-up instead */
-#define SURROUNDED (8.0 / 720) /* neighbours are shown with surroundings of this size, or less if their leaf is small  \
-                                */
-#define CHANGED (31.0 / 720)   /* changes are shown with larger surroundings: those of other ticks are not known */
+#define SURROUNDED (8.0 / 720) /* surroundings of neighbours; less if their leaf is small */
+#define CHANGED (31.0 / 720)   /* surroundings of changes; the changes of other ticks are not known */
 #define LEAF_PART 0.5          /* of a leaf's half extent: enough to see the whole leaf in the close-up */
 #define MAX_MAGNIFICATION 1e6  /* the limit of --zoom */
 

@@ -42,8 +42,7 @@ enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_
 #define ROWS_AT_ONCE 4     /* the number of rows is a multiple of this, so that rows seldom move */
 #define MOST_DIGITS 999999 /* a larger number is rounded to three digits */
 
-/* Ids of panels. A node's panel has its address. Other panels have an id whose highest bit is one that no address has.
- */
+/* Ids of panels. A node's panel has its address. Other panels have a highest bit that no address has. */
 #define GROUND_ID UINT64_C(0)
 #define BAR_ID (UINT64_C(1) << 61)  /* plus depth << 32 plus column */
 #define PATH_ID (UINT64_C(1) << 62) /* plus depth; plus 32 for the dark ring between a node and its ring */
@@ -218,8 +217,7 @@ static void add_node(diagram *d, const diagram_node *node, double x, const doubl
     d->scene->tally.drawn++;
 }
 
-/* Draw the unfolded nodes and their lines. `on_path` selects the nodes on the path, which are drawn later and on top.
- */
+/* Draw the unfolded nodes and their lines. `on_path` selects the nodes on the path, which come last. */
 static void add_nodes(diagram *d, bool on_path)
 {
     anchor anchors[OCTREE_MAX_DEPTH + 1]; /* [d]: the current ancestor at depth d; parents come before their children */

@@ -25,8 +25,7 @@ static unsigned shift_of(view_layer layer)
     return layer == LAYER_VISIT_HEAT ? HEAT_VISITS_SHIFT : HEAT_POINTS_SHIFT;
 }
 
-/* Return the half size of a mark. It is at most half the leaf's size on screen, so that marks do not cover each other.
- */
+/* Return the half size of a mark: at most half the leaf's size on screen, so that marks do not cover each other. */
 static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
     const double most = camera_box_pixels(&s->camera, leaf) / (2 * s->unit);

@@ -38,8 +38,7 @@ static void add_number(scale_numbers *m, double part, double value)
     }
 }
 
-/* Mark every second power of two: low, 4 low, 16 low ... The last number gets a "+": it stands for all larger amounts.
- */
+/* Mark every second power of two: low, 4 low, 16 low ... The last number gets a "+" for all larger amounts. */
 static scale_numbers number_powers(const legend_scale *scale)
 {
     scale_numbers m = {.count = 0};

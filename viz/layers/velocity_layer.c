@@ -140,8 +140,8 @@ static size_t max_arrows(const view *v)
  * leaves out. */
 static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
 {
-    size_t passing[SIEVES] = {0}, all = 0; /* [i]: first the arrows for which sieve i is the finest that keeps them,
-                                              then all arrows that sieve i keeps */
+    /* [i]: at first the arrows for which sieve i is the finest that keeps them, then all arrows that sieve i keeps */
+    size_t passing[SIEVES] = {0}, all = 0;
     for (size_t i = 0; i < tick->mover_count; i++)
         if (has_arrow(a, &tick->movers[i]))
             passing[count_passed_sieves(tick->movers[i].id)]++;
@@ -164,8 +164,7 @@ static void add(scene *s, const layer_source *in, view_layer own)
                              velocity_ticks(in->game)};
     if (!view_shows(&s->view, own) || tick->mover_count == 0)
         return;
-    const uint64_t points =
-        s->tally.one_in - 1; /* the sieve of the scene's points: a point that is left out has no arrow */
+    const uint64_t points = s->tally.one_in - 1; /* the sieve of the scene's points: a dropped point has no arrow */
     const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
