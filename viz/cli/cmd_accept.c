@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_accept.c - octreel accept: new frames become the reference. */
+/* cmd_accept.c - octreel accept: makes new frames the reference. */
 #include "command.h"
 #include "accept.h"
 
@@ -23,31 +23,31 @@ static bool read_reason(const command_option *option, const char *text, void *in
 {
     return baseline_is_reason(text)
                ? read_text(option, text, into)
-               : refuse("--%s takes one line of text, without blanks around it, and \"%s\" is none", option->name,
-                        text);
+               : refuse("--%s takes one line of text without blanks at its ends, not \"%s\"", option->name, text);
 }
 
 static const command_option options[] = {
     {"from", "FILE",
-     "the frames that FILE names, one a line: what was ticked in the page of octreel diff -o, which saves it as "
+     "accept only the frames that FILE lists, one on each line; the page of octreel diff -o saves ticked frames as "
      "accept.txt; - is standard input",
      .read = read_name, OPTION_VALUE(arguments, from)},
-    {.help = "A baseline is a file of digests that says why: text for git, a line for each digest of a frame and one "
-             "for each reason; octreel help baseline tells more."},
-    {"reason", "TEXT", "why, in one line; makes REFERENCE a baseline where there is nothing", .read = read_reason,
-     OPTION_VALUE(arguments, reason)},
-    {"date", "DATE", "when, as YYYY-MM-DD (default: today)", .read = read_date, OPTION_VALUE(arguments, date)},
-    {"variant", NULL, "what was accepted before stays so, too: any of a frame's variants passes", .read = read_flag,
-     OPTION_VALUE(arguments, variant)},
+    {.help = "A baseline is a text file for git that holds digests of frames, and the date and reason of each "
+             "acceptance; octreel help baseline describes it."},
+    {"reason", "TEXT", "why the frames are accepted, in one line; creates a baseline if REFERENCE does not exist",
+     .read = read_reason, OPTION_VALUE(arguments, reason)},
+    {"date", "DATE", "the date of acceptance, as YYYY-MM-DD (default: today)", .read = read_date,
+     OPTION_VALUE(arguments, date)},
+    {"variant", NULL, "keep earlier digests of a frame, too: a frame passes if it matches any variant",
+     .read = read_flag, OPTION_VALUE(arguments, variant)},
     {"store", "DIR",
-     "put the pictures there, each under the digest of its pixels, for octreel diff --store to show what was expected; "
-     "no verdict depends on it",
+     "also store the pictures in DIR, each under its digest, so that octreel diff --store can show the expected "
+     "picture; no verdict depends on it",
      .read = read_folder, OPTION_VALUE(arguments, store)},
-    JSON_OPTION(arguments, json, "print what was done as JSON, with all frames that it was done to"),
+    JSON_OPTION(arguments, json, "print the changes as JSON, with all changed frames"),
     {0},
 };
 
-/* By the clock and the time zone of who accepts. */
+/* Today's date in the local time zone. */
 static const char *today(char text[11])
 {
     const time_t now = time(NULL);
@@ -86,9 +86,9 @@ static int run(int argc, char **argv)
     if (status != COMMAND_GO_ON)
         return status;
     if (getenv("CI"))
-        return print_error("nothing is accepted where CI is set in the environment: references change by hand alone");
+        return print_error("refusing to update references because CI is set; run accept locally and commit the result");
     if (a.date && !a.reason)
-        return print_error("--date is that of a reason: give --reason, too");
+        return print_error("--date needs --reason TEXT");
     if (a.from && file_is_standard(a.from) && file_is_standard(argv[optind + 1]))
         return print_error("standard input can be read once, and \"-\" names it twice");
     return accept_listed(&a, argv + optind, argc - optind);
@@ -98,26 +98,26 @@ const command command_accept = {
     .name = "accept",
     .run = run,
     .options = options,
-    .line = "take over new frames as the reference",
+    .line = "make new frames the reference",
     .usage = "REFERENCE NEW [FRAME ...] [OPTION ...]",
-    .about = "Take over new frames as the reference: all of them, or those that are named. NEW is a PNG, a folder of "
-             "PNGs or a recording, or -, a PNG from standard input; REFERENCE is the like, or a file of digests, and "
-             "is made where there is nothing. References with the same pixels stay as they are; those that NEW has no "
-             "frame for are removed, where all or they are asked for. What was there before is told as octreel diff "
-             "tells it. Look at the pictures first.\n",
+    .about = "Make new frames the reference: all of them, or only the named ones. NEW is a PNG, a folder of PNGs, a "
+             "recording, or - for a PNG from standard input. REFERENCE is a PNG, a folder, a recording or a baseline; "
+             "it is created if it does not exist. References with equal pixels stay unchanged. References without a "
+             "frame in NEW are removed if they are named or if all frames are accepted. The changes are printed as by "
+             "octreel diff. Look at the pictures before you accept them.\n",
     .more =
-        "Of several who accept into one reference at once each sees what the others did, and where a disk is full "
-        "nothing is accepted. Nor is a recording that is still being filmed, is damaged or was not done: references "
-        "of the frames that it lacks would go. Where the environment has CI set, nothing is either: a test that "
-        "accepts what it should test proves nothing.\n",
+        "Several accept commands may run on one reference at the same time: they wait for each other. If the disk is "
+        "full, the reference stays unchanged. Recordings that are still being recorded, damaged or incomplete are "
+        "refused, since the references of their missing frames would be removed. If the environment variable CI is "
+        "set, accept does nothing and fails: a test that accepts its own results proves nothing.\n",
     .examples =
         "octreel accept golden frames\n"
         "octreel accept golden frames frame_000041.png frame_000042.png\n"
         "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
-        "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
-    .environment = "  CI  when it is set, nothing is accepted\n",
+        "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds differently\"\n",
+    .environment = "  CI  if it is set, accept fails and changes nothing\n",
     .least = 2,
     .most = INT_MAX,
-    .takes = "a reference and what is new",
+    .takes = "a reference and new frames",
     .inputs = {FILE_KIND(MISSING) | FILE_KIND(BASELINE) | SIDE, FILE_KIND(BASELINE) | SIDE},
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_diff.c - octreel diff: two pictures, folders or recordings, compared frame by frame. */
+/* cmd_diff.c - octreel diff: compares two pictures, folders or recordings frame by frame. */
 #include "command.h"
 #include "contact_sheet.h"
 #include "explain.h"
@@ -17,13 +17,13 @@
 
 typedef struct arguments {
     diff_options options;
-    unsigned layers;                       /* left out: bits 1 << view_layer */
+    unsigned layers;                       /* the ignored layers: bits 1 << view_layer */
     image_rectangle *ignored;              /* owned */
-    const char *folder, *junit, *markdown; /* null: not asked for */
-    const char *store;                     /* null: there is none */
-    uint64_t causes;                       /* how many are explained */
+    const char *folder, *junit, *markdown; /* null: the option was not given */
+    const char *store;                     /* null: the option was not given */
+    uint64_t causes;                       /* the number of frames and ticks that are explained */
     bool causes_said;
-    size_t lines; /* how many groups are listed: no fewer than are asked for by --causes */
+    size_t lines; /* the number of groups that are listed: at least as many as --causes says */
     bool json, each, annotate;
 } arguments;
 
@@ -50,7 +50,7 @@ static bool read_rectangle(const command_option *option, const char *text, void 
                       option->name, INT32_MAX, text);
     image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
     if (!grown)
-        return refuse("there is no memory for what is ignored");
+        return refuse("out of memory for the rectangles of --%s", option->name);
     grown[t->ignored_count++] = (image_rectangle){(int)values[0], (int)values[1], (int)values[2], (int)values[3]};
     t->ignored = a->ignored = grown;
     return true;
@@ -63,8 +63,9 @@ static bool refuse_layer(const command_option *option, const char *bad)
     hint h = hint_for(bad, length);
     for (int i = 0; view_layer_at(i); i++)
         hint_offer(&h, view_layer_at(i));
-    return refuse("--%s takes names of layers with commas between, and \"%.*s\" is none%s%s record --help lists them",
-                  option->name, (int)length, bad, hint_text(&h, "", meant), hint_program_name());
+    return refuse(
+        "--%s takes names of layers separated by commas, and \"%.*s\" is not a layer%s%s record --help lists them",
+        option->name, (int)length, bad, hint_text(&h, "", meant), hint_program_name());
 }
 
 static bool read_layers(const command_option *option, const char *text, void *into)
@@ -72,7 +73,7 @@ static bool read_layers(const command_option *option, const char *text, void *in
     arguments *a = into;
     const char *bad;
     if (a->options.mask)
-        return refuse("--%s is given once, with commas between the names of several layers", option->name);
+        return refuse("--%s can be given once; separate the names of several layers by commas", option->name);
     if (!view_layers_parse(text, &a->layers, &bad))
         return refuse_layer(option, bad);
     a->options.mask = ignore_layers;
@@ -90,75 +91,78 @@ static bool read_causes(const command_option *option, const char *text, void *in
 }
 
 static const command_option options[] = {
-    {.help = "Forgiven is only what is asked for, and every verdict says so:"},
-    {"max-pixels", "N", "up to N unlike pixels a frame, after all below is forgiven", .read = read_whole,
-     OPTION_VALUE(arguments, options.tolerance.max_pixels), .max = UINT32_MAX},
+    {.help = "Without these options frames must be equal. Each option tolerates some differences, and every verdict "
+             "prints what was tolerated:"},
+    {"max-pixels", "N", "tolerate up to N differing pixels in a frame, beyond those of the options below",
+     .read = read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), .max = UINT32_MAX},
     {"max-delta", "D",
-     "colours no farther apart than D in the unit YIQ (Kotsarenko and Ramos 2010), from 0, the same, to 1: "
-     "pixelmatch's and odiff's threshold, which is 0.1 there by default",
+     "tolerate colours that differ by at most D, from 0 (equal) to 1, in YIQ units (Kotsarenko and Ramos 2010), like "
+     "the threshold of pixelmatch and odiff, which is 0.1 there by default",
      .read = read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta)},
-    {"antialias", NULL, "pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
+    {"antialias", NULL, "tolerate pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
      OPTION_VALUE(arguments, options.tolerance.antialias)},
-    {"ignore", "X,Y,W,H", "a rectangle of pixels; may be given again", .read = read_rectangle},
+    {"ignore", "X,Y,W,H", "ignore a rectangle of pixels; can be given several times", .read = read_rectangle},
     {"ignore-layer", "LIST",
-     "what these layers show, in recordings, where it is on top in either frame, as in nodes,points; octreel record "
-     "--help lists them",
+     "ignore the pixels of recordings where one of these layers is on top in either frame, as in nodes,points; octreel "
+     "record --help lists the layers",
      .read = read_layers, .names = view_layer_at},
-    {.help = "Of two recordings it says why they differ: what is unlike in their sessions and views, what follows from "
-             "it in each tick, and what is drawn at the pixels that differ. Other frames may tell that rendering alone "
-             "differs. The verdict is about the frames, whatever their sessions are."},
+    {.help = "If both sides are recordings, diff explains why they differ: the differences between their sessions and "
+             "views, the consequences in each tick, and the elements that are drawn at the differing pixels. For other "
+             "frames of octreel it can tell whether only rendering differs. The verdict depends on the frames alone."},
     {"causes", "N",
-     "explain the first N frames and ticks that differ, and list as many findings, at least 10 (default 10; a page "
-     "explains 50), \"all\", or 0 for none",
+     "explain the first N frames and ticks that differ, and list at least 10 findings, or N if it is larger (default "
+     "10; 50 with --output); \"all\" explains all, 0 none",
      .read = read_causes, .size = sizeof(uint64_t), .max = UINT32_MAX},
     {"each", NULL,
-     "a finding for each frame. Else frames that differ for one cause are one, told and shown once, by the first of "
-     "them; where no cause is known, those in which the same pixels differ by as much",
+     "report each frame as a finding of its own. By default frames with the same cause are one finding, shown by the "
+     "first of them; if no cause is known, frames in which the same pixels differ by the same amount are",
      .read = read_flag, OPTION_VALUE(arguments, each)},
-    {.help = "What is read and written:"},
+    {.help = "Input and output:"},
     {"store", "DIR",
-     "of a file of digests: pictures that octreel accept --store has put there show what was expected; no verdict "
-     "depends on them",
+     "for a baseline: show the expected pictures that octreel accept --store has stored in DIR; no verdict depends on "
+     "them",
      .read = read_name, OPTION_VALUE(arguments, store)},
-    {"background", "RRGGBB", "what transparent pixels are laid over (default ffffff, white)", .read = read_color,
+    {"background", "RRGGBB", "the colour behind transparent pixels (default ffffff, white)", .read = read_color,
      OPTION_VALUE(arguments, options.background)},
     {"output", "DIR",
-     "leave evidence: report.html, a page that holds all it shows, and in which findings are ticked for octreel accept "
-     "--from; of the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png (what "
-     "counts glows, be it by one level; what is forgiven is blue); and contact.png, all of them small",
+     "write evidence into DIR: report.html, a self-contained page in which findings can be ticked for octreel accept "
+     "--from; for the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png "
+     "(differing pixels are bright, tolerated ones blue); and contact.png, an overview of all pictures",
      .read = read_folder, OPTION_VALUE(arguments, folder)},
-    JSON_OPTION(arguments, json, "print JSON, as share/octreel/diff.schema.json says"),
-    {"junit", "FILE", "write JUnit's XML, a test case for each frame, as GitLab, Jenkins and GitHub's actions read it",
+    JSON_OPTION(arguments, json, "print JSON; share/octreel/diff.schema.json describes it"),
+    {"junit", "FILE", "write JUnit XML for GitLab, Jenkins and GitHub actions, with a test case for each frame",
      .read = read_file, OPTION_VALUE(arguments, junit)},
     {"markdown", "FILE",
-     "write a summary for a CI job's page: the verdict and a table of what differs (FILE may be -, standard output, "
-     "for one of the two, unless --json goes there)",
+     "write a Markdown summary for a CI job: the verdict and a table of the differences. FILE can be -, standard "
+     "output, "
+     "for either --junit or --markdown, but not together with --json",
      .read = read_file, OPTION_VALUE(arguments, markdown)},
     {"annotate", NULL,
-     "print GitHub's commands that show what differs beside a change, to standard error; so it is where the "
-     "environment has GITHUB_ACTIONS set",
+     "print GitHub workflow commands to standard error, which annotate a change with the differences; default if the "
+     "environment variable GITHUB_ACTIONS is set",
      .read = read_flag, OPTION_VALUE(arguments, annotate)},
     {0},
 };
 
-/* The first sentence of what cannot be read, and how many more there are; or why nobody can say why. */
+/* Print the error of the first unreadable frame and the number of others, or the error that prevented an explanation.
+ */
 static int print_first_error(const diff_result *result, const explanation *why)
 {
     size_t i = 0;
     if (result->found[FOUND_UNREADABLE] == 0)
-        return print_error("%s; --causes 0 does not ask why", why->trouble);
+        return print_error("%s; --causes 0 skips the explanation", why->trouble);
     while (result->pairs[i].finding != FOUND_UNREADABLE)
         i++;
-    const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "there is no memory";
+    const char *sentence = result->pairs[i].trouble ? result->pairs[i].trouble : "out of memory";
     const size_t more = result->found[FOUND_UNREADABLE] - 1;
     return more ? print_error("%s (and %zu more)", sentence, more) : print_error("%s", sentence);
 }
 
-/* ---- What is said, and where --------------------------------------------------------------------------------- */
+/* ---- Reports ------------------------------------------------------------------------------------------------- */
 
 typedef bool reporter(FILE *out, const diff_report *report);
 
-/* The files that it writes; the folder is one by its page. */
+/* The number of output files. The folder of --output counts as one, its page. */
 enum { OUTPUTS = 3 };
 
 static void list_outputs(const arguments *a, const char *page, output_file outputs[OUTPUTS])
@@ -184,7 +188,7 @@ static bool write_report(const char *path, reporter *write, const diff_report *r
         return false;
     if (write(file.stream, report))
         return file_writer_close(&file, error);
-    error_set(error, "%s: there is no memory to write it", file_output_title(path));
+    error_set(error, "%s: out of memory", file_output_title(path));
     return file_writer_abandon(&file);
 }
 
@@ -196,7 +200,7 @@ static void print_report(const arguments *a, const diff_report *report)
         diff_report_json(stdout, report);
     else if (!is_standard_output_taken(outputs, OUTPUTS) &&
              (report->result->count != 1 ||
-              report->result->found[FOUND_UNREADABLE] == 0)) /* else standard error has all there is to say */
+              report->result->found[FOUND_UNREADABLE] == 0)) /* else standard error has the only message */
         diff_report_text(stdout, report);
 }
 
@@ -225,7 +229,7 @@ static int report(const arguments *a, diff_report *all)
     return verdict == DIFF_TROUBLE ? print_first_error(all->result, all->why) : statuses[verdict];
 }
 
-/* What is written may not take the place of what is compared, nor a report that of another. */
+/* Check that no output overwrites a compared file or another output. */
 static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
@@ -238,7 +242,7 @@ static bool check_files(const arguments *a, const diff_side sides[2], octreel_er
     return ok;
 }
 
-/* What cannot be compared leaves no evidence. */
+/* Check everything before the folder of evidence is changed. */
 static bool check(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     return diff_check(&sides[0], &sides[1], &a->options, error) && check_files(a, sides, error) &&
@@ -288,24 +292,25 @@ const command command_diff = {
     .name = "diff",
     .run = run,
     .options = options,
-    .line = "compare two pictures, folders of them or recordings, exactly or within a tolerance",
+    .line = "compare two pictures, folders of pictures or recordings, exactly or within a tolerance",
     .usage = "REFERENCE COMPARED [OPTION ...]",
-    .about = "Compare pictures, exactly unless told otherwise. Each side is a PNG, a folder of PNGs (those directly in "
-             "it), a recording, or a file of digests, made by octreel digest or octreel accept; - is a PNG or digests "
-             "from standard input. Frames belong together by their names; a frame without a reference is a difference, "
-             "and so is a reference without a frame. Where a baseline accepts several digests of a frame, any of them "
-             "passes. Of recordings without frames the ticks are compared.\n",
-    .statuses = {"the same, or all forgiven", "different", "trouble, as when a picture cannot be read"},
+    .about = "Compare pictures, by default exactly. Each side is a PNG, a folder of PNGs (without its subfolders), a "
+             "recording, or a baseline made by octreel accept; - is a PNG or a baseline from standard input. Frames "
+             "are paired by name; a frame without a reference is a difference, and so is a reference without a frame. "
+             "If a baseline holds several digests of a frame, the frame passes if it matches any of them. Recordings "
+             "without frames are compared by their ticks.\n",
+    .statuses = {"the same, or within the tolerance", "different", "trouble, as when a picture cannot be read"},
     .examples = "octreel diff before.png after.png\n"
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
                 "octreel diff baseline.txt frames --store pictures -o evidence\n",
-    .environment = "  GITHUB_ACTIONS  when it is set, GitHub's commands are printed, as by --annotate\n",
-    .files = "  DIR/report.html  the page, which holds all that it shows\n"
-             "  DIR/contact.png  the pictures of all findings, small\n"
-             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  of the first frame of a finding\n",
+    .environment = "  GITHUB_ACTIONS  if it is set, workflow commands are printed, as by --annotate\n",
+    .files =
+        "  DIR/report.html  the self-contained page\n"
+        "  DIR/contact.png  an overview of the pictures of all findings\n"
+        "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  for the first frame of a finding\n",
     .least = 2,
     .most = 2,
-    .takes = "two sides, each a PNG, a folder of PNGs, a recording or a file of digests",
+    .takes = "two sides, each a PNG, a folder of PNGs, a recording or a baseline",
     .inputs = {SIDE, SIDE},
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accept.c - references are compared with new frames, and replaced by them. */
+/* accept.c - compares references with new frames, replaces them, and reports the changes. */
 #include "accepting.h"
 #include "file_kind.h"
 #include "png_read.h"
@@ -13,9 +13,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- What is to be done ------------------------------------------------------------------------------------- */
+/* ---- Deciding ----------------------------------------------------------------------------------------------- */
 
-/* Of what its name says it is: no folder "x.digests", and no picture "golden". */
+/* Check that the name of a new reference fits its kind: no folder "x.json", and no picture "golden". */
 static bool check_new(const accept_options *o, diff_kind kind, octreel_error *error)
 {
     const name_kind name = name_kind_of(o->reference);
@@ -58,9 +58,11 @@ static bool open_sides(accepting *a, octreel_error *error)
     if (!diff_side_open(&a->reference, o->reference, error))
         return false;
     if (a->reference.kind == DIFF_RECORDING && a->frames.kind == DIFF_FOLDER)
-        return error_set(error, "%s is a recording, %s is none: its ticks would be those of other frames", o->reference,
-                         o->frames);
-    /* An empty folder is to become one. */
+        return error_set(error,
+                         "%s is a recording and %s is not: its ticks would not match the new frames; record the "
+                         "session again and accept that",
+                         o->reference, o->frames);
+    /* An empty folder becomes a recording if a recording is accepted into it. */
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
         a->reference = (diff_side){
             .path = o->reference, .source = o->reference, .kind = DIFF_RECORDING, .no_frames = a->frames.no_frames};
@@ -84,8 +86,7 @@ static bool check_names(const accepting *a, octreel_error *error)
             continue;
         if (listed->line)
             snprintf(line, sizeof line, "line %zu of the list: ", listed->line);
-        return error_set(error, "%sthere is no frame %s, neither in %s nor in %s", line, listed->name, a->frames.path,
-                         a->reference.path);
+        return error_set(error, "%sno frame %s in %s or in %s", line, listed->name, a->frames.path, a->reference.path);
     }
     return true;
 }
@@ -105,7 +106,7 @@ static action action_for(const diff_pair *pair)
     }
 }
 
-/* A frame that cannot be read becomes no reference; a reference that cannot be read may be replaced. */
+/* Check that a new frame can be read, and compute its digest. An unreadable reference may be replaced. */
 static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
     pair->about[1].kind = IMAGE_DIGEST_NEWEST;
@@ -129,13 +130,15 @@ static bool decide(accepting *a, octreel_error *error)
     return true;
 }
 
-/* If no reference has a frame, the wrong folder was given: do not delete its pictures. */
+/* Refuse to remove all references: if none has a frame, the wrong folder was probably given. */
 static bool check_overlap(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;
     return references == 0 || a->options->names->count > 0 || a->counts[REMOVED] < references ||
-           error_set(error, "%s: all its references (%zu) would go, for %s has none of their names", a->reference.path,
-                     references, a->frames.path);
+           error_set(
+               error,
+               "%s: refusing to remove all %zu references: %s has no frame of the same name; is it the wrong folder?",
+               a->reference.path, references, a->frames.path);
 }
 
 static bool compare(accepting *a, octreel_error *error)
@@ -149,11 +152,11 @@ static bool compare(accepting *a, octreel_error *error)
            decide(a, error) && check_overlap(a, error);
 }
 
-/* ---- Said ---------------------------------------------------------------------------------------------------- */
+/* ---- Reporting ----------------------------------------------------------------------------------------------- */
 
 static const char *const action_words[] = {[CHANGED] = "changed", [ADDED] = "new", [REMOVED] = "removed"};
 
-static void say(const accepting *a, const diff_pair *pair, action what)
+static void print_action(const accepting *a, const diff_pair *pair, action what)
 {
     fprintf(a->out, "  %-8s ", action_words[what]);
     if (what == CHANGED)
@@ -165,27 +168,27 @@ static void say(const accepting *a, const diff_pair *pair, action what)
     fputc('\n', a->out);
 }
 
-static void tell(const accepting *a)
+static void print_changes(const accepting *a)
 {
     size_t said = 0;
     if (a->result.by_ticks) {
         write_escaped(a->out, a->reference.path, escape_nothing);
-        fprintf(a->out, ": the ticks are %s\n", a->result.verdict == DIFF_SAME ? "those of before" : "new");
+        fprintf(a->out, ": the ticks are %s\n", a->result.verdict == DIFF_SAME ? "unchanged" : "new");
         return;
     }
     for (size_t i = 0; i < a->result.count; i++)
         if (a->actions[i] != KEPT && said++ < LIST_LINES)
-            say(a, &a->result.pairs[i], a->actions[i]);
+            print_action(a, &a->result.pairs[i], a->actions[i]);
     print_remaining_count(a->out, said, LIST_LINES, "");
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
     write_escaped(a->out, a->reference.path, escape_nothing);
     fprintf(a->out, ": %zu before, %zu after: %zu changed, %zu new, %zu removed\n", before, after, a->counts[CHANGED],
             a->counts[ADDED], a->counts[REMOVED]);
     if (a->reference.kind == DIFF_RECORDING && a->options->names->count > 0 && said > 0)
-        fprintf(a->out, "Its ticks are still those of before; to take them over too, accept all frames.\n");
+        fprintf(a->out, "ticks.jsonl was not changed; accept all frames to replace it too.\n");
 }
 
-static void tell_frames_as_json(const accepting *a, json_writer *w)
+static void write_frames_json(const accepting *a, json_writer *w)
 {
     json_member_integer(w, "before", a->reference.count);
     json_member_integer(w, "after", a->reference.count + a->counts[ADDED] - a->counts[REMOVED]);
@@ -203,7 +206,7 @@ static void tell_frames_as_json(const accepting *a, json_writer *w)
     json_write_end_array(w);
 }
 
-static void tell_as_json(const accepting *a)
+static void write_changes_json(const accepting *a)
 {
     json_writer writer = {.out = a->out}, *w = &writer;
     json_write_begin_object(w);
@@ -211,7 +214,7 @@ static void tell_as_json(const accepting *a)
     if (a->result.by_ticks)
         json_member_text(w, "ticks", a->result.verdict == DIFF_SAME ? "same" : "new");
     else
-        tell_frames_as_json(a, w);
+        write_frames_json(a, w);
     json_write_end_object(w);
     json_write_end_line(w);
 }
@@ -224,7 +227,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
                     (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
                     (a.reference.kind == DIFF_BASELINE ? accept_digests : accept_pictures)(&a, error);
     if (ok && out)
-        (options->json ? tell_as_json : tell)(&a);
+        (options->json ? write_changes_json : print_changes)(&a);
     free(a.actions);
     diff_release(&a.result);
     diff_side_release(&a.reference);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accept_digests.c - accepts frames into a baseline: stores their pictures, if asked to, and writes their digests. */
+/* accept_digests.c - accepts frames into a baseline: writes their digests and, with --store, stores their pictures. */
 #include "accepting.h"
 #include "file.h"
 #include "picture_store.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accept_pictures.c - new frames take the places of those of a reference: none of them, or all. */
+/* accept_pictures.c - replaces the pictures of a reference: all of them, or none if an error occurs. */
 #include "accepting.h"
 #include "array.h"
 #include "file.h"
@@ -9,11 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Files that take their places together ------------------------------------------------------------------- */
+/* ---- A set of files that is replaced together ---------------------------------------------------------------- */
 
 typedef struct set_file {
-    file_writer copy; /* is finished, and waits for its place */
-    char *path;       /* of that; owned */
+    file_writer copy; /* the complete copy, NAME.part, which is not renamed yet */
+    char *path;       /* its final name; owned */
 } set_file;
 
 typedef struct file_set {
@@ -21,7 +21,7 @@ typedef struct file_set {
     size_t count, room;
 } file_set;
 
-/* Copy a file to beside its place. The path becomes the set's; null: there was no memory for it. */
+/* Copy a file to NAME.part beside its final path. The set takes ownership of `path`; null: out of memory. */
 static bool set_aside(file_set *set, const char *from, char *path, octreel_error *error)
 {
     set_file *grown = path ? array_reserve(set->files, set->count + 1, &set->room, sizeof *grown) : NULL;
@@ -48,7 +48,7 @@ static bool put_in_place(file_set *set, octreel_error *error)
     return true;
 }
 
-/* What has no place yet is removed. */
+/* Remove the copies that were not renamed. */
 static void release(file_set *set)
 {
     for (size_t i = 0; i < set->count; i++) {
@@ -58,7 +58,7 @@ static void release(file_set *set)
     free(set->files);
 }
 
-/* ---- What they are ------------------------------------------------------------------------------------------- */
+/* ---- The files ----------------------------------------------------------------------------------------------- */
 
 static char *place_of(const accepting *a, const diff_pair *pair)
 {
@@ -91,7 +91,8 @@ static bool copy_fact(const accepting *a, const char *name, file_set *set, octre
     return ok;
 }
 
-/* The other files of a recording describe its frames, and frames of the same pixels may name another session. */
+/* Add the other files of a recording, which describe its frames, and the frames with equal pixels, since their text
+ * chunks may name another session. */
 static bool write_facts(const accepting *a, file_set *set, octreel_error *error)
 {
     bool ok = true;
@@ -103,7 +104,7 @@ static bool write_facts(const accepting *a, file_set *set, octreel_error *error)
     return ok;
 }
 
-/* ---- Done ---------------------------------------------------------------------------------------------------- */
+/* ---- Replacing ----------------------------------------------------------------------------------------------- */
 
 static bool remove_gone(const accepting *a, octreel_error *error)
 {

@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* accept_whole.c - what is accepted is a recording that is done, and has all of its frames. */
+/* accept_whole.c - checks that a recording is complete before it is accepted.
+ *
+ * The problem: accepting a whole recording removes references without a frame. A recording that is still being written,
+ * was interrupted or lost a file would silently remove references that are still valid.
+ *
+ * The checks: no process holds the lock of ticks.jsonl (or of a chunk's ticks-*.jsonl); session.json and ticks.jsonl
+ * exist; the session, read from session.json, says which ticks there are, and every interval-th of them must have its
+ * frame, except in gaps; and ticks.jsonl has one line for each tick. The content of frames is not checked here, since
+ * the comparison reads it anyway. Cost: one file lookup for each frame and one pass over ticks.jsonl.
+ */
 #include "accepting.h"
 #include "file.h"
 #include "frame_file.h"
@@ -14,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frames that come while others are taken over would be missing. A chunk has a log of its own. */
+/* Frames written during the acceptance would be missed. A chunk of a recording has its own log of ticks. */
 bool accept_check_ended(const diff_side *side, octreel_error *error)
 {
     DIR *entries = side->kind == DIFF_RECORDING ? opendir(side->path) : NULL;
@@ -25,7 +34,8 @@ bool accept_check_ended(const diff_side *side, octreel_error *error)
             continue;
         char *path = path_join(side->path, name);
         ok = path ? !file_is_locked(path) ||
-                        error_set(error, "%s: is still being filmed: accept it when it is whole", side->path)
+                        error_set(error, "%s: is still being recorded; accept it when the recording has ended",
+                                  side->path)
                   : error_no_memory(error);
         free(path);
     }
@@ -42,8 +52,7 @@ static bool refuse_damaged(const char *folder, octreel_error *error, const char 
     vsnprintf(lack, sizeof lack, format, arguments);
     va_end(arguments);
     return error_set(
-        error,
-        "%s: %s, and a recording that is damaged or was not done is not accepted; %s record --resume completes it",
+        error, "%s: %s; refusing to accept a damaged or incomplete recording: complete it with %s record --resume",
         folder, lack, hint_program_name());
 }
 
@@ -86,7 +95,7 @@ static bool check_frames(const char *folder, const octree_session *session, uint
     return true;
 }
 
-/* The files that tell what else there is to be. */
+/* Check for the files that say which frames there must be. */
 static bool check_facts(const char *folder, octreel_error *error)
 {
     static const char *const names[] = {"session.json", "ticks.jsonl"};

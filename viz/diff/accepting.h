@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* accepting.h - what the files of accept.c share: both sides while the new one is taken over. */
+/* accepting.h - the state of an accept command, shared by the accept*.c files. */
 #ifndef DIFF_ACCEPTING_H
 #define DIFF_ACCEPTING_H
 
@@ -19,8 +19,8 @@ typedef struct accepting {
     FILE *out;
 } accepting;
 
-/* Whether nobody is filming a recording; and whether it has all that its session makes: the frames that it lacks would
- * be taken for frames that are gone. What is no recording is fine. */
+/* Check that a recording is not being written, and that it is complete: a missing frame would remove its reference.
+ * Sides that are no recording pass. Return false with an error. */
 bool accept_check_ended(const diff_side *side, octreel_error *error);
 bool accept_check_whole(const diff_side *side, octreel_error *error);
 
@@ -30,7 +30,7 @@ bool accept_check_words(const accepting *a, octreel_error *error);
 /* Put the pictures into the store, if there is one, and write the baseline. */
 bool accept_digests(accepting *a, octreel_error *error);
 
-/* Put the pictures, and of a recording that is accepted whole its other files, in place of those of the reference. */
+/* Replace the pictures of the reference and, if a whole recording is accepted, its other files. */
 bool accept_pictures(accepting *a, octreel_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* diff.c - frames are paired by name, and the pairs compared on all cores. */
+/* diff.c - pairs the frames of two sides by name and compares the pairs on all cores. */
 #include "diff.h"
 #include "file.h"
 #include "parallel.h"
@@ -72,7 +72,7 @@ void pair_tolerance_release(image_tolerance *tolerance)
     free((void *)tolerance->ignored_mask);
 }
 
-/* ---- Which frame belongs to which --------------------------------------------------------------------------- */
+/* ---- Pairing ------------------------------------------------------------------------------------------------ */
 
 static bool is_exact(const image_tolerance *tolerance)
 {
@@ -91,7 +91,7 @@ static bool is_one(const diff_side *side)
     return side->kind == DIFF_PICTURE || (side->kind == DIFF_BASELINE && side->count <= 1);
 }
 
-/* One picture is compared with one picture. */
+/* Whether one picture is compared with one picture or with a baseline of one. */
 static bool is_single(const diff_side *a, const diff_side *b)
 {
     return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && is_one(a) && is_one(b);
@@ -126,7 +126,8 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     return true;
 }
 
-/* Two single pictures are a pair whatever their names. */
+/* The order of the next frames of both sides, as strcmp() returns it. Two single pictures are a pair whatever their
+ * names are. */
 static int order_of(const diff_side *a, size_t i, const diff_side *b, size_t j)
 {
     if (i == a->count || j == b->count)
@@ -151,13 +152,13 @@ static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *resu
 
 /* ---- One pair ------------------------------------------------------------------------------------------------- */
 
-/* Whether both are the same file by their bytes, and a whole PNG: then the pair has its finding. */
+/* Set the finding if both files have the same bytes and are a PNG; return whether it is set. */
 static bool compare_bytes(diff_pair *pair)
 {
     frame_digest about = {0};
     if (!pair->a->path || !pair->b->path || !have_same_bytes(pair->a->path, pair->b->path) ||
         !image_png_size(pair->a->path, &about.width, &about.height))
-        return false; /* equal, and cut short: let the PNG reader say what is wrong */
+        return false; /* equal but damaged files: the PNG reader reports what is wrong */
     pair->about[0] = pair->about[1] = about;
     pair->finding = FOUND_SAME_BYTES;
     return true;
@@ -168,19 +169,19 @@ static void find_unreadable(diff_pair *pair, const octreel_error *error)
     octreel_error ignored;
     pair->unserved = !check_system_resources(&ignored);
     pair->finding = FOUND_UNREADABLE;
-    pair->trouble = strdup(error->text); /* null without memory: reports say so */
+    pair->trouble = strdup(error->text); /* if this fails, reports print "out of memory" */
 }
 
 /* ---- Pictures, a band of rows at a time ---------------------------------------------------------------------- */
 
-/* A picture while it is read in bands of rows. */
+/* A picture that is read in bands of rows. */
 typedef struct reading {
-    image_source *source; /* null: it cannot be read */
-    int rows;             /* of a band */
+    image_source *source; /* null: the picture cannot be read */
+    int rows;             /* the height of a band */
     octreel_error error;
 } reading;
 
-/* Judging anti-aliasing looks at the rows above and below, so the picture is then held whole. */
+/* Recognizing anti-aliasing needs the rows above and below, so the whole picture is then one band. */
 static void open_reading(reading *r, const char *path, const diff_options *options)
 {
     r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
@@ -200,8 +201,8 @@ static bool next_rows(reading *r, image *band)
     return r->source && image_source_next(r->source, r->rows, band);
 }
 
-/* Both are read to their ends even when they are not compared, since an error may come late. An error of the first is
- * the one that is reported, so it ends the loop. */
+/* Compare two pictures. Both are read to the end even if their sizes differ, since an error may come late. An error in
+ * the first picture ends the loop: it is the one that is reported. */
 static image_difference compare_rows(reading of[2], const image_tolerance *tolerance)
 {
     const bool opened = of[0].source && of[1].source;
@@ -261,14 +262,14 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 
 /* ---- Digests ------------------------------------------------------------------------------------------------- */
 
-/* What is known of a frame by one kind of digest: that of its picture, or all that its file of digests has. */
+/* The digests of a frame: the digest of its picture, or all variants of a baseline. */
 typedef struct known_digests {
-    frame_digest own; /* the picture's, or that which was accepted last */
+    frame_digest own; /* the digest of the picture, or the newest variant of the kind */
     const frame_digest *list;
     size_t count;
 } known_digests;
 
-/* False with an error, or without one where no digest is of this kind. */
+/* Collect the digests of a frame. Return false with an error, or without one if no digest is of this kind. */
 static bool know_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
                          octreel_error *error)
 {
@@ -287,7 +288,8 @@ static bool know_digests(const diff_frame *frame, image_digest_kind kind, image_
     return k->own.kind == kind;
 }
 
-/* Equal are pictures of one size and one digest. */
+/* Compare two frames by digests of one kind. They are equal if any two digests and their sizes are equal. Return false
+ * if a frame has no digest of this kind. */
 static bool compare_kind(diff_pair *pair, image_digest_kind kind, image_color background, octreel_error *error)
 {
     known_digests a, b;
@@ -310,7 +312,7 @@ static bool compare_kind(diff_pair *pair, image_digest_kind kind, image_color ba
 static void compare_digests(diff_pair *pair, const diff_options *options)
 {
     octreel_error error = {
-        "the digests of both sides are of unlike kinds, which tells nothing: make those of one anew"};
+        "the digests of the two sides are of different kinds and cannot be compared: accept the frames of one again"};
     bool any = false;
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS && !(any && pair->finding == FOUND_SAME_PIXELS); kind++) {
         octreel_error trouble;

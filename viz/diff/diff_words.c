@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* diff_words.c - findings in lines for people. */
+/* diff_words.c - prints findings and verdicts for people. */
 #include "diff_words.h"
 #include "text.h"
 
@@ -27,10 +27,10 @@ static void print_forgiven(FILE *out, const image_difference *d)
     if (d->antialiased)
         fprintf(out, ", %" PRIu64 " anti-aliased", d->antialiased);
     if (d->ignored)
-        fprintf(out, ", %" PRIu64 " more in what is ignored", d->ignored);
+        fprintf(out, ", %" PRIu64 " more in ignored areas", d->ignored);
 }
 
-/* Where and how bad: of the pixels that count, or, if all are forgiven, of those. */
+/* Print the largest difference and where it is: of the pixels beyond the tolerance or, if there are none, of all. */
 static void print_worst(FILE *out, const image_difference *d)
 {
     const image_tally *tally = d->counted.pixels ? &d->counted : &d->unlike;
@@ -79,7 +79,7 @@ static void print_difference(FILE *out, const diff_pair *pair)
         fputs("a frame without a reference", out);
         break;
     case FOUND_UNREADABLE:
-        fprintf(out, "cannot be read: %s", pair->trouble ? pair->trouble : "there is no memory");
+        fprintf(out, "cannot be read: %s", pair->trouble ? pair->trouble : "out of memory");
         break;
     default:
         fputs("the same", out);
@@ -91,9 +91,9 @@ void diff_print_difference(FILE *out, const diff_pair *pair)
 {
     print_difference(out, pair);
     if (pair->a && pair->b && pair->a->variant_count > 1 && diff_finding_verdict(pair->finding) == DIFF_DIFFERENT)
-        fprintf(out, "; none of %zu variants that are accepted", pair->a->variant_count);
+        fprintf(out, "; matches none of the %zu accepted variants", pair->a->variant_count);
     if (pair->no_picture)
-        fprintf(out, "; there is no picture of what was expected: %s", pair->no_picture);
+        fprintf(out, "; no picture of the reference: %s", pair->no_picture);
 }
 
 void diff_print_pair(FILE *out, const diff_pair *pair)
@@ -132,7 +132,7 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
     const size_t *found = result->found, different = diff_count_different(result);
     fprintf(out, "%s: ", diff_verdict_name(verdict));
     if (result->by_ticks) {
-        fputs("the ticks, without frames", out);
+        fputs("compared by ticks, because neither recording has frames", out);
         return;
     }
     if (different)

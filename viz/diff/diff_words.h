@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* diff_words.h - what a comparison found, in lines for people. Each is printed without its end. */
+/* diff_words.h - prints the result of a comparison for people, in lines without their newlines. */
 #ifndef DIFF_WORDS_H
 #define DIFF_WORDS_H
 
@@ -10,23 +10,23 @@
 /* "same", "different" or "trouble". */
 const char *diff_verdict_name(diff_verdict verdict);
 
-/* The verdict and the counts. The verdict may be worse than that of the result: explaining may fail. */
+/* Print the verdict and the counts. The verdict may be worse than that of the result, because explaining may fail. */
 void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdict);
 
-/* How one pair differs, with its name and without. */
+/* Print how one pair differs: with its name, and without. */
 void diff_print_pair(FILE *out, const diff_pair *pair);
 void diff_print_difference(FILE *out, const diff_pair *pair);
 
-/* A delta as it is printed, rounded up, so that what is printed is enough to forgive it. */
+/* A color difference rounded up to four decimals, so that the printed number works as --max-delta. */
 double diff_shown_delta(double delta);
 
-/* Whether pairs of this finding are listed one by one: all but those that are the same without forgiveness. */
+/* Whether reports list pairs with this finding: all except pairs that are equal without any tolerance. */
 bool diff_is_listed(diff_finding finding);
 
-/* Pairs that differ; unreadable ones do not count. */
+/* The number of pairs that differ, without unreadable ones. */
 size_t diff_count_different(const diff_result *result);
 
-/* Pairs whose pictures differ in gamma or colour profile, which is ignored. */
+/* The number of pairs that differ in gamma or color profile, which is ignored. */
 size_t diff_count_color_spaces(const diff_result *result);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* frame_list.c - reads lists of frame names. */
 #include "frame_list.h"
 #include "array.h"
 #include "error.h"
@@ -25,7 +26,7 @@ bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
         return error_set(error, "%s: %s", file_title(path), reason);
     list->text[size] = 0;
     if (strlen(list->text) < size)
-        return error_set(error, "%s: it holds a zero byte, so it is no text", file_title(path));
+        return error_set(error, "%s: contains a zero byte, so it is not a text file", file_title(path));
     for (char *line = list->text, *next; *line; line = next) {
         char *end = line + strcspn(line, "\n");
         next = *end ? end + 1 : end;
@@ -36,7 +37,7 @@ bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
         if (*line && !frame_list_add(list, line, number, error))
             return false;
     }
-    return list->count > before || error_set(error, "%s: it names no frame", file_title(path));
+    return list->count > before || error_set(error, "%s: contains no name of a frame", file_title(path));
 }
 
 void frame_list_release(frame_list *list)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* mask.c - masks as run lengths. */
+/* mask.c - packs and unpacks masks. */
 #include "mask.h"
 #include "array.h"
 

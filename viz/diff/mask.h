@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* mask.h - which pixels of a frame are left out of a comparison, packed: many frames may wait to be compared. */
+/* mask.h - the pixels of a frame that a comparison ignores, as run lengths, since many frames may wait in memory. */
 #ifndef DIFF_MASK_H
 #define DIFF_MASK_H
 
@@ -7,19 +7,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A zeroed one leaves nothing out. */
+/* Zeroed: no pixel is ignored. */
 typedef struct pixel_mask {
     int width, height;
-    uint32_t *runs; /* lengths of runs in reading order: compared, left out, compared ...; owned */
+    uint32_t *runs; /* lengths of runs in reading order: compared, ignored, compared ...; owned */
     size_t count;
 } pixel_mask;
 
-/* Leave out also the pixels whose byte is not 0. A mask of another size than before changes nothing: such frames
- * differ in any case. False when there is no memory. */
+/* Also ignore the pixels whose byte is not 0. Bytes of another size than the mask are ignored: such frames differ in
+ * any case. Return false if memory runs out. */
 bool mask_add(pixel_mask *mask, const uint8_t *bytes, int width, int height);
 void mask_release(pixel_mask *mask);
 
-/* A byte a pixel, not 0 where it is left out; the caller frees it. Null where nothing is, or there is no memory. */
+/* One byte for each pixel, not 0 if it is ignored; the caller frees it. Null if no pixel is ignored or memory runs out.
+ */
 uint8_t *mask_bytes(const pixel_mask *mask);
 
 #endif

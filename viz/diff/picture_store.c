@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* picture_store.c - pictures by their digests: put, and fetched again. */
+/* picture_store.c - stores pictures under their digests and fetches them. */
 #include "picture_store.h"
 #include "file.h"
 #include "folder.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The folder of a digest, and the file in it. */
+/* The folder of a digest; the caller frees it. */
 static char *folder_of(const char *store, const frame_digest *digest)
 {
     const char *kind = image_digest_kind_name(digest->kind);
@@ -29,14 +29,14 @@ static char *path_of(const char *folder, const frame_digest *digest)
     return path_join(folder, name);
 }
 
-/* Whether a file holds the picture of a digest; the sentence says what it is instead. */
+/* Whether a file is a picture with this digest; if not, the error says what is wrong. */
 static bool is_picture(const char *path, const frame_digest *digest, image_color background, octreel_error *error)
 {
     frame_digest found = {.kind = digest->kind};
     if (!digest_picture(path, background, &found, error))
         return false;
     return found.pixels == digest->pixels ||
-           error_set(error, "%s: it was changed or swapped: its pixels have the digest %016" PRIx64, path,
+           error_set(error, "%s: does not hold the picture of its name: its pixels have the digest %016" PRIx64, path,
                      found.pixels);
 }
 
@@ -71,7 +71,7 @@ typedef struct fetching {
     diff_result *result;
 } fetching;
 
-/* The variant that was accepted last, or else any whose picture is there. The sentence is about the first. */
+/* Fetch the newest variant or else any variant whose picture exists. The error is about the newest. */
 static char *fetch_any(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
 {
     octreel_error ignored;
@@ -84,7 +84,8 @@ static char *fetch_any(const fetching *f, diff_frame *frame, frame_digest *found
     return path;
 }
 
-/* What is different stays so, whatever becomes of the picture meanwhile. */
+/* Compare with a fetched picture; a pair that differs by digest stays different, even if the picture changes meanwhile.
+ */
 static void compare_fetched(diff_pair *pair, const diff_options *options)
 {
     const diff_finding before = pair->finding;

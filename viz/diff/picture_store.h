@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* picture_store.h - a folder of pictures by the digests of their pixels: DIR/runs/01/0123456789abcdef.png. It lies
- * beside a file of digests, say in a CI cache or on the mount of a bucket. No verdict depends on it: a picture is
- * fetched to show what was expected, and believed only if its pixels have the digest that is its name. */
+/* picture_store.h - a folder that holds pictures under the digests of their pixels: DIR/runs/01/0123456789abcdef.png.
+ *
+ * It complements a baseline and lies outside of git, for example in a CI cache or a mounted bucket. No verdict depends
+ * on it: its pictures only show what a frame should look like. A picture is used only if its pixels have the digest in
+ * its name. */
 #ifndef DIFF_PICTURE_STORE_H
 #define DIFF_PICTURE_STORE_H
 
 #include "diff.h"
 
-/* Copy a picture into the store, under a name of its own first and then by a rename: whoever else puts the same there,
- * it is whole. One that is there already stays, unless it is damaged. */
+/* Copy a picture into the store, to a unique name first, which is then renamed: concurrent writers leave a complete
+ * file. An existing picture stays, unless it is damaged. */
 bool picture_store_put(const char *store, const char *picture, const frame_digest *digest, image_color background,
                        octreel_error *error);
 
-/* The path of a digest's picture, which the caller frees; null, with a sentence, where there is none, it is not what
- * its name says, or there is no memory. */
+/* The path of the picture with a digest; the caller frees it. Null with an error if the store lacks it, it is damaged,
+ * or memory runs out. */
 char *picture_store_get(const char *store, const frame_digest *digest, image_color background, octreel_error *error);
 
-/* Give each pair that is known by digests alone, and has not the same pixels, the picture of its reference, and compare
- * them; where there is none the pair says so. The verdict stays. */
+/* For each differing pair of a baseline, fetch the picture of the reference and compare the pixels. If there is no
+ * picture, store the reason in the pair. The verdict does not change. */
 bool picture_store_fetch(const char *store, diff_side *reference, diff_result *result, octreel_error *error);
 
 #endif

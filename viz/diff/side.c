@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* side.c - what a path stands for, and its frames. */
+/* side.c - opens a side of a comparison and lists its frames. */
 #include "side.h"
 #include "array.h"
 #include "baseline.h"
@@ -27,7 +27,7 @@ const char *diff_kind_name(diff_kind kind)
     return names[kind];
 }
 
-/* The part after the last slash; of standard input a name that a file can have. */
+/* The part of a path after the last slash; "stdin" for standard input. */
 static const char *base_name(const char *path)
 {
     if (file_is_standard(path))
@@ -79,7 +79,8 @@ static bool belongs(const diff_side *side, const char *name)
     return side->kind == DIFF_RECORDING ? frame_parse_name(name, &tick) : is_png_name(name);
 }
 
-/* What recording.json cannot tell is told by who reads it for more. */
+/* Whether recording.json says that there are no frames. An unreadable file is reported later, when the recording is
+ * explained. */
 static bool is_without_frames(const diff_side *side)
 {
     octreel_error ignored;
@@ -92,7 +93,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
 {
     DIR *entries = opendir(side->path);
     if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
+        return error_set(error, "%s: cannot read the folder: %s", side->path, strerror(errno));
     side->kind = folder_has(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     side->no_frames = is_without_frames(side);
     bool ok = true;
@@ -101,7 +102,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
         if (belongs(side, entry->d_name))
             ok = diff_side_add(side, entry->d_name, (frame_digest){0}, error);
     if (ok && errno)
-        ok = error_set(error, "%s: the folder cannot be read: %s", side->path, strerror(errno));
+        ok = error_set(error, "%s: cannot read the folder: %s", side->path, strerror(errno));
     closedir(entries);
     if (side->count > 0)
         qsort(side->frames, side->count, sizeof *side->frames, by_name);
@@ -165,7 +166,7 @@ static bool fact_spared(const diff_side *side, const char *name, const output_fi
     return ok;
 }
 
-/* An output that does not exist yet replaces nothing; asking first spares a stat for each frame. */
+/* An output that does not exist yet overwrites nothing; checking this first avoids a stat for each frame. */
 bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error)
 {
     struct stat status;

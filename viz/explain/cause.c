@@ -61,7 +61,8 @@ static bool is_wanted(const playing *p, uint64_t tick, bool differs)
     return (w->wants && w->wants(w->context, tick)) || (differs && p->found->differing <= w->first);
 }
 
-static bool keep(cause *c, uint64_t tick, cause_facts *facts)
+/* Append the details of a tick; the facts move into it. */
+static bool append_tick(cause *c, uint64_t tick, cause_facts *facts)
 {
     cause_tick *grown = array_reserve(c->ticks, c->count + 1, &c->room, sizeof *grown);
     if (!grown)
@@ -72,14 +73,14 @@ static bool keep(cause *c, uint64_t tick, cause_facts *facts)
     return true;
 }
 
-static void note(cause *c, uint64_t tick)
+static void count_differing_tick(cause *c, uint64_t tick)
 {
     if (c->differing++ == 0)
         c->first = tick;
     c->last = tick;
 }
 
-static void extend(cause_span *span, uint64_t count, uint64_t tick)
+static void extend_span(cause_span *span, uint64_t count, uint64_t tick)
 {
     if (span->count == 0)
         span->first = tick;
@@ -104,12 +105,12 @@ static void note_answers(cause_answers *wrong, const octree_tick *a, const octre
     const size_t before = judgement_count_wrong(a->answers, a->answer_count, &worst);
     const size_t now = judgement_count_wrong(b->answers, b->answer_count, &worst);
     if (now != before)
-        extend(now > before ? &wrong->more : &wrong->fewer, now > before ? now - before : before - now, a->number);
+        extend_span(now > before ? &wrong->more : &wrong->fewer, now > before ? now - before : before - now, a->number);
     else if (!same_faults(a, b))
-        extend(&wrong->other, 1, a->number);
+        extend_span(&wrong->other, 1, a->number);
 }
 
-/* Whether what happens from here on may differ, too. */
+/* Whether the games are in different states, so that later ticks may differ, too. */
 static bool games_differ(const playing *p, bool trees)
 {
     const octree_tick *a = octree_game_tick(p->games[0]), *b = octree_game_tick(p->games[1]);
@@ -117,8 +118,9 @@ static bool games_differ(const playing *p, bool trees)
            a->foreign.digest != b->foreign.digest;
 }
 
-/* The trees are compared node by node only for ticks that are reported in detail. */
-static bool look_at(playing *p, octreel_error *error)
+/* Compare one tick. The trees are compared node by node only in ticks that are reported in detail; in other ticks their
+ * digests decide. */
+static bool compare_tick(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};
     const uint64_t tick = octree_game_tick(games[0])->number;
@@ -130,7 +132,7 @@ static bool look_at(playing *p, octreel_error *error)
         note_answers(&p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
     const bool differs = trees || facts.count > 0;
     if (differs)
-        note(p->found, tick);
+        count_differing_tick(p->found, tick);
     bool ok =
         !facts.out_of_memory && cause_origins_reach(&p->found->session.origins, tick, games_differ(p, trees), p->warm);
     if (is_wanted(p, tick, differs)) {
@@ -141,7 +143,7 @@ static bool look_at(playing *p, octreel_error *error)
             cause_compare_ticks(p->games[0], p->games[1], &facts);
         if (p->warm)
             cause_add(&facts, "heat", "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, NULL, NULL});
-        ok = ok && !facts.out_of_memory && keep(p->found, tick, &facts);
+        ok = ok && !facts.out_of_memory && append_tick(p->found, tick, &facts);
     }
     p->warm |= p->shows_heat && differs;
     cause_facts_release(&facts);
@@ -172,8 +174,8 @@ static bool same_rules(const octree *a, const octree *b)
            x.max_depth == y.max_depth && x.full_leaf == y.full_leaf;
 }
 
-/* Layers of which neither session can have anything show nothing, whether or not a view has them: one recorded before
- * there was such a layer is looked at in the same way. */
+/* Ignore layers that neither session can fill: they draw nothing, so it does not matter whether a view has them. This
+ * keeps a recording made before such a layer existed equal to a new one. */
 static void compare_views(const octree_session *a, const octree_session *b, const cause_view views[2],
                           bool same_session, cause_facts *facts)
 {
@@ -202,7 +204,7 @@ bool cause_find(const session_file *a, const session_file *b, const cause_view v
     ok = ok && open_game(&p, 0, &a->session, error) && open_game(&p, 1, &b->session, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {
-        ok = look_at(&p, error);
+        ok = compare_tick(&p, error);
         over = octree_game_over(p.games[0]) || octree_game_over(p.games[1]);
         ok = ok && (over || advance(&p, error));
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause.h - two sessions played side by side: in what they differ, at which ticks, and how. */
+/* cause.h - plays two sessions side by side and finds what differs between them, and in which ticks. */
 #ifndef EXPLAIN_CAUSE_H
 #define EXPLAIN_CAUSE_H
 
@@ -9,54 +9,54 @@
 /* A tick that is reported in detail. */
 typedef struct cause_tick {
     uint64_t tick;
-    cause_facts facts; /* none: nothing that happened differs */
-    trace trace;       /* of its frames */
+    cause_facts facts; /* empty: the same happened in both sessions */
+    trace trace;       /* the elements at the pixels in which the tick's frames differ */
 } cause_tick;
 
-/* Ticks of one kind: how much there is in them, and the first and last of them. */
+/* A count over the ticks in which something occurs, with the first and the last of these ticks. */
 typedef struct cause_span {
     uint64_t count, first, last;
 } cause_span;
 
-/* How a program's wrong answers differ, of the ticks that both have. */
+/* How the numbers of wrong answers of a foreign index differ, in the ticks that both sessions have. */
 typedef struct cause_answers {
-    cause_span more, fewer; /* wrong answers that the frames have in a tick beyond those of the reference; or lack */
-    cause_span other;       /* ticks with as many, of other queries or by other faults */
+    cause_span more, fewer; /* wrong answers that the frames have in excess of the reference; and the reverse */
+    cause_span other;       /* ticks with equal numbers of wrong answers but different faults */
 } cause_answers;
 
-/* A zeroed one is empty. */
+/* Zeroed: empty. */
 typedef struct cause {
-    cause_facts session; /* in what the sessions differ */
-    cause_facts view;    /* in what their views differ; none when only sessions are compared */
+    cause_facts session; /* the differences between the sessions */
+    cause_facts view;    /* the differences between the views; empty if only sessions are compared */
     cause_tick *ticks;   /* reported in detail, in ascending order */
     size_t count, room;
     cause_answers wrong;
-    uint64_t compared;    /* ticks that both have */
-    uint64_t differing;   /* of them, in what happened */
-    uint64_t first, last; /* of those that differ */
-    uint64_t drawn;       /* the first tick whose frames differ; CAUSE_NO_TICK: none, or there are no frames */
+    uint64_t compared;    /* the number of ticks that both sessions have */
+    uint64_t differing;   /* the number of these ticks in which something different happens */
+    uint64_t first, last; /* the first and the last differing tick */
+    uint64_t drawn;       /* the first tick whose frames differ; CAUSE_NO_TICK if there is none */
 } cause;
 
 /* Callbacks while two sessions are played. */
 typedef struct cause_watcher {
-    size_t first; /* how many of the first differing ticks are reported in detail */
+    size_t first; /* the number of differing ticks, from the first on, that are reported in detail */
 
-    /* Whether another tick is reported in detail; may be null. */
+    /* Whether a further tick is reported in detail; may be null. */
     bool (*wants)(void *context, uint64_t tick);
 
-    /* Called at each tick that both have, with the games at it, and whether what happened differs. False with an
-     * error ends the playing. May be null. */
+    /* Called at each tick that both sessions have. `differs`: different things happen in it. To stop, return false with
+     * an error. May be null. */
     bool (*watch)(void *context, const octree_game *const games[2], bool differs, octreel_error *error);
     void *context;
 } cause_watcher;
 
-/* Compare two sessions and play them side by side. `views`, which may be null, add what shows in pictures alone. False
- * with an error when one cannot be played; *c is to be released in any case. */
+/* Compare two sessions and play them side by side. `views`, which may be null, adds the differences that only pictures
+ * show. Return false with an error if a session cannot be played. Release *c in any case. */
 bool cause_find(const session_file *a, const session_file *b, const cause_view views[2], const cause_watcher *watcher,
                 cause *c, octreel_error *error);
 void cause_release(cause *c);
 
-/* A tick that is reported in detail, or null. */
+/* The details of a tick, or null if it is not reported in detail. */
 const cause_tick *cause_at(const cause *c, uint64_t tick);
 
 #endif

@@ -1,5 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_compare.c - two objects of JSON, member by member; see cause_compare.h. */
+/* cause_compare.c - compares two JSON objects member by member and reports each difference once, in the user's terms.
+ *
+ * The problem: two sessions or ticks differ in their JSON, and the user should read "edit 17 was added", not "element 3
+ * of the list differs, and so do all that follow". A textual diff reports the latter: one inserted element shifts the
+ * rest of its list.
+ *
+ * The idea: objects are compared member by member, and lists as sets of elements that have an identity. Elements with a
+ * key (points by id, edits by action and id, events by word) are sorted by key and merged, in O(n log n); the n-th
+ * element of a key is compared with the n-th of the same key. Queries, shapes and answers have no key, so cause_pairs.h
+ * pairs those that are most alike. Elements without a partner are reported as additional or missing. If all elements
+ * are equal but their order differs, that is one fact. A value that is no object, such as a box or a position, is one
+ * fact.
+ */
 #include "cause_compare.h"
 #include "cause_pairs.h"
 
@@ -33,9 +45,9 @@ static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
 
 typedef struct keyed {
-    const char *word; /* an element that is one, or what is done: "insert"; else "" */
-    uint64_t id;      /* or CAUSE_NO_ID */
-    size_t place;     /* in the list */
+    const char *word; /* the element itself if it is a text, or the name of its only member, as "insert"; else "" */
+    uint64_t id;      /* CAUSE_NO_ID if the element has none */
+    size_t place;     /* the index in the list */
     json_t *element;
 } keyed;
 
@@ -83,7 +95,7 @@ static keyed *sort_list(json_t *list, size_t count)
     return sorted;
 }
 
-/* The n-th of a key with the n-th of the same key. */
+/* Compare two lists by merging them in the order of their keys. */
 static void compare_keyed(const cause_place *place, const char *where, json_t *a, json_t *b)
 {
     const size_t a_count = json_array_size(a), b_count = json_array_size(b);
@@ -107,10 +119,10 @@ static void compare_keyed(const cause_place *place, const char *where, json_t *a
     free(bs);
 }
 
-/* ---- Lists whose elements are paired by what they ask or show ------------------------------------------------- */
+/* ---- Lists whose elements are paired by similarity ------------------------------------------------------------ */
 
-/* What an answer found, and not what was asked. */
-static bool is_found(const char *key)
+/* Whether a member of an answer is a result, not a parameter of the query. */
+static bool is_result(const char *key)
 {
     static const char *const names[] = {"ids", "id", "position", "distance", "neighbors", "cost"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -119,12 +131,12 @@ static bool is_found(const char *key)
     return false;
 }
 
-/* What an answer was asked, with its kind for a key. */
-static json_t *asked_of(json_t *answer)
+/* The query of an answer: its kind and its parameters. The caller releases it. */
+static json_t *query_of(json_t *answer)
 {
     const char *kind = cause_kind_of(answer), *key;
     json_t *value, *asked = json_object();
-    json_object_foreach(json_object_get(answer, kind), key, value) if (!is_found(key))
+    json_object_foreach(json_object_get(answer, kind), key, value) if (!is_result(key))
         json_object_set(asked, key, value);
     return json_pack("{so}", kind, asked);
 }
@@ -139,7 +151,7 @@ static json_t *untold(json_t *query)
     return asked;
 }
 
-/* By which the elements of a list are paired. */
+/* The list by which the elements of a list are paired: for answers their queries, for queries their parameters. */
 static json_t *list_asked(const char *where, json_t *list)
 {
     const bool answers = strcmp(where, "answers") == 0;
@@ -149,7 +161,7 @@ static json_t *list_asked(const char *where, json_t *list)
         json_decref(asked);
         return list ? json_incref(list) : json_array();
     }
-    json_array_foreach(list, i, element) json_array_append_new(asked, answers ? asked_of(element) : untold(element));
+    json_array_foreach(list, i, element) json_array_append_new(asked, answers ? query_of(element) : untold(element));
     return asked;
 }
 
@@ -200,7 +212,7 @@ static void compare_pair(const cause_place *place, const char *where, json_t *a,
         add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }
 
-/* "the range query", or where the list has several of that kind "query 3 (range)", counted from 1. */
+/* Write "the range query" or, if the list has several of that kind, "query 3 (range)", counted from 1. */
 static void name_query(json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
 {
     const char *kind = cause_kind_of(json_array_get(list, i));
@@ -213,7 +225,7 @@ static void name_query(json_t *list, size_t i, bool of_reference, char text[CAUS
         snprintf(text, CAUSE_QUERY, "query %zu (%s)%s", i + 1, kind, of_reference ? " of the reference" : "");
 }
 
-/* Facts about an answer name its query. */
+/* A copy of `place`; for answers with the name of the query, written to `text`. */
 static cause_place place_of(const cause_place *place, const char *where, json_t *list, size_t i, bool of_reference,
                             char text[CAUSE_QUERY])
 {
@@ -238,7 +250,8 @@ static bool in_order(const size_t *mates, size_t count)
     return true;
 }
 
-/* What differs within pairs, then what only one list has. `met` is false for each of a's elements, and has room. */
+/* Report the differences within pairs, then the elements of only one list. met[i] is set for each element of `a` that
+ * has a partner; it must be false for all before. */
 static void compare_paired(const cause_place *place, const char *where, json_t *a, json_t *b, const size_t *mates,
                            bool *met)
 {
@@ -286,7 +299,7 @@ static void compare_asked(const cause_place *place, const char *where, json_t *a
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
 
-/* Objects that are compared as one value: boxes and costs. */
+/* Whether an object is compared as one value: boxes and costs are. */
 static bool is_value(const char *where, const json_t *value)
 {
     const size_t length = strlen(where);
@@ -294,7 +307,7 @@ static bool is_value(const char *where, const json_t *value)
            (length >= 4 && strcmp(where + length - 4, "cost") == 0);
 }
 
-/* These lists of numbers hold ids; others are positions or ranges. */
+/* Whether a list of numbers holds ids; other lists of numbers are positions or ranges. */
 static bool lists_ids(const char *where)
 {
     return strcmp(where, "hits") == 0 || strcmp(where, "answers.ids") == 0;
@@ -317,7 +330,8 @@ static void compare_lists(const cause_place *place, const char *where, json_t *a
         compare_asked(place, where, a, b);
 }
 
-/* The path of an answer's member leaves out the kind, which the query's name has. */
+/* Compare two values of any type. The path of an answer's member leaves out the kind of the query, since the name of
+ * the query says it. */
 static void compare_values(const cause_place *place, const char *where, json_t *a, json_t *b)
 {
     cause_place within = *place;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_compare.h - two objects of JSON are compared member by member; two sessions, two views and two ticks are
- * compared as the objects that are written of them. Each adds facts; where there is no memory for it
- * facts->out_of_memory is set.
+/* cause_compare.h - compares two sessions, two views or two ticks and collects the differences as facts.
+ *
+ * Each is compared in its written form, as JSON, member by member. If memory runs out, facts->out_of_memory is set.
  */
 #ifndef EXPLAIN_CAUSE_COMPARE_H
 #define EXPLAIN_CAUSE_COMPARE_H
@@ -11,28 +11,30 @@
 #include "session_file.h"
 #include "view.h"
 
-/* How two values are compared, and where they are. */
+/* Where two values are, and how they are compared. */
 typedef struct cause_place {
     cause_facts *facts;
-    const char *where; /* the path of the object that holds them; "": it is the outermost */
-    const char *query; /* of an answer; else "" */
-    uint64_t tick;     /* or CAUSE_NO_TICK */
-    bool exact;        /* the sign of zero counts */
+    const char *where; /* the path of the object that holds them; "" for the outermost object */
+    const char *query; /* the name of the query whose answer they belong to; else "" */
+    uint64_t tick;     /* the tick to which the values belong, or CAUSE_NO_TICK */
+    bool exact;        /* 0 and -0 differ */
 } cause_place;
 
-/* Whether two values, which may be null for none, are the same. json_equal() takes 0 and -0 for equal; where `exact`
- * they differ, as their texts do. */
+/* Whether two values are equal; null stands for a missing value. If `exact`, 0 and -0 differ, which json_equal() takes
+ * for equal. */
 bool cause_same(const json_t *a, const json_t *b, bool exact);
 
-/* Compare objects, null for empty ones. Objects are descended into, but for boxes, which are values. Of lists whose
- * elements have a key - an id, a word, or what is done to which id - those of the same key are compared; of other lists
- * those that ask or show the same or most nearly the same (cause_pairs.h). */
+/* Compare two objects; null is an empty object. Recurses into objects, except boxes, which are compared as one value.
+ * Elements of lists are paired by key, if they have one: an id, a word, or an action with an id. Other elements are
+ * paired by similarity (cause_pairs.h). */
 void cause_compare_members(const cause_place *place, json_t *a, json_t *b);
 
-/* All that a session holds and its kind of player reads. Cost: that of writing both, and a sort of the points. */
+/* Compare two sessions, except for members that their kind of player does not use. Cost: writing both sessions and
+ * sorting their points. */
 void cause_compare_sessions(const session_file *a, const session_file *b, cause_facts *facts);
 
-/* The part of that in cause_values.c: the values of the points that both ever have. */
+/* The part of cause_compare_sessions() in cause_values.c: colours, intensities and classes of points that occur in both
+ * sessions. */
 void cause_compare_values(const session_file *a, const session_file *b, cause_facts *facts);
 
 /* Points in ascending order of their ids, which are unique. */
@@ -44,22 +46,22 @@ typedef struct cause_points {
 void cause_compare_points(cause_facts *facts, const char *where, const cause_points *a, const cause_points *b,
                           bool exact);
 
-/* What belongs to a recording and not to its session: the view, and each how many ticks there is a frame. */
+/* How a session is drawn. */
 typedef struct cause_view {
     view view;
-    uint64_t every;
+    uint64_t every; /* the interval of frames, in ticks */
 } cause_view;
 
 /* Compare every option. Derived values follow from the options and the session: they are compared only if both are the
  * same, which happens if --camera-from has copied those of another session. */
 void cause_compare_views(const cause_view *a, const cause_view *b, bool same_session, cause_facts *facts);
 
-/* Nodes and points of the trees of two games, except the player, which is compared with the tick; of trees in different
- * worlds only the points. Nodes below one that split or merged are not reported. Cost: a sort of the
- * points. */
+/* Compare the nodes and points of two games' trees. The player is left out: cause_compare_ticks() compares it. Nodes of
+ * trees with different worlds are not compared. Below a node in which the trees differ nothing is reported. Cost: a
+ * sort of the points. */
 void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts *facts);
 
-/* All facts of the games' current ticks, except what cause_compare_trees() reports. */
+/* Compare the games' current ticks, except for what cause_compare_trees() reports. */
 void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts *facts);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_facts.c - facts, grouped by where they are and how they changed. */
+/* cause_facts.c - collects facts in groups of the same place and change. */
 #include "cause_facts.h"
 #include "array.h"
 #include "cause_pairs.h"
@@ -75,7 +75,7 @@ static bool is_before(const cause_group *a, const cause_group *b)
     return !is_about_all(b) && (is_about_all(a) || a->listed[0].tick < b->listed[0].tick);
 }
 
-/* Those of the same tick stay in their order. */
+/* An insertion sort, which is stable: groups of the same tick keep their order. */
 void cause_facts_sort(cause_facts *facts)
 {
     for (size_t i = 1; i < facts->count; i++)

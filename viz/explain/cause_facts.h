@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_facts.h - in what two recordings differ, as a list of facts. Of two values the first is the reference's.
+/* cause_facts.h - the differences between two recordings as a list of facts. Of two values, the first is the
+ * reference's.
  *
- * A fact says where: the path of a member of a session file, of recording.json or of a line of ticks.jsonl, such as
- * "tree.capacity" or "edits"; or, of what only the trees tell, "nodes.split", "nodes.merged", "nodes.born",
- * "nodes.gone" and "tree.points"; "queries.visits" are the nodes that a program says its query met, by their numbers;
- * "velocities", "hit_from", "visited" and "heat" are what is drawn and in no file. Values are JSON as in those files. A
- * fact is data; cause_words.h makes sentences of it, and cause_json.h JSON.
+ * A fact has a place. Most places are paths of members in a session file, in recording.json or in a line of
+ * ticks.jsonl, such as "tree.capacity" or "edits". These places are in no file:
+ *   nodes.split, nodes.merged   nodes that are inner nodes only in the frames, or only in the reference
+ *   nodes.born, nodes.gone      nodes that exist only in the frames, or only in the reference
+ *   tree.points                 points of the tree
+ *   queries.visits              the numbers of foreign nodes that a query met
+ *   hit_from, visited, heat     values that are only drawn
+ * Values are JSON, as in the files. cause_words.h prints facts as sentences and cause_json.h as JSON.
  */
 #ifndef EXPLAIN_CAUSE_FACTS_H
 #define EXPLAIN_CAUSE_FACTS_H
@@ -17,7 +21,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What the second side has: another value, an additional one, one less, the same ones in another order. */
+/* What the second side has: another value, an additional value, one value less, or the same values in another order. */
 typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER } cause_change;
 
 const char *cause_change_name(cause_change change);
@@ -26,48 +30,51 @@ const char *cause_change_name(cause_change change);
 #define CAUSE_NO_ID UINT64_MAX
 
 typedef struct cause_fact {
-    uint64_t tick; /* in which it is, where the session says so; CAUSE_NO_TICK: in all of them */
-    uint64_t id;   /* of a point; CAUSE_NO_ID: it is about none */
-    json_t *a, *b; /* null: there is none; referenced */
+    uint64_t tick; /* the tick to which the session assigns it; CAUSE_NO_TICK: it holds for all ticks */
+    uint64_t id;   /* the id of a point; CAUSE_NO_ID: it is not about a point */
+    json_t *a, *b; /* the values, or null; counted references */
 } cause_fact;
 
-/* So many of a group are listed; the others are counted. */
+/* The first facts of a group are stored; the others are only counted. */
 #define CAUSE_LISTED 8
 
 #define CAUSE_QUERY 48
 
-/* All facts of the same kind, and either all about a tick each or none. */
+/* All facts with the same place, query and change. Either all of them have a tick, or none has. */
 typedef struct cause_group {
     char where[40];
-    char query[CAUSE_QUERY]; /* of facts about an answer: "the range query"; else "" */
+    char query[CAUSE_QUERY]; /* for facts about an answer: "the range query"; else "" */
     cause_change change;
     uint64_t found;
     cause_fact listed[CAUSE_LISTED];
 } cause_group;
 
-/* A zeroed one is empty. */
+/* Zeroed: empty. */
 typedef struct cause_facts {
     cause_group *groups; /* in the order in which they were found */
     size_t count, room;
-    bool out_of_memory;    /* the list is not whole */
-    cause_origins origins; /* the ticks of all facts that are about one */
+    bool out_of_memory;    /* memory ran out, so the list is incomplete */
+    cause_origins origins; /* the ticks of all facts that have one */
 } cause_facts;
 
-/* Add a fact, which refers to its values. */
+/* Add a fact. It takes its own references to the values. */
 void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
 void cause_facts_release(cause_facts *facts);
 
-/* Put groups about all ticks first, and then the others by the first tick that they are about. */
+/* Sort the groups: first those without a tick, then the others by their first tick. */
 void cause_facts_sort(cause_facts *facts);
 
-/* The facts that can show in the frame of a tick, of those listed: about all ticks, but for the interval of frames and
- * the last tick, or about this one. They refer to `facts`; free the groups alone. And whether there are any. */
+/* The stored facts that the frame of a tick can show: those of this tick and those without a tick, except for the
+ * interval of frames and the last tick. The result borrows from `facts`; free only its groups. */
 cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
+
+/* Whether there is any such fact. */
 bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 
-/* The group of these facts, or null. */
+/* The group with this place and change and without a query, or null. */
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);
 
+/* The number of facts that are stored in a group. */
 static inline size_t cause_listed(const cause_group *group)
 {
     return group->found < CAUSE_LISTED ? (size_t)group->found : CAUSE_LISTED;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_json.c - an explanation as JSON. */
+/* cause_json.c - writes an explanation as JSON. */
 #include "cause_json.h"
 #include "text.h"
 
@@ -123,7 +123,7 @@ static void write_span(json_writer *w, const char *key, const cause_span *span)
     json_write_end_object(w);
 }
 
-/* Left out where no answer differs. */
+/* Write the differences in wrong answers; nothing if there are none. */
 static void write_wrong(json_writer *w, const cause_answers *wrong)
 {
     if (wrong->more.count + wrong->fewer.count + wrong->other.count == 0)

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_json.h - why two recordings differ, as JSON.
+/* cause_json.h - writes why two recordings differ as JSON.
  *
  *   {"session": [group ...], "view": [group ...], "compared": 253, "differing": 212, "first": 41, "last": 252,
  *    "ticks": [{"tick": 41, "causes": [group ...],
  *               "pixels": 312, "elements": [{"what": "node 0/3/7", "pixels": 180}, ...]}, ...],
  *    "warnings": ["b/session.json is not ...", ...], "drawn_by": ["OSMesa, llvmpipe ...", "..."]}
  *
- * A group has the facts of one place (cause_facts.h) that changed in one way: "other", "more", "less" or "order". Of
- * "count" facts the first CAUSE_LISTED are listed:
+ * A group holds the facts of one place (cause_facts.h) with the same change: "other", "more", "less" or "order".
+ * "count" is the number of facts; the first CAUSE_LISTED of them are listed:
  *   {"where": "tree.capacity", "change": "other", "count": 1, "facts": [{"reference": 4, "frames": 8}]}
  *   {"where": "nodes.split", "change": "more", "count": 1, "facts": [{"frames": "0/3/7"}]}
  *   {"where": "edits", "change": "less", "count": 1, "facts": [{"tick": 3, "id": 17, "reference": {"remove": 17}}]}
  *   {"where": "answers.ids", "change": "more", "query": "the range query", "count": 1, "facts": [{"id": 7, "frames":
- * 7}]} "ticks" has those that are told in detail. "elements" are drawn under the pixels that differ, the largest first,
- * no more than CAUSE_ELEMENTS.
+ * 7}]}
+ * "ticks" holds the ticks that are reported in detail. "elements" are the elements that are drawn at the pixels that
+ * differ, at most CAUSE_ELEMENTS, those with the most pixels first.
  */
 #ifndef EXPLAIN_CAUSE_JSON_H
 #define EXPLAIN_CAUSE_JSON_H

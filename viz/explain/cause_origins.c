@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* cause_origins.c - collects differences by tick and finds the causes of each tick; cause_origins.h explains how. */
 #include "cause_origins.h"
 #include "array.h"
 #include "cause_facts.h"
@@ -15,7 +16,7 @@ bool cause_origin_shows(const char *where, uint64_t origin, uint64_t tick)
     return origin == tick || (keys && origin < tick + KEYS_AHEAD + 1 && tick < origin + KEYS_BEHIND + 1);
 }
 
-/* ---- Noting them --------------------------------------------------------------------------------------------- */
+/* ---- Collecting ---------------------------------------------------------------------------------------------- */
 
 static size_t find_kind(cause_origins *o, const char *name)
 {
@@ -32,13 +33,13 @@ static size_t find_kind(cause_origins *o, const char *name)
     return o->kind_count++;
 }
 
-/* Nothing is left of it in the next tick but heat. */
+/* Whether a difference has no effect on the next tick, except on heat. */
 static bool is_momentary(const char *where)
 {
     return strncmp(where, "queries", 7) == 0 || strncmp(where, "shapes", 6) == 0;
 }
 
-/* What lasts is of one kind, whatever is done: its effects cannot be told apart. */
+/* All lasting differences at one path are of one kind, because their effects on later ticks cannot be separated. */
 bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const char *kind)
 {
     char name[CAUSE_KIND];
@@ -77,7 +78,7 @@ void cause_origins_release(cause_origins *o)
     *o = (cause_origins){0};
 }
 
-/* ---- Which ticks they reach ---------------------------------------------------------------------------------- */
+/* ---- Stretches of ticks with the same causes ----------------------------------------------------------------- */
 
 static bool add_stretch(cause_origins *o, uint64_t tick)
 {
@@ -137,7 +138,7 @@ static const char *causes_at(const cause_origins *o, uint64_t tick)
     return low && o->stretches[low - 1].causes ? o->stretches[low - 1].causes : "";
 }
 
-/* The first origin of this tick or a later one. */
+/* The index of the first origin at this tick or later. */
 static size_t find_origin(const cause_origins *o, uint64_t tick)
 {
     size_t low = 0, high = o->count;
@@ -151,7 +152,7 @@ static size_t find_origin(const cause_origins *o, uint64_t tick)
     return low;
 }
 
-/* Keys to come are shown before those that were. */
+/* If nothing is in effect, search the keys that the frame shows: first the later ones, then the earlier ones. */
 const char *cause_origins_at(const cause_origins *o, uint64_t tick)
 {
     const char *causes = causes_at(o, tick);

@@ -1,23 +1,30 @@
 /* SPDX-License-Identifier: MIT */
+/* cause_pairs.c - pairs the elements of two lists that have no keys, most similar first.
+ *
+ * Equal elements are paired first, by sorting both lists by their texts. For the rest, the similarity of two elements
+ * is the number of values that they share at the same place; pairs are made in descending order of it. Comparing every
+ * element with every other would cost O(n^2), and one list may hold thousands of queries, so each element is compared
+ * only with PAIR_CANDIDATES elements around its own index in the other list.
+ */
 #include "cause_pairs.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* So many elements about the same place among those left are looked at for the one that is most alike. */
+/* The number of elements of the other list, around the same index, with which an element is compared. */
 #define PAIR_CANDIDATES ((size_t)16)
 
 typedef struct entry {
     json_t *element;
-    char *text; /* the whole of it */
-    size_t place;
+    char *text;   /* the element as JSON */
+    size_t place; /* the index in the list */
     bool paired;
 } entry;
 
 typedef struct entries {
-    entry *all;   /* in the order of places, but while they are sorted */
-    entry **left; /* those that are not the same as one of the other list */
+    entry *all;   /* in the order of the list; by text while equal entries are paired */
+    entry **left; /* the entries without an equal entry in the other list */
     size_t count, left_count;
 } entries;
 
@@ -50,7 +57,7 @@ static bool make(entries *e, json_t *list)
     return ok && e->all && e->left;
 }
 
-/* ---- The same ------------------------------------------------------------------------------------------------ */
+/* ---- Equal elements ------------------------------------------------------------------------------------------ */
 
 static int by_place(const void *a, const void *b)
 {
@@ -93,9 +100,9 @@ static void pair_same(entries *a, entries *b, size_t *mates)
     list_left(b);
 }
 
-/* ---- The most alike ------------------------------------------------------------------------------------------ */
+/* ---- Similar elements ---------------------------------------------------------------------------------------- */
 
-/* How many numbers, words and truths are the same in the same places. */
+/* The number of numbers, texts and booleans that are equal at the same place. */
 static unsigned count_common(json_t *a, json_t *b)
 {
     unsigned common = 0;
@@ -111,13 +118,14 @@ static unsigned count_common(json_t *a, json_t *b)
     return common;
 }
 
-/* The first candidate for the j-th that is left. */
+/* The index of the first candidate for the j-th remaining element. */
 static size_t first_candidate(size_t j)
 {
     return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;
 }
 
-/* 0: of unlike kinds. Of equally many values in common, the same place from either end counts. */
+/* The similarity of two remaining elements; 0 for different kinds. Among equal counts of shared values, the pair with
+ * the same distance from the beginning or the end of its list wins. */
 static uint8_t likeness(const entries *a, size_t i, const entries *b, size_t j)
 {
     json_t *x = a->left[i]->element, *y = b->left[j]->element;
@@ -128,7 +136,7 @@ static uint8_t likeness(const entries *a, size_t i, const entries *b, size_t j)
     return found < UINT8_MAX ? (uint8_t)found : UINT8_MAX;
 }
 
-/* The most alike first. */
+/* Pair the remaining elements in descending order of similarity. */
 static bool pair_alike(entries *a, entries *b, size_t *mates)
 {
     uint8_t *table = calloc(b->left_count + 1, PAIR_CANDIDATES), most = 0;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* cause_phrases.c - the table of places with their nouns and verbs. */
 #include "cause_phrases.h"
 #include "view_options.h"
 
@@ -9,7 +10,7 @@
 #define EVERY .every = true
 #define MINOR .minor = true
 
-/* A place without a row is printed as its path. */
+/* A place without a row is printed as its path. See the struct for the meaning of the columns. */
 static const phrase phrases[] = {
     /* Sessions. */
     {"world", "world", OPTION},
@@ -42,15 +43,15 @@ static const phrase phrases[] = {
     {"queries.answer", "foreign answer", .plural = "foreign answers", .moved = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
     {"foreign_nodes", "foreign node", PLAIN},
-    /* Views; the nouns of their options are in view_options.c. */
+    /* Views. The nouns of view options are in view_options.c. */
     {"every", "interval of frames", PLAIN},
     {"focus", "box around the points", PLAIN},
     {"point_scale", "scale of points", PLAIN},
-    /* Trees. */
-    {"nodes.split", "node", .added = "split"},
-    {"nodes.merged", "node", .added = "merged"},
-    {"nodes.born", "node", .added = "born"},
-    {"nodes.gone", "node", .added = "gone"},
+    /* Trees. "divided": an inner node; two trees are compared, so nothing split or merged at this tick. */
+    {"nodes.split", "node", .added = "divided only in the frames"},
+    {"nodes.merged", "node", .added = "divided only in the reference"},
+    {"nodes.born", "node", .added = "only in the frames"},
+    {"nodes.gone", "node", .added = "only in the reference"},
     {"tree.points", "point", .moved = "moved", .added = "added", .gone = "removed"},
     /* Ticks. */
     {"player", "place of the player", PLAIN},
@@ -92,7 +93,7 @@ static const phrase phrases[] = {
     {"heat", "heat of the ticks before", MINOR},
 };
 
-/* Of answers, members without a row (positions, distances, costs) are minor, as are the counts of faults of nodes. */
+/* Without a row, members of answers (positions, distances, costs) and counts of faults of foreign nodes are minor. */
 phrase cause_phrase(const cause_group *group)
 {
     const size_t count = sizeof phrases / sizeof *phrases;

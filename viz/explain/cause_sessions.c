@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_sessions.c - sessions and views, compared as the files that are written of them. See cause_compare.h. */
+/* cause_sessions.c - compares sessions and views in their written form; see cause_compare.h. */
 #include "cause_compare.h"
 #include "json_read.h"
 #include "text.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* JSON_DECODE_INT_AS_REAL: all numbers are compared as doubles. */
+/* With JSON_DECODE_INT_AS_REAL all numbers are compared as doubles. */
 #define PARSE_FLAGS ((size_t)(JSON_DECODE_INT_AS_REAL | JSON_DISABLE_EOF_CHECK))
 
 static bool same_position(const double *a, const double *b, bool exact)
@@ -57,7 +57,7 @@ static int by_id(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The bodies as points in the order of their ids: where they are, or their velocities. */
+/* The bodies as points in ascending order of id, with their positions, or with their velocities in place of these. */
 static cause_points sort_bodies(const octree_session *session, bool velocities)
 {
     cause_points sorted = {malloc((session->body_count + 1) * sizeof *sorted.points), session->body_count};
@@ -87,14 +87,14 @@ static bool same_bodies(const octree_session *a, const octree_session *b)
            (a->body_count == 0 || memcmp(a->bodies, b->bodies, a->body_count * sizeof *a->bodies) == 0);
 }
 
-/* Whether unlike bodies were made by seeds on both sides: then how they were made is compared. */
+/* Whether the bodies differ and both sessions generated theirs from a seed: then the generators are compared. */
 static bool both_sampled(const octree_session *a, const octree_session *b)
 {
     return a->sampled.known && b->sampled.known && !same_bodies(a, b);
 }
 
-/* Whether that tells why the bodies differ. */
-static bool tells_sampled(const cause_facts *facts)
+/* Whether a difference of the generators has been found, which explains different bodies. */
+static bool sample_differs(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
         if (strncmp(facts->groups[i].where, "sampled", 7) == 0)
@@ -110,11 +110,11 @@ static bool same_ids(const octree_session *a, const octree_session *b)
     return true;
 }
 
-/* There may be a million points, so no JSON is made of them. Their order counts, since a full leaf refuses those that
- * come later. */
+/* Compare the first points without JSON, since there may be a million. Their order matters: a full leaf refuses the
+ * later ones. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
-    if (same_bodies(a, b) || tells_sampled(facts))
+    if (same_bodies(a, b) || sample_differs(facts))
         return;
     compare_sorted(a, b, false, facts);
     if (cause_group_of(facts, "points", CAUSE_MORE) || cause_group_of(facts, "points", CAUSE_LESS))
@@ -131,7 +131,7 @@ static char key_at(const octree_session *session, size_t length, uint64_t i)
     return i < length ? session->keys[i] : '.';
 }
 
-/* Of the ticks that both have. A missing key is a wait. */
+/* Compare the keys of the ticks that both sessions have. A missing key is a wait. */
 static void compare_keys(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const uint64_t lengths[2] = {octree_session_length(a), octree_session_length(b)};
@@ -144,9 +144,9 @@ static void compare_keys(const octree_session *a, const octree_session *b, cause
     }
 }
 
-/* ---- The rest, as it is written ------------------------------------------------------------------------------- */
+/* ---- Everything else, in its written form --------------------------------------------------------------------- */
 
-/* A session file without points and keys, which are compared elsewhere. "ticks" is the length in force. */
+/* A session file without points and keys, which are compared separately, and with "ticks" always written. */
 static char *write_session(const octree_session *session, bool sampled)
 {
     octree_session rest = *session;
@@ -163,7 +163,7 @@ static char *write_session(const octree_session *session, bool sampled)
     return text_stream_end(&s, &text) ? text : NULL;
 }
 
-/* The next object of a text, and *at is moved after it; null at the end. */
+/* Parse the next object of a text and move *at behind it; null at the end. */
 static json_t *next_object(const char **at)
 {
     json_error_t error;
@@ -179,7 +179,7 @@ static const char *player_kind(const json_t *player)
     return json_is_null(player) ? "none" : json_object_get(player, "body") ? "body" : "keys";
 }
 
-/* Give the player the member "kind", also where there is none, and "sweep" where it is left out. */
+/* Give the player of a session the members "kind" and "sweep", even if there is no player or no "sweep". */
 static json_t *name_kind(json_t *header)
 {
     json_t *player = json_object_get(header, "player");
@@ -200,7 +200,7 @@ static void drop_missing(json_t *from, const json_t *other)
     json_object_foreach_safe(from, next, key, value) if (!json_object_get(other, key)) json_object_del(from, key);
 }
 
-/* Members that only one kind of player has are not compared. */
+/* Compare the headers of two sessions, without the members that only one of the two kinds of players has. */
 static void compare_headers(const cause_place *place, json_t *a, json_t *b)
 {
     json_t *const players[2] = {name_kind(a), name_kind(b)};
@@ -209,7 +209,7 @@ static void compare_headers(const cause_place *place, json_t *a, json_t *b)
     cause_compare_members(place, a, b);
 }
 
-/* After the header comes a line for each tick that has edits, queries or shapes. */
+/* A line of a session file for a tick that has edits, queries or shapes. */
 typedef struct tick_line {
     uint64_t tick; /* UINT64_MAX: no line is left */
     size_t size;
@@ -223,7 +223,7 @@ static tick_line line_at(const char *at)
     return (tick_line){strtoull(at + sizeof start - 1, NULL, 10), strcspn(at, "\n")};
 }
 
-/* Equal lines are not parsed: a session may have many. */
+/* Merge the lines of two sessions by tick. Equal lines are not parsed, because a session may have many. */
 static void compare_lines(cause_place place, const char *x, const char *y)
 {
     for (tick_line a = line_at(x), b = line_at(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_ticks.c - two ticks of the same number, compared as their lines in ticks.jsonl, and their trees. See
+/* cause_ticks.c - compares two ticks of the same number: their lines of ticks.jsonl, and their trees node by node. See
  * cause_compare.h. */
 #include "cause_compare.h"
 #include "json_read.h"
@@ -19,10 +19,10 @@ static void add(cause_facts *facts, const char *where, cause_change change, json
 
 /* ---- Nodes --------------------------------------------------------------------------------------------------- */
 
-/* A walk over the nodes of one tree, each looked up in the other. */
+/* A walk over the nodes of one tree that looks up each node in the other tree. */
 typedef struct walking {
     const octree *other;
-    bool is_a; /* those of the reference are walked */
+    bool is_a; /* the tree of the reference is walked */
     cause_facts *facts;
 } walking;
 
@@ -32,8 +32,8 @@ static void add_node(const walking *w, const char *where, octree_address node)
     add(w->facts, where, CAUSE_MORE, json_string(octree_address_format(node, text)));
 }
 
-/* Below a node that the other tree lacks, or has as a leaf, nothing more is reported. */
-static octree_walk_order look_at(const octree_node *node, void *context)
+/* Report a node that the other tree lacks or has as a leaf, and skip the nodes below it. */
+static octree_walk_order compare_node(const octree_node *node, void *context)
 {
     const walking *w = context;
     octree_node other;
@@ -48,7 +48,7 @@ static octree_walk_order look_at(const octree_node *node, void *context)
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
-/* All points but that of an id, which may be null. */
+/* All points of a tree in ascending order of id, except the point with the id *but; null excludes none. */
 static cause_points sort_points(const octree *tree, const uint64_t *but)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -65,7 +65,7 @@ static cause_points sort_points(const octree *tree, const uint64_t *but)
     return sorted;
 }
 
-/* The id of the player if both games have the same one, whose position is compared with the tick; else null. */
+/* The player's id if both games have a player with the same id; else null. */
 static const uint64_t *player_of_both(const octree_game *a, const octree_game *b)
 {
     const uint64_t *ids[2] = {&octree_game_session(a)->player.id, &octree_game_session(b)->player.id};
@@ -73,7 +73,7 @@ static const uint64_t *player_of_both(const octree_game *a, const octree_game *b
     return both && *ids[0] == *ids[1] ? ids[0] : NULL;
 }
 
-/* In a game an id is unique. */
+/* Compare the points of both trees by id, which is unique in a game. */
 static void compare_points(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
     const uint64_t *player = player_of_both(a, b);
@@ -85,7 +85,7 @@ static void compare_points(const octree_game *a, const octree_game *b, cause_fac
     free(bs.points);
 }
 
-/* Nodes are not compared across different worlds. */
+/* Whether both trees have the same world, so that their nodes can be compared. */
 static bool same_world(const octree *a, const octree *b)
 {
     const octree_box x = octree_definition(a).world, y = octree_definition(b).world;
@@ -97,8 +97,8 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
     const octree *const as = octree_game_tree(a), *const bs = octree_game_tree(b);
     walking over_b = {as, false, facts}, over_a = {bs, true, facts};
     if (same_world(as, bs)) {
-        octree_walk(bs, look_at, &over_b);
-        octree_walk(as, look_at, &over_a);
+        octree_walk(bs, compare_node, &over_b);
+        octree_walk(as, compare_node, &over_a);
     } else {
         add(facts, "world", CAUSE_OTHER, NULL);
     }
@@ -107,7 +107,7 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* Without the tree's digest, which depends on the options too. */
+/* The line of ticks.jsonl without the digest of the tree, which also depends on the tree's options. */
 static char *write_line(const octree_game *game)
 {
     octree_tick tick = *octree_game_tick(game);
@@ -126,8 +126,8 @@ static bool is_inner(const octree_game *game, octree_address address)
     return octree_node_at(octree_game_tree(game), address, &node) == OCTREE_OK && !node.leaf;
 }
 
-/* Leave out nodes in which the trees differ: they are reported already. */
-static void drop_told(const octree_game *a, const octree_game *b, json_t *nodes)
+/* Remove the nodes in which the trees differ: cause_compare_trees() reports them. */
+static void drop_reported_nodes(const octree_game *a, const octree_game *b, json_t *nodes)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
         octree_address node;
@@ -142,8 +142,8 @@ static json_t *read_line(const octree_game *a, const octree_game *b, const char 
     json_error_t error;
     json_t *line = json_parse(text, strlen(text), JSON_DECODE_INT_AS_REAL, &error);
     json_object_del(line, "tree"); /* counts of what the trees report one by one */
-    drop_told(a, b, json_object_get(line, "splits"));
-    drop_told(a, b, json_object_get(line, "merges"));
+    drop_reported_nodes(a, b, json_object_get(line, "splits"));
+    drop_reported_nodes(a, b, json_object_get(line, "merges"));
     return line;
 }
 
@@ -163,7 +163,7 @@ static void compare_lines(const octree_game *a, const octree_game *b, cause_fact
     free(texts[1]);
 }
 
-/* ---- What is drawn and in no line ---------------------------------------------------------------------------- */
+/* ---- Values that are drawn but not in ticks.jsonl ------------------------------------------------------------ */
 
 static bool same_visits(const octree_tick *a, const octree_tick *b)
 {
@@ -179,7 +179,7 @@ static bool same_visits(const octree_tick *a, const octree_tick *b)
     return true;
 }
 
-/* Where the points that a swept test hit came from. */
+/* Whether the points that a swept test hit came from the same positions. */
 static bool same_hit_ways(const octree_tick *a, const octree_tick *b)
 {
     for (size_t i = 0; a->hit_from && b->hit_from && a->hit_count == b->hit_count && i < a->hit_count; i++)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_values.c - colours, intensities and classes, compared point by point. See cause_compare.h. */
+/* cause_values.c - compares colours, intensities and classes point by point; see cause_compare.h. */
 #include "cause_compare.h"
 #include "number.h"
 
 #include <stdlib.h>
 
-/* All ids that a session's points ever have, in ascending order. */
+/* The ids of all points that a session ever has, in ascending order. */
 typedef struct id_list {
     uint64_t *ids;
     size_t count;
@@ -53,7 +53,7 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
     }
 }
 
-/* Of points that both have, some of them twice: an id may be inserted again. */
+/* Compare the points of ids in both lists. A list may hold an id twice, since an id may be inserted again. */
 static void compare_shared(const id_list *a, const id_list *b, const point_values *before, const point_values *now,
                            cause_facts *facts)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_words.c - sentences from facts, by a table of phrases. */
+/* cause_words.c - prints facts as sentences, with the nouns and verbs of cause_phrases.c. */
 #include "cause_words.h"
 #include "cause_phrases.h"
 #include "number.h"
@@ -24,10 +24,10 @@ static void print_number(FILE *out, double number)
     fputs(text, out);
 }
 
-/* Of longer lists, such as ids, the first are told: nobody reads them. */
+/* The number of elements that are printed of a long list, such as ids. */
 enum { LONGEST_LIST = 4 };
 
-/* "(1, 2, 3)"; of a segment "(0, 0, 0) to (9, 9, 9)"; "(1, 2, 3, 4 and 8 more)". */
+/* Print "(1, 2, 3)", "(1, 2, 3, 4 and 8 more)", or for a segment "(0, 0, 0) to (9, 9, 9)". */
 static void print_list(FILE *out, const json_t *list)
 {
     const bool nested = json_is_array(json_array_get(list, 0));
@@ -47,7 +47,7 @@ static bool is_box(const json_t *value)
     return json_object_size(value) == 2 && json_object_get(value, "min");
 }
 
-/* Words within an object are in quotes. */
+/* Print a value with quotes if it is a text. */
 static void print_member(FILE *out, const json_t *value)
 {
     const char *quote = json_is_string(value) ? "\"" : "";
@@ -56,7 +56,7 @@ static void print_member(FILE *out, const json_t *value)
     fputs(quote, out);
 }
 
-/* A box as its corners; else each member after its name. */
+/* Print a box as its corners, and any other object as its members with their names. */
 static void print_object(FILE *out, json_t *object)
 {
     const char *key;
@@ -93,7 +93,8 @@ static bool has_members(const json_t *value)
     return json_is_object(value) && !is_box(value);
 }
 
-/* "8, was 4"; of objects each member, the changed ones so: "radius 101, was 100, at (1, 2, 3)". */
+/* Print "8, was 4". Of objects print each member, and "was" for the changed ones: "radius 101, was 100, at (1, 2, 3)".
+ * `within`: the value is a member of an object. */
 static void print_change(FILE *out, const json_t *a, const json_t *b, bool within)
 {
     void (*const print)(FILE *, const json_t *) = within ? print_member : print_value;
@@ -135,14 +136,14 @@ static void print_when(FILE *out, const phrase *p, const cause_fact *fact)
         fputs(" at every tick", out);
 }
 
-/* " in the range query", of an answer that differs. */
+/* Print " in the range query" if the facts are about the answer of that query. */
 static void print_query(FILE *out, const cause_group *group)
 {
     if (*group->query)
         fprintf(out, " in %s", group->query);
 }
 
-/* What a fact is about: a point, a node or a word, the tick of a key. */
+/* Print what a fact is about: the id of a point, the tick of a key, a node, or a word. */
 static void print_subject(FILE *out, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -154,8 +155,7 @@ static void print_subject(FILE *out, const cause_fact *fact)
         print_value(out, value);
 }
 
-/* " (8, was 4)", " (point 3: (7, -7, 7), was (7, 7, 7))". Counts of what something cost are in JSON alone, and so are
- * longer lists, such as the scale of points. */
+/* Print " (8, was 4)" or " (point 3: (7, -7, 7), was (7, 7, 7))". Costs and long lists are left to the JSON report. */
 static void print_values(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -176,7 +176,8 @@ static void print_values(FILE *out, const phrase *p, const cause_group *group, c
 static void print_fact(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
 {
     if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one side has the query */
-        fprintf(out, "%s%s", group->query, group->change == CAUSE_MORE ? " asked besides" : " not asked");
+        fprintf(out, "%s%s", group->query,
+                group->change == CAUSE_MORE ? " asked only in the frames" : " asked only in the reference");
         return;
     }
     if (group->change == CAUSE_LESS)
@@ -194,7 +195,7 @@ static void print_fact(FILE *out, const phrase *p, const cause_group *group, con
 
 enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
-/* How many subjects are named. "and 1 more" is never printed: naming it is as short. */
+/* The number of facts that are printed by name. "and 1 more" is never printed, since a name is as short. */
 static size_t count_told(const cause_group *group, bool brief)
 {
     const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_listed(group);
@@ -213,7 +214,7 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
         fprintf(out, " and %" PRIu64 " more", group->found - told);
 }
 
-/* "nodes 0/3/7 and 0/3/6 split"; "49 nodes split (such as 0/3/7)"; "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
+/* Print "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
 static void print_verb(FILE *out, const phrase *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
@@ -236,7 +237,7 @@ static void print_verb(FILE *out, const phrase *p, const cause_group *group, boo
     }
 }
 
-/* "12 more edits (points 3, 4, 5 and 9 more)". */
+/* Print "12 more edits (points 3, 4, 5 and 9 more)". */
 static void print_many(FILE *out, const phrase *p, const cause_group *group, bool brief)
 {
     static const char *const words[] = {
@@ -254,9 +255,9 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
     fputc(')', out);
 }
 
-/* "the query met other nodes at tick 3 (visited 12, was 9)"; "17 queries met other nodes, the first at tick 3 (...)".
- */
-static void print_deed(FILE *out, const phrase *p, const cause_group *group)
+/* Print "the query met other nodes at tick 3 (visited 12, was 9)" or "17 queries met other nodes, the first at tick 3
+ * (...)". */
+static void print_unnamed_verb(FILE *out, const phrase *p, const cause_group *group)
 {
     const cause_fact *first = &group->listed[0];
     if (group->found == 1)
@@ -267,8 +268,7 @@ static void print_deed(FILE *out, const phrase *p, const cause_group *group)
     print_values(out, p, group, first);
 }
 
-/* Facts without an id or a word to name them by are printed one by one; in brief the first alone, as each is a clause.
- */
+/* Whether a fact can be named by an id or a word, so that many facts fit in one clause. */
 static bool has_subject(const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -283,7 +283,7 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
         if (has_subject(&group->listed[0]))
             print_verb(out, &p, group, brief);
         else
-            print_deed(out, &p, group);
+            print_unnamed_verb(out, &p, group);
         return;
     }
     if (group->found > 1 && has_subject(&group->listed[0])) {
@@ -308,7 +308,7 @@ static unsigned count_groups(const cause_facts *facts, bool minor)
     return count;
 }
 
-/* The major facts, or the minor ones. */
+/* Print either the major or the minor facts. */
 static void print_half(FILE *out, const cause_facts *facts, bool minor, bool brief)
 {
     unsigned told = 0;
@@ -336,11 +336,11 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* What follows from another option: how many ticks differ. */
+/* Print the consequence of another option: the number of differing ticks. */
 static void print_extent(FILE *out, const cause *c)
 {
-    if (c->differing == 0) /* frames may: what is shown, such as a shape or an arrow, need not have happened */
-        fputs("the same happens in all ticks that both have", out);
+    if (c->differing == 0) /* frames may still differ, in shapes and arrows */
+        fputs("no tick that both have differs", out);
     else if (c->differing == c->compared - c->first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->first);
     else
@@ -348,7 +348,7 @@ static void print_extent(FILE *out, const cause *c)
                 plural_verb(c->differing), c->first);
 }
 
-/* What follows from another point, key, edit or query: what the first tick that differs shows of it. */
+/* Print the consequence of another point, key, edit or query: the facts of the first differing tick. */
 static void print_first(FILE *out, const cause *c)
 {
     const cause_tick *first = cause_at(c, c->first);
@@ -368,14 +368,14 @@ static bool any_option(const cause_facts *facts)
     return false;
 }
 
-/* "4 more wrong answers from tick 41 on". */
+/* Print "4 more wrong answers from tick 41 on". */
 static void print_span(FILE *out, const cause_span *span, const char *what)
 {
     fprintf(out, "%" PRIu64 " %s%s", span->count, what, plural(span->count));
     fprintf(out, span->first == span->last ? " at tick %" PRIu64 : " from tick %" PRIu64 " on", span->first);
 }
 
-/* "other wrong answers at tick 2"; "other wrong answers in 3 ticks from tick 2 on". */
+/* Print "other wrong answers at tick 2" or "other wrong answers in 3 ticks from tick 2 on". */
 static void print_other(FILE *out, const cause_span *span, const char *what)
 {
     (void)what;
@@ -386,12 +386,13 @@ static void print_other(FILE *out, const cause_span *span, const char *what)
         fprintf(out, " at tick %" PRIu64, span->first);
 }
 
-/* Either all that begins at the first tick that differs, or what begins after it. Whether there is anything. */
+/* Print the wrong answers that begin at the first differing tick or, if `later`, those that begin after it. Return
+ * whether there are any. */
 static bool print_wrong(FILE *out, const cause *c, bool later)
 {
     const struct {
         const cause_span *span;
-        const char *what; /* null: as many, but others */
+        const char *what; /* null: equal numbers of other wrong answers */
     } rows[] = {
         {&c->wrong.more, "more wrong answer"}, {&c->wrong.fewer, "fewer wrong answer"}, {&c->wrong.other, NULL}};
     bool any = false;
@@ -405,7 +406,7 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
     return any;
 }
 
-/* How many of the session's facts, which are sorted, begin after the first tick that differs; none where all do. */
+/* The number of the session's groups that begin after the first differing tick; 0 if all do. The groups are sorted. */
 static size_t count_later(const cause *c)
 {
     size_t count = 0;
@@ -418,8 +419,8 @@ static size_t count_later(const cause *c)
     return count < c->session.count ? count : 0;
 }
 
-/* Wrong answers are what an index is compared for: they come before all else of their tick. What begins after the first
- * tick that differs is no cause of that, and comes last. */
+/* Wrong answers come first, since users compare recordings to find them. Facts that begin after the first differing
+ * tick cannot be its cause and come last. */
 void cause_print_headline(FILE *out, const cause *c)
 {
     const bool options = any_option(&c->session);
@@ -437,7 +438,7 @@ void cause_print_headline(FILE *out, const cause *c)
         fputs(c->session.count ? "; " : "", out);
         cause_print_facts(out, &c->view, true);
         if (!c->session.count)
-            fputs(": the same ticks, looked at in another way", out);
+            fputs(": the ticks are the same, only the view differs", out);
     }
     if (later) {
         fputs("; ", out);

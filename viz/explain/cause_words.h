@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_words.h - why two recordings differ, in sentences. */
+/* cause_words.h - prints why two recordings differ as sentences. */
 #ifndef EXPLAIN_CAUSE_WORDS_H
 #define EXPLAIN_CAUSE_WORDS_H
 
@@ -7,14 +7,14 @@
 
 #include <stdio.h>
 
-/* The facts of one list, with commas between, those that matter least after a semicolon: "node 0/3/7 split, point 12
- * moved from (0, 0, 0) to (1, 2, 3)". Brief is without places, and no more than CAUSE_BRIEF groups of facts, those that
- * matter least left out. Prints nothing for an empty list. */
+/* Print a list of facts, separated by commas, and the minor facts after a semicolon: "node 0/3/7 only in the frames,
+ * point 12 moved from (0, 0, 0) to (1, 2, 3)". Brief texts leave out positions, minor facts and all groups after the
+ * first CAUSE_BRIEF. */
 #define CAUSE_BRIEF 4
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
 
-/* All of it in one line: what differs in the sessions or else in the views, and what follows from that. Nothing where
- * both are the same. */
+/* Print one line: the differences between the sessions and views, and their consequence. Print nothing if both are
+ * equal. */
 void cause_print_headline(FILE *out, const cause *c);
 
 #endif

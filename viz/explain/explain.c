@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* explain.c - two sides are explained pair by pair; recordings are played for it. */
+/* explain.c - explains two sides pair by pair; plays both sessions if the sides are recordings. */
 #include "explain.h"
 #include "cause_words.h"
 #include "pair_look.h"
@@ -66,7 +66,7 @@ typedef struct watching {
     size_t count, next;
 } watching;
 
-/* Called with ascending ticks. */
+/* Whether the tick is that of a pair that is explained. Called with ascending ticks. */
 static bool is_wanted(void *context, uint64_t tick)
 {
     watching *w = context;
@@ -85,9 +85,9 @@ static bool watch(void *context, const octree_game *const games[2], bool differs
     if (!is_wanted(w, tick))
         return true;
     const diff_pair *pair = w->pairs[w->next].pair;
-    cause_tick *told = &w->e->cause.ticks[w->e->cause.count - 1]; /* of this tick, which was wanted */
+    cause_tick *reported = &w->e->cause.ticks[w->e->cause.count - 1]; /* this tick: is_wanted() has asked for it */
     return !pair->difference.unlike.pixels ||
-           tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &told->trace, error);
+           tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &reported->trace, error);
 }
 
 static int by_number(const void *a, const void *b)
@@ -96,7 +96,8 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The first tick whose frames differ; names beyond six digits are not in the order of ticks. */
+/* The first tick whose frames differ. All pairs are searched: with more than six digits, the order of names is not the
+ * order of ticks. */
 static uint64_t first_drawn(const diff_result *result)
 {
     uint64_t first = CAUSE_NO_TICK, tick;
@@ -109,7 +110,7 @@ static uint64_t first_drawn(const diff_result *result)
     return first;
 }
 
-/* The first pairs that differ. */
+/* List the first `most` pairs that differ. */
 static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 {
     w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
@@ -140,7 +141,7 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Whether all explained pairs show the same scenes, drawn differently. */
+/* Whether every explained pair shows one scene that was drawn in two ways. */
 static bool only_drawn(const explanation *e)
 {
     bool any = false;
@@ -152,7 +153,7 @@ static bool only_drawn(const explanation *e)
     return any;
 }
 
-/* The first pair that has a cause; e->count where there is none. */
+/* The index of the first pair that has a cause; e->count if no pair has one. */
 static size_t first_explained(const explanation *e)
 {
     size_t i = 0;
@@ -161,7 +162,7 @@ static size_t first_explained(const explanation *e)
     return i;
 }
 
-/* Whether there were any. */
+/* Print the warnings of both sides; return whether there are any. */
 static bool print_warnings(FILE *out, const explanation *e)
 {
     bool any = false;
@@ -173,7 +174,7 @@ static bool print_warnings(FILE *out, const explanation *e)
     return any;
 }
 
-/* Warnings about files come first; without a difference of sessions and views, rendering is the cause. */
+/* Print the warnings about files first, then the cause. If sessions and views are equal, the cause is rendering. */
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0;
@@ -188,7 +189,7 @@ static void print_headline(FILE *out, const explanation *e, const diff_result *r
         fprintf(out, "%s: %s", diff_pair_name(&result->pairs[first]), e->pairs[first].text);
 }
 
-static bool say(explanation *e, const diff_result *result, octreel_error *error)
+static bool make_headline(explanation *e, const diff_result *result, octreel_error *error)
 {
     text_stream s;
     if (text_stream_begin(&s))
@@ -199,7 +200,7 @@ static bool say(explanation *e, const diff_result *result, octreel_error *error)
 
 /* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
 
-/* Whether only one side has the file, or both have it with other bytes. */
+/* Whether only one side has the file, or the two files have different bytes. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
     char *paths[2] = {path_join(a->path, name), path_join(b->path, name)};
@@ -220,7 +221,7 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
             file_differs(a, b, "ticks.jsonl"));
 }
 
-/* All pairs while they are looked at. */
+/* The context of look(), which runs for all pairs in parallel. */
 typedef struct looking {
     const explanation *e;
     const diff_result *result;
@@ -237,7 +238,7 @@ static void look(size_t i, void *context)
     }
 }
 
-/* Each pair has the key of its cause, and the first ones a sentence. */
+/* Give every pair that differs the key of its cause, and the first `most` pairs a sentence. */
 static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     looking l = {e, result, calloc(result->count + 1, sizeof *l.looks)};
@@ -263,7 +264,7 @@ static bool explain_all(const diff_side *a, const diff_side *b, const diff_resul
     if (e->recordings && !(recorded_open(&e->sides[0], a, error) && recorded_open(&e->sides[1], b, error) &&
                            play_both(e, result, most, error)))
         return false;
-    return explain_pairs(e, result, most, error) && say(e, result, error);
+    return explain_pairs(e, result, most, error) && make_headline(e, result, error);
 }
 
 bool explain(const diff_side *a, const diff_side *b, const diff_result *result, uint64_t most, explanation *e,

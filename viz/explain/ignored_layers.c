@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ignored_layers.c - masks of layers, from the scenes of both recordings. */
+/* ignored_layers.c - finds the pixels of ignored layers by drawing the scenes of both recordings again. */
 #include "ignored_layers.h"
 #include "layer.h"
 #include "letters.h"
@@ -12,13 +12,13 @@
 
 #define TEXT_ALONE (1u << LAYER_TEXT)
 
-/* A byte a pixel of the frame of a scene. */
+/* One byte for each pixel of a frame. */
 typedef struct frame_mask {
     uint8_t *bytes;
     int width, height;
 } frame_mask;
 
-/* A recording that is played for its masks. */
+/* A recording that is played to draw its masks. */
 typedef struct masking {
     replay replay;
     unsigned layers;
@@ -53,7 +53,7 @@ static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
     return true;
 }
 
-/* A recording's frames are named for their ticks. */
+/* The tick in the name of a frame. */
 static uint64_t tick_of(const diff_frame *frame)
 {
     uint64_t tick = 0;
@@ -95,12 +95,11 @@ bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_p
 {
     const unsigned layers = *(const unsigned *)context;
     if (a->kind != DIFF_RECORDING && b->kind != DIFF_RECORDING)
-        return error_set(error, "where a layer is can be told of recordings alone: neither %s nor %s is one", a->path,
-                         b->path);
+        return error_set(error, "--ignore-layer needs a recording, and neither %s nor %s is one", a->path, b->path);
     if (count == 0)
         return true;
-    /* Names are alike on both sides, so that one order by ticks serves both; beyond six digits it is not that of names.
-     */
+    /* Both frames of a pair have the same name, so one order by ticks fits both sides. With more than six digits it is
+     * not the order of names. */
     qsort(pairs, count, sizeof *pairs, by_tick);
     return (a->kind != DIFF_RECORDING || add_masks(a, true, layers, pairs, count, error)) &&
            (b->kind != DIFF_RECORDING || add_masks(b, false, layers, pairs, count, error));

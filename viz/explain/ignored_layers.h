@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* ignored_layers.h - where layers are seen in the frames of a recording, so that they can be left out of a comparison.
- */
+/* ignored_layers.h - excludes the pixels of some layers from a comparison of recordings. */
 #ifndef EXPLAIN_IGNORED_LAYERS_H
 #define EXPLAIN_IGNORED_LAYERS_H
 
 #include "diff.h"
 
-/* Add to each pair's mask where an element of the layers (an unsigned of bits 1 << view_layer: the context) is on top
- * in either frame; LAYER_TEXT stands for all letters, those of labels in the world too. The sessions are played and
- * drawn for it, or, for text alone, played. False with an error when neither side is a recording, or one cannot be
- * played or drawn. */
+/* Add to each pair's mask the pixels where an element of the layers is on top in either frame. The context points to an
+ * unsigned with the bits 1 << view_layer. LAYER_TEXT covers all letters, those of labels in the world, too. The
+ * sessions are played and drawn; for text alone they are only played. Return false with an error if neither side is a
+ * recording, or one cannot be played or drawn. */
 diff_mask ignore_layers;
 
 #endif

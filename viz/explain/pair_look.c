@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pair_look.c - why the frames of one pair differ: by what they say of themselves, and by their recordings. */
+/* pair_look.c - finds why two frames differ, from the text chunks in them and from their recordings. */
 #include "pair_look.h"
 #include "cause_words.h"
 #include "image_digest.h"
@@ -31,7 +31,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     uint64_t pixels;
     errno = 0;
     if (!image_digest_png_by(origin->kind, frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
-        return !check_system_resources(&ignored); /* nothing is said of what is not known */
+        return !check_system_resources(&ignored); /* the digest is unknown, so no fault is reported */
     return pixels == origin->pixels;
 }
 
@@ -79,7 +79,7 @@ static bool is_only_drawn(const explanation *e, const pair_look *l)
     return l->same_scene && !is_tampered(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
-/* Name the frames that were exchanged, or changed after they were drawn. */
+/* Print the frames that are not those that their recording drew for this tick. */
 static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
@@ -93,11 +93,11 @@ static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
         else if (l->faults[i] == FAULT_TICK)
             fprintf(out, "is the frame of tick %" PRIu64, l->of[i].tick);
         else if (l->faults[i] == FAULT_SCENE)
-            fputs("shows another scene than ticks.jsonl beside it has of its tick", out);
+            fputs("shows another scene than ticks.jsonl records for its tick", out);
         else if (l->faults[i] == FAULT_TEXTS)
-            fputs("has none of octreel's texts, as after another program has saved it", out);
+            fputs("has no text chunks of octreel; another program may have saved it", out);
         else
-            fputs("was changed after it was drawn: its pixels are not those that it says", out);
+            fputs("was changed after it was drawn: its pixels do not match the digest in its text chunk", out);
         any = true;
     }
 }
@@ -121,22 +121,22 @@ void pair_print_rendering(FILE *out, const explanation *e)
         print_renderers(out, e);
 }
 
-/* Why a recording has no frame of a tick. */
+/* Print why a recording has no frame of a tick. */
 static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 {
     const uint64_t last = octree_session_length(&r->replay.session.session);
     if (tick > last)
         fprintf(out, "the session of %s ends at tick %" PRIu64, r->side->path, last);
     else if (octree_session_gap(&r->replay.session.session, tick))
-        fprintf(out, "%s has a gap there: %s", r->side->path,
+        fprintf(out, "%s has a gap at this tick: %s", r->side->path,
                 octree_session_gap(&r->replay.session.session, tick)->why);
     else if (!frame_is_due(tick, r->view.every))
         fprintf(out, "%s has a frame every %" PRIu64 " ticks", r->side->path, r->view.every);
     else
-        fprintf(out, "%s lacks it: that recording is damaged, or not done", r->side->path);
+        fprintf(out, "%s has no such frame: the recording is damaged or incomplete", r->side->path);
 }
 
-/* Whether anything is known that can show in the frame of a tick. */
+/* Whether there is a known difference that the frame of a tick can show. */
 static bool differs_at(const explanation *e, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
@@ -144,14 +144,16 @@ static bool differs_at(const explanation *e, uint64_t tick)
            cause_facts_show(&e->cause.session, tick);
 }
 
-/* Where nothing differs in the tick itself: what differs between the sessions, best what can show in it. */
+/* For a tick in which nothing differs: print the differences between the sessions, preferably those that this frame can
+ * show. */
 static void print_same_tick(FILE *out, const explanation *e, const cause_facts *shown, bool other_view)
 {
     const cause_facts *session = shown->count || other_view ? shown : &e->cause.session;
     if (!other_view)
-        fputs(session->count ? "the same happened in it; "
-                             : "another scene of the same session and view: drawn by another version of octreel, or "
-                               "the files beside the frames were changed",
+        fputs(session->count
+                  ? "nothing differs in the tick itself; "
+                  : "the scene differs although session and view are equal: drawn by another version of octreel, or "
+                    "a file beside the frames was changed",
               out);
     else if (session->count)
         fputs("; ", out);
@@ -174,20 +176,22 @@ static void print_tick(FILE *out, const explanation *e, uint64_t tick)
     free(session.groups);
 }
 
-/* Frames without recordings: only their text chunks are known. */
+/* Print how two frames outside of recordings differ by their text chunks. */
 static void print_origins(FILE *out, const pair_look *l)
 {
     const frame_origin *a = &l->of[0], *b = &l->of[1];
     if (a->tick != b->tick)
         fprintf(out, "the reference shows tick %" PRIu64 ", the frame tick %" PRIu64, a->tick, b->tick);
     else if (a->session != b->session)
-        fprintf(out, "tick %" PRIu64 " of unlike sessions", a->tick);
+        fprintf(out, "tick %" PRIu64 " of two different sessions", a->tick);
     else
-        fprintf(out, "tick %" PRIu64 " of one session in unlike scenes: another view, or another version of octreel",
+        fprintf(out,
+                "tick %" PRIu64
+                " of one session, drawn as two different scenes: another view or another version of octreel",
                 a->tick);
 }
 
-/* What is drawn where they differ. */
+/* Print the elements that are drawn where the frames differ. */
 static void print_trace(FILE *out, const explanation *e, uint64_t tick)
 {
     const cause_tick *told = cause_at(&e->cause, tick);
@@ -197,7 +201,8 @@ static void print_trace(FILE *out, const explanation *e, uint64_t tick)
     }
 }
 
-/* A picture without texts may be the right one: why that differs is told as well. */
+/* Whether a faulty frame may still show the right picture: it only lacks its text chunks. Then the difference between
+ * the ticks is printed as well. */
 static bool may_be_right(const pair_look *l)
 {
     return (l->faults[0] == FAULT_NONE || l->faults[0] == FAULT_TEXTS) &&
@@ -237,10 +242,9 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
     return (text_stream_end(&s, &cause->text) && begun) || error_no_memory(error);
 }
 
-/* ---- What all pairs of one cause have alike ----------------------------------------------------------------- */
+/* ---- The key of a cause ------------------------------------------------------------------------------------- */
 
-/* Nothing tells a cause, or not what was done to a frame: one that changes the same pixels by as much in several frames
- * is one. */
+/* Print a key for a pair of unknown cause: pairs in which the same pixels differ by the same amount form one group. */
 static void print_tally(FILE *out, const diff_pair *pair)
 {
     const image_tally *t = &pair->difference.unlike;
@@ -248,7 +252,7 @@ static void print_tally(FILE *out, const diff_pair *pair)
             t->largest_channel, t->min_x, t->min_y, t->max_x, t->max_y);
 }
 
-/* Two frames without recordings: by what they say of themselves. */
+/* Print a key for frames outside of recordings, from their text chunks. */
 static void print_origins_key(FILE *out, const pair_look *l)
 {
     const frame_origin *a = &l->of[0], *b = &l->of[1];
@@ -256,7 +260,8 @@ static void print_origins_key(FILE *out, const pair_look *l)
             b->tick - a->tick);
 }
 
-/* False where nothing tells whether another pair has the same cause, as of digests, or where one frame is missing. */
+/* Print the key of a pair. Return false if another pair with the same cause cannot be recognized: for example when only
+ * digests are known or a frame is missing. */
 static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;

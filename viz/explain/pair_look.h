@@ -1,36 +1,35 @@
 /* SPDX-License-Identifier: MIT */
-/* pair_look.h - why the frames of one pair differ. For this folder. */
+/* pair_look.h - finds why the two frames of a pair differ; used only in this folder. */
 #ifndef EXPLAIN_PAIR_LOOK_H
 #define EXPLAIN_PAIR_LOOK_H
 
 #include "explain.h"
 #include "frame_file.h"
 
-/* What is wrong with a frame by what its text chunks say: it is not the one that its recording made for this tick, was
- * changed after it was drawn, or, in a recording, says nothing. */
+/* A contradiction between a frame and its text chunks or its recording: it belongs to another session, tick or scene,
+ * its pixels were changed, or a frame of a recording has no text chunks. */
 typedef enum frame_fault { FAULT_NONE, FAULT_SESSION, FAULT_TICK, FAULT_SCENE, FAULT_PIXELS, FAULT_TEXTS } frame_fault;
 
-/* What both frames say of themselves in their text chunks. */
+/* The text chunks of both frames, and the faults that they show. */
 typedef struct pair_look {
     frame_origin of[2];
-    bool told[2]; /* the frame says it */
+    bool told[2]; /* the frame has these text chunks */
     frame_fault faults[2];
     bool same_scene;
 } pair_look;
 
-/* Look at both; frames that say it are decoded. Any number of pairs at the same time. */
+/* Read the text chunks of both frames; if a frame has them, decode it to check its digest. Thread-safe. */
 pair_look pair_look_at(const explanation *e, const diff_pair *pair);
 
-/* Find the cause of a pair that differs. Its text is null where neither recordings nor text chunks in the frames tell
- * one. */
+/* Find the cause of a pair that differs. Its text is null if neither recordings nor text chunks show a cause. */
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *look, pair_cause *cause,
                      octreel_error *error);
 
-/* What is the same in all pairs that differ for one cause, for the program alone; null where nothing tells, or there is
- * no memory. The caller frees it. */
+/* A key that is equal for all pairs with the same cause; not for people. Null if there is none or memory runs out. The
+ * caller frees it. */
 char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look *look);
 
-/* The sentence for frames of the same scene: who drew them, where that is known. */
+/* Print the sentence for two frames of the same scene, with the renderers if they are known. */
 void pair_print_rendering(FILE *out, const explanation *e);
 
 #endif

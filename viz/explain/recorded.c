@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* recorded.c - the files of a recording that is explained. */
+/* recorded.c - reads the files of a recording and checks that they agree with its session. */
 #include "recorded.h"
 #include "array.h"
 #include "frame_file.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A longer line is not read to its end. */
+/* The longest line of ticks.jsonl that is read to its end, in bytes. */
 #define LONGEST_LINE ((size_t)1 << 26)
 
 static bool warn(recorded *r, octreel_error *error, const char *format, ...)
@@ -41,7 +41,7 @@ static bool check_session(recorded *r, octreel_error *error)
     if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
         !frame_session(r->side->path, tick, &r->filmed) || r->filmed == r->replay.session_digest)
         return true;
-    return warn(r, error, "%s/session.json is not the session that was filmed", r->side->path);
+    return warn(r, error, "%s/session.json is not the session that was recorded", r->side->path);
 }
 
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)

@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* trace.c - which elements are drawn at the pixels that differ. */
+/* trace.c - finds the elements that are drawn at the pixels in which two frames differ.
+ *
+ * The problem: "312 pixels differ" does not help; "180 pixels of node 0/3/7" does. A PNG does not say which element
+ * drew a pixel.
+ *
+ * The idea: rebuild the scenes of both frames and draw them once more, with element numbers in place of colours
+ * (renderer_pick()). For each differing pixel, look up the elements on both sides and take the upper one, because the
+ * one that is drawn on top caused the difference. A node that exists on one side only, because a node above it is
+ * divided there, counts for that upper node: one change in the tree is reported once, not once for each descendant.
+ * Equal elements are added up in a hash table and sorted by their pixels. Frames that do not show the scene of their
+ * tick are not traced. Cost: two drawings, and 8 bytes for each sample of a picture.
+ */
 #include "trace.h"
 #include "array.h"
 #include "frame_file.h"
@@ -11,7 +22,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* The most samples of a picture that is traced; each takes 8 bytes. */
+/* The largest picture that is traced, in samples of 8 bytes each. */
 #define MOST_SAMPLES ((size_t)1 << 25)
 
 void tracer_close(tracer *t)
@@ -34,8 +45,8 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
 
 /* ---- Parts --------------------------------------------------------------------------------------------------- */
 
-/* The highest node on the way to this one, or itself, in which the trees differ: there on one side alone, or inner on
- * one side and a leaf on the other. 0: none. */
+/* The highest ancestor of a node, or the node itself, that only one tree has, or that is a leaf in only one tree; 0 if
+ * there is none. */
 static octree_address changed_node(const octree_game *const games[2], octree_address node)
 {
     const unsigned depth = octree_address_depth(node);
@@ -50,8 +61,7 @@ static octree_address changed_node(const octree_game *const games[2], octree_add
     return 0;
 }
 
-/* Points, nodes of LAYER_NODES and nodes in which the trees differ are parts of their own; each other layer is one
- * part. */
+/* The part to which an element belongs. Each point and each node is a part; every other layer is one part. */
 static trace_part part_of(const scene *s, uint32_t number, const octree_game *const games[2])
 {
     trace_part part = {.layer = TRACE_BACKGROUND, .pixels = 1};
@@ -69,7 +79,7 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
     return part;
 }
 
-/* The upper one of what the two sides show: layers are in painter's order, the background is below all. */
+/* The part that is drawn on top: layers are in painter's order, and the background is below all. */
 static trace_part upper(trace_part a, trace_part b)
 {
     if (a.layer == TRACE_BACKGROUND || b.layer == TRACE_BACKGROUND)
@@ -83,14 +93,14 @@ static bool same_part(const void *a, const void *b)
     return x->layer == y->layer && x->id == y->id;
 }
 
-/* What both sides show, a number a sample. */
+/* The element numbers of both sides, one for each sample. */
 typedef struct pictures {
     uint32_t *numbers[2];
     size_t width;   /* in pixels */
-    size_t samples; /* of a pixel, each way */
+    size_t samples; /* samples of a pixel along each axis */
 } pictures;
 
-/* Of the samples of a pixel the first at which the sides show different elements; else the first that shows any. */
+/* The part at the first sample of a pixel whose elements differ, or else at the first sample that shows an element. */
 static trace_part part_at(const tracer *t, const octree_game *const games[2], const pictures *p, size_t x, size_t y)
 {
     trace_part found = {.layer = TRACE_BACKGROUND, .pixels = 1};
@@ -118,7 +128,7 @@ static uint64_t hash_part(const void *part)
 
 static const hash_map_keys by_part = {sizeof(trace_part), hash_part, same_part};
 
-/* A trace while its parts are added up. */
+/* A trace under construction. */
 typedef struct counting {
     trace made;
     size_t room;
@@ -181,7 +191,7 @@ static bool make_trace(const tracer *t, const octree_game *const games[2], const
 
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
 
-/* Without a renderer nothing is traced; the reason is kept once. */
+/* Draw the element numbers of a scene. If there is no renderer, nothing is traced; the first reason is kept. */
 static bool pick(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
@@ -196,7 +206,7 @@ static bool pick(tracer *t, const scene *s, uint32_t *numbers)
     return false;
 }
 
-/* Read both frames; false where one does not show the scene of its tick. */
+/* Read both frames. Return false if one of them does not show the scene of its tick. */
 static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
 {
     const diff_frame *const files[2] = {pair->a, pair->b};
@@ -218,8 +228,7 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
     const size_t side = (size_t)view_samples(&t->scenes[0].view), width = (size_t)frames[0].width;
     const size_t size = width * (size_t)frames[0].height * side * side;
     if (size > MOST_SAMPLES) {
-        snprintf(t->untraced, sizeof t->untraced, "a picture of more than %zu samples is too large for it",
-                 MOST_SAMPLES);
+        snprintf(t->untraced, sizeof t->untraced, "pictures of more than %zu samples are not traced", MOST_SAMPLES);
         return true;
     }
     pictures p = {{malloc(size * sizeof **p.numbers), malloc(size * sizeof **p.numbers)}, width, side};

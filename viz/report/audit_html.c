@@ -18,15 +18,15 @@
 
 /* ---- Links -------------------------------------------------------------------------------------------------- */
 
-/* Where the recording is, as seen from the page. */
+/* The recording as seen from the page. */
 typedef struct page {
     FILE *out;
     const audit_verdict *verdict;
-    char *base;      /* "./../flight/"; null: there is no recording to lead to */
-    bool has_viewer; /* index.html */
+    char *base;      /* the relative folder, "./../flight/"; null: there is no recording to link to */
+    bool has_viewer; /* the recording has an index.html */
 } page;
 
-/* From one absolute folder to another: "../" for each folder of the first that the second is not in. */
+/* The relative path from one absolute folder to another. */
 static char *relative_path(const char *from, const char *to)
 {
     size_t shared = 0;
@@ -105,7 +105,8 @@ static bool has_frame(const page *p, uint64_t tick, char name[FRAME_NAME])
     return p->base && folder_has(p->verdict->path, frame_name(tick, name));
 }
 
-/* Begin a link to the tick's frame or, where that is wanted or there is none, to the viewer. Whether there is one. */
+/* Begin a link to the frame of a tick or, if asked for or if there is no frame, to the viewer. Return whether a link
+ * was begun. */
 static bool begin_link(const page *p, uint64_t tick, bool viewer)
 {
     char name[FRAME_NAME];
@@ -126,13 +127,13 @@ static bool begin_link(const page *p, uint64_t tick, bool viewer)
 
 enum { WIDTH = 960, HEIGHT = 150, LEFT = 70, RIGHT = 20, TOP = 12, FOOT = 26 };
 
-/* What is drawn over the ticks. */
+/* A chart over the ticks. */
 typedef struct chart {
     const audit_kind *kind;
     bool ratio; /* else recall */
     double from, to;
-    double finite;       /* below `to` where some are infinite: these stand there */
-    const double *limit; /* null: none */
+    double finite;       /* the largest finite value on the axis; infinite values are drawn above it, at `to` */
+    const double *limit; /* null: no limit is drawn */
 } chart;
 
 static double value_of(const chart *c, const audit_tick *tick)
@@ -173,7 +174,7 @@ static double x_of(const chart *c, uint64_t tick)
     return LEFT + (last > first ? (double)(tick - first) / (double)(last - first) : 0.5) * (WIDTH - LEFT - RIGHT);
 }
 
-/* What is infinite lies on the upper edge. */
+/* Infinite values are drawn on the upper edge. */
 static double y_of(const chart *c, double value)
 {
     const double share = isinf(value) ? 1 : (value - c->from) / (c->to - c->from);
@@ -199,7 +200,7 @@ static void write_ticks_scale(const page *p, const chart *c)
     putc('\n', p->out);
 }
 
-/* The worst tick of those that a point stands for. */
+/* The worst of the ticks that one point of the chart represents. */
 static const audit_tick *worst_of(const chart *c, size_t point, size_t points)
 {
     const size_t count = c->kind->tick_count;
@@ -249,7 +250,7 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
 
 /* ---- Words -------------------------------------------------------------------------------------------------- */
 
-/* " (frame, page)": links to a tick's, as far as there are these. */
+/* Print " (frame, page)" with links to the frame and the page of a tick, if they exist. */
 static void write_links(const page *p, uint64_t tick)
 {
     char name[FRAME_NAME];
@@ -263,7 +264,7 @@ static void write_links(const page *p, uint64_t tick)
     fputs(frame || viewer ? ")" : "", p->out);
 }
 
-/* In a sentence, and as in ticks.jsonl, with all digits. */
+/* Print a case as a sentence, and its answer as in ticks.jsonl, with all digits. */
 static void write_worst(const page *p, const audit_case *c, bool neighbors, text_stream *words)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
@@ -319,7 +320,7 @@ static bool write_kind(const page *p, int of)
     return ok;
 }
 
-/* The verdict; of what; what is allowed; and that nothing can be led to. */
+/* Print the verdict, the path, the limits and, if there is no recording, that frames cannot be linked. */
 static bool write_head(const page *p)
 {
     const audit_verdict *v = p->verdict;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_junit.c - the verdict on a program's answers as JUnit's XML: see audit_print.h. Times are not known: 0. */
+/* audit_junit.c - writes an audit as JUnit XML: see audit_print.h. Times are unknown and written as 0. */
 #include "audit_print.h"
 #include "xml.h"
 
@@ -15,7 +15,7 @@ static void print_worst(FILE *out, const audit_kind *kind, bool neighbors)
     }
 }
 
-/* A failure, with one line as its message and all that is known as its text. */
+/* Write a failure with a message of one line and all details as its text. */
 static bool write_failure(FILE *out, const audit_verdict *v, int kind)
 {
     text_stream line, all;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_page.h - the page of octreel audit, its style inside, as CMake made bytes of it: what comes before what is
- * told, and what comes after. */
+/* audit_page.h - the HTML page of octreel audit, embedded by CMake: the parts before and after the contents. */
 #ifndef REPORT_AUDIT_PAGE_H
 #define REPORT_AUDIT_PAGE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_print.c - the verdict on a program's answers as text for people, and as JSON. */
+/* audit_print.c - prints an audit as text for people and as JSON. */
 #include "audit_print.h"
 #include "json_write.h"
 #include "number.h"
@@ -17,7 +17,7 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
     return text;
 }
 
-/* Six digits, or as many as it takes to show a difference from 1. */
+/* Write a ratio with six digits, or with as many as show that it differs from 1. */
 static const char *share_text(double share, char text[NUMBER_TEXT])
 {
     int digits = 6;
@@ -41,7 +41,7 @@ static const char *reason_words(octree_wrong_kind fault)
     return words[fault];
 }
 
-/* "; missed 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more" */
+/* Print "; missed 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". */
 static void print_points(FILE *out, const char *what, const octree_point *points, size_t count)
 {
     const size_t told = count < AUDIT_POINTS ? count : AUDIT_POINTS;
@@ -84,7 +84,7 @@ void audit_print_limits(FILE *out, const audit_limits *limits)
         fprintf(out, "%srecall from %s on", limits->by_ratio ? ", " : "", texts[1]);
 }
 
-/* ": within what is allowed", ": beyond what is allowed", or nothing. */
+/* Print whether a value is within its limit; nothing if there is no limit. */
 static void print_within(FILE *out, const audit_limits *limits, bool passes)
 {
     if (limits->by_ratio || limits->by_recall)
@@ -210,7 +210,7 @@ static void write_points(json_writer *w, const char *key, const octree_point *po
     json_write_end_array(w);
 }
 
-/* The answer is JSON already. */
+/* Write the answer, which is JSON text already. */
 static void write_case(json_writer *w, const audit_case *c, bool neighbors)
 {
     json_write_begin_object(w);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_print.h - the verdict on a program's answers, for people and for programs. */
+/* audit_print.h - reports an audit of a foreign index as text, JSON, JUnit and HTML. */
 #ifndef REPORT_AUDIT_PRINT_H
 #define REPORT_AUDIT_PRINT_H
 
@@ -7,24 +7,24 @@
 
 #include <stdio.h>
 
-/* What is told: of which recording or session, and what came of it. */
+/* The input of all reports: the recording or session, and the result of its audit. */
 typedef struct audit_verdict {
     const char *path;
-    bool recording; /* the path is one: it has frames or a page */
+    bool recording; /* the path is a recording, which has frames or a page */
     const audit_report *report;
 } audit_verdict;
 
-/* A line for the whole and for each kind, and below each kind its worst cases; or one JSON object on one line. Errors
- * stay with the stream, as below. */
+/* Print text with a line for the audit, one for each kind of query, and its worst cases below; or one JSON object on
+ * one line. The caller checks the stream for errors, here and below. */
 void audit_print_text(FILE *out, const audit_verdict *verdict);
 void audit_print_json(FILE *out, const audit_verdict *verdict);
 
-/* JUnit's XML: a test case for each kind of query, and one for the nodes. False where there is no memory. */
+/* Write JUnit XML: a test case for each kind of query, and one for the nodes. Return false if memory runs out. */
 bool audit_print_junit(FILE *out, const audit_verdict *verdict);
 
-/* One page of HTML that loads nothing: recall and ratio over the ticks, where each point leads to its frame, and the
- * worst cases. Links go from the folder `from`, in which the page lies, to the recording. Charts have AUDIT_PAGE_POINTS
- * points at most, each the worst of its ticks. False where there is no memory. */
+/* Write a self-contained HTML page: charts of recall and ratio over the ticks, whose points link to their frames, and
+ * the worst cases. Links are relative to `from`, the folder of the page. A chart has at most AUDIT_PAGE_POINTS points,
+ * each for the worst of its ticks. Return false if memory runs out. */
 #define AUDIT_PAGE "audit.html"
 #define AUDIT_PAGE_POINTS 400
 bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from);
@@ -35,17 +35,17 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 #define AUDIT_RATIO_TEXT 48
 const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT]);
 
-/* In one line without its end: what came of all; of one kind; of the nodes; and what is allowed, or "" where nothing
- * is. */
+/* Print one line without its newline: the result of the audit; of one kind of query; of the nodes; and the limits, or
+ * nothing if there are none. */
 void audit_print_all(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
-void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);                         /* "nodes: 3 faults" */
-void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind); /* how often, and the first */
+void audit_print_nodes_head(FILE *out, const audit_nodes *nodes); /* "nodes: 3 faults" */
+void audit_print_fault(FILE *out, const audit_nodes *nodes,
+                       octree_wrong_node_kind kind); /* its count and its first node */
 void audit_print_limits(FILE *out, const audit_limits *limits);
 
-/* Which of the tick's answers a case is, as in ticks.jsonl, what is wrong with it, and the points that it missed and
- * named wrongly. */
+/* Print a case: the number of the answer in its tick, its fault, and the missing and extra points. */
 void audit_print_case(FILE *out, const audit_case *c, bool neighbors);
 
 #endif

@@ -1,4 +1,11 @@
 /* SPDX-License-Identifier: MIT */
+/* contact_sheet.c - draws small copies of the pictures of evidence into contact.png.
+ *
+ * Each cell shows a picture as large as it fits. A pixel of the cell covers a rectangle of the picture: its color is
+ * the mean of the rectangle for expected and actual pictures, but for the difference it is the brightest pixel. With
+ * the mean, one differing pixel of a large picture would fade to black and be missed. A picture is read, drawn and
+ * released before the next one, so at most one is in memory.
+ */
 #include "contact_sheet.h"
 #include "diff_words.h"
 #include "file.h"
@@ -35,7 +42,7 @@ static void fill(image *sheet, int x, int y, int width, int height, image_color 
                    (uint8_t[]){color.r, color.g, color.b}, 3);
 }
 
-/* At most `most` letters; a longer text ends in dots. */
+/* Draw at most `most` letters of a text; a longer text ends in dots. */
 static void write_text(image *sheet, int x, int y, size_t most, const char *text, image_color color)
 {
     const glyph_set *face = &glyph_sets[FACE_8X16];
@@ -51,7 +58,7 @@ static void write_text(image *sheet, int x, int y, size_t most, const char *text
 
 /* ---- Small pictures ------------------------------------------------------------------------------------------ */
 
-/* The pixels of a picture that become one of a cell. */
+/* The rectangle of a picture that becomes one pixel of a cell. */
 typedef struct patch {
     int x0, y0, x1, y1;
 } patch;
@@ -70,7 +77,7 @@ static image_color mean_of(const image *of, const patch *p)
                          (uint8_t)((b + count / 2) / count)};
 }
 
-/* A single pixel that differs glows however small the picture is. */
+/* The brightest pixel of a rectangle, so that a single differing pixel stays visible. */
 static image_color brightest_of(const image *of, const patch *p)
 {
     image_color best = image_color_at(of, p->x0, p->y0);
@@ -91,7 +98,7 @@ static void find_span(int at, int across, int length, int *first, int *end)
     *end += *end == *first;
 }
 
-/* As large as it fits, in the middle of its cell. */
+/* Draw a picture as large as it fits into the middle of its cell. */
 static void put_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
 {
     int width = CELL_WIDTH, height = (int)((int64_t)CELL_WIDTH * picture->height / picture->width);
@@ -115,7 +122,7 @@ static void put_picture(image *sheet, int left, int top, const image *picture, e
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* A picture that cannot be read leaves its cell empty: the reports say why. */
+/* Draw one picture of a row. An unreadable picture leaves its cell empty; the other reports say why. */
 static void put_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
 {
     octreel_error ignored;

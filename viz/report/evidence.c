@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* evidence.c - the folder of evidence, and the pictures in it. */
+/* evidence.c - creates the folder of evidence and writes the pictures in it. */
 #include "evidence.h"
 #include "contact_sheet.h"
 #include "file.h"
@@ -17,7 +17,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* A file that marks a folder as evidence, and says what will be removed. */
+/* A file that marks a folder as evidence and says which files the next comparison removes. */
 #define MARKER "evidence.txt"
 static const char marker_beginning[] = "octreel evidence 1\n";
 static const char marker_text[] = "octreel evidence 1\n"
@@ -37,7 +37,7 @@ const char *evidence_word(evidence_picture picture)
     return words[picture];
 }
 
-/* Where the suffix begins: the end of a name that has none. */
+/* The beginning of a name's suffix; the end of the name if it has none. */
 static size_t stem_length(const char *name)
 {
     const size_t length = strlen(name);
@@ -47,7 +47,7 @@ static size_t stem_length(const char *name)
 /* The longest ending of a name, that of an unfinished file included. */
 #define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
 
-/* How many bytes of a stem fit into a file's name, without cutting a UTF-8 character. */
+/* The number of bytes of a stem that fit into a file name, without cutting a UTF-8 character. */
 static size_t fitting_length(const char *stem)
 {
     size_t length = NAME_MAX - (sizeof LONGEST_ENDING - 1);
@@ -137,7 +137,7 @@ static bool remove_entry(const char *folder, const char *name, octreel_error *er
     return ok;
 }
 
-/* In a folder of evidence other files stay; a folder without the marker must be empty. */
+/* Other files in a folder of evidence stay; a folder without the marker must be empty. */
 static bool visit_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
     if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
@@ -193,7 +193,7 @@ static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_
 
 /* ---- The difference ------------------------------------------------------------------------------------------ */
 
-/* Both images, and what the rows of their difference are made of. */
+/* Both images and the data from which the rows of their difference are computed. */
 typedef struct canvas {
     image images[2];
     image_tolerance tolerance;

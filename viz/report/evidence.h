@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* evidence.h - a folder that shows what a comparison found: pictures of each pair that differs, and report.html. */
+/* evidence.h - the folder of diff --output: expected, actual and difference pictures, and report.html. */
 #ifndef REPORT_EVIDENCE_H
 #define REPORT_EVIDENCE_H
 
@@ -26,29 +26,29 @@ const char *evidence_word(evidence_picture picture);
 /* The name of a frame's picture; the caller frees it, null when there is no memory. */
 char *evidence_name(const char *frame, evidence_picture picture);
 
-/* Whether a file's name is that of such a picture, or of one half written. */
+/* Whether a file name is that of such a picture, or of one that is not completely written. */
 bool evidence_is_name(const char *name);
 
-/* Write into a folder the files that exist, and the difference where both can be read. *written
- * receives a bit (1 << evidence_picture) for each. Both images are in memory, and of what is drawn a row at a time. */
+/* Write the pictures of a pair into a folder: those that exist, and the difference if both can be read. *written gets a
+ * bit (1 << evidence_picture) for each. Both images are in memory; the difference is written row by row. */
 bool evidence_draw(const diff_pair *pair, const diff_options *options, const char *folder, unsigned *written,
                    octreel_error *error);
 
 typedef struct evidence {
     const char *folder; /* not owned */
-    unsigned *pictures; /* of each pair, a bit (1 << evidence_picture) for each that is there; owned */
+    unsigned *pictures; /* for each pair, a bit (1 << evidence_picture) for each picture that was written; owned */
 } evidence;
 
-/* Make the folder, or empty it of an earlier comparison's evidence, so that what is in it is of this one alone. Refused
- * is a folder that holds anything else, or that is or holds what is compared. */
+/* Create the folder, or remove the evidence of an earlier comparison from it. Return false with an error if the folder
+ * holds other files, or is or holds one of the compared sides. */
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error);
 
-/* Draw the first pair of each group that differs, one after the other. */
+/* Write the pictures of the first pair of each differing group. */
 bool evidence_collect(evidence *e, const char *folder, const diff_result *result, const frame_groups *groups,
                       octreel_error *error);
 void evidence_release(evidence *e);
 
-/* The path of a picture of the i-th pair: null when it is not there, or there is no memory; the caller frees it. */
+/* The path of a picture of the i-th pair; the caller frees it. Null if it was not written or memory runs out. */
 char *evidence_path(const evidence *e, const diff_result *result, size_t i, evidence_picture picture);
 
 #endif

@@ -1,4 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+/* groups.c - groups pairs by cause and prints the frames of a group.
+ *
+ * The listed pairs are sorted by key and then by index; each run of equal keys is one group, whose first pair has the
+ * lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists them in the
+ * order of frames. Cost: O(n log n). Names that are frames of ticks are printed as ranges of ticks.
+ */
 #include "groups.h"
 #include "diff_words.h"
 #include "frame_file.h"
@@ -8,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A pair while it is sorted to those of its cause. */
+/* A pair and the key by which it is sorted. */
 typedef struct keyed_pair {
     const char *key;
     size_t pair;
@@ -21,7 +27,7 @@ static int by_key(const void *a, const void *b)
     return order ? order : (x->pair > y->pair) - (x->pair < y->pair);
 }
 
-/* Number the groups in the order of their first pairs, and count what is in them. */
+/* Number the groups in the order of their first pairs, and count their pairs. */
 static void number_groups(frame_groups *g, size_t pairs, const size_t *first)
 {
     for (size_t i = 0; i < pairs; i++) {
@@ -82,7 +88,7 @@ size_t frame_groups_count_unlike(const frame_groups *g, const diff_result *resul
     return count;
 }
 
-/* ---- In words ------------------------------------------------------------------------------------------------ */
+/* ---- Printing ------------------------------------------------------------------------------------------------ */
 
 static bool are_ticks(const frame_groups *g, const diff_result *result, size_t group)
 {

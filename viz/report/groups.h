@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* groups.h - frames that differ for one cause are told once: a group has them all, and its first shows it. */
+/* groups.h - groups the frames that differ for the same cause, so that a report lists the cause once and shows the
+ * first frame only. */
 #ifndef REPORT_GROUPS_H
 #define REPORT_GROUPS_H
 
@@ -8,30 +9,30 @@
 #define GROUP_NONE SIZE_MAX
 
 typedef struct frame_group {
-    size_t first, count; /* a pair, and how many there are */
+    size_t first, count; /* the index of the first pair, and the number of pairs */
 } frame_group;
 
-/* All pairs that are listed: those that are not the same without forgiveness. */
+/* The groups of all pairs that are listed (diff_is_listed()). */
 typedef struct frame_groups {
     frame_group *groups; /* in the order of their first pairs; owned */
     size_t count;
     size_t *of; /* the group of each pair, or GROUP_NONE; owned */
 } frame_groups;
 
-/* Frames are of one group where their cause has the same key; those that have none are each of one of their own, and
- * with `each` all are. To be released in any case; false when there is no memory. */
+/* Group the pairs by the keys of their causes. A pair without a key is a group of its own; with `each` every pair is.
+ * Return false if memory runs out; release the groups in any case. */
 bool frame_groups_make(frame_groups *g, const diff_result *result, const explanation *why, bool each,
                        octreel_error *error);
 void frame_groups_release(frame_groups *g);
 
-/* Whether a pair is the first of its group, which is drawn and explained. */
+/* Whether a pair is the first of its group: only that one is drawn and explained. */
 bool frame_groups_shows(const frame_groups *g, size_t pair);
 
-/* Groups of frames that differ or cannot be read. */
+/* The number of groups whose frames differ or cannot be read. */
 size_t frame_groups_count_unlike(const frame_groups *g, const diff_result *result);
 
-/* The frames of a group, without its first if that is asked for, in runs of frames that follow each other: "ticks 1 to
- * 39", or by their names, "a.png, c.png to f.png". At most GROUP_RUNS of them, then how many more. */
+/* Print the frames of a group as runs of consecutive frames: "ticks 1 to 39", or "a.png, c.png to f.png". At most
+ * GROUP_RUNS runs are printed, then the number of remaining frames. `others`: leave out the first frame. */
 #define GROUP_RUNS 4
 void frame_group_print(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others);
 

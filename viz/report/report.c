@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report.c - a comparison as text for people. */
+/* report.c - reports a comparison as text for people. */
 #include "report.h"
 #include "diff_words.h"
 #include "text.h"
@@ -7,7 +7,7 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* File names may hold line ends; the output must stay on one line. */
+/* Escape control characters: a file name may contain a newline, but the output must stay on one line. */
 static void print_line(FILE *out, const char *beginning, const char *text)
 {
     fputs(beginning, out);
@@ -20,7 +20,7 @@ void diff_print_summary(FILE *out, const diff_report *report)
     diff_print_verdict(out, report->result, explanation_verdict(report->why, report->result));
 }
 
-/* The first frame of a group stands for all. */
+/* Print a group: its first frame, the cause, and the names of the other frames. */
 static void print_group(FILE *out, const diff_report *report, size_t group)
 {
     const frame_group *g = &report->groups->groups[group];
@@ -43,7 +43,7 @@ static void print_groups(FILE *out, const diff_report *report)
     print_remaining_count(out, report->groups->count, report->lines, "--causes all lists all, and so does --json");
 }
 
-/* Recordings are explained up to a number of frames. */
+/* Print how many differing ticks were not explained or traced. */
 static void print_unexplained(FILE *out, const diff_report *report)
 {
     const explanation *why = report->why;
@@ -53,9 +53,9 @@ static void print_unexplained(FILE *out, const diff_report *report)
         more += explain_is_unlike(&report->result->pairs[first]) && !explanation_cause(why, first);
     }
     if (more)
-        fprintf(out, "  %zu of these %s left unexplained; --causes all tells more\n", more, more == 1 ? "is" : "are");
+        fprintf(out, "  %zu of these %s left unexplained; --causes all explains all\n", more, more == 1 ? "is" : "are");
     if (*why->tracer.untraced)
-        print_line(out, "  nothing is traced to what is drawn: ", why->tracer.untraced);
+        print_line(out, "  not traced to the elements that are drawn there: ", why->tracer.untraced);
 }
 
 static bool any_transparent(const diff_result *result)
@@ -66,14 +66,14 @@ static bool any_transparent(const diff_result *result)
     return false;
 }
 
-/* ", " before all but the first. */
+/* Print "forgiven: " before the first item and ", " before the others. */
 static void separate(FILE *out, bool *first)
 {
     fputs(*first ? "forgiven: " : ", ", out);
     *first = false;
 }
 
-/* A rectangle outside all frames is most likely a mistake. */
+/* Whether a rectangle lies outside of all frames, which is probably a mistake of the user. */
 static bool is_outside(const image_rectangle *r, const diff_result *result)
 {
     bool compared = false;

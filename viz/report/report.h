@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report.h - what a comparison found, for people and for programs. */
+/* report.h - reports the result of a comparison as text, JSON, JUnit, Markdown, HTML and GitHub commands. */
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
 
@@ -9,48 +9,47 @@
 
 #include <stdio.h>
 
-/* What is reported: both sides, how they were compared, what came of it and why, and where that can be seen. */
+/* The input of all reports: both sides, the result, its explanation, and the pictures of evidence. */
 typedef struct diff_report {
     const diff_side *a, *b;
     const diff_result *result;
     const explanation *why;
-    const evidence *evidence; /* null: none was left */
-    size_t lines;             /* of the text: at most so many groups are listed */
+    const evidence *evidence; /* null: no pictures were written */
+    size_t lines;             /* the largest number of groups that the text lists */
     const frame_groups *groups;
 } diff_report;
 
-/* The verdict, the headline, for each group of frames that are not the same (at most report->lines) a line for its
- * first, one for its cause and one for its other frames, and what was forgiven. */
+/* Print the text for people: the verdict, the headline, up to report->lines groups, and the tolerance. A group has a
+ * line for its first frame, one for its cause and one for its other frames. */
 void diff_report_text(FILE *out, const diff_report *report);
 
-/* One JSON object on one line, with all frames that are not the same, and their groups: diff.schema.json
- * says what is in it. */
+/* Write one JSON object on one line, with all differing frames and their groups; diff.schema.json describes it. */
 #define DIFF_REPORT_JSON_VERSION 1
 void diff_report_json(FILE *out, const diff_report *report);
 
-/* JUnit's XML, as GitHub's actions, GitLab and Jenkins read it: a test case for each frame, since those systems follow
- * a case by its name from run to run. The first of a group has all that is known, the others name it. False where there
- * is no memory. */
+/* Write JUnit XML for GitHub actions, GitLab and Jenkins: a test case for each frame, because these systems track a
+ * case by its name. The first case of a group has all details, the others refer to it. Return false if memory runs out.
+ */
 bool diff_report_junit(FILE *out, const diff_report *report);
 
-/* Commands by which GitHub shows what differs beside a change: "::error file=...,title=...::...", a line for each of
- * the first groups, since it shows no more of a step. False where there is no memory. */
+/* Write GitHub workflow commands, "::error file=...,title=...::...", which annotate a change: one line for each of the
+ * first groups, because GitHub shows only a few for each step. Return false if memory runs out. */
 #define DIFF_REPORT_ANNOTATIONS 10
 bool diff_report_github(FILE *out, const diff_report *report);
 
-/* A section for the page of a CI job, in GitHub's Markdown: the verdict, and a table of the groups that differ, at most
- * DIFF_REPORT_ROWS of them. False where there is no memory. */
+/* Write a section of GitHub Markdown for the summary of a CI job: the verdict and a table of up to DIFF_REPORT_ROWS
+ * groups. Return false if memory runs out. */
 #define DIFF_REPORT_ROWS 20
 bool diff_report_markdown(FILE *out, const diff_report *report);
 
-/* report.html, in the folder of evidence: one file to look through what differs, and to tick what shall be accepted,
- * which loads nothing. It has the first DIFF_REPORT_PAGE_FRAMES groups that differ, the pictures of as many of them as
- * there is room for, and says what was left out. */
+/* Write report.html into the folder of evidence: one self-contained page to look through the differences and to tick
+ * frames for acceptance. It holds the first DIFF_REPORT_PAGE_FRAMES groups and their pictures, up to
+ * DIFF_REPORT_PAGE_BYTES, and says what is left out. */
 #define DIFF_REPORT_PAGE_FRAMES 50
-#define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; a browser holds no more with ease */
+#define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; more slows browsers down */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 
-/* In one line without its end: the verdict and the counts; and what was forgiven, or that nothing was. */
+/* Print one line without its newline: the verdict and the counts; and the tolerance, or that there is none. */
 void diff_print_summary(FILE *out, const diff_report *report);
 void diff_print_tolerance(FILE *out, const diff_report *report);
 

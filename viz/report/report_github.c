@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* report_github.c - a comparison as commands of a workflow on GitHub: see report.h.
+/* report_github.c - writes a comparison as GitHub workflow commands: see report.h.
  *
- * A command is a line. What would end it, or one of its properties, is written as GitHub reads it: % as %25, the ends
- * of lines as %0D and %0A, and in a property : as %3A and , as %2C.
+ * A command is one line. Characters that would end it or one of its properties are escaped as GitHub requires: % as
+ * %25, carriage return and newline as %0D and %0A, and in properties : as %3A and , as %2C.
  */
 #include "report.h"
 #include "diff_words.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report_json.c - a comparison as JSON. */
+/* report_json.c - writes a comparison as JSON. */
 #include "report_json.h"
 #include "cause_json.h"
 #include "contact_sheet.h"
@@ -26,7 +26,7 @@ static void write_side(json_writer *w, const char *key, const diff_side *side)
     json_write_end_object(w);
 }
 
-/* A list with commas between. */
+/* Write a comma-separated list as an array of texts. */
 static void write_layers(json_writer *w, const char *layers)
 {
     char name[64];
@@ -148,7 +148,7 @@ static void write_findings(json_writer *w, const diff_report *report)
     json_write_end_array(w);
 }
 
-/* Where names of frames are listed, groups are: a frame that a group has stands in no other. */
+/* Write the names of a group's frames. Each frame is in one group only. */
 void diff_json_group(json_writer *w, const diff_report *report, size_t group)
 {
     const diff_result *result = report->result;

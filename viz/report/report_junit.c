@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* report_junit.c - a comparison as JUnit's XML: see report.h.
+/* report_junit.c - writes a comparison as JUnit XML: see report.h.
  *
- * A time is wanted by readers of it and not known: it is 0. The line with ATTACHMENT shows a picture in GitLab and in
- * Jenkins, where the path is one that they find.
+ * Readers require a time for each test case; it is unknown, so it is 0. GitLab and Jenkins show the picture of an
+ * ATTACHMENT line if they find the file at its path.
  */
 #include "report.h"
 #include "diff_words.h"
@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-/* All that is known of the first frame of a group. */
+/* Print all details of the first frame of a group. */
 static void print_words(FILE *out, const diff_report *report, size_t i)
 {
     const size_t group = report->groups->of[i];
@@ -47,7 +47,7 @@ static bool write_fault(FILE *out, const diff_report *report, size_t i)
     fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));
     write_attribute(out, "message", words);
     putc('>', out);
-    write_escaped(out, words, escape_xml); /* some readers show the one, some the other */
+    write_escaped(out, words, escape_xml); /* some readers show the attribute, some the text */
     fprintf(out, "</%s>\n", element);
     free(words);
     return true;
@@ -91,7 +91,7 @@ static bool write_case(FILE *out, const diff_report *report, size_t i)
     return true;
 }
 
-/* Of recordings without frames the ticks are the one case. */
+/* Write the only test case for recordings without frames: their ticks. */
 static void write_ticks_case(FILE *out, const diff_report *report)
 {
     const char *headline = report->why->headline ? report->why->headline : "";
@@ -117,7 +117,7 @@ static void write_counts(FILE *out, const diff_result *result)
             result->found[FOUND_UNREADABLE]);
 }
 
-/* What holds for all of them: the verdict, why, and how they were compared. */
+/* Write what holds for all cases: the verdict, the headline and the tolerance. */
 static bool write_summary(FILE *out, const diff_report *report)
 {
     text_stream s;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report_markdown.c - a comparison for the page of a CI job: see report.h. */
+/* report_markdown.c - writes a comparison as GitHub Markdown for the summary of a CI job: see report.h. */
 #include "contact_sheet.h"
 #include "diff_words.h"
 #include "text.h"
@@ -11,7 +11,7 @@ static void write_text(FILE *out, const char *text)
     write_escaped(out, text, escape_markdown);
 }
 
-/* A name: as HTML, for between backticks nothing can be escaped. */
+/* Write a name as HTML, because nothing can be escaped between backticks. */
 static void write_name(FILE *out, const char *name)
 {
     fputs("<code>", out);
@@ -104,7 +104,7 @@ static void write_why(FILE *out, const explanation *why)
         fputs("**\n\n", out);
     }
     if (why->trouble) {
-        fputs("Nobody can say why: ", out);
+        fputs("The cause could not be found: ", out);
         write_text(out, why->trouble);
         fputs("\n\n", out);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report_page.c - report.html of a folder of evidence: see report.h.
+/* report_page.c - writes report.html into the folder of evidence: see report.h.
  *
  * Between the page's two halves go the facts, a line of JSON for the whole and one for each group that differs, and
  * then the pictures. They stay on the disk until they are copied, a block at a time.
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* First pairs of the groups that are in the page, in their order. */
+/* The first pairs of the groups on the page, in the order of the groups. */
 typedef struct page {
     const diff_report *report;
     FILE *out;
@@ -23,9 +23,9 @@ typedef struct page {
     size_t count, left_out;
 } page;
 
-/* ---- What is in it ------------------------------------------------------------------------------------------- */
+/* ---- Contents ------------------------------------------------------------------------------------------------ */
 
-/* Pictures that cannot be read are not given to a browser. */
+/* Unreadable pictures are left out: a browser cannot show them. */
 static bool is_embedded(const diff_report *report, size_t i, evidence_picture picture)
 {
     return (report->evidence->pictures[i] & 1u << picture) && report->result->pairs[i].finding != FOUND_UNREADABLE;
@@ -67,7 +67,7 @@ static void choose_pairs(page *p)
 
 /* ---- Facts --------------------------------------------------------------------------------------------------- */
 
-/* A line of JSON while it is made: in memory, for an element of HTML ends at the first "</" in it. */
+/* A line of JSON. It is built in memory because "</" in it would end the HTML element and must be escaped. */
 typedef struct fact_line {
     text_stream made;
     json_writer writer;
@@ -83,7 +83,7 @@ static bool line_begin(fact_line *line)
     return true;
 }
 
-/* In JSON, < occurs only in strings. */
+/* Escape "<", which occurs only in strings of JSON. */
 static bool line_end(fact_line *line, FILE *out)
 {
     char *text;
@@ -99,7 +99,7 @@ static bool line_end(fact_line *line, FILE *out)
     return ok;
 }
 
-/* A member whose text was printed. */
+/* Write a member whose text was printed into a stream. */
 static bool write_words(json_writer *w, const char *key, text_stream *s)
 {
     char *text;
@@ -120,7 +120,8 @@ static bool write_line(json_writer *w, const char *key, printer *print, const di
     return write_words(w, key, &s);
 }
 
-/* How many pixels count in each pair; null where they were not counted, as in pictures of unlike sizes. */
+/* Write the number of differing pixels of each pair; null if they were not counted, as for pictures of different sizes.
+ */
 static void write_curve(json_writer *w, const diff_result *result)
 {
     json_member_begin_array(w, "pixels");
@@ -142,7 +143,7 @@ static void write_curve(json_writer *w, const diff_result *result)
     json_write_end_array(w);
 }
 
-/* Of each pair the number of its group in the page, or null. */
+/* Write for each pair the number of its group on the page, or null. */
 static void write_entries(json_writer *w, const page *p)
 {
     const frame_groups *g = p->report->groups;
@@ -174,7 +175,7 @@ static bool write_whole(const page *p)
     return line_end(&line, p->out) && ok;
 }
 
-/* Names of the files beside the page. */
+/* Write the names of the files beside the page. */
 static void write_files(json_writer *w, const diff_report *report, size_t i)
 {
     json_member_begin_object(w, "files");
@@ -242,7 +243,7 @@ static bool write_picture(const page *p, size_t n, evidence_picture picture, oct
     return ok;
 }
 
-/* A browser decodes pictures in a template only when the page takes them out. */
+/* Pictures are in template elements, so that the browser decodes them only when the page shows them. */
 static bool write_pictures(const page *p, octreel_error *error)
 {
     bool ok = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* xml.h - attributes of XML and HTML. For this folder. */
+/* xml.h - writes attributes of XML and HTML; used only in this folder. */
 #ifndef REPORT_XML_H
 #define REPORT_XML_H
 

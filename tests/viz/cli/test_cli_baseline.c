@@ -85,7 +85,7 @@ static void what_is_accepted_replaces_what_was_and_stays_beside_it_as_a_variant(
     assert_diff(&s, &s.after, "", 0, "same: 3 frames");
     const place third = gallery_make(*state, "third", "1.png 2.png 3.png");
     gallery_write(place_below(third.path, "2.png").path, 1, 9);
-    assert_diff(&s, &third, "", 1, "; none of 2 variants that are accepted");
+    assert_diff(&s, &third, "", 1, "; matches none of the 2 accepted variants");
     accept_into(&s, &third, BY("on purpose", "2026-11-24"));
     assert_diff(&s, &s.before, "", 1, "different: 1 of 3 frames");
     assert_diff(&s, &third, "", 0, "same: 3 frames");
@@ -134,7 +134,7 @@ static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
         assert_trouble(&result, i < 2 ? "--date takes a date" : "--reason takes one line of text");
     }
     result = run_octreel(NULL, "accept %s %s --date 2026-11-22", s.file.path, s.after.path);
-    assert_trouble(&result, "--date is that of a reason");
+    assert_trouble(&result, "--date needs --reason TEXT");
     const command_setting ci = {.environment = {"CI=true"}};
     result = run_octreel(&ci, "accept %s %s --reason x", s.file.path, s.after.path);
     assert_trouble(&result, "CI is set");
@@ -156,10 +156,10 @@ static void a_list_of_frames_is_taken_over_and_no_more(void **state)
     file_write_text(list.path, "3.png\n<<<<<<< HEAD\n");
     command_result result =
         run_octreel(NULL, "accept %s %s --reason x --from %s", s.file.path, s.after.path, list.path);
-    assert_trouble(&result, "line 2 of the list: there is no frame <<<<<<< HEAD");
+    assert_trouble(&result, "line 2 of the list: no frame <<<<<<< HEAD");
     file_write_text(list.path, "\n\n");
     result = run_octreel(NULL, "accept %s %s --reason x --from %s", s.file.path, s.after.path, list.path);
-    assert_trouble(&result, "accept.txt: it names no frame");
+    assert_trouble(&result, "accept.txt: contains no name of a frame");
     result = run_octreel(NULL, "accept %s %s --from nix.txt", s.before.path, s.after.path);
     assert_trouble(&result, "nix.txt: cannot be opened");
     file_write_text(list.path, "2.png\n"); /* folders of pictures take it, too */
@@ -204,15 +204,15 @@ static void a_lost_damaged_or_swapped_picture_changes_no_verdict_and_is_said(voi
     const place picture = only_picture(&s);
     snprintf(more, sizeof more, "--store %s -o %s", s.store.path, out.path);
     gallery_write(picture.path, 7, 0);
-    assert_diff(&s, &s.after, more, 1, ": it was changed or swapped: its pixels have the digest ");
+    assert_diff(&s, &s.after, more, 1, ": does not hold the picture of its name: its pixels have the digest ");
     assert_false(file_exists(place_below(out.path, "2.expected.png").path));
     assert_true(file_exists(place_below(out.path, "2.actual.png").path));
     assert_int_equal(truncate(picture.path, 60), 0);
-    assert_diff(&s, &s.after, more, 1, "there is no picture of what was expected: ");
+    assert_diff(&s, &s.after, more, 1, "no picture of the reference: ");
     assert_int_equal(remove(picture.path), 0);
     assert_diff(&s, &s.after, more, 1, "cannot be opened: No such file or directory");
     snprintf(more, sizeof more, "--store %s", s.file.path); /* no folder at all */
-    assert_diff(&s, &s.after, more, 1, "there is no picture of what was expected: ");
+    assert_diff(&s, &s.after, more, 1, "no picture of the reference: ");
     snprintf(more, sizeof more, "2.png --store %s" BY("again", "2026-11-23"), s.store.path);
     accept_into(&s, &s.before, more); /* it is the same, and its picture is there again */
     assert_true(file_exists(picture.path));

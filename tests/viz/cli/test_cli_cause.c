@@ -43,7 +43,7 @@ static void the_headline_comes_second_and_causes_below_their_frames(void **state
                 "different: 5 of 5 frames\nanother leaf capacity (4, was 2): every tick from 0 differs\n  frame_");
     assert_says(&result, "\n    tick 1: node");
     assert_null(strstr(result.out, "\n    tick 2: "));
-    assert_says(&result, "\n  3 of these are left unexplained; --causes all tells more\n");
+    assert_says(&result, "\n  3 of these are left unexplained; --causes all explains all\n");
     command_release(&result);
 }
 
@@ -155,10 +155,9 @@ static void shapes_are_told_in_words_and_json(void **state)
     assert_filmed(&session, &options);
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 1);
-    assert_says(&result,
-                "\nanother shape shown at every tick (segment (1, 2, 3) to (500, 8, 9), was (1, 2, 3) "
-                "to (700, 8, 9)); the same happens in all ticks that both have; frames differ from tick 0 on\n");
-    assert_says(&result, "\n    tick 0: the same happened in it; another shape shown at every tick (");
+    assert_says(&result, "\nanother shape shown at every tick (segment (1, 2, 3) to (500, 8, 9), was (1, 2, 3) "
+                         "to (700, 8, 9)); no tick that both have differs; frames differ from tick 0 on\n");
+    assert_says(&result, "\n    tick 0: nothing differs in the tick itself; another shape shown at every tick (");
     assert_says(&result, " of shapes");
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
@@ -223,7 +222,7 @@ static void without_a_renderer_the_rest_is_told(void **state)
     assert_string_equal(result.err, "");
     assert_says(&result, "another leaf capacity (4, was 2)");
     assert_says(&result, "\n    tick 1: node");
-    assert_says(&result, "\n  nothing is traced to what is drawn: ");
+    assert_says(&result, "\n  not traced to the elements that are drawn there: ");
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
     assert_null(strstr(result.out, "nothing is traced"));

@@ -51,10 +51,13 @@ static void verify_says_by_what_it_is_identical(void **state)
 
 static void diff_compares_their_ticks(void **state)
 {
-    assert_says(*state, "diff a same", 0, "same: the ticks, without frames\ncompared exactly\n");
-    assert_says(*state, "diff a b", 1, "different: the ticks, without frames\nanother key");
+    assert_says(*state, "diff a same", 0,
+                "same: compared by ticks, because neither recording has frames\ncompared exactly\n");
+    assert_says(*state, "diff a b", 1,
+                "different: compared by ticks, because neither recording has frames\nanother key");
     assert_says(*state, "diff a b --json", 1, "\"verdict\": \"different\", \"headline\": \"another key");
-    assert_says(*state, "diff a b --markdown -", 1, "### octreel diff: different: the ticks, without frames\n");
+    assert_says(*state, "diff a b --markdown -", 1,
+                "### octreel diff: different: compared by ticks, because neither recording has frames\n");
     assert_says(*state, "diff a b -o evidence", 1, "evidence: evidence/report.html\n");
 }
 
@@ -97,7 +100,7 @@ static void what_has_frames_is_not_compared_with_what_has_none(void **state)
         {"diff a film/frame_000000.png", "a was recorded without frames"},
         {"accept film a", "a was recorded without frames"},
         {"accept a film", "a was recorded without frames"},
-        {"accept a b frame_000000.png", "there is no frame frame_000000.png"},
+        {"accept a b frame_000000.png", "no frame frame_000000.png"},
         {"diff a .", "without frames, which . is not"},
         {"accept new.txt a --reason x", "a was recorded without frames"},
     };
@@ -110,7 +113,7 @@ static void what_has_frames_is_not_compared_with_what_has_none(void **state)
 static void accept_takes_the_ticks_over(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b"), new = place_in(*state, "new");
-    assert_says(*state, "accept a same", 0, "a: the ticks are those of before\n");
+    assert_says(*state, "accept a same", 0, "a: the ticks are unchanged\n");
     assert_says(*state, "accept a same --json", 0, "{\"reference\": \"a\", \"ticks\": \"same\"}\n");
     assert_says(*state, "accept a b", 0, "a: the ticks are new\n");
     assert_same_folders(a.path, b.path, NULL);

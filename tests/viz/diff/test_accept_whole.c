@@ -125,7 +125,7 @@ static void assert_not_accepted(void **state, const char *frames, const char *la
     char sentence[256];
     const place golden = film_in(state, "golden", KEYS), before = copy_of(state, golden.path, "before"),
                 baseline = place_in(*state, "baseline.txt");
-    snprintf(sentence, sizeof sentence, "%s, and a recording that is damaged or was not done is not accepted; ", lack);
+    snprintf(sentence, sizeof sentence, "%s; refusing to accept a damaged or incomplete recording: ", lack);
     command_result result = run_octreel(NULL, "accept %s %s", golden.path, frames);
     assert_trouble(&result, sentence);
     assert_same_folders(before.path, golden.path, NULL);

@@ -94,7 +94,7 @@ static void answers_are_about_their_queries(void **state)
         "{\"answers\": [{\"range\": {\"ids\": [1, 2, 3], \"cost\": {\"nodes\": 1}}}]}",
         "{\"answers\": [{\"nearest\": {\"id\": 4}}, {\"range\": {\"ids\": [2, 9, 8], \"cost\": {\"nodes\": 2}}}]}",
         "2 fewer hits in the range query (points 1 and 3), 2 more hits in the range query (points 8 and 9), the "
-        "nearest query asked besides; another cost in the range query");
+        "nearest query asked only in the frames; another cost in the range query");
     assert_told("{\"answers\": [{\"nearest\": {\"id\": 4}}, {\"nearest\": {\"id\": 5}}]}",
                 "{\"answers\": [{\"nearest\": {\"id\": 4}}, {\"nearest\": {\"id\": null}}]}",
                 "another nearest point in query 2 (nearest) (none, was 5)");
@@ -133,7 +133,7 @@ static void each_answer_is_told_by_what_was_asked(void **state)
     assert_told("{\"answers\": [" BALL(1, 1, "1") ", " BALL(2, 2, "2") ", " BALL(3, 3, "3") "]}",
                 "{\"answers\": [" BALL(2, 2, "2, 4") ", " BALL(3, 3, "") "]}",
                 "one more hit in query 1 (radius) (point 4), one hit fewer in query 2 (radius) (point 3), query 1 "
-                "(radius) of the reference not asked");
+                "(radius) of the reference asked only in the reference");
     assert_told("{\"answers\": [" BALL(1, 1, "1") ", " BALL(2, 2, "2") "]}",
                 "{\"answers\": [" BALL(2, 2, "2") ", " BALL(1, 1, "1") "]}", "another order of the queries");
     assert_told("{\"answers\": [" BALL(1, 1, "1") "]}", "{\"answers\": [" BALL(2, 1, "1") "]}",

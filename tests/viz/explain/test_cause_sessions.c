@@ -186,19 +186,22 @@ static void move_all(variant *v)
 static void points_are_named_where_nobody_plays(void **state)
 {
     (void)state;
-    assert_says_of(
-        move_body_of_no_player, move_body,
-        "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, node 7 merged, "
-        "point 3 moved");
+    assert_says_of(move_body_of_no_player, move_body,
+                   "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in the "
+                   "frames, node 7 divided only in the reference, "
+                   "point 3 moved");
 }
 
 static void points_at_the_start_are_named(void **state)
 {
     (void)state;
-    assert_says(add_body, "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 born, point 5 added");
-    assert_says(drop_body, "one point at the start fewer (point 2: (-4, 5, -6)); tick 0: node 2 gone, point 2 removed");
-    assert_says(move_body,
-                "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 born, point 3 moved");
+    assert_says(add_body,
+                "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
+    assert_says(
+        drop_body,
+        "one point at the start fewer (point 2: (-4, 5, -6)); tick 0: node 2 only in the reference, point 2 removed");
+    assert_says(move_body, "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in "
+                           "the frames, point 3 moved");
     assert_says(push_body, "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
     assert_says(swap_bodies, "another order of the points at the start; " SAME_TICKS);
     assert_says(move_all, "4 other points at the start (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
@@ -265,7 +268,7 @@ static void values_of_a_point_that_one_side_lacks_are_not_named(void **state)
 {
     (void)state;
     assert_says(add_body_with_class,
-                "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 born, point 5 added");
+                "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
 }
 
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */
@@ -370,17 +373,20 @@ static void the_first_tick_comes_first(void **state)
 static void edits_are_named_by_tick_and_point(void **state)
 {
     (void)state;
-    assert_says(one_more_edit, "one more edit at tick 5 (remove 3); tick 5: node 7/7 merged, point 3 removed");
-    assert_says(one_edit_fewer, "one edit fewer at tick 4 (remove 2); tick 4: node 2 born, point 2 added");
+    assert_says(one_more_edit,
+                "one more edit at tick 5 (remove 3); tick 5: node 7/7 divided only in the reference, point 3 removed");
+    assert_says(one_edit_fewer,
+                "one edit fewer at tick 4 (remove 2); tick 4: node 2 only in the frames, point 2 added");
     assert_says(other_edit, "another edit at tick 2 (move id 1, position (1, 2, -4), was (1, 2, 4)); tick "
-                            "2: node 6 born, point 1 moved");
+                            "2: node 6 only in the frames, point 1 moved");
     assert_says(faster_edit,
                 "another edit at tick 2 (insert id 9, position (9, 9, 9), velocity (-1, 0, 0), was none); tick 2: "
                 "point 9 moved");
     assert_says(swap_edits, "another order of the edits at tick 2; " SAME_TICKS);
     assert_says(idle_edit, "");
-    assert_says(many_edits,
-                "4 more edits (points 20, 21, 22 and 23); tick 5: node 0 born, points 20, 21, 22 and 23 added");
+    assert_says(
+        many_edits,
+        "4 more edits (points 20, 21, 22 and 23); tick 5: node 0 only in the frames, points 20, 21, 22 and 23 added");
 }
 
 /* ---- Queries ------------------------------------------------------------------------------------------------- */
@@ -428,12 +434,12 @@ static void queries_are_named_by_kind_and_tick(void **state)
 {
     (void)state;
     assert_says(one_more_query,
-                "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked besides");
+                "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked only in the frames");
     assert_says_of(no_query, three_more_queries,
                    "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of that kind; tick 4: the nearest query "
                    "asked besides");
-    assert_says(one_query_fewer,
-                "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range query not asked");
+    assert_says(one_query_fewer, "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range "
+                                 "query asked only in the reference");
     assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was (-5, -5, -5) to "
                              "(5, 5, 5)); tick 0: 2 more hits in the range query (points 3 and 4)");
     assert_says(idle_query, "");

@@ -45,7 +45,7 @@ static void another_capacity_is_the_headline_and_its_nodes_the_causes(void **sta
     assert_string_equal(made.why.headline, "another leaf capacity (3, was 2): every tick from 0 differs");
     assert_int_equal(count_causes(&made), TICKS);
     assert_holds(cause_of(&made, "frame_000002.png"), "tick 2: node");
-    assert_holds(cause_of(&made, "frame_000002.png"), " merged");
+    assert_holds(cause_of(&made, "frame_000002.png"), " divided only in the reference");
     assert_int_equal(made.why.cause.differing, TICKS);
     comparison_release(&made);
 }
@@ -106,7 +106,7 @@ static void another_scale_of_points_is_told_without_its_numbers(void **state)
     options.view.point_scale.given = true;
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_string_equal(made.why.headline, "another scale of points: the same ticks, looked at in another way");
+    assert_string_equal(made.why.headline, "another scale of points: the ticks are the same, only the view differs");
     comparison_release(&made);
 }
 
@@ -119,7 +119,7 @@ static void a_switch_that_is_off_is_told_as_off(void **state)
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_string_equal(made.why.headline,
-                        "another rule for labels (on, was off): the same ticks, looked at in another way");
+                        "another rule for labels (on, was off): the ticks are the same, only the view differs");
     comparison_release(&made);
 }
 
@@ -216,15 +216,14 @@ static void recordings_of_unlike_length_say_where_each_ends(void **state)
     options.every = 2;
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.why.headline,
-                 "another last tick (2, was 4); the same happens in all ticks that both have; another "
-                 "interval of frames (2, was 1)");
+    assert_holds(made.why.headline, "another last tick (2, was 4); no tick that both have differs; another "
+                                    "interval of frames (2, was 1)");
     assert_holds(cause_of(&made, "frame_000001.png"), "b has a frame every 2 ticks");
     assert_holds(cause_of(&made, "frame_000004.png"), "b ends at tick 2");
     assert_int_equal(unlink(frame_place(b.path, 2).path), 0);
     comparison_release(&made);
     made = assert_explained(&a, &b, 10);
-    assert_holds(cause_of(&made, "frame_000002.png"), "b lacks it: that recording is damaged, or not done");
+    assert_holds(cause_of(&made, "frame_000002.png"), "b has no such frame: the recording is damaged or incomplete");
     comparison_release(&made);
 }
 

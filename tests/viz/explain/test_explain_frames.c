@@ -112,7 +112,7 @@ static void a_frame_without_its_texts_is_told(void **state)
     comparison_of made = assert_explained(&a, &b, 10);
     assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_SAME_PIXELS);
     assert_holds(cause_of(&made, "frame_000002.png"),
-                 "b/frame_000002.png has none of octreel's texts, as after another program has saved it");
+                 "b/frame_000002.png has no text chunks of octreel; another program may have saved it");
     comparison_release(&made);
     session.tree.leaf_capacity = 3;
     const place c = film_in(*state, "c", &session, NULL);
@@ -131,7 +131,7 @@ static void another_anti_aliasing_is_no_other_renderer(void **state)
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_string_equal(made.why.headline,
-                        "another anti-aliasing (2, was 1): the same ticks, looked at in another way");
+                        "another anti-aliasing (2, was 1): the ticks are the same, only the view differs");
     assert_string_equal(cause_of(&made, "frame_000001.png"), "tick 1: another anti-aliasing (2, was 1)");
     assert_false(made.why.pairs[1].only_drawn);
     comparison_release(&made);
@@ -179,10 +179,10 @@ static void frames_in_a_folder_tell_unlike_sessions_and_scenes(void **state)
     const place c = film_in(*state, "c", &session, &options);
     make_folders(&a, &b);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(cause_of(&made, "frame_000001.png"), "tick 1 of one session in unlike scenes");
+    assert_holds(cause_of(&made, "frame_000001.png"), "tick 1 of one session, drawn as two different scenes");
     comparison_release(&made);
     made = assert_explained(&b, &c, 10); /* one of them a recording */
-    assert_string_equal(cause_of(&made, "frame_000001.png"), "tick 1 of unlike sessions");
+    assert_string_equal(cause_of(&made, "frame_000001.png"), "tick 1 of two different sessions");
     assert_null(made.why.headline);
     comparison_release(&made);
 }

@@ -184,7 +184,7 @@ static void session_and_view_are_both_told_where_both_matter(void **state)
     const change changes[] = {other_shape, other_nearest, {0}};
     const place a = film_changed(state, "a", NULL, NULL), b = film_changed(state, "b", &options, changes);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_cause(&made, "frame_000005.png", "tick 5: the same happened in it; ", "interval");
+    assert_cause(&made, "frame_000005.png", "tick 5: nothing differs in the tick itself; ", "interval");
     assert_cause(&made, "frame_000005.png", shape, "nearest");
     comparison_release(&made);
     options.every = 1;
