@@ -220,7 +220,7 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
     return image_comparison_end(&c);
 }
 
-static void judge(diff_pair *pair, const reading of[2], const image_tolerance *tolerance)
+static void set_finding(diff_pair *pair, const reading of[2], const image_tolerance *tolerance)
 {
     for (int i = 0; i < 2; i++) {
         const image *about = image_source_image(of[i].source);
@@ -253,7 +253,7 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
         if (failed(&of[0]) || failed(&of[1]))
             find_unreadable(pair, &of[failed(&of[0]) ? 0 : 1].error);
         else
-            judge(pair, of, &tolerance);
+            set_finding(pair, of, &tolerance);
     }
     pair_tolerance_release(&tolerance);
     image_source_close(of[0].source);
@@ -270,8 +270,8 @@ typedef struct known_digests {
 } known_digests;
 
 /* Collect the digests of a frame. Return false with an error, or without one if no digest is of this kind. */
-static bool know_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
-                         octreel_error *error)
+static bool collect_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
+                            octreel_error *error)
 {
     *k = (known_digests){.own = {.kind = kind}};
     error->text[0] = 0;
@@ -293,7 +293,8 @@ static bool know_digests(const diff_frame *frame, image_digest_kind kind, image_
 static bool compare_kind(diff_pair *pair, image_digest_kind kind, image_color background, octreel_error *error)
 {
     known_digests a, b;
-    if (!know_digests(pair->a, kind, background, &a, error) || !know_digests(pair->b, kind, background, &b, error))
+    if (!collect_digests(pair->a, kind, background, &a, error) ||
+        !collect_digests(pair->b, kind, background, &b, error))
         return false;
     pair->about[0] = a.own;
     pair->about[1] = b.own;

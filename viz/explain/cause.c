@@ -225,9 +225,9 @@ void cause_release(cause *c)
     *c = (cause){0};
 }
 
-static int by_tick(const void *tick, const void *told)
+static int by_tick(const void *tick, const void *details)
 {
-    const uint64_t x = *(const uint64_t *)tick, y = ((const cause_tick *)told)->tick;
+    const uint64_t x = *(const uint64_t *)tick, y = ((const cause_tick *)details)->tick;
     return (x > y) - (x < y);
 }
 

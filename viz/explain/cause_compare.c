@@ -141,8 +141,8 @@ static json_t *query_of(json_t *answer)
     return json_pack("{so}", kind, asked);
 }
 
-/* A session's query without what a program told of it: which of its nodes it met, and its answer. */
-static json_t *untold(json_t *query)
+/* A session's query without the answer and the visited nodes of the foreign index. The caller releases it. */
+static json_t *query_without_answer(json_t *query)
 {
     json_t *asked = json_copy(query);
     json_object_del(asked, "answer");
@@ -152,7 +152,7 @@ static json_t *untold(json_t *query)
 }
 
 /* The list by which the elements of a list are paired: for answers their queries, for queries their parameters. */
-static json_t *list_asked(const char *where, json_t *list)
+static json_t *list_pairing_keys(const char *where, json_t *list)
 {
     const bool answers = strcmp(where, "answers") == 0;
     json_t *asked = json_array(), *element;
@@ -161,12 +161,13 @@ static json_t *list_asked(const char *where, json_t *list)
         json_decref(asked);
         return list ? json_incref(list) : json_array();
     }
-    json_array_foreach(list, i, element) json_array_append_new(asked, answers ? query_of(element) : untold(element));
+    json_array_foreach(list, i, element)
+        json_array_append_new(asked, answers ? query_of(element) : query_without_answer(element));
     return asked;
 }
 
-/* Of nodes that were met their numbers are told, where these differ. */
-static void compare_told(const cause_place *place, json_t *a, json_t *b)
+/* Compare the answers of the foreign index. Of visited nodes only the counts are reported, and only if they differ. */
+static void compare_foreign_answers(const cause_place *place, json_t *a, json_t *b)
 {
     json_t *counts[2] = {json_object(), json_object()};
     bool other = false, counted = false;
@@ -191,11 +192,11 @@ static void compare_told(const cause_place *place, json_t *a, json_t *b)
 
 static void compare_queries(const cause_place *place, json_t *a, json_t *b)
 {
-    json_t *const asked[2] = {untold(a), untold(b)};
+    json_t *const asked[2] = {query_without_answer(a), query_without_answer(b)};
     if (!asked[0] || !asked[1])
         place->facts->out_of_memory = true;
     else if (is_same(place, asked[0], asked[1]))
-        compare_told(place, a, b);
+        compare_foreign_answers(place, a, b);
     else
         add(place, "queries", CAUSE_OTHER, CAUSE_NO_ID, a, b);
     json_decref(asked[0]);
@@ -226,8 +227,8 @@ static void name_query(json_t *list, size_t i, bool of_reference, char text[CAUS
 }
 
 /* A copy of `place`; for answers with the name of the query, written to `text`. */
-static cause_place place_of(const cause_place *place, const char *where, json_t *list, size_t i, bool of_reference,
-                            char text[CAUSE_QUERY])
+static cause_place place_with_query(const cause_place *place, const char *where, json_t *list, size_t i,
+                                    bool of_reference, char text[CAUSE_QUERY])
 {
     cause_place named = *place;
     if (strcmp(where, "answers") == 0) {
@@ -260,29 +261,29 @@ static void compare_paired(const cause_place *place, const char *where, json_t *
     for (size_t j = 0; j < count; j++) {
         if (mates[j] == CAUSE_ALONE)
             continue;
-        const cause_place named = place_of(place, where, b, j, false, text);
+        const cause_place named = place_with_query(place, where, b, j, false, text);
         compare_pair(&named, where, json_array_get(a, mates[j]), json_array_get(b, j));
         met[mates[j]] = true;
     }
     for (size_t i = 0; i < json_array_size(a); i++) {
         if (met[i])
             continue;
-        const cause_place named = place_of(place, where, a, i, true, text);
+        const cause_place named = place_with_query(place, where, a, i, true, text);
         add(&named, where, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
     }
     for (size_t j = 0; j < count; j++) {
         if (mates[j] != CAUSE_ALONE)
             continue;
-        const cause_place named = place_of(place, where, b, j, false, text);
+        const cause_place named = place_with_query(place, where, b, j, false, text);
         add(&named, where, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
     }
     if (!in_order(mates, count))
         add(place, where, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
 }
 
-static void compare_asked(const cause_place *place, const char *where, json_t *a, json_t *b)
+static void compare_by_similarity(const cause_place *place, const char *where, json_t *a, json_t *b)
 {
-    json_t *const asked[2] = {list_asked(where, a), list_asked(where, b)};
+    json_t *const asked[2] = {list_pairing_keys(where, a), list_pairing_keys(where, b)};
     size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
     bool *met = calloc(json_array_size(a) + 1, sizeof *met);
     const bool whole =
@@ -327,7 +328,7 @@ static void compare_lists(const cause_place *place, const char *where, json_t *a
     else if (has_keys(where, some))
         compare_keyed(place, where, a, b);
     else
-        compare_asked(place, where, a, b);
+        compare_by_similarity(place, where, a, b);
 }
 
 /* Compare two values of any type. The path of an answer's member leaves out the kind of the query, since the name of

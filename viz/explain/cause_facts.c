@@ -87,7 +87,7 @@ void cause_facts_sort(cause_facts *facts)
     cause_origins_sort(&facts->origins);
 }
 
-static cause_group shown_of(const cause_group *group, uint64_t tick)
+static cause_group group_at_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;
     if (is_about_all(group)) {
@@ -104,7 +104,7 @@ static cause_group shown_of(const cause_group *group, uint64_t tick)
 bool cause_facts_show(const cause_facts *facts, uint64_t tick)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (shown_of(&facts->groups[i], tick).found > 0)
+        if (group_at_tick(&facts->groups[i], tick).found > 0)
             return true;
     return false;
 }
@@ -114,7 +114,7 @@ cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick)
     cause_facts shown = {.groups = malloc((facts->count + 1) * sizeof *shown.groups)};
     shown.out_of_memory = !shown.groups;
     for (size_t i = 0; shown.groups && i < facts->count; i++) {
-        shown.groups[shown.count] = shown_of(&facts->groups[i], tick);
+        shown.groups[shown.count] = group_at_tick(&facts->groups[i], tick);
         shown.count += shown.groups[shown.count].found > 0;
     }
     return shown;

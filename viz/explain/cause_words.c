@@ -31,14 +31,14 @@ enum { LONGEST_LIST = 4 };
 static void print_list(FILE *out, const json_t *list)
 {
     const bool nested = json_is_array(json_array_get(list, 0));
-    const size_t count = json_array_size(list), told = count > LONGEST_LIST + 1 ? LONGEST_LIST : count;
+    const size_t count = json_array_size(list), printed = count > LONGEST_LIST + 1 ? LONGEST_LIST : count;
     fputs(nested ? "" : "(", out);
-    for (size_t i = 0; i < told; i++) {
+    for (size_t i = 0; i < printed; i++) {
         fputs(i == 0 ? "" : nested ? " to " : ", ", out);
         print_value(out, json_array_get(list, i));
     }
-    if (count > told)
-        fprintf(out, " and %zu more", count - told);
+    if (count > printed)
+        fprintf(out, " and %zu more", count - printed);
     fputs(nested ? "" : ")", out);
 }
 
@@ -196,7 +196,7 @@ static void print_fact(FILE *out, const phrase *p, const cause_group *group, con
 enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
 /* The number of facts that are printed by name. "and 1 more" is never printed, since a name is as short. */
-static size_t count_told(const cause_group *group, bool brief)
+static size_t count_named(const cause_group *group, bool brief)
 {
     const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_listed(group);
     return count > most + 1 ? most : count;
@@ -204,21 +204,21 @@ static size_t count_told(const cause_group *group, bool brief)
 
 static void print_subjects(FILE *out, const cause_group *group, bool brief)
 {
-    const size_t told = count_told(group, brief);
-    for (size_t i = 0; i < told; i++) {
+    const size_t printed = count_named(group, brief);
+    for (size_t i = 0; i < printed; i++) {
         if (i)
             fputs(i + 1 == group->found ? " and " : ", ", out);
         print_subject(out, &group->listed[i]);
     }
-    if (group->found > told)
-        fprintf(out, " and %" PRIu64 " more", group->found - told);
+    if (group->found > printed)
+        fprintf(out, " and %" PRIu64 " more", group->found - printed);
 }
 
 /* Print "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
 static void print_verb(FILE *out, const phrase *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
-    if (group->found > (p->minor ? MINOR_SUBJECTS : count_told(group, brief))) {
+    if (group->found > (p->minor ? MINOR_SUBJECTS : count_named(group, brief))) {
         fprintf(out, "%" PRIu64 " %ss %s (such as ", group->found, p->noun, verb_of(p, group->change));
         print_subject(out, fact);
         fputc(')', out);
@@ -278,7 +278,7 @@ static bool has_subject(const cause_fact *fact)
 static void print_group(FILE *out, const cause_group *group, bool brief)
 {
     const phrase p = cause_phrase(group);
-    const size_t listed = count_told(group, brief), told = brief && listed > 2 ? 1 : listed;
+    const size_t listed = count_named(group, brief), printed = brief && listed > 2 ? 1 : listed;
     if (verb_of(&p, group->change)) {
         if (has_subject(&group->listed[0]))
             print_verb(out, &p, group, brief);
@@ -290,12 +290,12 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
         print_many(out, &p, group, brief);
         return;
     }
-    for (size_t i = 0; i < told; i++) {
+    for (size_t i = 0; i < printed; i++) {
         fputs(i ? ", " : "", out);
         print_fact(out, &p, group, &group->listed[i]);
     }
-    if (group->found > told)
-        fprintf(out, " and %" PRIu64 " more of that kind", group->found - told);
+    if (group->found > printed)
+        fprintf(out, " and %" PRIu64 " more of that kind", group->found - printed);
 }
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */
@@ -309,17 +309,17 @@ static unsigned count_groups(const cause_facts *facts, bool minor)
 }
 
 /* Print either the major or the minor facts. */
-static void print_half(FILE *out, const cause_facts *facts, bool minor, bool brief)
+static void print_major_or_minor(FILE *out, const cause_facts *facts, bool minor, bool brief)
 {
-    unsigned told = 0;
+    unsigned printed = 0;
     for (size_t i = 0; i < facts->count; i++) {
         if (cause_phrase(&facts->groups[i]).minor != minor)
             continue;
-        if (brief && told == CAUSE_BRIEF) {
+        if (brief && printed == CAUSE_BRIEF) {
             fputs(" and more", out);
             return;
         }
-        fputs(told++ ? ", " : "", out);
+        fputs(printed++ ? ", " : "", out);
         print_group(out, &facts->groups[i], brief);
     }
 }
@@ -327,11 +327,11 @@ static void print_half(FILE *out, const cause_facts *facts, bool minor, bool bri
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 {
     const bool major = count_groups(facts, false) > 0, minor = count_groups(facts, true) > 0 && !(brief && major);
-    print_half(out, facts, false, brief);
+    print_major_or_minor(out, facts, false, brief);
     if (major && minor)
         fputs("; ", out);
     if (minor)
-        print_half(out, facts, true, brief);
+        print_major_or_minor(out, facts, true, brief);
 }
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */

@@ -75,7 +75,7 @@ static bool is_wanted(void *context, uint64_t tick)
     return w->next < w->count && w->pairs[w->next].tick == tick;
 }
 
-static bool watch(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
+static bool handle_tick(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
 {
     watching *w = context;
     const uint64_t tick = octree_game_tick(games[0])->number;
@@ -130,7 +130,7 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 {
     const cause_view views[2] = {e->sides[0].view, e->sides[1].view};
     watching w = {.e = e, .options = &result->options};
-    const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, watch, &w};
+    const cause_watcher watcher = {most < SIZE_MAX ? (size_t)most : SIZE_MAX, is_wanted, handle_tick, &w};
     const bool ok = list_pairs(&w, result, most) ? cause_find(&e->sides[0].replay.session, &e->sides[1].replay.session,
                                                               views, &watcher, &e->cause, error)
                                                  : error_no_memory(error);

@@ -15,12 +15,12 @@ static void read_origins(const diff_pair *pair, pair_look *l)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
     for (int i = 0; i < 2; i++)
-        l->told[i] = frames[i] && frames[i]->path && frame_read_origin(frames[i]->path, &l->of[i]);
+        l->has_texts[i] = frames[i] && frames[i]->path && frame_read_origin(frames[i]->path, &l->origins[i]);
 }
 
-static bool both_told(const pair_look *l)
+static bool both_have_texts(const pair_look *l)
 {
-    return l->told[0] && l->told[1];
+    return l->has_texts[0] && l->has_texts[1];
 }
 
 /* Whether a frame has the pixels of the digest in its text chunk. */
@@ -35,7 +35,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     return pixels == origin->pixels;
 }
 
-static frame_fault find_foreign(const recorded *r, const frame_origin *origin, uint64_t tick)
+static frame_fault find_origin_fault(const recorded *r, const frame_origin *origin, uint64_t tick)
 {
     if (origin->session != r->filmed && origin->session != r->replay.session_digest)
         return FAULT_SESSION;
@@ -55,32 +55,32 @@ static uint64_t tick_of(const diff_pair *pair)
 pair_look pair_look_at(const explanation *e, const diff_pair *pair)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
-    pair_look l = {.told = {false}};
+    pair_look l = {.has_texts = {false}};
     read_origins(pair, &l);
     for (int i = 0; i < 2; i++) {
-        if (frames[i] && !l.told[i] && e->recordings)
+        if (frames[i] && !l.has_texts[i] && e->recordings)
             l.faults[i] = FAULT_TEXTS;
-        if (l.told[i] && e->recordings)
-            l.faults[i] = find_foreign(&e->sides[i], &l.of[i], tick_of(pair));
-        if (l.told[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.of[i]))
+        if (l.has_texts[i] && e->recordings)
+            l.faults[i] = find_origin_fault(&e->sides[i], &l.origins[i], tick_of(pair));
+        if (l.has_texts[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.origins[i]))
             l.faults[i] = FAULT_PIXELS;
     }
-    l.same_scene = both_told(&l) && l.of[0].scene == l.of[1].scene;
+    l.same_scene = both_have_texts(&l) && l.origins[0].scene == l.origins[1].scene;
     return l;
 }
 
-static bool is_tampered(const pair_look *l)
+static bool has_fault(const pair_look *l)
 {
     return l->faults[0] != FAULT_NONE || l->faults[1] != FAULT_NONE;
 }
 
 static bool is_only_drawn(const explanation *e, const pair_look *l)
 {
-    return l->same_scene && !is_tampered(l) && !cause_facts_show(&e->cause.view, 0);
+    return l->same_scene && !has_fault(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
 /* Print the frames that are not those that their recording drew for this tick. */
-static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
+static void print_faults(FILE *out, const diff_pair *pair, const pair_look *l)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
     bool any = false;
@@ -91,7 +91,7 @@ static void print_tampered(FILE *out, const diff_pair *pair, const pair_look *l)
         if (l->faults[i] == FAULT_SESSION)
             fputs("is a frame of another session", out);
         else if (l->faults[i] == FAULT_TICK)
-            fprintf(out, "is the frame of tick %" PRIu64, l->of[i].tick);
+            fprintf(out, "is the frame of tick %" PRIu64, l->origins[i].tick);
         else if (l->faults[i] == FAULT_SCENE)
             fputs("shows another scene than ticks.jsonl records for its tick", out);
         else if (l->faults[i] == FAULT_TEXTS)
@@ -139,8 +139,8 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 /* Whether there is a known difference that the frame of a tick can show. */
 static bool differs_at(const explanation *e, uint64_t tick)
 {
-    const cause_tick *told = cause_at(&e->cause, tick);
-    return (told && told->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
+    const cause_tick *details = cause_at(&e->cause, tick);
+    return (details && details->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
            cause_facts_show(&e->cause.session, tick);
 }
 
@@ -162,12 +162,12 @@ static void print_same_tick(FILE *out, const explanation *e, const cause_facts *
 
 static void print_tick(FILE *out, const explanation *e, uint64_t tick)
 {
-    const cause_tick *told = cause_at(&e->cause, tick);
-    const bool facts = told && told->facts.count > 0;
+    const cause_tick *details = cause_at(&e->cause, tick);
+    const bool facts = details && details->facts.count > 0;
     cause_facts view = cause_facts_shown(&e->cause.view, tick), session = cause_facts_shown(&e->cause.session, tick);
     fprintf(out, "tick %" PRIu64 ": ", tick);
     if (facts)
-        cause_print_facts(out, &told->facts, false);
+        cause_print_facts(out, &details->facts, false);
     fputs(facts && view.count ? "; " : "", out);
     cause_print_facts(out, &view, false);
     if (!facts)
@@ -179,7 +179,7 @@ static void print_tick(FILE *out, const explanation *e, uint64_t tick)
 /* Print how two frames outside of recordings differ by their text chunks. */
 static void print_origins(FILE *out, const pair_look *l)
 {
-    const frame_origin *a = &l->of[0], *b = &l->of[1];
+    const frame_origin *a = &l->origins[0], *b = &l->origins[1];
     if (a->tick != b->tick)
         fprintf(out, "the reference shows tick %" PRIu64 ", the frame tick %" PRIu64, a->tick, b->tick);
     else if (a->session != b->session)
@@ -194,10 +194,10 @@ static void print_origins(FILE *out, const pair_look *l)
 /* Print the elements that are drawn where the frames differ. */
 static void print_trace(FILE *out, const explanation *e, uint64_t tick)
 {
-    const cause_tick *told = cause_at(&e->cause, tick);
-    if (told && told->trace.count) {
+    const cause_tick *details = cause_at(&e->cause, tick);
+    if (details && details->trace.count) {
         fputs("; ", out);
-        trace_print(out, &told->trace);
+        trace_print(out, &details->trace);
     }
 }
 
@@ -211,21 +211,21 @@ static bool may_be_right(const pair_look *l)
 
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
-    const bool both = pair->a && pair->b, tampered = is_tampered(l), drawn = is_only_drawn(e, l);
+    const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawn(e, l);
     const uint64_t tick = tick_of(pair);
-    const bool tick_told = e->recordings && both && !drawn && (!tampered || (may_be_right(l) && differs_at(e, tick)));
-    const bool missing_told = e->recordings && !both;
-    print_tampered(out, pair, l);
-    fputs(tampered && (tick_told || missing_told) ? "; " : "", out);
+    const bool prints_tick = e->recordings && both && !drawn && (!faulty || (may_be_right(l) && differs_at(e, tick)));
+    const bool prints_missing = e->recordings && !both;
+    print_faults(out, pair, l);
+    fputs(faulty && (prints_tick || prints_missing) ? "; " : "", out);
     if (drawn)
         pair_print_rendering(out, e);
-    else if (tick_told)
+    else if (prints_tick)
         print_tick(out, e, tick);
-    else if (missing_told)
+    else if (prints_missing)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
-    else if (both_told(l) && !tampered)
+    else if (both_have_texts(l) && !faulty)
         print_origins(out, l);
-    if (e->recordings && l->same_scene && !tampered && !drawn && !same_renderer(e))
+    if (e->recordings && l->same_scene && !faulty && !drawn && !same_renderer(e))
         print_renderers(out, e);
     if (e->recordings)
         print_trace(out, e, tick);
@@ -255,7 +255,7 @@ static void print_tally(FILE *out, const diff_pair *pair)
 /* Print a key for frames outside of recordings, from their text chunks. */
 static void print_origins_key(FILE *out, const pair_look *l)
 {
-    const frame_origin *a = &l->of[0], *b = &l->of[1];
+    const frame_origin *a = &l->origins[0], *b = &l->origins[1];
     fprintf(out, "%s session, %" PRIu64 " ticks on", a->session == b->session ? "the same" : "another",
             b->tick - a->tick);
 }
@@ -269,15 +269,15 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
     if (pair->finding == FOUND_SIZE)
         fprintf(out, "%dx%d %dx%d, ", pair->about[0].width, pair->about[0].height, pair->about[1].width,
                 pair->about[1].height);
-    if (is_tampered(l))
+    if (has_fault(l))
         fprintf(out, "faults %d %d, ", (int)l->faults[0], (int)l->faults[1]);
     if (is_only_drawn(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick_of(pair));
-    else if (e->recordings && known && !is_tampered(l))
+    else if (e->recordings && known && !has_fault(l))
         fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, tick_of(pair)));
-    else if (both_told(l) && !is_tampered(l))
+    else if (both_have_texts(l) && !has_fault(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_tally(out, pair);
@@ -290,8 +290,8 @@ char *pair_find_key(const explanation *e, const diff_pair *pair, const pair_look
 {
     text_stream s;
     char *key;
-    const bool told = text_stream_begin(&s) && print_key(s.stream, e, pair, l);
-    if (text_stream_end(&s, &key) && told)
+    const bool has_key = text_stream_begin(&s) && print_key(s.stream, e, pair, l);
+    if (text_stream_end(&s, &key) && has_key)
         return key;
     free(key);
     return NULL;

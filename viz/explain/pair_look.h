@@ -12,8 +12,8 @@ typedef enum frame_fault { FAULT_NONE, FAULT_SESSION, FAULT_TICK, FAULT_SCENE, F
 
 /* The text chunks of both frames, and the faults that they show. */
 typedef struct pair_look {
-    frame_origin of[2];
-    bool told[2]; /* the frame has these text chunks */
+    frame_origin origins[2];
+    bool has_texts[2]; /* the frame has these text chunks */
     frame_fault faults[2];
     bool same_scene;
 } pair_look;

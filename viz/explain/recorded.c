@@ -15,7 +15,7 @@
 /* The longest line of ticks.jsonl that is read to its end, in bytes. */
 #define LONGEST_LINE ((size_t)1 << 26)
 
-static bool warn(recorded *r, octreel_error *error, const char *format, ...)
+static bool add_warning(recorded *r, octreel_error *error, const char *format, ...)
 {
     char text[1024];
     va_list arguments;
@@ -41,7 +41,7 @@ static bool check_session(recorded *r, octreel_error *error)
     if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
         !frame_session(r->side->path, tick, &r->filmed) || r->filmed == r->replay.session_digest)
         return true;
-    return warn(r, error, "%s/session.json is not the session that was recorded", r->side->path);
+    return add_warning(r, error, "%s/session.json is not the session that was recorded", r->side->path);
 }
 
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
@@ -67,7 +67,7 @@ void recorded_close(recorded *r)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* The digest of the scene at the end of the line that was read last; 0 where there is none. */
+/* The digest of the scene at the end of the last line; 0 if it has none. */
 static uint64_t line_scene(const recorded *r)
 {
     static const char before[] = "\"scene\": \"";
@@ -78,7 +78,7 @@ static uint64_t line_scene(const recorded *r)
     return memcmp(digits - length, before, length) == 0 ? strtoull(digits, NULL, 16) : 0;
 }
 
-static bool keep_scene(recorded *r)
+static bool store_scene(recorded *r)
 {
     uint64_t *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
     if (!grown)
@@ -104,8 +104,8 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
     const line_state state = lines_next(&r->lines, LONGEST_LINE);
     r->reading = state == LINE_WHOLE;
     if (r->reading)
-        return keep_scene(r) || error_no_memory(error);
-    return warn(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
+        return store_scene(r) || error_no_memory(error);
+    return add_warning(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
 }
 
 /* The scene digest to expect in a line: that in the frame, else that in the line itself, since no scene is built here.
@@ -140,11 +140,11 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     const expected_line expected = {text, s.size, tick, &extras};
     r->reading = line_matches(&r->lines, &expected, &finding);
     free(text);
-    return r->reading || warn(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
-                              r->side->path, tick->number, finding.text);
+    return r->reading || add_warning(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
+                                     r->side->path, tick->number, finding.text);
 }
 
-/* Equal lines of equal ticks need no check: they are both right or both wrong. */
+/* Check the lines of both sides. Equal lines of equal ticks need no check: both are right, or both are wrong. */
 bool recorded_check_tick(recorded sides[2], const octree_game *const games[2], bool differs, octreel_error *error)
 {
     const uint64_t tick = octree_game_tick(games[0])->number;

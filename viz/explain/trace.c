@@ -80,7 +80,7 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
 }
 
 /* The part that is drawn on top: layers are in painter's order, and the background is below all. */
-static trace_part upper(trace_part a, trace_part b)
+static trace_part upper_part(trace_part a, trace_part b)
 {
     if (a.layer == TRACE_BACKGROUND || b.layer == TRACE_BACKGROUND)
         return a.layer == TRACE_BACKGROUND ? b : a;
@@ -110,7 +110,7 @@ static trace_part part_at(const tracer *t, const octree_game *const games[2], co
         const trace_part a = part_of(&t->scenes[0], p->numbers[0][at], games);
         const trace_part b = part_of(&t->scenes[1], p->numbers[1][at], games);
         if (!same_part(&a, &b))
-            return upper(a, b);
+            return upper_part(a, b);
         if (found.layer == TRACE_BACKGROUND)
             found = b;
     }
@@ -192,7 +192,7 @@ static bool make_trace(const tracer *t, const octree_game *const games[2], const
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
 
 /* Draw the element numbers of a scene. If there is no renderer, nothing is traced; the first reason is kept. */
-static bool pick(tracer *t, const scene *s, uint32_t *numbers)
+static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
     const int samples = view_samples(&s->view);
@@ -233,7 +233,7 @@ static bool trace_frames(tracer *t, const octree_game *const games[2], const dif
     }
     pictures p = {{malloc(size * sizeof **p.numbers), malloc(size * sizeof **p.numbers)}, width, side};
     bool ok = p.numbers[0] && p.numbers[1];
-    if (ok && pick(t, &t->scenes[0], p.numbers[0]) && pick(t, &t->scenes[1], p.numbers[1]))
+    if (ok && pick_elements(t, &t->scenes[0], p.numbers[0]) && pick_elements(t, &t->scenes[1], p.numbers[1]))
         ok = make_trace(t, games, pair, options, frames, &p, made);
     free(p.numbers[0]);
     free(p.numbers[1]);
@@ -275,16 +275,16 @@ void trace_print_part(FILE *out, const trace_part *part)
 void trace_print(FILE *out, const trace *t)
 {
     const size_t most = t->count < TRACE_TOLD ? t->count : TRACE_TOLD;
-    uint64_t told = 0;
+    uint64_t printed = 0;
     fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
     for (int text = 0; text < 2; text++) /* text changes with everything else, so it comes last */
         for (size_t i = 0; i < most; i++) {
             if ((t->parts[i].layer == LAYER_TEXT) != text)
                 continue;
-            fprintf(out, "%s%" PRIu64 " of ", told ? ", " : "", t->parts[i].pixels);
+            fprintf(out, "%s%" PRIu64 " of ", printed ? ", " : "", t->parts[i].pixels);
             trace_print_part(out, &t->parts[i]);
-            told += t->parts[i].pixels;
+            printed += t->parts[i].pixels;
         }
-    if (told < t->pixels)
-        fprintf(out, ", %" PRIu64 " of others", t->pixels - told);
+    if (printed < t->pixels)
+        fprintf(out, ", %" PRIu64 " of others", t->pixels - printed);
 }

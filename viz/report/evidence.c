@@ -56,8 +56,8 @@ static size_t fitting_length(const char *stem)
     return length;
 }
 
-/* The word goes before the suffix, which stays as it is: different names stay different. A name that would be too long
- * has a digest of itself in place of its end. */
+/* The word is inserted before the suffix, so that different names stay different. A name that becomes too long is cut
+ * and ends with a digest of the whole name. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
     const size_t stem = stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;

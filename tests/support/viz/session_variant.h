@@ -7,7 +7,7 @@
 #include "point_values.h"
 
 /* The text for sessions in which the same happens. */
-#define SAME_TICKS "the same happens in all ticks that both have"
+#define SAME_TICKS "no tick that both have differs"
 
 /* A session that a test may change in any part. */
 typedef struct variant {

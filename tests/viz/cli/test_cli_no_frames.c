@@ -72,7 +72,7 @@ static void annotations_tell_of_the_ticks(void **state)
     result = run_in(*state, "diff a b --annotate --causes 0");
     assert_string_equal(result.err, "::error title=octreel diff%3A the ticks differ::ticks.jsonl differs\n");
     command_release(&result);
-    assert_says(*state, "diff a same --annotate", 0, "same: the ticks");
+    assert_says(*state, "diff a same --annotate", 0, "same: compared by ticks");
 }
 
 static void a_file_that_was_changed_is_a_difference(void **state)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_accept.c - octreel accept: what becomes the reference, what goes, and what is left alone. */
+/* test_accept.c - octreel accept: which references are replaced, added or removed, and which stay unchanged. */
 #include "commands.h"
 #include "fixture.h"
 #include "files.h"
@@ -149,7 +149,7 @@ static void a_folder_of_other_pictures_is_left_alone(void **state)
                 untouched = gallery_make(*state, "untouched", "cat.png dog.png"),
                 frames = gallery_make(*state, "new", "1.png");
     command_result result = run_octreel(NULL, "accept %s %s", pictures.path, frames.path);
-    assert_trouble(&result, "refusing to remove all 2) would go");
+    assert_trouble(&result, "refusing to remove all 2 references");
     assert_same_folders(pictures.path, untouched.path, NULL);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_accept_whole.c - octreel accept takes over all that it was given or nothing: on a disk that is full, and of a
- * recording that is not whole. */
+/* test_accept_whole.c - octreel accept replaces everything or nothing: on a full disk, and for an incomplete recording.
+ */
 #include "commands.h"
 #include "fixture.h"
 #include "files.h"

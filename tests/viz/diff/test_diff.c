@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_diff.c - two sides: which frame belongs to which, and what is found of each pair. */
+/* test_diff.c - comparing two sides: how frames are paired, and the finding of each pair. */
 #include "galleries.h"
 #include "ignored_layers.h"
 #include "view.h"
@@ -119,7 +119,7 @@ static void what_cannot_be_compared_is_refused(void **state)
     assert_not_compared(empty.path, empty.path, NULL, "nothing to compare");
     options.mask = ignore_layers;
     options.mask_context = &(unsigned){1u << LAYER_TEXT};
-    assert_not_compared(folder.path, folder.path, &options, "recordings alone");
+    assert_not_compared(folder.path, folder.path, &options, "--ignore-layer needs a recording");
     comparison_of made = assert_compared(empty.path, folder.path, NULL);
     assert_int_equal(finding_of(&made, "1.png"), FOUND_NO_REFERENCE);
     comparison_release(&made);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_row_by_row.c - pictures that are read and compared row by row, beside the same held whole. */
+/* test_row_by_row.c - comparing pictures row by row finds the same as comparing whole pictures. */
 #include "diff.h"
 #include "images.h"
 #include "naive_compare.h"

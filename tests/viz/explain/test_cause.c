@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause.c - one seeded change to a random session: the cause is that change and nothing else, and what follows
- * from it is what brute force finds. A number in its arguments is that of the seeds. */
+/* test_cause.c - random sessions with one change each: the cause that is found is this change alone, and its
+ * consequences are those that brute force finds. A number among the arguments is the number of seeds. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause_answers.c - two sessions that differ in what a program answered: how many more of its answers are wrong,
- * from which tick on. */
+/* test_cause_answers.c - two sessions with different answers of a foreign index: the number of additional wrong
+ * answers, and the tick of the first. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause_compare.c - two objects of JSON are compared member by member, those that nobody has words for too. */
+/* test_cause_compare.c - JSON objects are compared member by member, including members without a phrase. */
 #include <string.h>
 
 #include "cause_compare.h"

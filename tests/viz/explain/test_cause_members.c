@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause_members.c - whatever member of a session file is changed, the frames that differ have that as their cause,
+/* test_cause_members.c - whichever member of a session file changes, it is found as the cause of the differing frames,
  * and never another version of octreel. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause_sessions.c - in what two sessions differ, and the line that says so: every part of a session in turn. */
+/* test_cause_sessions.c - every part of a session is changed in turn; the headline reports the change. */
 #include "fixture.h"
 #include "session_variant.h"
 
@@ -437,7 +437,7 @@ static void queries_are_named_by_kind_and_tick(void **state)
                 "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked only in the frames");
     assert_says_of(no_query, three_more_queries,
                    "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of that kind; tick 4: the nearest query "
-                   "asked besides");
+                   "asked only in the frames");
     assert_says(one_query_fewer, "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range "
                                  "query asked only in the reference");
     assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was (-5, -5, -5) to "

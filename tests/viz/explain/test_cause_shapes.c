@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cause_shapes.c - in which shapes two sessions differ, and the line that says so. */
+/* test_cause_shapes.c - two sessions with different shapes, and the headline that reports them. */
 #include <string.h>
 
 #include "fixture.h"

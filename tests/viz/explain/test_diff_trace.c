@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_diff_trace.c - the pixels in which two frames differ belong to elements: to those that differ. */
+/* test_diff_trace.c - the pixels in which two frames differ are traced to the elements that differ. */
 #include <stdlib.h>
 #include <string.h>
 

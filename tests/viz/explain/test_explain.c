@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_explain.c - why two recordings differ, frame by frame: what their files say, and where they are not believed. */
+/* test_explain.c - why two recordings differ, frame by frame, and the files that do not agree with their session. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,8 +88,9 @@ static void another_view_is_no_difference_of_ticks(void **state)
     options.view.layers &= ~(1u << LAYER_TEXT);
     const place b = film_in(*state, "b", &session, &options);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_string_equal(made.why.headline, "another camera (orbit, was iso), one layer fewer (text): the same ticks, "
-                                           "looked at in another way");
+    assert_string_equal(
+        made.why.headline,
+        "another camera (orbit, was iso), one layer fewer (text): the ticks are the same, only the view differs");
     assert_holds(cause_of(&made, "frame_000001.png"),
                  "tick 1: another camera (orbit, was iso), one layer fewer (text); ");
     assert_int_equal(made.why.cause.differing, 0);
@@ -131,8 +132,9 @@ static void frames_that_differ_before_ticks_do_are_told(void **state)
     session.player.box_size += 15;
     const place b = film_in(*state, "b", &session, NULL);
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_string_equal(made.why.headline, "another collision box (45, was 30): the same happens in all ticks that "
-                                           "both have; frames differ from tick 0 on");
+    assert_string_equal(
+        made.why.headline,
+        "another collision box (45, was 30): no tick that both have differs; frames differ from tick 0 on");
     comparison_release(&made);
 }
 
@@ -260,7 +262,7 @@ static void a_session_edited_after_filming_is_not_believed(void **state)
     const place a = film_twins(*state, KEYS, &b);
     edit_file(b.path, "session.json", "\"capacity\": 2", "\"capacity\": 4");
     comparison_of made = assert_explained(&a, &b, 10);
-    assert_holds(made.why.headline, "b/session.json is not the session that was filmed; ");
+    assert_holds(made.why.headline, "b/session.json is not the session that was recorded; ");
     comparison_release(&made);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_explain_frames.c - why two frames of one scene differ, and frames that were exchanged, changed or saved by
- * another program: told by what the frames say of themselves. */
+/* test_explain_frames.c - frames that differ although their scenes are equal, and frames that were copied from
+ * elsewhere, changed or saved by another program. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -96,9 +96,9 @@ static void both_frames_may_be_none_of_octreels(void **state)
     assert_holds(cause_of(&made, "frame_000001.png"), "a/frame_000001.png was changed after it was drawn");
     assert_holds(cause_of(&made, "frame_000001.png"), "; ");
     assert_holds(cause_of(&made, "frame_000001.png"), "b/frame_000001.png is the frame of tick 3");
-    assert_holds(cause_of(&made, "frame_000002.png"), "a/frame_000002.png has none of octreel's texts");
+    assert_holds(cause_of(&made, "frame_000002.png"), "a/frame_000002.png has no text chunks of octreel");
     assert_holds(cause_of(&made, "frame_000002.png"), "; ");
-    assert_holds(cause_of(&made, "frame_000002.png"), "b/frame_000002.png has none of octreel's texts");
+    assert_holds(cause_of(&made, "frame_000002.png"), "b/frame_000002.png has no text chunks of octreel");
     comparison_release(&made);
 }
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_ignored_layers.c - what a layer shows is left out of a comparison, wherever it is in the frames of a recording.
- */
+/* test_ignored_layers.c - --ignore-layer excludes the pixels of a layer wherever it is in the frames of a recording. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_evidence.c - the folder of evidence: which pictures are left of each finding, what is in them, and into which
- * folders they go. */
+/* test_evidence.c - the folder of evidence: which pictures are written for each finding, what they show, and which
+ * folders are refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

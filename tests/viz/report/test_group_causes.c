@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_group_causes.c - the frames of two recordings that differ are of one group where their cause is the same one. */
+/* test_group_causes.c - frames of two recordings are in one group if they differ for the same cause. */
 #include "edits.h"
 #include "explained.h"
 #include "fixture.h"
@@ -144,7 +144,7 @@ static void a_foreign_frame_is_in_no_group_of_the_sessions(void **state)
     spoil_frame(b.path, 17, 78, false);
     comparison_of made = assert_explained(&a, &b, 10);
     assert_groups(&made, false, "tick 3\ntick 16\ntick 17\n");
-    assert_cause(&made, "frame_000016.png", "b/frame_000016.png has none of octreel's texts", "query");
+    assert_cause(&made, "frame_000016.png", "b/frame_000016.png has no text chunks of octreel", "query");
     assert_cause(&made, "frame_000017.png", "b/frame_000017.png was changed after it was drawn", "query");
     comparison_release(&made);
 }

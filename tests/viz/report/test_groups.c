@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_groups.c - frames that differ for one cause are told once: which they are, and how they are named. */
+/* test_groups.c - frames that differ for the same cause are one group; how its frames are printed. */
 #include "fixture.h"
 #include "galleries.h"
 #include "images.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_report_page.c - report.html in headless Chromium: it says the cause, steps from difference to difference,
- * swipes, blinks and zooms, says what was left out, and loads nothing. */
+/* test_report_page.c - report.html in headless Chromium: it shows the causes, steps through the differences, swipes,
+ * blinks and zooms, says what was left out, and loads no other file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_reports.c - JUnit's XML and Markdown: what they say, and that no name can break them. */
+/* test_reports.c - the JUnit and Markdown reports: their contents, and that no file name can break their syntax. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
