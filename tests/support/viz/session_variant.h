@@ -6,7 +6,7 @@
 #include "octree/game.h"
 #include "point_values.h"
 
-/* The text for sessions in which the same happens. */
+/* The words for sessions whose ticks are equal. */
 #define SAME_TICKS "no tick that both have differs"
 
 /* A session that a test may change in any part. */
