@@ -20,10 +20,8 @@
 #include <math.h>
 #include <string.h>
 
-#define ARROW_FRACTION 10 /* the fastest arrow is at most 1 / ARROW_FRACTION of the world's longest side */
-#define BOXES_PER_ARROW                                                                                                \
-    1000.0 /* one arrow per this many boxes of the budget: the eye can distinguish some hundreds                       \
-            */
+#define ARROW_FRACTION 10      /* the fastest arrow is at most 1 / ARROW_FRACTION of the world's longest side */
+#define BOXES_PER_ARROW 1000.0 /* one arrow per this many boxes of the budget */
 
 unsigned velocity_ticks(const octree_game *game)
 {
