@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* array.h - growing arrays: items, a count and the room there is, which doubles. */
+/* array.h - growing arrays. The caller keeps the items, their count and the capacity `room`, which doubles. */
 #ifndef BASE_ARRAY_H
 #define BASE_ARRAY_H
 
@@ -7,8 +7,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* The array with room for `count` items, to be freed with free(). Null when there is no memory: the old array is then
- * unchanged. Cost: O(1) an item, amortized. */
+/* Returns the array with room for at least `count` items; the caller frees it with free(). Returns null when out of
+ * memory: the old array is then unchanged and still the caller's. Cost: O(1) per item, amortized. */
 static inline void *array_reserve(void *items, size_t count, size_t *room, size_t item_size)
 {
     enum { SMALLEST_ROOM = 16 };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* cores.h - how many processors this machine has. */
+/* cores.h - the number of processors of this machine. */
 #ifndef BASE_CORES_H
 #define BASE_CORES_H
 
-/* Those that are online; at least 1. */
+/* Returns the number of online processors; at least 1. */
 unsigned count_cores(void);
 
 #endif

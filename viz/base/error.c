@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* error.c - sentences about what could not be done. */
+/* error.c - writes error messages. */
 #include "error.h"
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Sentences begin with a path: of one that is too long the beginning goes, never the reason at its end. */
+/* A message begins with a path and ends with a reason. If it is too long, its beginning is cut and never the reason. */
 bool error_set(octreel_error *error, const char *format, ...)
 {
     char whole[PATH_MAX + sizeof error->text];
@@ -26,7 +26,7 @@ bool error_set(octreel_error *error, const char *format, ...)
 
 bool error_no_memory(octreel_error *error)
 {
-    return error_set(error, "there is no memory");
+    return error_set(error, "out of memory");
 }
 
 bool check_system_resources(octreel_error *error)

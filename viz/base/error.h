@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* error.h - the sentences of errors. */
+/* error.h - writes error messages and recognizes errors of the system. */
 #ifndef BASE_ERROR_H
 #define BASE_ERROR_H
 
@@ -7,15 +7,15 @@
 
 #include <stdbool.h>
 
-/* Write a sentence, a printf format; always false, so that a caller can return it. */
+/* Write an error message with a printf format. Always returns false, so that a caller can return the result. */
 bool error_set(octreel_error *error, const char *format, ...);
 
-/* The same for lack of memory. */
+/* Write "out of memory". Always returns false. */
 bool error_no_memory(octreel_error *error);
 
-/* False, with a sentence, where the last call that failed had no memory or no file that can be read, be it ours,
- * libpng's, jansson's or the C library's: then what was found wrong may be right. A file that is missing or that may
- * not be read is no such trouble. Set errno to 0 before what is asked about. */
+/* Returns false, with an error, if errno says that the system ran out of memory, files or disk space, or failed to
+ * read. A check that failed for such a reason says nothing about its input, which may be correct. Missing files and
+ * missing permissions are not such reasons. Set errno to 0 before the check. */
 bool check_system_resources(octreel_error *error);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* file.c - files and their names: read whole, written whole or not at all, copied, compared. */
+/* file.c - writes files whole or not at all, locks, copies and compares them. */
 #include "file.h"
 
 #include <errno.h>
@@ -30,8 +30,8 @@ char *path_join(const char *folder, const char *name)
     return path;
 }
 
-/* The folder in which a path lies, which may end in slashes; the caller frees it. */
-static char *parent_of(const char *path)
+/* Returns the folder in which a path lies; the path may end in slashes. The caller frees it. Null: out of memory. */
+static char *copy_parent_name(const char *path)
 {
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/')
@@ -69,7 +69,7 @@ bool file_is_locked(const char *path)
 
 int file_lock_parent_folder(const char *path)
 {
-    char *parent = parent_of(path);
+    char *parent = copy_parent_name(path);
     const int folder = parent ? open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     while (folder >= 0 && flock(folder, LOCK_EX) != 0 && errno == EINTR)
         continue;
@@ -98,29 +98,29 @@ const char *file_output_title(const char *path)
 
 #define PART ".part"
 
-static bool is_there_but_no_file(const char *path)
+static bool is_special_file(const char *path)
 {
     struct stat status;
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode);
 }
 
-/* How the bytes come to be at a path. */
+/* How a file is written. */
 typedef enum writing {
-    WRITE_OUTPUT,    /* through what is there and is no regular file; else as the next */
-    WRITE_REPLACING, /* by way of a part that is made anew: one that is there could be a pipe, or a link elsewhere */
-    WRITE_APART      /* by way of a part that is not there yet */
+    WRITE_OUTPUT,    /* into an existing pipe or device directly, else like WRITE_REPLACING */
+    WRITE_REPLACING, /* into a new ".part" file; an existing one is removed first, since it could be a pipe or a link */
+    WRITE_UNIQUE     /* into a ".part" file that must not exist yet */
 } writing;
 
 static FILE *open_stream(const char *name, bool is_part, writing how)
 {
     if (!is_part)
         return fopen(name, "wb");
-    if (how != WRITE_APART && unlink(name) != 0 && errno != ENOENT)
+    if (how != WRITE_UNIQUE && unlink(name) != 0 && errno != ENOENT)
         return NULL;
     return fopen(name, "wbx");
 }
 
-/* By way of "<path><ending>". Where it fails, errno says why. */
+/* Opens "<path><ending>". On failure, errno holds the reason. */
 static bool open_writer(file_writer *file, const char *path, const char *ending, writing how, octreel_error *error)
 {
     *file = (file_writer){.path = path};
@@ -128,7 +128,7 @@ static bool open_writer(file_writer *file, const char *path, const char *ending,
         file->stream = stdout;
         return true;
     }
-    const bool is_part = how != WRITE_OUTPUT || !is_there_but_no_file(path);
+    const bool is_part = how != WRITE_OUTPUT || !is_special_file(path);
     const size_t size = strlen(path) + strlen(ending) + 1;
     file->temp = malloc(size);
     if (!file->temp)
@@ -154,7 +154,7 @@ bool file_writer_open_replacing(file_writer *file, const char *path, octreel_err
     return open_writer(file, path, PART, WRITE_REPLACING, error);
 }
 
-/* Two names are hardly alike, and where they are the file of the other is left alone. */
+/* The name ends in the current nanoseconds. If such a file exists, another process writes it: try another name. */
 bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error)
 {
     bool ok = false;
@@ -164,13 +164,13 @@ bool file_writer_open_unique(file_writer *file, const char *path, octreel_error 
         struct timespec now;
         clock_gettime(CLOCK_REALTIME, &now);
         snprintf(ending, sizeof ending, ".%lx" PART, (unsigned long)now.tv_nsec);
-        ok = open_writer(file, path, ending, WRITE_APART, error);
+        ok = open_writer(file, path, ending, WRITE_UNIQUE, error);
     }
     return ok;
 }
 
-/* Whether it is on the disk, as far as the file system can tell. */
-static bool is_synced(FILE *stream)
+/* Syncs a file to the disk. File systems that cannot sync count as success. */
+static bool sync_stream(FILE *stream)
 {
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
@@ -190,7 +190,7 @@ bool file_writer_finish(file_writer *file, octreel_error *error)
 {
     if (!file->temp)
         return true;
-    bool ok = fflush(file->stream) == 0 && !ferror(file->stream) && (!file->lasting || is_synced(file->stream));
+    bool ok = fflush(file->stream) == 0 && !ferror(file->stream) && (!file->lasting || sync_stream(file->stream));
     int reason = errno;
     if (fclose(file->stream) != 0 && ok) {
         ok = false;
@@ -227,7 +227,7 @@ bool file_writer_abandon(file_writer *file)
     return false;
 }
 
-/* A full disk shows in file_writer_close(). */
+/* A write error, such as a full disk, is reported by file_writer_finish(). */
 static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *error)
 {
     char block[1 << 16];
@@ -239,8 +239,8 @@ static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *er
 
 typedef bool writer_opener(file_writer *file, const char *path, octreel_error *error);
 
-static bool copy_beside(file_writer *file, writer_opener *open_file, bool lasting, const char *from, const char *to,
-                        octreel_error *error)
+static bool copy_unplaced(file_writer *file, writer_opener *open_file, bool lasting, const char *from, const char *to,
+                          octreel_error *error)
 {
     char reason[FILE_REASON];
     FILE *in = file_open(from, NULL, reason);
@@ -254,30 +254,31 @@ static bool copy_beside(file_writer *file, writer_opener *open_file, bool lastin
     return ok;
 }
 
-static bool copy_by(writer_opener *open_file, bool lasting, const char *from, const char *to, octreel_error *error)
+static bool copy_and_place(writer_opener *open_file, bool lasting, const char *from, const char *to,
+                           octreel_error *error)
 {
     file_writer file;
-    return copy_beside(&file, open_file, lasting, from, to, error) && file_writer_place(&file, error);
+    return copy_unplaced(&file, open_file, lasting, from, to, error) && file_writer_place(&file, error);
 }
 
 bool file_copy_to(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open_replacing, false, from, to, error);
+    return copy_and_place(file_writer_open_replacing, false, from, to, error);
 }
 
 bool file_copy_prepare(file_writer *file, const char *from, const char *to, octreel_error *error)
 {
-    return copy_beside(file, file_writer_open_replacing, true, from, to, error);
+    return copy_unplaced(file, file_writer_open_replacing, true, from, to, error);
 }
 
 bool file_copy_unique(const char *from, const char *to, octreel_error *error)
 {
-    return copy_by(file_writer_open_unique, true, from, to, error);
+    return copy_and_place(file_writer_open_unique, true, from, to, error);
 }
 
 /* ---- Compared ----------------------------------------------------------------------------------------------- */
 
-static bool same_streams(FILE *a, FILE *b)
+static bool have_same_content(FILE *a, FILE *b)
 {
     char from_a[1 << 14], from_b[1 << 14];
     for (;;) {
@@ -298,7 +299,7 @@ bool have_same_bytes(const char *a, const char *b)
         of_a.st_size != of_b.st_size)
         return false;
     FILE *file_a = fopen(a, "rb"), *file_b = fopen(b, "rb");
-    const bool same = file_a && file_b && same_streams(file_a, file_b);
+    const bool same = file_a && file_b && have_same_content(file_a, file_b);
     if (file_a)
         fclose(file_a);
     if (file_b)
@@ -313,14 +314,15 @@ bool is_same_file(const struct stat *a, const struct stat *b)
 
 bool stat_parent(const char *path, struct stat *status)
 {
-    char *parent = parent_of(path);
+    char *parent = copy_parent_name(path);
     const bool is = parent && stat(parent, status) == 0;
     free(parent);
     return is;
 }
 
-/* Neither file exists: one name in one folder. Folders that do not exist either are compared by name. */
-static bool same_name(const char *a, const char *b)
+/* Compares two paths that do not exist: they are equal if name and folder are. If a folder is missing too, the paths
+ * are compared as text. */
+static bool is_same_new_path(const char *a, const char *b)
 {
     struct stat folders[2];
     const char *slashes[2] = {strrchr(a, '/'), strrchr(b, '/')};
@@ -330,7 +332,7 @@ static bool same_name(const char *a, const char *b)
            strcmp(slashes[0] ? slashes[0] + 1 : a, slashes[1] ? slashes[1] + 1 : b) == 0;
 }
 
-static bool are_one(const char *a, const char *b)
+static bool is_same_path(const char *a, const char *b)
 {
     struct stat files[2];
     if (file_is_standard(a) || file_is_standard(b))
@@ -338,12 +340,12 @@ static bool are_one(const char *a, const char *b)
     const bool there[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
     if (there[0] && there[1])
         return S_ISREG(files[0].st_mode) && is_same_file(&files[0], &files[1]);
-    return !there[0] && !there[1] && same_name(a, b);
+    return !there[0] && !there[1] && is_same_new_path(a, b);
 }
 
 bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error)
 {
-    return !output->path || !are_one(output->path, input) ||
+    return !output->path || !is_same_path(output->path, input) ||
            error_set(error, "%s %s is the same file as %s, which is read", output->option, output->path, input);
 }
 
@@ -356,7 +358,7 @@ bool check_outputs_differ(const output_file *outputs, size_t count, octreel_erro
             else if (file_is_standard(outputs[i].path) && file_is_standard(outputs[j].path))
                 return error_set(error, "%s and %s cannot both be standard output", outputs[j].option,
                                  outputs[i].option);
-            else if (are_one(outputs[i].path, outputs[j].path))
+            else if (is_same_path(outputs[i].path, outputs[j].path))
                 return error_set(error, "%s %s is the same file as %s %s", outputs[i].option, outputs[i].path,
                                  outputs[j].option, outputs[j].path);
     return true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* file_read.c - files are opened and read, and standard input as one of them. */
+/* file_read.c - opens and reads files and standard input. */
 #include "array.h"
 #include "file.h"
 
@@ -7,16 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Standard input, once it is read. */
+/* Standard input can be read only once, so what file_open() has read of it is kept here. */
 static struct {
     bool read;
-    char *bytes; /* null: who read it has them */
+    char *bytes; /* null: not read yet, or handed over to the caller that read it */
     size_t size;
 } standard;
 
 /* ---- Read --------------------------------------------------------------------------------------------------- */
 
-static bool refuse(char reason[FILE_REASON], const char *what)
+static bool set_reason(char reason[FILE_REASON], const char *what)
 {
     snprintf(reason, FILE_REASON, "%s: %s", what, strerror(errno));
     return false;
@@ -28,22 +28,22 @@ static FILE *open_regular(const char *path, uint64_t *size, char reason[FILE_REA
     struct stat status;
     FILE *stream = NULL;
     if (stat(path, &status) != 0)
-        refuse(reason, "cannot be opened");
+        set_reason(reason, "cannot be opened");
     else if (!S_ISREG(status.st_mode))
         snprintf(reason, FILE_REASON, "is not a regular file");
     else if (!(stream = fopen(path, "rb")))
-        refuse(reason, "cannot be opened");
+        set_reason(reason, "cannot be opened");
     *size = stream ? (uint64_t)status.st_size : 0;
     return stream;
 }
 
-/* What is read of a stream to its end: `total` bytes, as far as anybody knows, or 0. */
+/* A stream that is being read to its end. `total` is the expected number of bytes, or 0 if unknown. */
 typedef struct reading {
     FILE *stream;
     uint64_t total;
     file_progress *progress;
     void *context;
-    char *bytes; /* with room for one more than `size` */
+    char *bytes; /* with room for at least one more byte */
     size_t size, room;
 } reading;
 
@@ -63,7 +63,7 @@ static bool read_block(reading *r, size_t *got)
     return true;
 }
 
-/* The first room is for all of a regular file, and to find its end. */
+/* The first buffer holds a whole regular file and one more byte, so that one more read finds the end. */
 static bool read_stream(reading *r, char reason[FILE_REASON])
 {
     size_t got = 1;
@@ -76,7 +76,7 @@ static bool read_stream(reading *r, char reason[FILE_REASON])
     if (there && !ferror(r->stream))
         return true;
     if (there)
-        refuse(reason, "cannot be read");
+        set_reason(reason, "cannot be read");
     else
         snprintf(reason, FILE_REASON, "out of memory for its %ju bytes",
                  (uintmax_t)(r->total > r->size ? r->total : r->size));
@@ -84,14 +84,14 @@ static bool read_stream(reading *r, char reason[FILE_REASON])
     return false;
 }
 
-/* Its length is known where it is a file. */
+/* The size is known if standard input is redirected from a regular file. */
 static bool read_standard(file_progress *progress, void *context, char **bytes, size_t *size, char reason[FILE_REASON])
 {
     struct stat status;
     const bool regular = fstat(fileno(stdin), &status) == 0 && S_ISREG(status.st_mode);
     reading r = {stdin, regular ? (uint64_t)status.st_size : 0, progress, context, NULL, 0, 0};
     if (standard.read) {
-        snprintf(reason, FILE_REASON, "can be read only once, and something else has read it");
+        snprintf(reason, FILE_REASON, "can be read only once, but another input has read it already");
         return false;
     }
     standard.read = true;
@@ -112,13 +112,13 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
     *(size ? size : &ignored) = standard.size;
     FILE *stream = standard.size > 0 ? fmemopen(standard.bytes, standard.size, "rb") : NULL;
     if (!stream && standard.size > 0)
-        refuse(reason, "cannot be opened");
+        set_reason(reason, "cannot be opened");
     else if (!stream)
         snprintf(reason, FILE_REASON, "is empty");
     return stream;
 }
 
-/* What is kept is copied: it is small, where who opens it first does not read it whole at once. */
+/* Copies the kept bytes. Inputs that were opened with file_open() first are small. */
 static bool copy_standard(char **bytes, size_t *size, char reason[FILE_REASON])
 {
     *size = standard.size;

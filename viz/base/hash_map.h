@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* hash_map.h - finds the items of an array by their keys. The map stores their indices, in a table with open addressing
- * that is at most half full; items begin with their keys, and are never removed one by one.
+/* hash_map.h - finds the items of an array by their keys. Each item begins with its key. The map stores only the
+ * indices of the items, which stay in the caller's array. Items cannot be removed singly.
  *
  * With `struct cell { uint64_t node; ... } *cells`:
  *   static const hash_map_keys by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_same_id};
@@ -18,19 +18,19 @@
 
 /* A zeroed one is empty. */
 typedef struct hash_map {
-    size_t count;    /* the first items of the array that are in the map */
-    size_t size;     /* of the table: a power of two, or 0 */
-    uint32_t *table; /* 1 + an item's place; 0 is free */
+    size_t count;    /* the map holds the first `count` items of the array */
+    size_t size;     /* slots of the table: a power of two, or 0 */
+    uint32_t *table; /* 1 + an item's index; 0: the slot is free */
 } hash_map;
 
-/* What the items are. A pointer to an item is one to its key. */
+/* Describes the items. A pointer to an item is also a pointer to its key. */
 typedef struct hash_map_keys {
     size_t item_size;
-    uint64_t (*hash)(const void *key); /* its low bits count */
+    uint64_t (*hash)(const void *key); /* the low bits select the slot */
     bool (*same)(const void *a, const void *b);
 } hash_map_keys;
 
-/* Keys of 64 bits. */
+/* Hash and comparison for keys of 64 bits. */
 static inline uint64_t hash_map_hash_id(const void *key)
 {
     const uint64_t mixed = *(const uint64_t *)key * UINT64_C(0x9e3779b97f4a7c15);
@@ -42,7 +42,7 @@ static inline bool hash_map_same_id(const void *a, const void *b)
     return *(const uint64_t *)a == *(const uint64_t *)b;
 }
 
-/* The place of the item with a key; HASH_MAP_NONE when there is none. Inline: with constant `keys` nothing is called.
+/* Returns the index of the item with this key, or HASH_MAP_NONE. Inline: constant `keys` then cost no indirect calls.
  */
 static inline uint32_t hash_map_find(const hash_map *map, const hash_map_keys *keys, const void *items, const void *key)
 {
@@ -57,14 +57,14 @@ static inline uint32_t hash_map_find(const hash_map *map, const hash_map_keys *k
     return HASH_MAP_NONE;
 }
 
-/* Add the next item of the array, that at map->count, whose key is not in the map. False when there is no memory: the
- * map is then unchanged. */
+/* Add the item at index map->count, whose key must not be in the map yet. False: out of memory, the map is unchanged.
+ */
 bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items);
 
-/* Make room for `count` items at once. False when there is no memory: the map is then unchanged. */
+/* Make room for `count` items. False: out of memory, the map is unchanged. */
 bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *items, size_t count);
 
-/* Remove all items, and keep the table. */
+/* Remove all items, but keep the memory. */
 void hash_map_clear(hash_map *map);
 
 void hash_map_release(hash_map *map);

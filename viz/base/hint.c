@@ -1,15 +1,25 @@
 /* SPDX-License-Identifier: MIT */
+/* hint.c - suggests the known name nearest to a mistyped word, and prints commands as the user types them.
+ *
+ * How near two words are is their optimal string alignment distance: the smallest number of edits that turn one into
+ * the other, where an edit inserts, deletes or replaces a letter or swaps two neighbouring letters. Slips of the
+ * keyboard are nearly always one of these four; plain Levenshtein distance would count a swap as two. Dynamic
+ * programming computes it: cell (i, j) is the distance of the first i letters of one word and the first j of the other,
+ * and depends only on the cells one step back in either or both words and, for a swap, two steps back in both. So three
+ * rows suffice instead of the whole table. Cost: the product of the lengths, for words of fewer than 40 letters. A
+ * suggestion must need at most a third as many edits as the word has letters; otherwise every word would resemble some
+ * option. Source: Damerau 1964; Boytsov 2011, "Indexing methods for approximate dictionary searching". */
 #include "hint.h"
 
 #include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
-/* ---- The name that was meant -------------------------------------------------------------------------------- */
+/* ---- The nearest name -------------------------------------------------------------------------------------- */
 
 enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 
-/* What other programs, such as odiff, ffmpeg and make, call what is asked for. */
+/* Words of other programs, such as odiff, ffmpeg and make, and the names they have here. */
 static const char *const synonyms[][2] = {
     {"force", "replace"},       {"overwrite", "replace"},   {"clobber", "replace"}, {"continue", "resume"},
     {"film", "record"},         {"run", "record"},          {"play", "record"},     {"render", "record"},
@@ -26,7 +36,7 @@ hint hint_for(const char *word, size_t length)
     return (hint){.word = word, .length = length};
 }
 
-static size_t least(size_t a, size_t b)
+static size_t smaller(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
@@ -36,7 +46,7 @@ static int lower(char c)
     return tolower((unsigned char)c);
 }
 
-/* The optimal string alignment distance, a row for each letter of `a`; LONGEST where one of them is too long. */
+/* Returns the optimal string alignment distance, without regard to case; LONGEST if a word is too long. */
 static size_t find_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t rows[3][LONGEST + 1];
@@ -50,9 +60,9 @@ static size_t find_distance(const char *a, size_t a_length, const char *b, size_
                 continue;
             }
             const bool same = lower(a[i - 1]) == lower(b[j - 1]);
-            now[j] = least(least(last[j], now[j - 1]) + 1, last[j - 1] + !same);
+            now[j] = smaller(smaller(last[j], now[j - 1]) + 1, last[j - 1] + !same);
             if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
-                now[j] = least(now[j], before[j - 2] + 1);
+                now[j] = smaller(now[j], before[j - 2] + 1);
         }
     }
     return rows[a_length % 3][b_length];
@@ -67,12 +77,12 @@ static bool is_synonym(const hint *h, const char *name)
     return false;
 }
 
-/* A third of a word may be wrong, and a letter of a short one. */
+/* A third of the letters may be wrong, and one letter of a word shorter than three. */
 static bool is_near(const hint *h, const char *name, size_t length, size_t distance)
 {
     const size_t allowed = h->length / 3;
     const bool begins = h->length >= SHORTEST_BEGINNING && strncasecmp(name, h->word, h->length) == 0;
-    return begins || (distance < least(h->length, length) && distance <= (allowed ? allowed : 1));
+    return begins || (distance < smaller(h->length, length) && distance <= (allowed ? allowed : 1));
 }
 
 void hint_offer(hint *h, const char *name)
@@ -99,7 +109,7 @@ const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT])
 
 #define PROGRAM "octreel"
 
-enum { LONGEST_CALL = 200 }; /* one that is longer is not typed again */
+enum { LONGEST_CALL = 200 }; /* a longer name is shown as "octreel": nobody would type it again */
 
 static char program[9 * LONGEST_CALL + 8] = PROGRAM;
 
@@ -119,8 +129,9 @@ const char *hint_program_name(void)
     return program;
 }
 
-/* At the start of a line, set in, or after "usage:", "&&" or another sign: not within a sentence. */
-static bool begins_command(const char *text, const char *at)
+/* True at the start of a line, after indentation, and after "usage:", "&&" and similar signs. False within sentences.
+ */
+static bool is_command_start(const char *text, const char *at)
 {
     if (at == text || at[-1] != ' ')
         return at == text || at[-1] == '\n';
@@ -133,7 +144,7 @@ void hint_write_commands(FILE *out, const char *text)
     const size_t length = sizeof word - 1;
     for (const char *at = text, *found; *at; at = found) {
         found = strstr(at, word);
-        const bool command = found && isalpha((unsigned char)found[length]) && begins_command(text, found);
+        const bool command = found && isalpha((unsigned char)found[length]) && is_command_start(text, found);
         const char *end = !found ? at + strlen(at) : command ? found : found + length;
         fwrite(at, 1, (size_t)(end - at), out);
         if (command)

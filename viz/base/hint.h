@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* hint.h - what a sentence about a mistake can add: the name that was meant, and a command that can be copied. */
+/* hint.h - helps to correct typing mistakes: finds the known name nearest to a word, and prints commands that can be
+ * copied. */
 #ifndef BASE_HINT_H
 #define BASE_HINT_H
 
@@ -7,39 +8,39 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* ---- The name that was meant -------------------------------------------------------------------------------- */
+/* ---- The nearest name -------------------------------------------------------------------------------------- */
 
-/* The nearest so far of the names that are offered for a word. */
+/* A mistyped word, and the nearest of the candidates offered so far. */
 typedef struct hint {
     const char *word;
     size_t length;
-    const char *name; /* null: none is near */
+    const char *name; /* null: no candidate is near enough */
     size_t distance;
 } hint;
 
 hint hint_for(const char *word, size_t length);
 
-/* Offer a name. It is near that other programs use the word for, that begins with the word, or that takes few changes,
- * each a letter that is missing, too many, another, or swapped with the next, whatever its case. */
+/* Offer a candidate. It is near enough if other programs use the word for it, if it begins with the word, or if few
+ * edits turn the word into it: insert, delete or replace a letter, or swap two neighbours. Case does not count. */
 void hint_offer(hint *h, const char *name);
 
-/* What joins the two parts of a sentence: ", did you mean --size? ", the name after `before`; "; " where none is near.
- * Returns `text`. */
+/* Write the text between an error and its advice: ", did you mean --size? " with `before` = "--", or "; " if no
+ * candidate is near enough. Returns `text`. */
 #define HINT_TEXT 96
 const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT]);
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* Set how the program was called: argv[0]. Call it once, before there are threads. */
+/* Set the name by which the program was called, argv[0]. Call it once, before any thread starts. */
 void hint_set_program(const char *called);
 
-/* That, as a shell reads it; "octreel" where it is not known. */
+/* Returns that name, quoted for a shell; "octreel" if it is not set. */
 const char *hint_program_name(void);
 
-/* Write a text in which "octreel COMMAND", except within a sentence, becomes that of the program as it was called. */
+/* Write a text and replace the "octreel" of commands by hint_program_name(). Within sentences it stays. */
 void hint_write_commands(FILE *out, const char *text);
 
-/* Write a word as a shell reads it, without control characters; one that looks like an option becomes a path. */
+/* Write a word quoted for a shell, with control characters escaped. A word that begins with - becomes a path, ./-... */
 void hint_write_word(FILE *out, const char *text);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* json_read.c - reads JSON objects with jansson, and finds the lines of errors by scanning the text again. */
 #include "json_read.h"
 #include "number.h"
 #include "text.h"
@@ -8,7 +9,7 @@
 
 /* ---- Places ------------------------------------------------------------------------------------------------- */
 
-/* Returns the length so far. A place is as deep as the code that reads it, not as its input. */
+/* Returns the length written. The recursion is as deep as the reading code nests places, whatever the input. */
 static size_t format_place(const json_place *place, char *text, size_t size)
 {
     if (!place)
@@ -37,12 +38,12 @@ static void skip_blanks(const char **at, const char *limit)
 }
 
 static json_malloc_t allocate_unwatched;
-static _Thread_local bool lacked_memory;
+static _Thread_local bool allocation_failed;
 
 static void *allocate_watched(size_t size)
 {
     void *memory = allocate_unwatched(size);
-    lacked_memory |= !memory;
+    allocation_failed |= !memory;
     return memory;
 }
 
@@ -55,18 +56,18 @@ void json_watch_memory(void)
 
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error)
 {
-    lacked_memory = false;
+    allocation_failed = false;
     json_t *value = json_loadb(text, size, flags, error);
-    if (!lacked_memory)
+    if (!allocation_failed)
         return value;
     json_decref(value);
     *error = (json_error_t){.line = -1};
     return NULL;
 }
 
-/* Read the value at *at, which is moved past it; null at the end of the text. jansson gives values without their
- * places, but it tells where one ends. */
-static json_t *take_value(const char **at, const char *limit)
+/* Reads the value at *at and moves *at past it; null at the end of the text. jansson does not store positions, but it
+ * reports where a value ends. */
+static json_t *read_value_at(const char **at, const char *limit)
 {
     json_error_t end;
     json_t *value = json_parse(*at, (size_t)(limit - *at),
@@ -76,7 +77,7 @@ static json_t *take_value(const char **at, const char *limit)
     return value;
 }
 
-/* The value of a place in the array or object at `at`; null when there is none. */
+/* Returns the start of a place in the array or object at `at`; null if it is missing. */
 static const char *find_child(const char *at, const char *limit, const json_place *place)
 {
     if (*at != (place->member ? '{' : '['))
@@ -86,7 +87,7 @@ static const char *find_child(const char *at, const char *limit, const json_plac
         at++; /* the bracket or comma */
         skip_blanks(&at, limit);
         if (place->member) {
-            json_t *name = take_value(&at, limit);
+            json_t *name = read_value_at(&at, limit);
             found = name && strcmp(json_string_value(name), place->member) == 0;
             json_decref(name);
             at += at < limit; /* the colon */
@@ -94,7 +95,7 @@ static const char *find_child(const char *at, const char *limit, const json_plac
         }
         if (found)
             return at;
-        json_decref(take_value(&at, limit));
+        json_decref(read_value_at(&at, limit));
     }
     return NULL;
 }
@@ -136,7 +137,7 @@ static bool fail(json_reader *r, size_t line, const json_place *at, const char *
     vsnprintf(reason, sizeof reason, format, arguments);
     json_place_format(at, where, sizeof where);
     snprintf(printable, sizeof printable, "%s%s%s", where, *where ? ": " : "", reason);
-    make_printable(printable); /* what is quoted from the file must not reach a terminal as it is */
+    make_printable(printable); /* quoted parts of the file could contain terminal escape sequences */
     return error_set(r->error, "%s:%zu: %s", json_name_end(r->name), line, printable);
 }
 
@@ -191,12 +192,12 @@ bool json_expected(json_reader *r, const json_t *value, const json_place *at, co
 
 /* ---- Objects ------------------------------------------------------------------------------------------------ */
 
-/* jansson's sentence: but it must not speak of its own settings, nor of a list, which may not stand alone. */
-static bool fail_parsed(json_reader *r, const json_error_t *parsed)
+/* Passes on jansson's message, without its own settings and without a list as a possible text. */
+static bool fail_as_jansson(json_reader *r, const json_error_t *parsed)
 {
     static const char *const words[][2] = {
         {"'[' or '{' expected", "'{' expected"},
-        {"\\u0000 is not allowed without JSON_ALLOW_NUL", "a text cannot hold \\u0000"},
+        {"\\u0000 is not allowed without JSON_ALLOW_NUL", "a text cannot contain \\u0000"},
     };
     const char *rest = parsed->text, *ours = "";
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
@@ -208,7 +209,7 @@ static bool fail_parsed(json_reader *r, const json_error_t *parsed)
     return json_fail_line(r, r->line + (parsed->line > 1 ? (size_t)parsed->line - 1 : 0), NULL, "%s%s", ours, rest);
 }
 
-static void go_to(json_reader *r, const char *at)
+static void move_to(json_reader *r, const char *at)
 {
     r->line += count_lines(r->at, at);
     r->at = at;
@@ -218,7 +219,7 @@ bool json_next_object(json_reader *r)
 {
     const char *at = r->at;
     skip_blanks(&at, r->limit);
-    go_to(r, at);
+    move_to(r, at);
     return at < r->limit;
 }
 
@@ -230,10 +231,10 @@ bool json_read_object(json_reader *r, bool alone, json_object_reader *read)
     if (!object && parsed.line < 1)
         return json_fail_line(r, r->line, NULL, "out of memory");
     if (!object)
-        return fail_parsed(r, &parsed);
+        return fail_as_jansson(r, &parsed);
     const bool done = json_is_object(object) ? read(r, object) : json_expected(r, object, NULL, "an object");
     json_decref(object);
     if (!alone)
-        go_to(r, r->at + parsed.position);
+        move_to(r, r->at + parsed.position);
     return done;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* json_read.h - JSON objects from a text, by jansson; errors name the file, the line and the place in the object. */
+/* json_read.h - reads JSON objects with jansson. Errors name the file, the line and the place in the object. */
 #ifndef BASE_JSON_READ_H
 #define BASE_JSON_READ_H
 
@@ -10,60 +10,61 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A member of an object or an element of an array, in the place above it, as in points[3].velocity. The object at hand
- * is the null place. */
+/* A place in the current object, such as points[3].velocity: a member or an element, and the place that contains it.
+ * The current object itself is the null place. */
 typedef struct json_place {
     const struct json_place *parent;
     const char *member; /* null: the element at index */
     size_t index;
 } json_place;
 
-/* Write "points[3].velocity", cut where it does not fit; "" for the null place. Returns `text`. */
+/* Write a place as "points[3].velocity", cut to `size`; "" for the null place. Returns `text`. */
 const char *json_place_format(const json_place *place, char *text, size_t size);
 
-/* jansson's json_loadb(), but null, and error->line -1, wherever there was no memory. */
+/* Calls jansson's json_loadb(). Out of memory always gives null and error->line -1; see json_watch_memory(). */
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error);
 
-/* Let json_parse() see all of jansson's allocations, once and before there are threads: where one fails and the next do
- * not, jansson (2.14) leaves a letter out of a long string and says nothing. */
+/* Make json_parse() notice every failed allocation of jansson. Call it once, before any thread starts. Without it,
+ * jansson 2.14 silently drops a letter of a long string if one allocation fails and the next one succeeds. */
 void json_watch_memory(void);
 
-/* A text that is read object by object. */
+/* Reads a text object by object. */
 typedef struct json_reader {
-    const char *name;              /* of the file, for errors */
-    const char *at, *limit;        /* the object at hand, and the end of the text */
-    size_t line;                   /* where the object begins, from 1 on */
-    const struct json_member *row; /* whose value is read by a table: json_table.h */
-    void *context;                 /* for functions that read values */
+    const char *name;              /* the file name in errors */
+    const char *at, *limit;        /* the current object, and the end of the text */
+    size_t line;                   /* the line where the object begins, counted from 1 */
+    const struct json_member *row; /* the row whose value is being read; see json_table.h */
+    void *context;                 /* for the caller's functions that read values */
     octreel_error *error;
 } json_reader;
 
-/* Pass over blanks. False at the end of the text. */
+/* Skip whitespace up to the next object. False: end of the text. */
 bool json_next_object(json_reader *r);
 
-/* Read the object at hand with `read`, and go past it. Numbers are doubles alone: -0 keeps its sign, and integers
- * end where doubles cease to hold each of them. `alone`: nothing may follow it. */
+/* Read the current object with `read` and move past it. All numbers are read as doubles, so -0 keeps its sign and
+ * integers are exact up to 2^53. `alone`: nothing may follow the object. */
 typedef bool json_object_reader(json_reader *r, json_t *object);
 bool json_read_object(json_reader *r, bool alone, json_object_reader *read);
 
-/* Every JSON reader keeps this whole number, and those below it, exactly: 2^53 - 1. */
+/* The largest whole number that every JSON reader keeps exactly: 2^53 - 1. */
 #define JSON_LARGEST_WHOLE 9007199254740991
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-/* The end of a file's name that leaves room for a reason. */
+/* Returns the end of a file name, short enough to leave room for a reason in an error. */
 const char *json_name_end(const char *name);
 
-/* The line where a place begins; of one that is missing that of the nearest place above it. Cost: O(size). */
+/* Returns the line where a place begins, or the line of the nearest containing place if it is missing. Cost: O(size).
+ */
 size_t json_line(const json_reader *r, const json_place *at);
 
-/* Write the error about a place, a printf format, and return false. */
+/* Write an error about a place with a printf format. Always returns false. */
 bool json_fail(json_reader *r, const json_place *at, const char *format, ...);
 
-/* The same with another line than the place's. */
+/* The same with a given line. Always returns false. */
 bool json_fail_line(json_reader *r, size_t line, const json_place *at, const char *format, ...);
 
-/* Write "expected <what>, found <the value>" and return false. */
+/* Write the error "expected WHAT, found VALUE". Always returns false. */
 bool json_expected(json_reader *r, const json_t *value, const json_place *at, const char *what);
 
 #endif

@@ -1,4 +1,14 @@
 /* SPDX-License-Identifier: MIT */
+/* json_stream.c - finds the ends of JSON objects in a stream, before parsing.
+ *
+ * A parser such as jansson wants a whole text, and a call for "more" would block inside it while a game is still
+ * running. So this file only finds where an object ends, and the parser then gets a complete one. The end is the
+ * bracket that closes the first one. Brackets inside strings do not count, so the scanner tracks quotes and
+ * backslashes, and keeps a stack of open brackets. Each byte is scanned once, even if an object arrives in many pieces.
+ *
+ * A broken line must not swallow the objects after it: if a '}' is missing, the search would run on. Valid JSON has a
+ * bracket only at the start or after ':', '[' or a comma in a list, and no control character in a string. At the first
+ * byte that violates this the object counts as ended, and the parser reports the exact error. Cost: O(bytes). */
 #include "json_stream.h"
 #include "array.h"
 
@@ -16,13 +26,13 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* A bracket is a value, which has its place: so a line that lacks its end does not swallow those after it. */
-static bool may_open(const json_scan *s)
+/* True if an opening bracket is allowed here: at the start, after a colon, or as an element of a list. */
+static bool may_open_bracket(const json_scan *s)
 {
     return s->depth == 0 || s->before == ':' || s->before == '[' || (s->before == ',' && s->open[s->depth - 1] == '[');
 }
 
-/* Whether the text cannot go on after a character of a string. */
+/* Scans a character of a string. True: it is a control character, which JSON strings cannot contain. */
 static bool scan_string(json_scan *s, char c)
 {
     if (s->escaped)
@@ -34,8 +44,8 @@ static bool scan_string(json_scan *s, char c)
     return (unsigned char)c < ' ';
 }
 
-/* Take the next character. True where the object ends with it, or is found to be none. */
-static bool scan(json_scan *s, char c)
+/* Scans the next character. True: the object ends here, or this cannot be an object. */
+static bool scan_character(json_scan *s, char c)
 {
     if (s->quoted)
         return scan_string(s, c);
@@ -44,7 +54,7 @@ static bool scan(json_scan *s, char c)
     if (is_blank(c))
         return false;
     if (c == '{' || c == '[') {
-        if (!may_open(s) || s->depth == JSON_DEEPEST)
+        if (!may_open_bracket(s) || s->depth == JSON_DEEPEST)
             return true;
         s->open[s->depth++] = c;
     } else if (c == '}' || c == ']') {
@@ -58,7 +68,7 @@ static bool scan(json_scan *s, char c)
     return c == 0;
 }
 
-/* ---- What comes --------------------------------------------------------------------------------------------- */
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
 #define BLOCK ((size_t)1 << 16)
 
@@ -70,7 +80,8 @@ static json_stream_state fail(json_reader *r, const char *format, const char *re
     return JSON_STREAM_BROKEN;
 }
 
-/* Let the object at hand begin the bytes, with room for a block after them; what a large one took is given back. */
+/* Moves the current object to the start of the buffer and makes room for a block. Shrinks the buffer after a huge
+ * object. */
 static bool make_room(json_stream *s)
 {
     if (s->begin > 0)
@@ -88,7 +99,7 @@ static bool make_room(json_stream *s)
     return bytes;
 }
 
-/* Wait until something comes. False where it is not to be waited for. */
+/* Waits until there is something to read. False: keep_going() stops the wait. */
 static bool wait_for_more(const json_stream *s)
 {
     enum { PATIENCE = 50 }; /* milliseconds */
@@ -100,7 +111,7 @@ static bool wait_for_more(const json_stream *s)
     return true;
 }
 
-/* Read what has come; JSON_STREAM_OBJECT where there is more to scan, be it that it is now known to be all. */
+/* Reads what is available. Returns JSON_STREAM_OBJECT if scanning can go on; s->ended is then set at the end. */
 static json_stream_state read_more(json_stream *s, json_reader *r)
 {
     ssize_t got;
@@ -120,7 +131,7 @@ static json_stream_state read_more(json_stream *s, json_reader *r)
 
 /* ---- Objects ------------------------------------------------------------------------------------------------ */
 
-/* With the byte order mark of a text that begins. */
+/* Skips whitespace and, at the start of the text, a byte order mark. */
 static void skip_blanks(json_stream *s, json_reader *r)
 {
     static const char mark[] = "\xef\xbb\xbf";
@@ -132,11 +143,11 @@ static void skip_blanks(json_stream *s, json_reader *r)
         s->mark = 3; /* the text has begun */
 }
 
-/* Scan on. True where the object's end is found, or it is too large for any. */
+/* Continues the scan. True: the end of the object is found, or the object is too large for jansson. */
 static bool find_end(json_stream *s)
 {
     for (; s->begin + s->scanned < s->size; s->scanned++)
-        if (scan(&s->scan, s->bytes[s->begin + s->scanned])) {
+        if (scan_character(&s->scan, s->bytes[s->begin + s->scanned])) {
             s->scanned++;
             return true;
         }
@@ -145,7 +156,7 @@ static bool find_end(json_stream *s)
 
 json_stream_state json_stream_next(json_stream *s, json_reader *r)
 {
-    if (s->scanned > 0) /* the one before was read, and counted its lines */
+    if (s->scanned > 0) /* the reader has moved past the previous object and counted its lines */
         s->begin = (size_t)(r->at - s->bytes);
     s->scanned = 0;
     s->scan = (json_scan){0};

@@ -1,4 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* json_table.c - reads and writes structures as JSON objects from one table of members.
+ *
+ * A reader and a writer written by hand drift apart, and every format repeats the same checks. Here a row gives the
+ * name of a member, the offset of its value in the structure, limits, and a codec: the pair of functions for its type.
+ * Reading looks up each row's name in the object, and then every name of the object in the table, so that a misspelt
+ * member is an error with a suggestion and is never ignored. The version is read first: a file of another version says
+ * so before its new members are called unknown. Writing walks the same rows, so members come in a fixed order and files
+ * are byte-identical. Cost of reading: members times rows, and both are few. */
 #include "json_table.h"
 #include "hint.h"
 #include "octree/types.h"
@@ -15,7 +23,7 @@ static bool is_member(const json_member *table, const char *name)
     return table->name;
 }
 
-/* The line is the member's, the place that of its object. */
+/* Reports an unknown member: the line is that of the member, the place that of its object. */
 static bool fail_unknown(json_reader *r, const json_place *at, const json_member *table, const char *name)
 {
     char known[200] = "", text[HINT_TEXT];
@@ -44,7 +52,7 @@ static bool read_member(json_reader *r, json_t *object, const json_place *at, co
     return true;
 }
 
-/* What follows the row of a version; the table itself where it has none. */
+/* Returns the row after the version, or the first row if the table has no version. */
 static const json_member *after_version(const json_member *table)
 {
     const json_member *row = table;
@@ -53,7 +61,7 @@ static const json_member *after_version(const json_member *table)
     return row->name ? row + 1 : table;
 }
 
-/* What is of another version says so, before members are unknown. */
+/* The version is checked before unknown members, so that a newer file is reported as newer. */
 bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into)
 {
     const char *name;
@@ -130,7 +138,7 @@ json_counted json_counted_at(const void *from)
 
 /* ---- Kinds and choices -------------------------------------------------------------------------------------- */
 
-/* What an object can be, for an error: {"range": ...}, {"nearest": ...} or {"radius": ...}. */
+/* Lists the possible objects for an error: {"range": ...}, {"nearest": ...} or {"radius": ...}. */
 static const char *list_kinds(json_name *kinds, char *text, size_t size)
 {
     size_t length = 0;
@@ -299,7 +307,7 @@ bool json_read_int(json_reader *r, json_t *value, const json_place *at, void *in
     return done;
 }
 
-/* Never more than can be read again; a row that is only written has no max. */
+/* Writes at most row->max, so that the value can be read again. A row that is only written has max 0. */
 void json_write_uint64(json_writer *w, const void *from)
 {
     const uint64_t number = *(const uint64_t *)from, max = (uint64_t)w->row->max;
@@ -350,7 +358,7 @@ const json_codec json_number = {json_read_number, json_write_double, NULL};
 const json_codec json_positive = {json_read_positive, json_write_double, NULL};
 const json_codec json_interval = {read_interval, json_write_double, NULL};
 
-/* ---- Places ------------------------------------------------------------------------------------------------- */
+/* ---- Vectors ------------------------------------------------------------------------------------------------ */
 
 bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at, size_t first, size_t count,
                        double *into)
@@ -373,7 +381,7 @@ void json_write_vector(json_writer *w, const void *from)
     json_write_numbers(w, from, 3);
 }
 
-/* -0 has bits: what is read back is the same. */
+/* Compares bits, because -0 must be written to be read back unchanged. */
 static bool has_bits(const void *from)
 {
     static const double zero[3];

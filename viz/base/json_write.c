@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* json_write.c - writes JSON to a stream. */
 #include "json_write.h"
 #include "number.h"
 #include "text.h"
@@ -13,8 +14,8 @@ static void break_line(json_writer *writer)
     writer->newline = false;
 }
 
-/* What stands between the last value and the next value or key. */
-static void separate(json_writer *writer)
+/* Writes the comma, space or line end before the next value or key. */
+static void write_separator(json_writer *writer)
 {
     if (writer->comma)
         putc_unlocked(',', writer->out);
@@ -26,7 +27,7 @@ static void separate(json_writer *writer)
 
 static void begin(json_writer *writer, char bracket)
 {
-    separate(writer);
+    write_separator(writer);
     putc_unlocked(bracket, writer->out);
 }
 
@@ -57,15 +58,15 @@ void json_write_end_array(json_writer *writer)
     end(writer, ']');
 }
 
-/* A value that is one piece of text. */
+/* Writes a value that is a single word. */
 static void write_word(json_writer *writer, const char *word)
 {
-    separate(writer);
+    write_separator(writer);
     fputs(word, writer->out);
     writer->comma = true;
 }
 
-/* Numbers are gathered, because a stream takes long for few characters at a time. */
+/* A buffer for numbers: many small writes to a stream are slow. */
 typedef struct gathered {
     char text[8 * NUMBER_TEXT];
     size_t size;
@@ -115,7 +116,7 @@ static void write_escape(FILE *out, unsigned char c)
         fprintf(out, "\\u%04x", (unsigned)c);
 }
 
-/* How many characters, from here on, are written as they are. */
+/* Returns the number of characters from here on that need no escape. */
 static size_t count_plain(const unsigned char *at)
 {
     size_t count = 0;
@@ -149,14 +150,14 @@ static void write_quoted(FILE *out, const char *text)
 
 void json_write_key(json_writer *writer, const char *key)
 {
-    separate(writer);
+    write_separator(writer);
     write_quoted(writer->out, key);
     fputs(": ", writer->out);
 }
 
 void json_write_string(json_writer *writer, const char *text)
 {
-    separate(writer);
+    write_separator(writer);
     write_quoted(writer->out, text);
     writer->comma = true;
 }

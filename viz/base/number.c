@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* number.c - reads decimal numbers. */
 #include "number.h"
 
 #include <errno.h>
@@ -15,16 +16,16 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* What a number's text says: its digits, read as one integer, times ten to the exponent. */
+/* The parts of a decimal number: its value is mantissa times ten to the exponent. */
 typedef struct decimal {
     bool negative;
-    uint64_t mantissa;    /* of the first MOST_DIGITS significant digits */
-    size_t digits, count; /* significant: leading zeros are not; and all */
+    uint64_t mantissa;    /* the first MOST_DIGITS significant digits as an integer */
+    size_t digits, count; /* number of digits without leading zeros, and with them */
     int64_t exponent;
 } decimal;
 
 enum {
-    MOST_DIGITS = 19,         /* any so many fit 64 bits */
+    MOST_DIGITS = 19,         /* any number of 19 digits fits 64 bits */
     LARGEST_EXACT_POWER = 22, /* of ten, as a double */
 };
 
@@ -39,7 +40,7 @@ static const char *scan_digits(const char *at, const char *limit, decimal *d)
     return at;
 }
 
-/* Returns where an exponent ends, or `at` where there is none. */
+/* Returns the end of an exponent, or `at` if there is none. */
 static const char *scan_exponent(const char *at, const char *limit, decimal *d)
 {
     const char *digit = at + 1;
@@ -56,8 +57,8 @@ static const char *scan_exponent(const char *at, const char *limit, decimal *d)
     return digit;
 }
 
-/* Returns where the number ends, or null when there is none. */
-static const char *scan(const char *begin, const char *limit, decimal *d)
+/* Returns the end of the number, or null if there is none. */
+static const char *scan_number(const char *begin, const char *limit, decimal *d)
 {
     const char *at = begin;
     *d = (decimal){.negative = at < limit && *at == '-'};
@@ -71,8 +72,9 @@ static const char *scan(const char *begin, const char *limit, decimal *d)
     return d->count > 0 ? scan_exponent(at, limit, d) : NULL;
 }
 
-/* Clinger's fast path: an exact integer and an exact power of ten make one correctly rounded operation. It takes the
- * time of reading a cloud of a million points to three fifths. False for numbers that need more. */
+/* Clinger's fast path (1990): if the mantissa and the power of ten are both exact doubles, one multiplication or
+ * division rounds correctly. Most numbers of point clouds qualify: reading a million points takes three fifths of the
+ * time. False: the number needs more precision. */
 static bool convert_exactly(const decimal *d, double *value)
 {
     static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
@@ -85,8 +87,8 @@ static bool convert_exactly(const decimal *d, double *value)
     return true;
 }
 
-/* By strtod, which needs a final zero, and reads the locale's decimal point, of several bytes perhaps. False when it is
- * beyond the largest double, or there is no memory. */
+/* Converts with strtod(), which needs a final zero and the locale's decimal point, which may be several bytes. False:
+ * larger than the largest double, or out of memory. */
 static bool convert_by_library(const char *begin, const char *end, double *value)
 {
     char few[128];
@@ -113,7 +115,7 @@ static bool convert_by_library(const char *begin, const char *end, double *value
 bool number_parse(const char *begin, const char *limit, const char **end, double *value)
 {
     decimal d;
-    const char *stop = scan(begin, limit, &d);
+    const char *stop = scan_number(begin, limit, &d);
     *end = stop ? stop : begin;
     return stop && (convert_exactly(&d, value) || convert_by_library(begin, stop, value));
 }

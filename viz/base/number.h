@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* number.h - doubles as decimal text and back, whatever the locale.
+/* number.h - converts doubles to decimal text and back, independently of the locale.
  *
- * Reading is correctly rounded; what number_print() wrote reads back to the same bits.
+ * Reading is correctly rounded. Text that number_print() wrote reads back to the same bits.
  */
 #ifndef BASE_NUMBER_H
 #define BASE_NUMBER_H
@@ -10,41 +10,44 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Read the decimal number that starts at begin, no blanks before it, and never look at limit or beyond: a sign or
- * none, digits with a point or none, an exponent or none ("1", "-.5", "+2.", "1e-3"). *end is the first character
- * that is not part of it. False when there is none (*end is then begin: so for "nan", "inf" and the like; of "0x10"
- * it reads the 0), when it is beyond the largest double (*end is then after it, and errno is ERANGE), or when there is
- * no memory (the same with ENOMEM), which numbers of up to a hundred letters do not take; *value is then untouched. */
+/* Read a decimal number at `begin`: an optional sign, digits with an optional point, and an optional exponent ("1",
+ * "-.5",
+ * "+2.", "1e-3"). No whitespace is skipped, and no character at `limit` or beyond is read. *end becomes the first
+ * character after the number. Returns false and leaves *value unchanged if
+ * - there is no number, as in "nan" and "inf": *end is `begin` (in "0x10" the number is 0);
+ * - the number is larger than the largest double: *end is after it, and errno is ERANGE;
+ * - memory runs out, which needs more than about 100 characters: *end is after it, and errno is ENOMEM. */
 bool number_parse(const char *begin, const char *limit, const char **end, double *value);
 
-/* True when begin starts with what C prints for a NaN or an infinity, in any case: "nan", "-nan(ind)", "inf",
- * "Infinity". *end is the first character after it, or begin. */
+/* True if the text at `begin` is a NaN or infinity as C prints them, in upper or lower case: "nan", "-nan(ind)", "inf",
+ * "Infinity". *end becomes the first character after it, or `begin`. */
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end);
 
-/* Read a whole text as `count` numbers with commas between. False, and *values may then be changed, when it is none. */
+/* Read a whole text as `count` numbers separated by commas. On failure, returns false and may have changed *values. */
 bool numbers_parse(const char *text, double *values, size_t count);
 
-/* Read a decimal whole number at *text, which is moved past it. False on a sign, no digits, or more than `max`. */
+/* Read a decimal whole number at *text and move *text past it. False: a sign, no digits, or more than `max`. */
 bool whole_parse(const char **text, uint64_t max, uint64_t *value);
 
-/* The digits of a macro that is a plain number, for text that is put together when it is compiled. */
+/* The digits of a macro that is a number, as a string literal. */
 #define NUMBER_DIGITS(macro) NUMBER_DIGITS_OF(macro)
 #define NUMBER_DIGITS_OF(number) #number
 
-/* Room for any number's text, with its final zero. */
+/* Room for the text of any number and a final zero. */
 #define NUMBER_TEXT 32
 
 /* Write a finite double as the shortest of %.15g, %.16g and %.17g that reads back to the same bits: a '.' for the
  * point, no point in integers, "-0" for minus zero. Returns the length. */
 size_t number_print(double value, char text[NUMBER_TEXT]);
 
-/* A finite float as the double of the fewest digits that rounds to it, and is no larger than FLT_MAX: 0.1f as 0.1. */
+/* Returns the double with the fewest decimal digits that rounds to a finite float: 0.1 for 0.1f. At most FLT_MAX. */
 double number_from_float(float value);
 
-/* Write a double with at most so many significant digits, as people read it. Returns `text`. */
+/* Write a double with at most `digits` significant digits. Returns `text`. */
 const char *number_text(double value, int digits, char text[NUMBER_TEXT]);
 
-/* The smallest of 1, 2 and 5 times a power of ten that is at least `limit`; 0 where doubles end, at either side. */
+/* Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `limit`; 0 if it underflows
+ * or overflows. */
 double number_round_up(double limit);
 
 #endif

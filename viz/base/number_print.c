@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* number_print.c - doubles as the shortest decimal text that reads back, whatever the locale. Numbers of everyday size
- * are taken apart by integers alone, all others by printf: with printf alone, recording 100,000 points takes twice as
- * long. */
+/* number_print.c - prints doubles as the shortest of %.15g, %.16g and %.17g that reads back to the same bits.
+ *
+ * The plain way prints 15 digits, reads them back with strtod(), and tries 16 and 17 digits if the bits differ. That
+ * makes recording 100,000 points take twice as long. Numbers from 2^-7 to 1e14 are therefore printed with integers: the
+ * fraction becomes a 60-bit fixed-point number, which holds it exactly, and multiplying by ten moves the next digit in
+ * front of the point. Nothing is rounded on the way. `half_last`, half of the double's last bit, is scaled along:
+ * digits read back to the same double exactly if what they leave out is at most that. So no strtod() is needed. All
+ * other numbers use printf. General algorithms (Ryu, Grisu) need tables of big powers for exponents that are rare here.
+ * Cost: a few divisions. */
 #include "number.h"
 
 #include <float.h>
@@ -14,8 +20,8 @@
 /* ---- By integers -------------------------------------------------------------------------------------------- */
 
 enum {
-    FEWEST_DIGITS = 15, /* any so many survive a double */
-    HALF_BITS = 30,     /* of a fraction, so that a half takes nine digits at a time in 64 bits */
+    FEWEST_DIGITS = 15, /* any number of 15 digits survives a double */
+    HALF_BITS = 30,     /* half of the fraction: times 10^9 it still fits 64 bits */
     FRACTION_BITS = 2 * HALF_BITS,
     MOST_AT_ONCE = 9,
 };
@@ -23,7 +29,7 @@ enum {
 #define FRACTION_ONE (UINT64_C(1) << FRACTION_BITS)
 #define HALF_MASK ((UINT64_C(1) << HALF_BITS) - 1)
 
-/* From the first on, half of a number's last bit is above the last of the fraction's; up to the other, the 15th digit
+/* From SMALLEST_PLAIN on, half of a double's last bit is a whole number of 2^-60. Below LARGEST_PLAIN, the 15th digit
  * lies after the point. */
 #define SMALLEST_PLAIN 0x1p-7
 #define LARGEST_PLAIN 1e14
@@ -44,14 +50,14 @@ static const uint64_t powers[] = {UINT64_C(1),
                                   UINT64_C(10000000000000),
                                   UINT64_C(100000000000000)};
 
-/* A number between them, exactly: the digits that were taken so far, as one number, and what they leave. */
+/* A number in this range, exactly: its digits so far, as one integer, and the remaining fraction. */
 typedef struct expansion {
     uint64_t digits;
-    int count;          /* of them that are significant, */
-    int places;         /* and that stand after the point */
-    uint64_t rest;      /* of the last digit's unit, in parts of FRACTION_ONE */
-    uint64_t half_last; /* half of what the number's last bit is worth, in the same */
-    bool even;          /* that bit is not set: halfway reads as this number */
+    int count;          /* significant digits so far; negative: zeros still to skip */
+    int places;         /* digits after the point */
+    uint64_t rest;      /* the remaining fraction of the last digit's unit, in units of 1 / FRACTION_ONE */
+    uint64_t half_last; /* half of the double's last bit, in the same unit */
+    bool even;          /* the last bit is 0: a tie reads back as this double */
 } expansion;
 
 static expansion expand(double magnitude)
@@ -72,8 +78,8 @@ static expansion expand(double magnitude)
     return x;
 }
 
-/* Take the next digits after the point. */
-static void take_digits(expansion *x, int count)
+/* Moves the next `count` digits from the fraction to the digits. */
+static void append_digits(expansion *x, int count)
 {
     const uint64_t power = powers[count], low = (x->rest & HALF_MASK) * power,
                    high = (x->rest >> HALF_BITS) * power + (low >> HALF_BITS);
@@ -84,37 +90,37 @@ static void take_digits(expansion *x, int count)
     x->places += count;
 }
 
-/* Whether what was taken is rounded up; halfway to the even digit, as printf does. */
-static bool goes_up(const expansion *x)
+/* True if the digits round up. Ties go to the even digit, as in printf. */
+static bool rounds_up(const expansion *x)
 {
     return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && x->digits % 2 != 0);
 }
 
-/* Whether what was taken, rounded, reads back: it is no farther off than half the last bit. It does not
- * matter that below a power of two bits are worth less: those of this size have at most 14 digits. */
+/* True if the rounded digits read back to the same double: the error is at most half of its last bit. Just below a
+ * power of two the spacing of doubles is halved, but powers of two in this range have at most 14 digits. */
 static bool reads_back(const expansion *x)
 {
-    const uint64_t off = goes_up(x) ? FRACTION_ONE - x->rest : x->rest;
+    const uint64_t off = rounds_up(x) ? FRACTION_ONE - x->rest : x->rest;
     return off < x->half_last || (off == x->half_last && x->even);
 }
 
-/* As few digits as do, without zeros at their end. */
-static expansion shorten(double magnitude)
+/* Returns the fewest digits, at least 15, that read back, without zeros at the end. */
+static expansion find_shortest(double magnitude)
 {
     expansion x = expand(magnitude);
     while (x.count < FEWEST_DIGITS) {
         const int left = FEWEST_DIGITS - x.count;
-        take_digits(&x, left < MOST_AT_ONCE ? left : MOST_AT_ONCE);
+        append_digits(&x, left < MOST_AT_ONCE ? left : MOST_AT_ONCE);
     }
     while (x.count < DBL_DECIMAL_DIG && !reads_back(&x))
-        take_digits(&x, 1);
-    x.digits += goes_up(&x);
+        append_digits(&x, 1);
+    x.digits += rounds_up(&x);
     for (; x.places > 0 && x.digits % 10 == 0; x.places--)
         x.digits /= 10;
     return x;
 }
 
-/* The last so many digits, which end at `end`, two by two. Returns where they begin. */
+/* Writes the last `count` digits before `end` and removes them from *digits. Returns where they begin. */
 static char *put_digits(char *end, uint64_t *digits, int count)
 {
     static const char pairs[] = "00010203040506070809101112131415161718192021222324252627282930313233343536373839"
@@ -129,7 +135,7 @@ static char *put_digits(char *end, uint64_t *digits, int count)
     return end;
 }
 
-/* As %g does where it needs no exponent. 0 for numbers that are too large or too small for it. */
+/* Prints like %g without an exponent. Returns 0 if the number is outside of the range above. */
 static size_t print_exactly(double value, char text[NUMBER_TEXT])
 {
     expansion x = {.digits = 0};
@@ -137,7 +143,7 @@ static size_t print_exactly(double value, char text[NUMBER_TEXT])
     if (value != 0 && !(magnitude >= SMALLEST_PLAIN && magnitude < LARGEST_PLAIN))
         return 0;
     if (value != 0)
-        x = shorten(magnitude);
+        x = find_shortest(magnitude);
     char room[NUMBER_TEXT], *const end = room + sizeof room, *at = end;
     if (x.places > 0) {
         at = put_digits(at, &x.digits, x.places);
@@ -156,7 +162,7 @@ static size_t print_exactly(double value, char text[NUMBER_TEXT])
 
 /* ---- By printf ---------------------------------------------------------------------------------------------- */
 
-/* Put a '.' where the locale's decimal point is, which may be several bytes. Returns the new length. */
+/* Replaces the locale's decimal point, which may be several bytes, by '.'. Returns the new length. */
 static size_t restore_point(char *text)
 {
     char *point = text + strspn(text, "-0123456789");

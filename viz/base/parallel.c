@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* parallel.c - a loop over threads. */
+/* parallel.c - runs tasks on a team of threads. */
 #include "parallel.h"
 #include "cores.h"
 
@@ -8,7 +8,7 @@
 
 enum { MOST_THREADS = 64 };
 
-/* Shared by the workers: each takes the next piece. */
+/* Shared by all workers: each takes the next index until none is left. */
 typedef struct work {
     atomic_size_t next;
     size_t count;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* text.c - printing into memory, escaping, UTF-8 checks and base64. */
 #include "text.h"
 
 #include <ctype.h>
@@ -15,7 +16,7 @@ bool text_stream_begin(text_stream *s)
     return s->stream != NULL;
 }
 
-/* Closing gives the text a block of its size: without memory for that there is no text, and no error of the stream. */
+/* fclose() may fail to allocate the final text; text is then null although the stream has no error. */
 bool text_stream_end(text_stream *s, char **text)
 {
     const bool whole = s->stream && !ferror(s->stream);
@@ -28,8 +29,8 @@ bool text_stream_end(text_stream *s, char **text)
 
 /* ---- Made fit to be shown ------------------------------------------------------------------------------------ */
 
-/* Well-formed UTF-8 beyond ASCII (table 3-7 of the Unicode standard): what the first byte says about the second and
- * about the length. */
+/* Valid non-ASCII UTF-8 (table 3-7 of the Unicode standard): for each range of first bytes, the range of the second
+ * byte and the length. */
 static const struct {
     unsigned char first, last, second_min, second_max;
     size_t length;
@@ -83,7 +84,7 @@ void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char
 
 /* ---- Into other languages ------------------------------------------------------------------------------------ */
 
-static const char *numbered(char c, char room[ESCAPE_ROOM])
+static const char *character_reference(char c, char room[ESCAPE_ROOM])
 {
     snprintf(room, ESCAPE_ROOM, "&#%d;", c);
     return room;
@@ -97,11 +98,11 @@ const char *escape_nothing(const char *text, const char *at, char room[ESCAPE_RO
     return NULL;
 }
 
-/* Ends of lines and tabs in an attribute are blanks to a reader of XML, unless they are written as numbers. */
+/* XML readers turn line ends and tabs in attributes into spaces, unless they are character references. */
 const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     (void)text;
-    return strchr("<>&\"'\n\t", *at) ? numbered(*at, room) : NULL;
+    return strchr("<>&\"'\n\t", *at) ? character_reference(*at, room) : NULL;
 }
 
 const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_ROOM])
@@ -114,14 +115,14 @@ static bool is_word(char c)
     return isalnum((unsigned char)c) || (unsigned char)c >= 0x80;
 }
 
-/* An underscore within a word begins no emphasis; a character that is written as a number begins nothing. */
+/* An underscore inside a word needs no escape. Other special characters become character references. */
 const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     if (*at == '_' && at > text && is_word(at[-1]) && is_word(at[1]))
         return NULL;
     if (*at == '\n' || *at == '\t')
         return " ";
-    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? numbered(*at, room) : NULL;
+    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? character_reference(*at, room) : NULL;
 }
 
 bool utf8_is_unprintable(const unsigned char *at)
@@ -141,7 +142,7 @@ bool utf8_is_unprintable(const unsigned char *at)
     }
 }
 
-/* Returns the bytes that were written for. */
+/* Returns the number of bytes read. */
 static size_t write_beyond_ascii(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_length(at);
@@ -186,7 +187,7 @@ enum { GROUPS = 4096 };
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/* `count` of three bytes; those that are missing are zero. */
+/* Encodes up to three bytes as four digits. Missing bytes count as zero and end in '='. */
 static void put_group(const unsigned char *from, size_t count, char *to)
 {
     const unsigned bits =

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* text.h - text printed into memory, foreign text made printable or escaped for a markup language, plurals, and
- * base64. */
+/* text.h - helpers for text: printing into memory, making foreign text printable, escaping for XML and Markdown,
+ * plurals, base64. */
 #ifndef BASE_TEXT_H
 #define BASE_TEXT_H
 
@@ -11,56 +11,57 @@
 
 /* A stream into memory. */
 typedef struct text_stream {
-    FILE *stream; /* null where there is no memory */
+    FILE *stream; /* null: out of memory */
     char *text;
     size_t size;
 } text_stream;
 
 bool text_stream_begin(text_stream *s);
 
-/* *text becomes what was printed, which the caller frees; null where that is nothing. False where there was no memory.
- */
+/* Close the stream. *text becomes the printed text, which the caller frees, or null if nothing was printed. False: out
+ * of memory. */
 bool text_stream_end(text_stream *s, char **text);
 
-/* U+FFFD, which stands for bytes that are no UTF-8. */
+/* U+FFFD, the replacement for bytes that are no valid UTF-8. */
 #define UTF8_REPLACEMENT "\xef\xbf\xbd"
 
-/* The bytes of the character beyond ASCII at `at`, 0 when there is none. The final zero ends every character. */
+/* Returns the length in bytes of the non-ASCII character at `at`; 0 if it is not valid UTF-8. The text ends with a
+ * zero. */
 size_t utf8_length(const unsigned char *at);
 
-/* Whether the character beyond ASCII there is none to show: control characters, marks that turn the direction of what
- * follows, ends of lines, and the two that are no characters. */
+/* True if the non-ASCII character at `at` must not be printed: a control character, a mark that changes the direction
+ * of writing, a line separator, U+FFFE or U+FFFF. */
 bool utf8_is_unprintable(const unsigned char *at);
 
-/* Put a question mark in the place of every character of UTF-8, and of every byte that is of none, that is not
- * printable ASCII. Returns `text`. */
+/* Replace every character that is not printable ASCII, and every invalid byte, by a question mark. Returns `text`. */
 char *make_printable(char *text);
 
-/* The end of a noun behind a count, "s" or "" for 1; and of its verb, "" or "s" for 1: "1 frame differs". */
+/* The ending of a noun after a count, "" for 1 and else "s"; and of its verb, "s" for 1 and else "". */
 const char *plural(uint64_t count);
 const char *plural_verb(uint64_t count);
 
-/* A list for people ends after so many lines: the next says how many there are beyond `shown`, and how to see all. */
+/* Printed lists end after LIST_LINES lines. This prints the number of the items beyond `shown` and how to see them. */
 #define LIST_LINES 10
 void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char *how);
 
-/* What the character *at of `text` is written as; `room` may take it. Null: as it is. */
+/* Returns the escaped form of the ASCII character *at of `text`, which may be stored in `room`; null: no escape needed.
+ */
 #define ESCAPE_ROOM 16
 typedef const char *escape(const char *text, const char *at, char room[ESCAPE_ROOM]);
 
-escape escape_nothing;  /* in a line for people, say on a terminal */
+escape escape_nothing;  /* plain text, such as a line on a terminal */
 escape escape_xml;      /* inside an attribute or an element */
 escape escape_xml_text; /* inside an element, where lines may end */
 escape escape_markdown; /* inside a line, a cell of a table, or an element of HTML */
 
-/* Write UTF-8 in which each character of ASCII is written as the escape says. Control characters it leaves as they are,
- * what is unfit and what is no UTF-8 become U+FFFD. */
+/* Write UTF-8 text and escape its ASCII characters with `how`. Control characters that `how` does not escape,
+ * characters that must not be printed, and invalid bytes become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
-/* Write what was printed into a stream of text, and end it. False where there was no memory. */
+/* Close a text stream and write its text escaped. False: out of memory. */
 bool write_escaped_stream(FILE *out, text_stream *s, escape *how);
 
-/* All that is left of `in` in base64 (RFC 4648), for addresses that hold their data. Errors stay with the streams. */
+/* Write the rest of `in` as base64 (RFC 4648), for data URLs. Errors stay with the streams. */
 void base64_copy(FILE *in, FILE *out);
 
 #endif

@@ -15,8 +15,9 @@ typedef struct arguments {
 
 static bool read_date(const command_option *option, const char *text, void *into)
 {
-    return baseline_is_date(text) ? read_text(option, text, into)
-                                  : refuse("--%s takes a date such as 2026-11-22, not \"%s\"", option->name, text);
+    return baseline_is_date(text)
+               ? read_text(option, text, into)
+               : refuse("--%s takes an existing date such as 2026-11-22, not \"%s\"", option->name, text);
 }
 
 static bool read_reason(const command_option *option, const char *text, void *into)
@@ -28,27 +29,27 @@ static bool read_reason(const command_option *option, const char *text, void *in
 
 static const command_option options[] = {
     {"from", "FILE",
-     "accept only the frames that FILE lists, one on each line; the page of octreel diff -o saves ticked frames as "
+     "accept the frames that FILE lists, one name a line; the page of octreel diff -o saves the ticked findings as "
      "accept.txt; - is standard input",
      .read = read_name, OPTION_VALUE(arguments, from)},
-    {.help = "A baseline is a text file for git that holds digests of frames, and the date and reason of each "
-             "acceptance; octreel help baseline describes it."},
-    {"reason", "TEXT", "why the frames are accepted, in one line; creates a baseline if REFERENCE does not exist",
-     .read = read_reason, OPTION_VALUE(arguments, reason)},
-    {"date", "DATE", "the date of acceptance, as YYYY-MM-DD (default: today)", .read = read_date,
-     OPTION_VALUE(arguments, date)},
-    {"variant", NULL, "keep earlier digests of a frame, too: a frame passes if it matches any variant",
-     .read = read_flag, OPTION_VALUE(arguments, variant)},
     {"store", "DIR",
-     "also store the pictures in DIR, each under its digest, so that octreel diff --store can show the expected "
-     "picture; no verdict depends on it",
+     "also save the pictures in DIR, each under the digest of its pixels, so that octreel diff --store can show what "
+     "was expected",
      .read = read_folder, OPTION_VALUE(arguments, store)},
-    JSON_OPTION(arguments, json, "print the changes as JSON, with all changed frames"),
+    JSON_OPTION(arguments, json, "print a summary as JSON, with the names of all changed frames"),
+    {.help = "Baselines. A baseline is a text file for git with one digest for each frame and the reason for each "
+             "change; octreel help baseline describes it:"},
+    {"reason", "TEXT", "the reason for the change, one line; if REFERENCE does not exist, it becomes a baseline",
+     .read = read_reason, OPTION_VALUE(arguments, reason)},
+    {"date", "DATE", "the date of the change, as YYYY-MM-DD (default: today)", .read = read_date,
+     OPTION_VALUE(arguments, date)},
+    {"variant", NULL, "keep the digests that were accepted before: a frame then passes if it equals any of them",
+     .read = read_flag, OPTION_VALUE(arguments, variant)},
     {0},
 };
 
-/* Today's date in the local time zone. */
-static const char *today(char text[11])
+/* Writes today's date in the local time zone. Returns `text`. */
+static const char *format_today(char text[11])
 {
     const time_t now = time(NULL);
     struct tm local;
@@ -65,7 +66,7 @@ static int accept_listed(const arguments *a, char **paths, int count)
     const accept_options all = {.reference = paths[0],
                                 .frames = paths[1],
                                 .names = &names,
-                                .note = {a->date ? a->date : today(date), a->reason},
+                                .note = {a->date ? a->date : format_today(date), a->reason},
                                 .store = a->store,
                                 .variant = a->variant,
                                 .json = a->json};
@@ -90,7 +91,7 @@ static int run(int argc, char **argv)
     if (a.date && !a.reason)
         return print_error("--date needs --reason TEXT");
     if (a.from && file_is_standard(a.from) && file_is_standard(argv[optind + 1]))
-        return print_error("standard input can be read once, and \"-\" names it twice");
+        return print_error("\"-\" is given twice, but standard input can be read only once");
     return accept_listed(&a, argv + optind, argc - optind);
 }
 
@@ -98,24 +99,29 @@ const command command_accept = {
     .name = "accept",
     .run = run,
     .options = options,
-    .line = "make new frames the reference",
+    .line = "make new frames the reference that octreel diff compares with",
     .usage = "REFERENCE NEW [FRAME ...] [OPTION ...]",
-    .about = "Make new frames the reference: all of them, or only the named ones. NEW is a PNG, a folder of PNGs, a "
-             "recording, or - for a PNG from standard input. REFERENCE is a PNG, a folder, a recording or a baseline; "
-             "it is created if it does not exist. References with equal pixels stay unchanged. References without a "
-             "frame in NEW are removed if they are named or if all frames are accepted. The changes are printed as by "
-             "octreel diff. Look at the pictures before you accept them.\n",
-    .more =
-        "Several accept commands may run on one reference at the same time: they wait for each other. If the disk is "
-        "full, the reference stays unchanged. Recordings that are still being recorded, damaged or incomplete are "
-        "refused, since the references of their missing frames would be removed. If the environment variable CI is "
-        "set, accept does nothing and fails: a test that accepts its own results proves nothing.\n",
+    .about =
+        "Copy frames from NEW to REFERENCE: all frames, or only the named ones. NEW is a PNG, a folder of PNGs, a "
+        "recording, or - for a PNG from standard input. REFERENCE is one of these or a baseline, and is created if "
+        "it does not exist. References with the same pixels are not touched. A reference without a frame in NEW is "
+        "removed if all frames are accepted or if it is named. The differences are printed as octreel diff prints "
+        "them. Look at the pictures first.\n",
+    .more = "Several processes may accept into one reference at the same time; each sees the changes of the others. "
+            "Nothing is accepted when the disk is full, and nothing from a recording that is damaged or not finished, "
+            "because the references of its missing frames would be removed. Nothing is accepted when the environment "
+            "variable CI is set: a CI test that accepts its own results tests nothing.\n",
+    .statuses = {"the frames are accepted", NULL, "error; nothing is accepted"},
     .examples =
+        "# make golden hold the same frames as the folder frames\n"
         "octreel accept golden frames\n"
+        "# accept two frames\n"
         "octreel accept golden frames frame_000041.png frame_000042.png\n"
+        "# create or update a baseline, and save the pictures outside of git\n"
         "octreel accept baseline.txt frames --reason \"the letters are larger\" --store pictures\n"
-        "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds differently\"\n",
-    .environment = "  CI  if it is set, accept fails and changes nothing\n",
+        "# accept the findings that were ticked in the page, beside the old digests\n"
+        "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
+    .environment = "  CI  if set, nothing is accepted\n",
     .least = 2,
     .most = INT_MAX,
     .takes = "a reference and new frames",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_audit.c - octreel audit: what a program answered to queries, judged by the true answers. */
+/* cmd_audit.c - octreel audit: compares the answers of a foreign index with the exact answers. */
 #include "audit_print.h"
 #include "command.h"
 #include "file.h"
@@ -14,7 +14,7 @@
 
 typedef struct arguments {
     audit_limits limits;
-    const char *html, *junit; /* null: not asked for */
+    const char *html, *junit; /* files to write, or null */
     bool json;
 } arguments;
 
@@ -30,38 +30,38 @@ static bool is_folder(const char *path)
     return !file_is_standard(path) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
 }
 
-/* Whether the name is that of the page itself, and not of the folder that holds it. */
+/* True for the name of a page, false for the name of the folder that is to hold it. */
 static bool is_page(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return file_is_standard(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
 }
 
-/* A name that ends like no file is that of a folder, as elsewhere. */
+/* A name without the ending of a file names a folder, as for the options of other commands. */
 static bool read_page(const command_option *option, const char *text, void *into)
 {
     if (is_page(text) || is_folder(text) || name_kind_of(text) == NAME_OPEN)
         return read_name(option, text, into);
-    return refuse("--%s takes the name of a page, as in report.html, or of a folder, and \"%s\" is neither",
-                  option->name, text);
+    return refuse("--%s takes the name of an HTML file, such as report.html, or of a folder, not \"%s\"", option->name,
+                  text);
 }
 
 static const command_option options[] = {
     {"allow", "LIMITS",
-     "what is no finding: ratio=1.01, neighbours up to so many times as far; recall=0.99, answers that miss points, as "
-     "long as so much of all true points is named; or both with a comma. Nothing allows ids that no point has, points "
-     "named twice, left out or outside, nor what is wrong with nodes; and a neighbour query that names none has an "
-     "infinite ratio",
+     "accept approximate answers within limits: ratio=1.01, a neighbour at most 1.01 times as far away as the true "
+     "one; "
+     "recall=0.99, at least 0.99 of all true points named; or both, separated by a comma. Always wrong are unknown "
+     "ids, points named twice, points outside the query, skipped answers and wrong nodes. A neighbour query without "
+     "any point in its answer has an infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
     {"html", "FILE.html|DIR",
-     "write a page, FILE.html or DIR/audit.html: recall and ratio over the ticks, where each point leads to its frame, "
-     "and the "
-     "worst cases",
+     "write a page, FILE.html or DIR/audit.html: recall and ratio over time, with a link from every tick to its frame, "
+     "and the worst cases",
      .read = read_page, OPTION_VALUE(arguments, html)},
-    {"junit", "FILE", "write JUnit's XML, a test case for each kind of query", .read = read_file,
+    {"junit", "FILE", "write JUnit XML with one test case for each kind of query", .read = read_file,
      OPTION_VALUE(arguments, junit)},
     JSON_OPTION(arguments, json,
-                "print JSON; a ratio of null is infinite: the true one is at the target, or none is named"),
+                "print JSON; a ratio of null is infinite: the true neighbour is at the target, or none was named"),
     {0},
 };
 
@@ -72,26 +72,26 @@ static void on_progress(uint64_t done, uint64_t total, void *context)
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-/* The page's file; a folder holds it under its own name. Null where there is no memory. */
-static char *page_file(const char *html)
+/* Returns the path of the page, which a folder holds as audit.html. The caller frees it. Null: out of memory. */
+static char *make_page_path(const char *html)
 {
     return is_page(html) ? strdup(html) : path_join(html, AUDIT_PAGE);
 }
 
-/* The folder that is to hold the page, where there is none yet. */
+/* Makes the folder of --html DIR if it is missing. */
 static bool make_folder(const char *html, octreel_error *error)
 {
     return !html || is_page(html) || folder_make(html, error);
 }
 
-/* The folder that a file lies in; for standard output the current one. Null where there is no memory. */
-static char *folder_of(const char *file)
+/* Returns the folder of a file; for standard output the current one. The caller frees it. Null: out of memory. */
+static char *copy_folder_name(const char *file)
 {
     const char *slash = file_is_standard(file) ? NULL : strrchr(file, '/');
     return slash ? strndup(file, slash == file ? 1 : (size_t)(slash - file)) : strdup(".");
 }
 
-/* None may take the place of what is read, nor of another. */
+/* No output may overwrite an input or another output. */
 static bool check_files(const char *path, const char *page, const char *junit, octreel_error *error)
 {
     const output_file outputs[] = {{"--html", page}, {"--junit", junit}};
@@ -104,7 +104,7 @@ static bool check_files(const char *path, const char *page, const char *junit, o
     return ok;
 }
 
-/* `from` is the folder in which the file lies. */
+/* Prints a verdict into a file. `from` is the folder of that file, for relative links. False: out of memory. */
 typedef bool printer(FILE *out, const audit_verdict *verdict, const char *from);
 
 static bool print_junit(FILE *out, const audit_verdict *verdict, const char *from)
@@ -121,12 +121,12 @@ static bool write_file(const char *path, printer *print, const audit_verdict *ve
         return true;
     if (!file_writer_open(&file, path, error))
         return false;
-    from = folder_of(path);
+    from = copy_folder_name(path);
     const bool made = from && print(file.stream, verdict, from);
     free(from);
     if (made)
         return file_writer_close(&file, error);
-    error_set(error, "%s: there is no memory to write it", path);
+    error_set(error, "%s: out of memory", path);
     return file_writer_abandon(&file);
 }
 
@@ -163,9 +163,9 @@ static int audit(const arguments *a, const char *path)
     octreel_error error;
     if (!check_standard_output(outputs, 2, a->json))
         return EXIT_TROUBLE;
-    char *page = a->html ? page_file(a->html) : NULL;
+    char *page = a->html ? make_page_path(a->html) : NULL;
     if (a->html && !page)
-        return print_error("there is no memory");
+        return print_error("out of memory");
     const bool done = write_audit(a, path, page, &report, &error), passes = done && audit_passes(&report);
     free(page);
     audit_release(&report);
@@ -183,19 +183,23 @@ const command command_audit = {
     .name = "audit",
     .run = run,
     .options = options,
-    .line = "judge what a program answered to queries: how much of it is wrong, and where",
+    .line = "check the answers of a foreign index against the exact answers",
     .usage = "RECORDING|SESSION [OPTION ...]",
     .about =
-        "Judge a program's own spatial index: play a session whose queries say what the program answered, and say for "
-        "each kind of query how many answers were asked for and how many were wrong; their recall, the share of the "
-        "true points that were named; of neighbours how many times as far as the true one of its rank one of them was, "
-        "at worst and in 99 of 100 answers; the first tick with a wrong one; and the three worst cases with their "
-        "numbers; and what is proved wrong about nodes of its own. Nothing is drawn, and the files are not changed. "
-        "octreel help session says how a query carries an answer. SESSION may be -, standard input.\n",
-    .more = "FILE may be -, standard output, for one of --html, --junit and --json.\n",
-    .statuses = {"all are right or within what is allowed", "a finding", "trouble, or no query has an answer"},
-    .examples = "octreel audit flight\n"
+        "Replay a session whose queries carry the answers of a foreign index, your own, and compare each answer with "
+        "the exact one. For each kind of query this prints the number of answers and of wrong answers; their recall, "
+        "the share of the true points that were named; the ratio of a neighbour's distance to that of the true "
+        "neighbour of the same rank, at worst and for 99 of 100 answers; the first tick with a wrong answer; the three "
+        "worst cases with their numbers; and the wrong foreign nodes. Nothing is drawn and no file is changed. SESSION "
+        "may be -, standard input; octreel help session shows how a query carries an answer.\n",
+    .more = "One of --html FILE, --junit FILE and --json may write to standard output; FILE is then -.\n",
+    .statuses = {"all answers are right or within --allow", "wrong answers",
+                 "error, also when no query carries an answer"},
+    .examples = "# print a table of right and wrong answers\n"
+                "octreel audit flight\n"
+                "# write the page flight/audit.html and a report for a CI job\n"
                 "octreel audit flight --html flight --junit audit.xml\n"
+                "# accept an approximate index within limits, and print JSON\n"
                 "octreel audit game.json --allow ratio=1.01,recall=0.99 --json\n",
     .files = "  DIR/audit.html  the page of --html DIR\n",
     .least = 1,

@@ -45,7 +45,7 @@ static bool read_rectangle(const command_option *option, const char *text, void 
     for (int i = 0; ok && i < 4; i++, at++)
         ok = whole_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
     if (!ok || values[2] == 0 || values[3] == 0)
-        return refuse("--%s takes left, top, width and height in pixels, as in 10,20,300,40, each at most %d and the "
+        return refuse("--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d and the "
                       "last two at least 1, not \"%s\"",
                       option->name, INT32_MAX, text);
     image_rectangle *grown = realloc(a->ignored, (t->ignored_count + 1) * sizeof *grown);
@@ -91,55 +91,55 @@ static bool read_causes(const command_option *option, const char *text, void *in
 }
 
 static const command_option options[] = {
-    {.help = "Without these options frames must be equal. Each option tolerates some differences, and every verdict "
-             "prints what was tolerated:"},
-    {"max-pixels", "N", "tolerate up to N differing pixels in a frame, beyond those of the options below",
+    {.help =
+         "What counts as the same (the default is exact equality). The verdict names every tolerance that was used:"},
+    {"max-pixels", "N", "accept up to N different pixels in a frame, after the tolerances below are applied",
      .read = read_whole, OPTION_VALUE(arguments, options.tolerance.max_pixels), .max = UINT32_MAX},
     {"max-delta", "D",
-     "tolerate colours that differ by at most D, from 0 (equal) to 1, in YIQ units (Kotsarenko and Ramos 2010), like "
-     "the threshold of pixelmatch and odiff, which is 0.1 there by default",
+     "accept colours at most D apart in YIQ (Kotsarenko and Ramos 2010), from 0, equal, to 1. This is the threshold "
+     "of pixelmatch and odiff, whose default is 0.1",
      .read = read_delta, OPTION_VALUE(arguments, options.tolerance.max_delta)},
-    {"antialias", NULL, "tolerate pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
+    {"antialias", NULL, "ignore pixels on anti-aliased edges (Vysniauskas 2009, as in pixelmatch)", .read = read_flag,
      OPTION_VALUE(arguments, options.tolerance.antialias)},
     {"ignore", "X,Y,W,H", "ignore a rectangle of pixels; can be given several times", .read = read_rectangle},
     {"ignore-layer", "LIST",
-     "ignore the pixels of recordings where one of these layers is on top in either frame, as in nodes,points; octreel "
-     "record --help lists the layers",
+     "ignore pixels of recordings where these layers, such as nodes,points, are on top in either frame; octreel record "
+     "--help lists the layers",
      .read = read_layers, .names = view_layer_at},
-    {.help = "If both sides are recordings, diff explains why they differ: the differences between their sessions and "
-             "views, the consequences in each tick, and the elements that are drawn at the differing pixels. For other "
-             "frames of octreel it can tell whether only rendering differs. The verdict depends on the frames alone."},
+    {.help = "Why the frames differ. Two recordings tell it: which members of their sessions and views differ, what "
+             "follows in each tick, and which elements are drawn at the different pixels. Other pictures can tell only "
+             "that rendering alone differs. Causes never change the verdict:"},
     {"causes", "N",
-     "explain the first N frames and ticks that differ, and list at least 10 findings, or N if it is larger (default "
-     "10; 50 with --output); \"all\" explains all, 0 none",
+     "explain the first N different frames and ticks, and list N findings but at least 10; \"all\", or 0 for none "
+     "(default 10, and 50 for the page of -o)",
      .read = read_causes, .size = sizeof(uint64_t), .max = UINT32_MAX},
     {"each", NULL,
-     "report each frame as a finding of its own. By default frames with the same cause are one finding, shown by the "
-     "first of them; if no cause is known, frames in which the same pixels differ by the same amount are",
+     "report one finding for each frame. Otherwise frames with the same cause are one finding, and so are frames of "
+     "unknown cause in which the same pixels differ by the same amounts",
      .read = read_flag, OPTION_VALUE(arguments, each)},
     {.help = "Input and output:"},
     {"store", "DIR",
-     "for a baseline: show the expected pictures that octreel accept --store has stored in DIR; no verdict depends on "
-     "them",
+     "with a baseline: show the expected pictures that octreel accept --store has saved in DIR; they never change the "
+     "verdict",
      .read = read_name, OPTION_VALUE(arguments, store)},
-    {"background", "RRGGBB", "the colour behind transparent pixels (default ffffff, white)", .read = read_color,
+    {"background", "RRGGBB", "colour behind transparent pixels (default ffffff, white)", .read = read_color,
      OPTION_VALUE(arguments, options.background)},
     {"output", "DIR",
-     "write evidence into DIR: report.html, a self-contained page in which findings can be ticked for octreel accept "
+     "write evidence into DIR: report.html, one page with everything, in which you tick findings for octreel accept "
      "--from; for the first frame of each finding NAME.expected.png, NAME.actual.png and NAME.difference.png "
-     "(differing pixels are bright, tolerated ones blue); and contact.png, an overview of all pictures",
+     "(different pixels glow, even by one level; tolerated pixels are blue); and contact.png, small copies of all",
      .read = read_folder, OPTION_VALUE(arguments, folder)},
     JSON_OPTION(arguments, json, "print JSON; share/octreel/diff.schema.json describes it"),
-    {"junit", "FILE", "write JUnit XML for GitLab, Jenkins and GitHub actions, with a test case for each frame",
+    {"junit", "FILE", "write JUnit XML, one test case for each frame, for GitLab, Jenkins and GitHub",
      .read = read_file, OPTION_VALUE(arguments, junit)},
     {"markdown", "FILE",
-     "write a Markdown summary for a CI job: the verdict and a table of the differences. FILE can be -, standard "
-     "output, "
-     "for either --junit or --markdown, but not together with --json",
+     "write a summary for the page of a CI job: the verdict and a table of differences. One of --markdown FILE, "
+     "--junit "
+     "FILE and --json may write to standard output; FILE is then -",
      .read = read_file, OPTION_VALUE(arguments, markdown)},
     {"annotate", NULL,
-     "print GitHub workflow commands to standard error, which annotate a change with the differences; default if the "
-     "environment variable GITHUB_ACTIONS is set",
+     "print GitHub annotations, which show differences beside a pull request, to standard error (default when the "
+     "environment variable GITHUB_ACTIONS is set)",
      .read = read_flag, OPTION_VALUE(arguments, annotate)},
     {0},
 };
@@ -281,7 +281,7 @@ static int run(int argc, char **argv)
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.causes_said && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.causes_said)
-        a.causes = DIFF_REPORT_PAGE_FRAMES; /* each frame of the page has its cause beside it */
+        a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows a cause beside each frame */
     if (status == COMMAND_GO_ON)
         status = check_outputs(&a) ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]}) : EXIT_TROUBLE;
     free(a.ignored);
@@ -292,23 +292,26 @@ const command command_diff = {
     .name = "diff",
     .run = run,
     .options = options,
-    .line = "compare two pictures, folders of pictures or recordings, exactly or within a tolerance",
+    .line = "compare pictures, folders of pictures or recordings, and say why they differ",
     .usage = "REFERENCE COMPARED [OPTION ...]",
-    .about = "Compare pictures, by default exactly. Each side is a PNG, a folder of PNGs (without its subfolders), a "
-             "recording, or a baseline made by octreel accept; - is a PNG or a baseline from standard input. Frames "
-             "are paired by name; a frame without a reference is a difference, and so is a reference without a frame. "
-             "If a baseline holds several digests of a frame, the frame passes if it matches any of them. Recordings "
-             "without frames are compared by their ticks.\n",
-    .statuses = {"the same, or within the tolerance", "different", "trouble, as when a picture cannot be read"},
-    .examples = "octreel diff before.png after.png\n"
+    .about = "Compare the pictures of two sides frame by frame. A side is a PNG, a folder of PNGs (without its "
+             "subfolders), a recording, or a baseline that octreel accept has made; - is a PNG or a baseline from "
+             "standard input. Frames are paired by name. A frame that only one side has is a difference. Where a "
+             "baseline accepts several digests of a frame, any of them passes. Recordings without frames are compared "
+             "by their ticks.\n",
+    .statuses = {"the same, or within the tolerances", "different", "error, such as an unreadable picture"},
+    .examples = "# print whether two pictures are the same, pixel by pixel\n"
+                "octreel diff before.png after.png\n"
+                "# compare folders, with a colour tolerance and without the top left corner\n"
                 "octreel diff golden frames --max-delta 0.02 --ignore 0,0,320,16\n"
+                "# in a GitHub job: write evidence/report.html and a summary of the job\n"
                 "octreel diff golden frames -o evidence --markdown - >> \"$GITHUB_STEP_SUMMARY\"\n"
+                "# compare with a baseline, and show the expected pictures from its store\n"
                 "octreel diff baseline.txt frames --store pictures -o evidence\n",
-    .environment = "  GITHUB_ACTIONS  if it is set, workflow commands are printed, as by --annotate\n",
-    .files =
-        "  DIR/report.html  the self-contained page\n"
-        "  DIR/contact.png  an overview of the pictures of all findings\n"
-        "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  for the first frame of a finding\n",
+    .environment = "  GITHUB_ACTIONS  if set, GitHub annotations are printed, as with --annotate\n",
+    .files = "  DIR/report.html  the page, which needs no other file\n"
+             "  DIR/contact.png  small copies of the pictures of all findings\n"
+             "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  the first frame of a finding\n",
     .least = 2,
     .most = 2,
     .takes = "two sides, each a PNG, a folder of PNGs, a recording or a baseline",

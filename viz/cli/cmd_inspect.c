@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_inspect.c - octreel inspect: the tree of a point cloud: its statistics, a picture, a node, answers to queries. */
+/* cmd_inspect.c - octreel inspect: builds the tree of a point cloud and prints or draws it, its nodes and query
+ * answers. */
 #include "cloud.h"
 #include "command.h"
 #include "file.h"
@@ -25,8 +26,8 @@
 
 typedef struct arguments {
     const char *cloud;
-    const char *picture, *nodes; /* files to write; null: not asked for */
-    const char *node;            /* the address of one node; null: not asked for */
+    const char *picture, *nodes; /* files to write, or null */
+    const char *node;            /* the address of the node to print, or null */
     query_options queries;
     octree_def def;
     bool has_world, json;
@@ -38,7 +39,8 @@ typedef struct arguments {
 static bool read_depth(const command_option *option, const char *text, void *into)
 {
     if (strchr(text, ':'))
-        return refuse("--depth is that of the tree, one number; --depths %s shows some of its levels", text);
+        return refuse(
+            "--depth takes one number, the deepest level of the tree; to draw only some levels, use --depths %s", text);
     return read_whole(option, text, into);
 }
 
@@ -50,17 +52,9 @@ static const char *full_at(int n)
 
 static const char *full_words_at(int n)
 {
-    static const char *const words[] = {[OCTREE_REFUSE] = "refuses it", [OCTREE_GROW] = "holds it too (the default)"};
+    static const char *const words[] = {
+        [OCTREE_REFUSE] = "refuses the point", [OCTREE_GROW] = "keeps the point beyond its capacity (default)"};
     return n <= OCTREE_GROW ? words[n] : NULL;
-}
-
-static bool read_full(const command_option *option, const char *text, void *into)
-{
-    const int found = json_find_name(full_at, text);
-    if (found < 0)
-        return refuse("--%s takes refuse or grow, not \"%s\"", option->name, text);
-    *(octree_full_leaf *)into = (octree_full_leaf)found;
-    return true;
 }
 
 static bool read_world(const command_option *option, const char *text, void *into)
@@ -70,12 +64,13 @@ static bool read_world(const command_option *option, const char *text, void *int
     double corners[6];
     a->has_world = true;
     if (!numbers_parse(text, corners, 6))
-        return refuse("--%s takes six numbers as in -10,-10,-10,10,10,10, not \"%s\"", option->name, text);
+        return refuse("--%s takes six numbers such as -10,-10,-10,10,10,10, not \"%s\"", option->name, text);
     for (int i = 0; i < 3; i++) {
         world->min[i] = corners[i];
         world->max[i] = corners[i + 3];
         if (world->min[i] >= world->max[i])
-            return refuse("--%s: min must be below max on every axis, not so in \"%s\"", option->name, text);
+            return refuse("--%s: the first corner must be below the second on every axis; found \"%s\"", option->name,
+                          text);
     }
     return true;
 }
@@ -83,43 +78,48 @@ static bool read_world(const command_option *option, const char *text, void *int
 static bool read_node(const command_option *option, const char *text, void *into)
 {
     const char **node = into;
-    return *node ? refuse("--node names one node, not %s and %s", *node, text) : read_text(option, text, into);
+    return *node ? refuse("--node can be given only once; found %s and %s", *node, text)
+                 : read_text(option, text, into);
 }
 
 static const command_option options[] = {
-    {"output", "FILE", "draw the tree into this PNG; - is standard output, and what is said goes to stderr",
-     .read = read_picture, OPTION_VALUE(arguments, picture)},
-    {"capacity", "N", "points a leaf holds before it splits (default 64)", .read = read_whole,
+    {.help = "The tree:"},
+    {"capacity", "N", "points that a leaf holds before it splits (default 64)", .read = read_whole,
      OPTION_VALUE(arguments, def.leaf_capacity), .min = 1, .max = UINT32_MAX},
     {"depth", "N", "deepest level, 0 to 21 (default 21)", .read = read_depth, OPTION_VALUE(arguments, def.max_depth),
      .max = OCTREE_MAX_DEPTH},
-    {"full", "MODE", "what a full leaf at that depth does with one more point: one of", .read = read_full,
+    {"full", "MODE", "what a full leaf at the deepest level does with another point: one of", .read = read_choice,
      OPTION_VALUE(arguments, def.full_leaf), .names = full_at, .words = full_words_at},
     {"world", "BOX", "x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)", .read = read_world,
      .size = sizeof(arguments)},
-    {"node", "ADDRESS", "print one node, as in 0/3/7 (or root): its box and its points; a picture marks it",
+    {.help = "What is printed and written:"},
+    {"output", "FILE", "draw the tree into this PNG; - is standard output, and the report then goes to standard error",
+     .read = read_picture, OPTION_VALUE(arguments, picture)},
+    {"node", "ADDRESS", "print the box and the points of one node, such as 0/3/7 or root; a picture marks it",
      .read = read_node, OPTION_VALUE(arguments, node)},
-    {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, as above", .read = read_file,
-     OPTION_VALUE(arguments, nodes)},
-    FILL_OPTION(arguments, renderer.fill),
+    {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
+     .read = read_file, OPTION_VALUE(arguments, nodes)},
     QUERY_OPTIONS(arguments, queries),
+    JSON_OPTION(arguments, json, "print JSON; it lists every point of an answer"),
+    {.help = "How the picture looks:"},
     VIEW_OPTIONS(arguments, view_options),
+    {.help = "How the picture is drawn:"},
+    FILL_OPTION(arguments, renderer.fill),
     RENDERER_OPTIONS(arguments, renderer),
-    JSON_OPTION(arguments, json, "print JSON, which lists all points that are found"),
     {0},
 };
 
 /* ---- The report --------------------------------------------------------------------------------------------- */
 
-/* What the command prints and draws. */
+/* Everything that the command prints and draws. */
 typedef struct report {
     const arguments *a;
-    const char *name; /* of the cloud: the last part of its path */
+    const char *name; /* the last part of the cloud's path */
     const inspection *made;
     octree_node node;
     inspect_answers answers;
     view view;                   /* of the picture */
-    char chosen[INSPECT_CHOICE]; /* a sentence about what of it was not asked for */
+    char chosen[INSPECT_CHOICE]; /* a sentence that names the view options chosen by the program, or "" */
 } report;
 
 static bool draw(const report *r, octreel_error *error)
@@ -146,16 +146,16 @@ static bool draw(const report *r, octreel_error *error)
     if (drawn.over_budget)
         note("%s leaves out %s beyond --budget", file_output_title(a->picture),
              film_left_out_text(drawn.beyond, left_out));
-    if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* which says so in the picture */
+    if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* the text layer prints this in the picture */
         note("%s leaves out %s smaller than --lod", file_output_title(a->picture),
              film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
-        note("%" PRIu64 " element%s too far off to be in %s", drawn.left_out, plural(drawn.left_out),
+        note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural(drawn.left_out),
              file_output_title(a->picture));
     return true;
 }
 
-/* The files that it writes. */
+/* The files that the command writes. */
 enum { OUTPUTS = 2 };
 
 static void list_outputs(const arguments *a, output_file outputs[OUTPUTS])
@@ -164,7 +164,7 @@ static void list_outputs(const arguments *a, output_file outputs[OUTPUTS])
     outputs[1] = (output_file){"--nodes", a->nodes};
 }
 
-/* "wrote tree.png: "; returns `out`. */
+/* Prints "wrote tree.png: " and returns `out`. */
 static FILE *print_wrote(const char *path, FILE *out)
 {
     fputs("wrote ", out);
@@ -173,7 +173,7 @@ static FILE *print_wrote(const char *path, FILE *out)
     return out;
 }
 
-/* A node or answers are printed without the statistics. JSON says nothing of files: it stays one object. */
+/* --node and queries replace the statistics. With --json, the files are not mentioned: the output is one object. */
 static void print(const report *r)
 {
     const arguments *a = r->a;
@@ -193,7 +193,7 @@ static void print(const report *r)
         fputs("all nodes\n", print_wrote(a->nodes, out));
 }
 
-/* Everything that can be refused comes before the first file is written. */
+/* Checks everything that can fail before it writes the first file. */
 static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
@@ -217,7 +217,7 @@ static bool make_report(report *r, octreel_error *error)
 
 typedef struct reading {
     progress bar;
-    double size; /* of what was read, in bytes */
+    double size; /* bytes read */
 } reading;
 
 static void on_block(uint64_t done, uint64_t total, void *context)
@@ -238,10 +238,10 @@ static void on_built(uint64_t done, uint64_t total, void *context)
     progress_show(context, done, total);
 }
 
-/* Read the cloud and build its tree; the bar on the terminal is gone afterwards. */
+/* Reads the cloud and builds its tree. Shows a progress bar meanwhile. */
 static bool build(const arguments *a, inspection *made, octreel_error *error)
 {
-    reading r = {.bar = progress_start("kB of the cloud")};
+    reading r = {.bar = progress_start("kB read")};
     octree_def def = a->def;
     octreel_error why;
     cloud points;
@@ -251,7 +251,7 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
         if (!a->has_world)
             def.world = point_world(points.positions, sizeof *points.positions, points.count);
         progress_end(&r.bar);
-        r.bar = progress_start("points in the tree");
+        r.bar = progress_start("points inserted");
         ok = inspect_build(&points, &def, on_built, &r.bar, made, &why) ||
              error_set(error, "%s: %s", file_title(a->cloud), why.text);
         memcpy(left_out, points.note, sizeof left_out);
@@ -278,7 +278,7 @@ static int inspect(const arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* Options about a picture are refused where none is made: they would have no effect. */
+/* Refuses picture options without -o, because they would have no effect. */
 static bool check_picture(const arguments *a)
 {
     const char *first = first_view_option(&a->view_options);
@@ -288,10 +288,10 @@ static bool check_picture(const arguments *a)
         first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
     if (a->picture || !first)
         return true;
-    return refuse("--%s is about a picture, and none is made without -o", first);
+    return refuse("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
 }
 
-/* No file that is written may be the cloud, nor both be one file. */
+/* Neither output may be the cloud, and the outputs must be two different files. */
 static bool check_outputs(const arguments *a)
 {
     output_file outputs[OUTPUTS];
@@ -309,7 +309,7 @@ static int run(int argc, char **argv)
 {
     arguments a = {.def = octree_def_default(), .view = view_default(), .renderer.fill = DRAW_FILL_CHECKED};
     a.def.full_leaf = OCTREE_GROW;
-    a.view.fit = FIT_POINTS; /* the world is a cube around a cloud that seldom is one */
+    a.view.fit = FIT_POINTS; /* the world is a cube, and few clouds fill a cube */
     const int status = command_read_arguments(&command_inspect, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
@@ -323,18 +323,25 @@ const command command_inspect = {
     .name = "inspect",
     .run = run,
     .options = options,
-    .line = "build a tree from a point cloud, draw its subdivision, print its statistics",
+    .line = "show how a point cloud subdivides: a picture, statistics, nodes, queries",
     .usage = "CLOUD [-o PICTURE.png] [OPTION ...]",
-    .about = "Build an octree from a point cloud (" CLOUD_NAMES "), print its statistics, and draw "
-             "its subdivision. CLOUD may be -, standard input: what it is is told by what it holds, as of a file.\n",
-    .more = "Text may begin with the names of its columns or, as .pts does, with the number of its points. "
-            "Points are numbered from 0 in the order of the file, those that are skipped counted: without finite "
-            "coordinates, or withheld in LAS. LAZ and COPC are read by an octreel that was built with liblaszip "
-            "(Debian 13); else, first: pdal translate in.laz out.las\n",
-    .examples = "octreel inspect scan.pcd -o tree.png --capacity 32\n"
-                "pdal translate scan.laz STDOUT --writer text | octreel inspect -\n"
+    .about = "Build an octree from a point cloud (" CLOUD_NAMES ") and print its statistics. With -o, "
+             "draw the tree as well. CLOUD may be -, standard input. The format is recognized by the content, not by "
+             "the name.\n",
+    .more =
+        "Text may begin with column names or, as .pts files do, with the number of points. Points are numbered from "
+        "0 in file order. Points without finite coordinates and withheld LAS points are skipped, but keep their "
+        "numbers. LAZ and COPC need an octreel that was built with liblaszip (Debian 13 has it). Other builds need "
+        "this conversion first: pdal translate in.laz out.las\n",
+    .statuses = {"done", NULL, "error"},
+    .examples = "# draw the tree of a scan whose leaves hold at most 32 points\n"
+                "octreel inspect scan.pcd -o tree.png --capacity 32\n"
+                "# print one node, its box and its points, as JSON\n"
                 "octreel inspect points.txt --node 0/3 --json\n"
-                "for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n",
+                "# print and draw the 8 nearest neighbours of a place in each of many clouds\n"
+                "for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n"
+                "# print the statistics of a cloud that pdal converts\n"
+                "pdal translate scan.laz STDOUT --writer text | octreel inspect -\n",
     .least = 1,
     .most = 1,
     .takes = "one point cloud",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_join.c - octreel join: a recording that was filmed in chunks becomes whole. */
+/* cmd_join.c - octreel join: completes a recording that was filmed in chunks. */
 #include "command.h"
 #include "film_report.h"
 #include "join.h"
@@ -18,7 +18,7 @@ static int join(const char *folder, bool json)
     if (!ok)
         print_error("%s", error.text);
     else if (!whole)
-        print_error("stopped; %s is as it was", folder);
+        print_error("stopped; %s is unchanged", folder);
     else if (json || !is_quiet())
         film_report_joined(stdout, &summary, &film, json);
     watch_end(&w);
@@ -30,7 +30,7 @@ typedef struct arguments {
 } arguments;
 
 static const command_option options[] = {
-    JSON_OPTION(arguments, json, "print a summary as JSON on stdout"),
+    JSON_OPTION(arguments, json, "print a summary as JSON to standard output"),
     {0},
 };
 
@@ -45,16 +45,17 @@ const command command_join = {
     .name = "join",
     .run = run,
     .options = options,
-    .line = "make a recording that was filmed in chunks whole",
+    .line = "complete a recording that was filmed in chunks",
     .usage = "DIR [OPTION ...]",
-    .about = "Check that all chunks of a recording are there (octreel record --ticks A:B -o DIR) and fit: every tick "
-             "has its line, and every frame is whole, of its tick and of the session. Then write the rest, ticks.jsonl "
-             "and index.html, so that DIR is the same as if it had been filmed at once. What is missing is named. "
-             "Nothing is played or drawn: octreel verify does that.\n",
-    .more =
-        "What --json prints has \"folder\", \"ticks\", \"frames\", \"gaps\" and \"left_out\", of which octreel help "
-        "record tells.\n",
-    .examples = "octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"
+    .about = "Check that DIR holds all chunks of a recording (octreel record --ticks A:B -o DIR) and that they fit "
+             "together: every tick has its line, every frame is whole and belongs to its tick and session. Then write "
+             "ticks.jsonl and index.html, so that DIR is the same as if one process had filmed it. Missing ticks are "
+             "named. Nothing is played or drawn; octreel verify does that.\n",
+    .more = "The summary of --json has the members \"folder\", \"ticks\", \"frames\", \"gaps\" and \"left_out\"; "
+            "octreel record --help describes them.\n",
+    .statuses = {"the recording is complete", NULL, "error or stopped; DIR is unchanged"},
+    .examples = "# film the two halves of a session at the same time, then join them\n"
+                "octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"
                 "octreel join film\n",
     .least = 1,
     .most = 1,

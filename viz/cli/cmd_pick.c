@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_pick.c - octreel pick: what is drawn at a pixel of a frame. */
+/* cmd_pick.c - octreel pick: lists what is drawn at a pixel of a frame. */
 #include "command.h"
 #include "pick.h"
 
 #include <stdio.h>
 
-#define MOST_PLACE 1000000000 /* beyond any picture, which then says how large it is */
+#define MOST_PLACE                                                                                                     \
+    1000000000 /* larger than any picture: the error for a pixel outside then names the picture's size                 \
+                */
 
 static bool read_place(const char *name, const char *text, int *value)
 {
@@ -22,12 +24,13 @@ typedef struct arguments {
 
 static const command_option options[] = {
     {"radius", "N",
-     "where nothing is drawn, tell of the nearest pixel within N on which anything is (default 8; 0: of none)",
+     "where nothing is drawn at the pixel, report the nearest drawn pixel at most N pixels away (default 8; 0: report "
+     "nothing)",
      .read = read_whole, OPTION_VALUE(arguments, pick.radius), .max = VIEW_MAX_SIDE},
     RENDERER_OPTIONS(arguments, pick.renderer),
     JSON_OPTION(arguments, json,
-                "print JSON: kind, layer, node or point and a sentence for each element, from the top down; of "
-                "`samples` of the pixel, `shown` are seen and `painted` are also covered by others"),
+                "print JSON: the kind, layer, node or point and a sentence for each element, topmost first. Of the "
+                "`samples` of a pixel, an element has painted `painted` and is visible in `shown`"),
     {0},
 };
 
@@ -59,16 +62,17 @@ const command command_pick = {
     .name = "pick",
     .run = run,
     .options = options,
-    .line = "say what is drawn at a pixel of a frame",
+    .line = "list what is drawn at a pixel of a frame",
     .usage = "FRAME X Y [OPTION ...]",
-    .about = "Say what is drawn at pixel (X, Y) of a recording's frame: the node, point, query or text on top, what it "
-             "covers, which other nodes have the same edge there, and which other points lie on the same pixel. (0, 0) "
-             "is the top left pixel. The session beside the frame is played to its tick and the scene is made anew; a "
-             "frame that is not of it, or that somebody changed, is refused.\n",
-    .statuses = {"done, whether or not anything is there"},
-    .examples = "octreel record -o flight\n"
+    .about = "Name the node, point, query or text that is drawn on top at pixel (X, Y) of a recorded frame, the "
+             "elements below it, the other nodes that share the same edge, and the other points on the same pixel. "
+             "(0, 0) is the top left pixel. The session beside the frame is replayed to the frame's tick. A frame "
+             "that differs from what the session draws is refused.\n",
+    .statuses = {"done, also where nothing is drawn", NULL, "error"},
+    .examples = "# record the example, and ask for the element at pixel (800, 200) of tick 219\n"
+                "octreel record -o flight\n"
                 "octreel pick flight/frame_000219.png 800 200\n",
-    .no_negative = "the coordinates of a pixel are counted from 0 on, from the top left",
+    .no_negative = "pixel coordinates start at (0, 0) in the top left corner and cannot be negative",
     .least = 3,
     .most = 3,
     .takes = "a frame and two coordinates, as in frames/frame_000041.png 312 200",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_play.c - octreel play: a session becomes a page that plays it. */
+/* cmd_play.c - octreel play: writes a web page that plays a session. */
 #include "command.h"
 #include "file.h"
 #include "film_report.h"
@@ -24,11 +24,12 @@ typedef struct arguments {
 
 static const command_option options[] = {
     {"output", "FILE",
-     "where the page goes; - is standard output (default: SESSION's name with .html in the current folder, or "
-     "octreel.html). A page of octreel play is replaced, and nothing else",
+     "the page to write; - is standard output (default: the name of SESSION with .html, in the current folder, or "
+     "octreel.html). An existing file is overwritten only if it is such a page",
      .read = read_file, OPTION_VALUE(arguments, page)},
     {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
      OPTION_VALUE(arguments, keys)},
+    {.help = "How the page looks when it opens:"},
     VIEW_OPTIONS(arguments, view),
     {0},
 };
@@ -41,8 +42,8 @@ static const char *base_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* "walk.html" of "sessions/walk.json". */
-static void name_page(const char *session, char name[NAME_MAX + 1])
+/* The default name of the page: "walk.html" for "sessions/walk.json". */
+static void make_page_name(const char *session, char name[NAME_MAX + 1])
 {
     const char *base = session && !file_is_standard(session) ? base_name(session) : "octreel",
                *dot = strrchr(base, '.');
@@ -50,7 +51,7 @@ static void name_page(const char *session, char name[NAME_MAX + 1])
     snprintf(name, NAME_MAX + 1, "%.*s.html", (int)length, base);
 }
 
-static bool is_of_recording(const char *path)
+static bool is_recording_page(const char *path)
 {
     char beside[PATH_MAX];
     const char *base = base_name(path);
@@ -58,7 +59,7 @@ static bool is_of_recording(const char *path)
     return folder_is_name(base) && access(beside, F_OK) == 0;
 }
 
-/* Only a page of this command is written over. */
+/* Only a page that this command has written may be overwritten. */
 static bool check_page(const arguments *a)
 {
     const output_file output = {"-o", a->page};
@@ -67,44 +68,44 @@ static bool check_page(const arguments *a)
         return true;
     if (a->session && !check_output_is_not_input(&output, a->session, &error))
         return refuse("%s", error.text);
-    if (is_of_recording(a->page))
-        return refuse("%s: is the page of a recording: choose another name (-o)", a->page);
+    if (is_recording_page(a->page))
+        return refuse("%s: is the page of a recording and is not overwritten; name another file with -o", a->page);
     struct stat status;
     const bool there = stat(a->page, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > 0;
     return !there || file_kind_of(a->page) == KIND_PAGE ||
-           refuse("%s: is there already, and no page of octreel's: choose another name (-o)", a->page);
+           refuse("%s: exists and was not written by octreel play; name another file with -o", a->page);
 }
 
-/* As an address has it. */
-static void put_encoded(FILE *out, const char *path)
+/* Writes a path as a part of a URL (RFC 3986): other bytes become %XX. */
+static void print_url_path(FILE *out, const char *path)
 {
     for (const unsigned char *at = (const unsigned char *)path; *at; at++)
         fprintf(out, (isalnum(*at) && *at < 128) || strchr("/-_.~", *at) ? "%c" : "%%%02X", *at);
 }
 
-static void tell(const char *page, uint64_t ticks)
+static void print_page_address(const char *page, uint64_t ticks)
 {
     char current[PATH_MAX];
     write_escaped(stdout, page, escape_nothing);
     printf(": %" PRIu64 " tick%s; open it in a browser: ", ticks, plural(ticks));
     fputs("file://", stdout);
     if (*page != '/' && getcwd(current, sizeof current)) {
-        put_encoded(stdout, current);
+        print_url_path(stdout, current);
         putchar('/');
     }
-    put_encoded(stdout, page);
+    print_url_path(stdout, page);
     putchar('\n');
 }
 
 /* ---- The page ------------------------------------------------------------------------------------------------ */
 
-/* False, with an error, also where it was stopped. */
+/* Returns false with an error when it fails and when it is stopped by a signal. */
 static bool write_page(const arguments *a, const octree_session *session, FILE *page, film_summary *summary,
                        octreel_error *error)
 {
     return write_played_page(session, &a->film, page, summary, error) &&
            (summary->ticks == summary->total ||
-            error_set(error, "stopped after %" PRIu64 " of %" PRIu64 " ticks: there is no page", summary->ticks,
+            error_set(error, "stopped after %" PRIu64 " of %" PRIu64 " ticks; no page was written", summary->ticks,
                       summary->total));
 }
 
@@ -132,7 +133,7 @@ static int make_page(arguments *a, const octree_session *session)
     if (!ok)
         print_error("%s", error.text);
     else if (!file_is_standard(a->page) && !is_quiet())
-        tell(a->page, summary.ticks);
+        print_page_address(a->page, summary.ticks);
     watch_end(&w);
     return ok ? EXIT_DONE : EXIT_TROUBLE;
 }
@@ -160,7 +161,7 @@ static int run(int argc, char **argv)
     if (status != COMMAND_GO_ON)
         return status;
     a.session = argv[optind];
-    name_page(a.session, name);
+    make_page_name(a.session, name);
     if (!a.page)
         a.page = name;
     return read_view(&a.view, &a.film.view) && check_page(&a) ? play(&a) : EXIT_TROUBLE;
@@ -170,14 +171,16 @@ const command command_play = {
     .name = "play",
     .run = run,
     .options = options,
-    .line = "make a page of a session that plays it in a browser, and films nothing",
+    .line = "make a web page that plays a session, without recording frames",
     .usage = "[SESSION] [-o FILE.html] [OPTION ...]",
-    .about =
-        "Make a page that plays a session, in one file that needs nothing beside it: in a browser it draws any "
-        "tick, turns and zooms, asks what is at a place, and the keys of the game play on. Nothing is filmed. "
-        "Without SESSION, that of octreel record is played; octreel help session tells what one holds. - is one from "
-        "standard input. The options of the view say how the page begins.\n",
-    .examples = "octreel play\n"
+    .about = "Write one HTML file that plays a session in a browser and needs no other file. The page draws any tick, "
+             "turns and zooms, names what is under the mouse, and the keys of the game play on. Without SESSION, the "
+             "example that octreel record films is used. SESSION may be -, standard input; octreel help session "
+             "describes the file.\n",
+    .statuses = {"the page is written", NULL, "error or stopped; no page is written"},
+    .examples = "# write octreel.html, which plays the example\n"
+                "octreel play\n"
+                "# write walk.html, which starts with an orbiting camera\n"
                 "octreel play session.json --camera orbit -o walk.html\n",
     .most = 1,
     .takes = "one session",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_record.c - octreel record: film a session into a folder. */
+/* cmd_record.c - octreel record: films a session into a folder of frames. */
 #include "command.h"
 #include "film.h"
 #include "file.h"
@@ -34,41 +34,47 @@ static bool read_ticks(const command_option *option, const char *text, void *int
     const bool ends = open && whole_parse(&at, UINT64_MAX, &film->last);
     if (open && (begins || ends) && *at == 0 && film->first < film->last)
         return true;
-    return refuse("--%s takes ticks as in 100:200 (from 100 to 199), 100: or :200, not \"%s\"", option->name, text);
+    return refuse("--%s takes a range of ticks such as 100:200 (ticks 100 to 199), 100: or :200, not \"%s\"",
+                  option->name, text);
 }
 
 static const command_option options[] = {
-    {"output", "DIR", "where the recording goes; a new folder, or one without a recording", .read = read_folder,
+    {.help = "What is filmed, and into which folder:"},
+    {"output", "DIR", "folder for the recording: a new folder, or one that holds no recording yet", .read = read_folder,
      OPTION_VALUE(arguments, film.folder)},
     {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
      OPTION_VALUE(arguments, keys)},
-    {"every", "N", "film each N-th tick (ticks.jsonl still has all of them)", .read = read_whole,
+    {"every", "N", "draw only every N-th tick; ticks.jsonl still lists all ticks", .read = read_whole,
      OPTION_VALUE(arguments, every), .min = 1, .max = 1000000000},
-    {"no-frames", NULL, "draw nothing: the session, its ticks, and a page that draws them by itself", .read = read_flag,
-     OPTION_VALUE(arguments, no_frames)},
+    {"no-frames", NULL, "draw no frames: write the session, its ticks, and a page that draws them itself",
+     .read = read_flag, OPTION_VALUE(arguments, no_frames)},
     {"ticks", "A:B",
-     "film the ticks from A to B - 1 alone, as a chunk; chunks go into one folder, from any number of machines, and "
-     "octreel join makes it whole; A: and :B will do, B may be beyond the end",
+     "film one chunk, the ticks from A to B - 1 (A: and :B are open ended, and B may lie beyond the last tick). "
+     "Several "
+     "processes or machines can film chunks into one folder; octreel join then completes the recording",
      .read = read_ticks, OPTION_VALUE(arguments, film)},
     {"jobs", "N",
-     "processes that film at the same time (default: one a core, fewer for a few frames); the bytes are the same",
+     "number of processes that film at the same time; the frames are the same for any number (default: one per core, "
+     "fewer for a short session)",
      .read = read_whole, OPTION_VALUE(arguments, film.jobs), .min = 1, .max = FILM_MOST_JOBS},
     {"resume", NULL,
-     "complete what is in DIR; frames that are there and right are kept. Without SESSION and without options, those of "
-     "DIR are taken. What is not of this recording is refused",
+     "complete the recording in DIR and keep its correct frames. Without SESSION and view options, those stored in DIR "
+     "are used. Refuses a folder that holds files of another recording",
      .read = read_flag, OPTION_VALUE(arguments, film.resume)},
     {"replace", NULL,
-     "film in place of the recording in DIR, which stays until a tick is filmed; other files of DIR stay, and what is "
-     "no recording is refused",
+     "overwrite the recording in DIR. The old recording stays until the first tick is filmed, other files in DIR stay "
+     "for good, and a folder that holds no recording is refused",
      .read = read_flag, OPTION_VALUE(arguments, film.replace)},
-    FILL_OPTION(arguments, film.renderer.fill),
+    JSON_OPTION(arguments, json, "print a summary as JSON to standard output"),
+    {.help = "How the frames look:"},
     VIEW_OPTIONS(arguments, view),
+    {.help = "How the frames are drawn:"},
+    FILL_OPTION(arguments, film.renderer.fill),
     RENDERER_OPTIONS(arguments, film.renderer),
-    JSON_OPTION(arguments, json, "print a summary as JSON on stdout"),
     {0},
 };
 
-static void tell(const arguments *a, const film_summary *summary, const watch *w)
+static void print_summary(const arguments *a, const film_summary *summary, const watch *w)
 {
     if (a->json || !is_quiet())
         film_report(stdout, summary, &a->film, progress_seconds(&w->progress), a->json);
@@ -93,24 +99,24 @@ static int film(arguments *a, const octree_session *session)
     else if (!whole)
         film_report_stopped(stderr, &summary, &a->film);
     else
-        tell(a, &summary, &w);
+        print_summary(a, &summary, &w);
     watch_end(&w);
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 
-/* ---- A session that is still being written ------------------------------------------------------------------ */
+/* ---- A session from standard input ------------------------------------------------------------------ */
 
-/* Why a stream cannot be filmed as asked for; null where it can. */
-static const char *refuse_stream(const arguments *a)
+/* Returns the reason why these options do not work with a session from standard input; null where they do. */
+static const char *explain_stream_conflict(const arguments *a)
 {
     if (a->film.resume)
-        return "--resume completes what is in DIR without the stream: leave out the -";
+        return "--resume uses the session stored in DIR: leave out the \"-\"";
     if (a->film.last != 0)
-        return "--ticks films a part of a session that is there, and not one that is still being written: save it "
-               "first";
+        return "--ticks needs a whole session and cannot film standard input: save the session to a file first";
     if (a->film.jobs > 1)
-        return "--jobs divides a session that is there, and one that is still being written is filmed as it comes: by "
-               "one";
+        return "--jobs needs a whole session and cannot film standard input with more than one process: leave out "
+               "--jobs, or "
+               "save the session to a file first";
     return NULL;
 }
 
@@ -119,16 +125,16 @@ static int end_stream(const arguments *a, film_stream_end how, const film_summar
 {
     const uint64_t ticks = summary->ticks;
     if (how == FILM_STREAM_WHOLE)
-        tell(a, summary, w);
+        print_summary(a, summary, w);
     else if (how == FILM_STREAM_STOPPED && ticks == 0)
-        print_error("stopped before a tick was filmed");
+        print_error("stopped before the first tick was filmed; nothing was written");
     else if (how == FILM_STREAM_STOPPED)
-        print_error("stopped after %" PRIu64 " tick%s, of which %s is a recording", ticks, plural(ticks),
+        print_error("stopped after %" PRIu64 " tick%s; %s is a whole recording of them", ticks, plural(ticks),
                     a->film.folder);
     else if (ticks == 0)
         print_error("%s", error->text);
     else
-        print_error("%s; %s has what came before: %" PRIu64 " tick%s", error->text, a->film.folder, ticks,
+        print_error("%s; %s holds the part before the error: %" PRIu64 " tick%s", error->text, a->film.folder, ticks,
                     plural(ticks));
     return how == FILM_STREAM_WHOLE ? EXIT_DONE : EXIT_TROUBLE;
 }
@@ -143,7 +149,7 @@ static int film_standard_input(arguments *a)
     a->film.context = &w;
     session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, watch_keep_going, &w);
     if (!stream)
-        return print_error("there is no memory to read standard input");
+        return print_error("out of memory while reading standard input");
     const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
     progress_end(&w.progress);
     if (*session_stream_note(stream))
@@ -159,9 +165,9 @@ static int film_standard_input(arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* The file of the folder without which nothing says what a recording is that is resumed without a word about that on
- * the command line; null where nothing is missing. */
-static const char *find_missing(const arguments *a)
+/* --resume without a session or view option needs the session and the view that the folder stores. Returns the name of
+ * the file that is missing; null where nothing is. */
+static const char *find_missing_file(const arguments *a)
 {
     const char *folder = a->film.folder;
     if (!a->film.resume || a->session || a->keys || a->every || a->no_frames || first_view_option(&a->view))
@@ -172,14 +178,16 @@ static const char *find_missing(const arguments *a)
     return played ? NULL : "session.json";
 }
 
-/* A recording that is resumed stands for what the command line leaves out. */
-static bool read_film(arguments *a)
+/* With --resume, the recording supplies the options that the command line leaves out. */
+static bool complete_film_options(arguments *a)
 {
     octreel_error error;
     uint64_t every = 1;
-    const char *missing = find_missing(a);
+    const char *missing = find_missing_file(a);
     if (missing) {
-        return refuse("%s: holds no recording that could be resumed (%s is missing)", a->film.folder, missing);
+        return refuse(
+            "%s: holds no recording that can be resumed: %s is missing; leave out --resume to start a new one",
+            a->film.folder, missing);
     }
     if (a->film.resume && folder_has(a->film.folder, "recording.json") &&
         !recording_read(a->film.folder, &a->film.view, &every, &error)) {
@@ -213,23 +221,24 @@ static int play(arguments *a)
     return status;
 }
 
-/* Whether it is the current folder, or one that this is in: frames there would lie among all that is below. */
-static bool holds_current(const char *folder)
+/* True for the current folder and for every folder above it. Frames there would mix with unrelated files. */
+static bool contains_current_folder(const char *folder)
 {
     struct stat named, here, before = {0};
     char up[PATH_MAX] = ".";
     bool is = false, more = stat(folder, &named) == 0;
     for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
-        more = stat(up, &here) == 0 && (length == 1 || !is_same_file(&here, &before)); /* the root is above itself */
+        more = stat(up, &here) == 0 &&
+               (length == 1 || !is_same_file(&here, &before)); /* the parent of the root is the root */
         is = more && is_same_file(&named, &here);
         length += (size_t)snprintf(up + length, sizeof up - length, "/..");
     }
     return is;
 }
 
-static bool is_own_folder(const char *folder)
+static bool may_hold_frames(const char *folder)
 {
-    return !holds_current(folder) || file_kind_of(folder) == KIND_RECORDING;
+    return !contains_current_folder(folder) || file_kind_of(folder) == KIND_RECORDING;
 }
 
 static int run(int argc, char **argv)
@@ -239,21 +248,21 @@ static int run(int argc, char **argv)
     if (status != COMMAND_GO_ON)
         return status;
     if (!a.film.folder)
-        return print_error("record needs a folder for its frames: -o DIR");
-    if (!is_own_folder(a.film.folder))
+        return print_error("record needs a folder for the frames: add -o DIR");
+    if (!may_hold_frames(a.film.folder))
         return print_error(
-            "-o takes a folder of its own for the frames, and \"%s\" is the current one or holds it: -o frames, say",
+            "-o needs a folder of its own, but \"%s\" is or contains the current folder: use -o frames, for example",
             a.film.folder);
     if (a.film.replace && (a.film.resume || a.film.last != 0))
-        return print_error("--replace does not go with %s: it begins a whole recording anew",
+        return print_error("--replace starts a new recording and does not work with %s: leave out one of them",
                            a.film.resume ? "--resume" : "--ticks");
     if (a.no_frames && a.every)
-        return print_error("--no-frames films no tick, and --every some: give one of them");
+        return print_error("--no-frames and --every contradict each other: leave out one of them");
     a.session = argv[optind];
     const bool stream = a.session && file_is_standard(a.session);
-    if (stream && refuse_stream(&a))
-        return print_error("%s", refuse_stream(&a));
-    if (!check_renderer(&a.film.renderer) || !read_film(&a))
+    if (stream && explain_stream_conflict(&a))
+        return print_error("%s", explain_stream_conflict(&a));
+    if (!check_renderer(&a.film.renderer) || !complete_film_options(&a))
         return EXIT_TROUBLE;
     return stream ? film_standard_input(&a) : play(&a);
 }
@@ -264,40 +273,50 @@ const command command_record = {
     .options = options,
     .line = "film a session: every tick of the game becomes one PNG frame",
     .usage = "[SESSION] -o DIR [OPTION ...]",
-    .about = "Play a session and film it: DIR/frame_000000.png ..., with ticks.jsonl, session.json, recording.json and "
-             "renderer.json beside them, and index.html, a page that shows all of it. Without SESSION, that of the "
-             "paper is played, \"3D Spatial Partitioning and Collision Detection using Octrees\", whose rules the game "
-             "has; octreel help session tells what one holds. Where SESSION is -, it is read from standard input "
-             "and filmed while it is written, tick by tick: mygame | octreel record - -o DIR\n",
+    .about =
+        "Play a session and draw every tick into DIR/frame_000000.png and so on. DIR/index.html shows the frames in a "
+        "browser and plays on from any tick; octreel help recording describes the other files.\n"
+        "\n"
+        "SESSION is a JSON file with a world, points and keys; octreel help session describes it. Without SESSION, the "
+        "example of the paper \"3D Spatial Partitioning and Collision Detection using Octrees\" is filmed. SESSION may "
+        "be -: the session is read from standard input and filmed while another program writes it.\n",
     .more =
-        "Ctrl-C finishes the frame in hand, and says how to go on. Of a session from standard input that breaks off, "
-        "is malformed from some line on, or is stopped, what came before is a whole recording. After a kill every file "
-        "is whole, and --resume completes the recording; after a power cut a file may be damaged, which octreel verify "
-        "finds, since files are left to the system to write to the disk: syncing each would cost some 3 ms a frame.\n"
+        "Ctrl-C finishes the current frame and prints how to continue. When a session from standard input breaks off, "
+        "is malformed or is stopped, the ticks before that point make a whole recording. After a kill every file is "
+        "whole, and --resume completes the recording. After a power cut a file may be damaged, because files are not "
+        "synced to the disk (that would cost about 3 ms a frame); octreel verify finds such files.\n"
         "\n"
-        "What --json prints:\n"
+        "Members of the summary that --json prints:\n"
         "\n"
-        "  \"folder\"      where the recording is\n"
-        "  \"ticks\"       that were filmed; of a chunk its own\n"
-        "  \"frames\"      that they have, with those that were there\n"
-        "  \"gaps\"        ticks of which nothing is known\n"
-        "  \"checked\"     frames that OSMesa drew too, with the same pixels\n"
-        "  \"checked_by\"  \"osmesa\" or \"egl\"; null: no frame was checked\n"
-        "  \"left_out\"    elements of all frames that are too far off to be drawn\n"
-        "  \"over_budget\", \"below_lod\"  frames that leave out what is beyond --budget, and smaller than --lod\n"
-        "  \"refusals\"    of points, edits and steps, but for steps out of the world\n"
-        "  \"seconds\"     that it took\n"
-        "  \"frames_per_second\"  without the frames that were there\n"
-        "  \"events\"      how many ticks had each event, by the names that octreel help recording tells\n",
-    .examples = "octreel record -o frames\n"
+        "  \"folder\"      the folder of the recording\n"
+        "  \"ticks\"       number of ticks filmed; for a chunk, its own\n"
+        "  \"frames\"      number of frames of these ticks, including frames that existed before\n"
+        "  \"gaps\"        number of ticks of which nothing is known\n"
+        "  \"checked\"     number of frames that OSMesa drew too, with the same pixels\n"
+        "  \"checked_by\"  \"osmesa\" or \"egl\"; null if no frame was checked\n"
+        "  \"left_out\"    number of elements in all frames that are too far away to be drawn\n"
+        "  \"over_budget\", \"below_lod\"  number of frames that leave out elements because of --budget or --lod\n"
+        "  \"refusals\"    number of refused points, edits and steps, without steps that leave the world\n"
+        "  \"seconds\"     time taken\n"
+        "  \"frames_per_second\"  speed, without frames that existed before\n"
+        "  \"events\"      number of ticks with each event; octreel help recording names the events\n",
+    .statuses = {"all ticks are filmed", NULL, "error or stopped; the message says what to do"},
+    .examples = "# film the example; then open frames/index.html in a browser\n"
+                "octreel record -o frames\n"
+                "# film a session with other keys, an orbiting camera and small frames\n"
                 "octreel record session.json --keys wwdn --camera orbit --size 640x360 -o frames\n"
-                "octreel record --resume -o frames\n"
-                "octreel record session.json --ticks 1000:2000 -o frames\n"
+                "# film a game while it runs and prints its session\n"
                 "mygame | octreel record - -o frames\n"
+                "# continue a recording that was interrupted\n"
+                "octreel record --resume -o frames\n"
+                "# film ticks 1000 to 1999; octreel join puts such chunks together\n"
+                "octreel record session.json --ticks 1000:2000 -o frames\n"
+                "# make an animated PNG of all frames\n"
                 "(cd frames && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' -plays 0 film.apng)\n"
+                "# make one picture with every tenth frame\n"
                 "(cd frames && ffmpeg -pattern_type glob -i 'frame_*.png' -vf \"select='not(mod(n,10))',"
                 "scale=320:-1,tile=5x5\" -frames:v 1 -update 1 sheet.png)\n",
-    .files = "  DIR  the recording; octreel-recording(5) says what is in it\n",
+    .files = "  DIR  the recording; octreel-recording(5) describes its files\n",
     .most = 1,
     .takes = "one session",
     .inputs = {FILE_KIND(SESSION)},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_verify.c - octreel verify: play a recording again, and say what is not the same. */
+/* cmd_verify.c - octreel verify: replays a recording and reports the first difference. */
 #include "command.h"
 #include "progress.h"
 #include "verify.h"
@@ -51,32 +51,34 @@ const command command_verify = {
     .name = "verify",
     .run = run,
     .options = options,
-    .line = "play a recording again: is it still what its session makes?",
+    .line = "replay a recording and check that every tick and frame is identical",
     .usage = "RECORDING [OPTION ...]",
-    .about = "Play the session of a recording again, let GL alone draw it, and compare tick by tick. It says that all "
-             "is identical, or which tick is the first that differs, and in what: the session, what happened (a fact "
-             "of ticks.jsonl), what is drawn (the scene), or only its pixels, and then who drew both; and which frames "
-             "or lines are missing, torn or too many. Of gaps, ticks that a program which recorded itself could not "
-             "hand over, it says how many there are and why; they are no finding. Of a recording without frames the "
-             "facts alone are compared. Files are not changed.\n",
-    .more =
-        "What --json prints:\n"
-        "\n"
-        "  \"folder\"      the recording\n"
-        "  \"identical\"   whether there is no finding\n"
-        "  \"ticks\", \"frames\"  how many are the same, before the first tick that differs\n"
-        "  \"gaps\"        how many of these ticks are one\n"
-        "  \"findings\"    one each at most of the session, the first tick that differs, and files that are too "
-        "many. Each says what it is \"in\": \"session\" (session.json is not the one that was filmed), \"view\" "
-        "(recording.json has another size than the frames), \"lines\" (ticks.jsonl lacks one, or has one that is "
-        "torn or too many), \"facts\" (what happened), \"scene\" (what is drawn), \"frame\" (it is missing, torn, "
-        "another one or too many) or \"pixels\"; the \"tick\", where it is of one; the \"fact\", the member of the "
-        "tick's line; how many \"pixels\" differ; and the sentence as \"text\"\n"
-        "  \"drawn_by\", \"drawn_now\"  the renderer of the recording, and that of now; null where nothing was drawn\n"
-        "  \"fill\"        the rasterizer of now: \"gl\", or \"integers\" where OpenGL cannot be loaded; null "
-        "likewise\n",
-    .statuses = {"identical", "differs", "trouble"},
-    .examples = "octreel verify frames\n"
+    .about = "Replay the session of a recording, redraw every frame with OpenGL, and compare tick by tick. This prints "
+             "that everything is identical, or the first tick that differs and what differs: the session, the facts of "
+             "the tick in ticks.jsonl, the scene (what is drawn), or only the pixels, with both renderers. It also "
+             "names missing, torn and surplus frames and lines. Gaps, ticks that a program which records itself did "
+             "not supply, are counted with their reason and are no finding. A recording without frames is checked by "
+             "its ticks. No file is changed.\n",
+    .more = "Members of the JSON of --json:\n"
+            "\n"
+            "  \"folder\"      the recording\n"
+            "  \"identical\"   true if there are no findings\n"
+            "  \"ticks\", \"frames\"  number of identical ticks and frames before the first difference\n"
+            "  \"gaps\"        number of these ticks that are gaps\n"
+            "  \"findings\"    at most one for the session, one for the first tick that differs, and one for surplus "
+            "files. \"in\" names the place: \"session\" (session.json is not the one that was filmed), \"view\" "
+            "(recording.json has another size than the frames), \"lines\" (ticks.jsonl has a missing, torn or surplus "
+            "line), \"facts\" (what happened), \"scene\" (what is drawn), \"frame\" (missing, torn, another one or "
+            "surplus) or \"pixels\". \"tick\" is its tick, \"fact\" the member of the tick's line, \"pixels\" the "
+            "number of different pixels, and \"text\" a sentence; each is present where it applies\n"
+            "  \"drawn_by\", \"drawn_now\"  the renderer of the recording and of this run; null if nothing was drawn\n"
+            "  \"fill\"        the rasterizer of this run: \"gl\", or \"integers\" if OpenGL cannot be loaded; null if "
+            "nothing "
+            "was drawn\n",
+    .statuses = {"identical", "different", "error"},
+    .examples = "# check a recording\n"
+                "octreel verify frames\n"
+                "# check it with EGL, and print JSON\n"
                 "octreel verify frames --context egl --json\n",
     .least = 1,
     .most = 1,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* command.h - a command of octreel's: what it takes and all that is said about it. Its options are read by this, --help
- * and its manual print it, and shells complete by it. Each is defined in the cmd_*.c of its name. */
+/* command.h - the description of a command. The command line is read, --help and the manual are printed, and shells
+ * complete, all from this one description. Each command is defined in its cmd_*.c. */
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
@@ -11,56 +11,56 @@
 
 typedef struct command {
     const char *name;
-    int (*run)(int argc, char **argv); /* argv[0] is the program's name; returns the exit status */
-    const command_option *options;     /* its own, ended by a zeroed one; may be null */
+    int (*run)(int argc, char **argv); /* argv[0] is the command's name; returns the exit status */
+    const command_option *options;     /* its own options, ended by a zeroed row; may be null */
 
-    /* What is said. Texts are as prose.h has them; null: there is nothing to say. */
-    const char *line;        /* what it does, in one line */
-    const char *usage;       /* what follows its name: "FRAME X Y [OPTION ...]" */
+    /* Help texts, in the notation of prose.h; null: none. */
+    const char *line;        /* says in one line what the command does */
+    const char *usage;       /* the arguments: "FRAME X Y [OPTION ...]" */
     const char *about;       /* before the options */
-    const char *more;        /* behind them */
-    const char *statuses[3]; /* what each exit status says; 0 "done" and 2 "trouble" when left out */
-    const char *examples;    /* a line each */
-    const char *files;       /* in the manual alone */
-    const char *environment; /* likewise */
+    const char *more;        /* after the options */
+    const char *statuses[3]; /* the meaning of exit statuses 0, 1, 2; null: "done", none, "error" */
+    const char *examples;    /* a command a line, each after a line that begins with # and says what it produces */
+    const char *files;       /* only in the manual */
+    const char *environment; /* only in the manual */
 
-    const char *no_negative; /* the sentence about an argument such as -10; null: getopt's own */
-    int least, most;         /* arguments beside the options */
-    const char *takes;       /* what these are: "one session" */
-    file_kinds inputs[2];    /* of the first of them; 0: it is no file. "-" is standard input where a file is taken, */
-    bool no_standard_input;  /* unless it is read together with what lies beside it */
-    const char *several;     /* files of which one makes a PNG, and all of which may be given: "*.pcd"; may be null */
+    const char *no_negative; /* error for an argument such as -10; null: such an argument is an unknown option */
+    int least, most;         /* number of arguments without the options */
+    const char *takes;       /* names these arguments in errors: "one session" */
+    file_kinds inputs[2];    /* kinds of file that the first two arguments may be; 0: not a file */
+    bool no_standard_input;  /* "-" is refused, because the command also reads files beside its input */
+    const char *several;     /* a pattern such as "*.pcd" for the hint about several inputs, or null */
 } command;
 
 extern const command command_record, command_play, command_join, command_verify, command_audit, command_pick,
     command_inspect, command_diff, command_accept;
 
-/* octreel itself: what is said about all of it. */
+/* The program itself, for octreel help and octreel(1). */
 extern const command command_octreel;
 
-/* The n-th command; null beyond the last. */
+/* The n-th command; null: n is beyond the last. */
 const command *command_at(size_t n);
 const command *find_command(const char *name);
 
-/* What there is help on beside commands: files, each with a manual of section 5. */
+/* A kind of file that `octreel help NAME` and a manual of section 5 describe. */
 typedef struct help_topic {
     const char *name, *line;
-    const char *text; /* as prose.h has it */
+    const char *text; /* in the notation of prose.h */
 } help_topic;
 
-/* The n-th topic; null beyond the last. */
+/* The n-th topic; null: n is beyond the last. */
 const help_topic *help_topic_at(size_t n);
 const help_topic *find_help_topic(const char *name);
 
-/* The n-th row of a command's options: its own, those of the tables that it shares with others, and those that all
- * commands have. False beyond the last. */
+/* Fills in the n-th row of a command's options: its own rows, the shared tables that they insert, and at the end the
+ * options that every command has. False: n is beyond the last. */
 bool command_option_at(const command *c, size_t n, command_option *option);
 
-/* What an exit status says; null where the command does not end with it. */
+/* The meaning of an exit status; null: the command never returns it. */
 const char *command_status(const command *c, int status);
 
-/* Read all options into the command's arguments; optind is then the first of the others. Returns COMMAND_GO_ON, or the
- * command's exit status: help was asked for, or the sentence about what does not fit is printed. */
+/* Read the command line into the structure `arguments`; argv[optind] is then the first argument that is no option.
+ * Returns COMMAND_GO_ON, or an exit status: help was printed, or an error was. */
 enum { COMMAND_GO_ON = -1 };
 int command_read_arguments(const command *c, void *arguments, int argc, char **argv);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* command_line.c - one loop over the options for all commands. */
+/* command_line.c - reads the options and arguments of every command from its table, and reports mistakes. */
 #include "command.h"
 #include "help.h"
 #include "hint.h"
@@ -10,17 +10,18 @@
 #include <string.h>
 
 #define MOST_OPTIONS 64
-#define OPTION 1024 /* the first of getopt's numbers for options: their rows follow */
+#define OPTION 1024 /* getopt's number for the option in row 0; row n has OPTION + n, above all letters */
 
 /* ---- The options of a command -------------------------------------------------------------------------------- */
 
-/* Those that all commands have. */
+/* The options that every command has. */
 static bool common_option_row(size_t n, command_option *option)
 {
     static const command_option rows[] = {
-        {"quiet", NULL, "say nothing but errors and what is asked for: no progress, no notes", .read = read_quiet},
-        {"help", NULL, "say what the command takes, and do nothing else", .read = read_flag},
-        {"version", NULL, "print the version, and do nothing else", .read = read_flag},
+        {.help = "Other options:"},
+        {"quiet", NULL, "print only results and errors: no progress, no notes", .read = read_quiet},
+        {"help", NULL, "print this help and exit", .read = read_flag},
+        {"version", NULL, "print the version and exit", .read = read_flag},
     };
     if (n >= sizeof rows / sizeof rows[0])
         return false;
@@ -49,7 +50,7 @@ bool command_option_at(const command *c, size_t n, command_option *option)
     return common_option_row(n, option);
 }
 
-/* The row of the option with this letter; false where the command has none. */
+/* Finds the option with this letter. False: the command has none. */
 static bool find_option_by_letter(const command *c, char letter, command_option *option)
 {
     for (size_t n = 0; command_option_at(c, n, option); n++)
@@ -58,8 +59,8 @@ static bool find_option_by_letter(const command *c, char letter, command_option 
     return false;
 }
 
-/* As getopt_long wants them. A row without room is a mistake of this program's, which the first run must show. */
-static void list_options(const command *c, struct option all[MOST_OPTIONS], char letters[MOST_OPTIONS])
+/* Lists the options as getopt_long wants them. Too many rows are a bug in the tables: the first run must fail. */
+static void fill_getopt_tables(const command *c, struct option all[MOST_OPTIONS], char letters[MOST_OPTIONS])
 {
     size_t count = 0, used = 1;
     command_option o;
@@ -80,25 +81,25 @@ static void list_options(const command *c, struct option all[MOST_OPTIONS], char
     memcpy(letters + used, c->no_negative ? "0123456789" : "", c->no_negative ? 11 : 1);
 }
 
-/* ---- What does not fit --------------------------------------------------------------------------------------- */
+/* ---- Mistakes ------------------------------------------------------------------------------------------------ */
 
-/* "--s could be --size or --slice"; false where fewer than two options begin so. */
+/* Reports "--s is ambiguous: --size, --slice". False: fewer than two options begin like this. */
 static bool report_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
 {
-    char could[256] = "";
+    char matches[256] = "";
     size_t used = 0, found = 0;
     for (; all->name; all++)
-        if (strncmp(all->name, name, length) == 0 && used < sizeof could) {
-            used += (size_t)snprintf(could + used, sizeof could - used, "%s--%s", found ? ", " : "", all->name);
+        if (strncmp(all->name, name, length) == 0 && used < sizeof matches) {
+            used += (size_t)snprintf(matches + used, sizeof matches - used, "%s--%s", found ? ", " : "", all->name);
             found++;
         }
     if (found < 2)
         return false;
-    print_error("%s: --%.*s could be each of %s", c->name, (int)length, name, could);
+    print_error("%s: --%.*s is ambiguous: %s", c->name, (int)length, name, matches);
     return true;
 }
 
-/* An option that getopt does not know, or whose value is missing or too much. */
+/* Reports an unknown option, a missing value, or a value that an option does not take. */
 static int refuse_option(const command *c, const struct option *all, bool missing, const char *typed)
 {
     char meant[HINT_TEXT];
@@ -107,11 +108,11 @@ static int refuse_option(const command *c, const struct option *all, bool missin
     if (!letter && optopt)
         command_option_at(c, (size_t)(optopt - OPTION), &known);
     if (missing)
-        return print_error("%s%s takes a value, and has none; %s %s --help tells more", letter ? "-" : "--",
+        return print_error("%s%s needs a value; see %s %s --help", letter ? "-" : "--",
                            letter ? (char[]){(char)optopt, 0} : known.name, hint_program_name(), c->name);
     if (letter)
-        return print_error("%s has no option -%c; %s %s --help lists all", c->name, optopt, hint_program_name(),
-                           c->name);
+        return print_error("%s: unknown option -%c; %s %s --help lists all options", c->name, optopt,
+                           hint_program_name(), c->name);
     if (optopt)
         return print_error("--%s takes no value", known.name);
     const char *name = typed + 2;
@@ -121,19 +122,19 @@ static int refuse_option(const command *c, const struct option *all, bool missin
         return EXIT_TROUBLE;
     for (const struct option *o = all; o->name; o++)
         hint_offer(&h, o->name);
-    return print_error("%s has no option --%.*s%s%s %s --help lists all", c->name, (int)length, name,
+    return print_error("%s: unknown option --%.*s%s%s %s --help lists all options", c->name, (int)length, name,
                        hint_text(&h, "--", meant), hint_program_name(), c->name);
 }
 
-/* A value that is an option: the option before it has none. */
-static bool is_option(const char *value)
+/* True for a value that looks like an option: the value of the option before it was probably forgotten. */
+static bool looks_like_option(const char *value)
 {
     return (strncmp(value, "--", 2) == 0 && value[2]) ||
            (value[0] == '-' && value[1] && !value[2] && strchr("ohq", value[1]));
 }
 
-/* The row that getopt_long found; false for the digit of a negative number. */
-static bool option_found(const command *c, int number, command_option *option)
+/* Finds the row of getopt_long's result. False: the result is the digit of a negative number. */
+static bool find_option(const command *c, int number, command_option *option)
 {
     return number >= OPTION ? command_option_at(c, (size_t)(number - OPTION), option)
                             : find_option_by_letter(c, (char)number, option);
@@ -143,14 +144,14 @@ static bool option_found(const command *c, int number, command_option *option)
 static int read_option(const command *c, int number, char **argv, void *arguments)
 {
     command_option o;
-    if (!option_found(c, number, &o))
+    if (!find_option(c, number, &o))
         return print_error("%s", c->no_negative);
     if (strcmp(o.name, "help") == 0)
         return help_print(stdout, c);
     if (strcmp(o.name, "version") == 0)
         return version_print();
-    if (optarg && optarg == argv[optind - 1] && is_option(optarg))
-        return print_error("%s takes a value, and \"%s\" is an option", argv[optind - 2], optarg);
+    if (optarg && optarg == argv[optind - 1] && looks_like_option(optarg))
+        return print_error("%s needs a value, but the next argument is the option %s", argv[optind - 2], optarg);
     return o.read(&o, optarg, (char *)arguments + o.offset) ? COMMAND_GO_ON : EXIT_TROUBLE;
 }
 
@@ -159,51 +160,53 @@ static int read_options(const command *c, int argc, char **argv, void *arguments
     struct option all[MOST_OPTIONS];
     char letters[MOST_OPTIONS];
     int status = COMMAND_GO_ON;
-    list_options(c, all, letters);
+    fill_getopt_tables(c, all, letters);
     optind = 1;
     opterr = 0;
     for (int option; status == COMMAND_GO_ON && (option = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
         command_option found;
         if (option == '?' || option == ':')
             return refuse_option(c, all, option == ':', argv[optind - 1]);
-        *has_output = *has_output || (option_found(c, option, &found) && option_letter(found.name) == 'o');
+        *has_output = *has_output || (find_option(c, option, &found) && option_letter(found.name) == 'o');
         status = read_option(c, option, argv, arguments);
     }
     return status;
 }
 
+/* Reports an argument beyond those that the command takes. A file name may have been meant for -o. */
 static int refuse_surplus(const command *c, const char *word, bool has_output)
 {
     command_option output;
     const file_kinds kind = 1u << file_kind_of(word);
     const bool no_output = word[0] == '-' || kind & (c->inputs[0] | FILE_KIND(RECORDING));
     if (!has_output && !no_output && find_option_by_letter(c, 'o', &output) && fits_output_option(output.read, word))
-        return print_error("%s takes %s, not also \"%s\", did you mean -o %s?", c->name, c->takes, word, word);
+        return print_error("%s: unexpected argument \"%s\", did you mean -o %s?", c->name, word, word);
     if (c->several)
-        return print_error(
-            "%s takes %s, not also \"%s\"; for several: for f in %s; do %s %s \"$f\" -o \"$f.png\"; done", c->name,
-            c->takes, word, c->several, hint_program_name(), c->name);
-    return print_error("%s takes %s, not also \"%s\"; %s %s --help tells more", c->name, c->takes, word,
+        return print_error("%s: unexpected argument \"%s\"; for several files: "
+                           "for f in %s; do %s %s \"$f\" -o \"$f.png\"; done",
+                           c->name, word, c->several, hint_program_name(), c->name);
+    return print_error("%s: unexpected argument \"%s\": it takes %s; see %s %s --help", c->name, word, c->takes,
                        hint_program_name(), c->name);
 }
 
-/* A file of a recording stands for its folder where that is taken. */
-static bool refuse_part(const command *c, const char *path, file_kind kind)
+/* Reports a file of a recording where the folder is expected, and names the folder. False: not such a file. */
+static bool refuse_recording_part(const command *c, const char *path, file_kind kind)
 {
     const char *slash = strrchr(path, '/');
     char folder[PATH_MAX] = ".";
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
     return file_kind_of(folder) == KIND_RECORDING &&
-           !refuse("%s is %s, and %s takes %s: %s", path, file_kind_rows[kind].name, c->name, c->takes, folder);
+           !refuse("%s is %s, but %s takes %s: use %s", path, file_kind_rows[kind].name, c->name, c->takes, folder);
 }
 
-/* Folders are no stream, nor is what may be made. */
+/* Standard input works for a file, but not for a folder or for a file that the command may create. */
 static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);
     return (taken & files && !(taken & FILE_KIND(MISSING)) && !c->no_standard_input) ||
-           refuse("\"-\" is standard input, and %s takes %s; ./- is a file or folder of that name", c->name, c->takes);
+           refuse("\"-\" is standard input, but %s takes %s; for a file or folder named -, write ./-", c->name,
+                  c->takes);
 }
 
 static bool check_input(const command *c, const char *path, file_kinds taken)
@@ -215,10 +218,10 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
     if (kind == KIND_UNKNOWN || taken >> kind & 1)
         return true;
     if (kind == KIND_MISSING)
-        return refuse("%s: there is no such file or folder", path);
-    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_part(c, path, kind))
+        return refuse("%s: no such file or folder", path);
+    if (taken == FILE_KIND(RECORDING) && kind != KIND_FOLDER && refuse_recording_part(c, path, kind))
         return false;
-    return refuse("%s is %s, and %s takes %s; %s%s%s%s%s", path, row->name, c->name, c->takes,
+    return refuse("%s is %s, but %s takes %s; %s%s%s%s%s", path, row->name, c->name, c->takes,
                   row->command ? hint_program_name() : "", row->command ? " " : "", row->command ? row->command : "",
                   row->command ? " " : "", row->use);
 }
@@ -226,7 +229,7 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
 static bool check_inputs(const command *c, char **paths, int count)
 {
     if (count > 1 && c->inputs[1] && file_is_standard(paths[0]) && file_is_standard(paths[1]))
-        return refuse("standard input can be read once, and \"-\" names it twice");
+        return refuse("\"-\" is given twice, but standard input can be read only once");
     for (int i = 0; i < count && i < 2; i++)
         if (c->inputs[i] && !check_input(c, paths[i], c->inputs[i]))
             return false;
@@ -243,7 +246,7 @@ int command_read_arguments(const command *c, void *arguments, int argc, char **a
     if (count > c->most)
         return refuse_surplus(c, argv[optind + c->most], has_output);
     if (count < c->least)
-        return print_error("%s takes %s; %s %s --help tells more", c->name, c->takes, hint_program_name(), c->name);
+        return print_error("%s needs %s; see %s %s --help", c->name, c->takes, hint_program_name(), c->name);
     if (!check_names(c->name, argv + optind, count))
         return EXIT_TROUBLE;
     return check_inputs(c, argv + optind, count) ? COMMAND_GO_ON : EXIT_TROUBLE;

@@ -1,16 +1,24 @@
 /* SPDX-License-Identifier: MIT */
+/* completion.c - writes completion scripts for bash, zsh and fish.
+ *
+ * Scripts written by hand go stale when an option is added. These are generated from the tables by which the command
+ * line is read: an option's placeholder says what its value is (FILE, DIR, LIST or one of `names`), and a command's
+ * `inputs` say which file endings it takes. The shells differ in one respect that shapes the code: bash runs a function
+ * that must parse the words before the cursor itself, so its script is a case for each command and option; zsh's
+ * _arguments and fish's complete take declarations, one for each option, with a description. So descriptions are cut to
+ * their first clause. */
 #include "completion.h"
 #include "cloud.h"
 #include "command.h"
 
 #include <string.h>
 
-/* ---- What is completed -------------------------------------------------------------------------------------- */
+/* ---- Values and inputs --------------------------------------------------------------------------------------- */
 
-/* What the value of an option can be. */
+/* How the value of an option is completed. */
 typedef enum value_kind { VALUE_NONE, VALUE_ANY, VALUE_ONE, VALUE_LIST, VALUE_FILE, VALUE_FOLDER } value_kind;
 
-static value_kind kind_of(const command_option *o)
+static value_kind find_value_kind(const command_option *o)
 {
     if (!o->value)
         return VALUE_NONE;
@@ -19,7 +27,7 @@ static value_kind kind_of(const command_option *o)
     return strncmp(o->value, "FILE", 4) == 0 ? VALUE_FILE : strcmp(o->value, "DIR") == 0 ? VALUE_FOLDER : VALUE_ANY;
 }
 
-/* The endings of files that a command takes; folders are offered beside them, and lead to others. */
+/* File endings by kind of input. Folders are always offered too, because they lead to files. */
 static const struct {
     file_kinds kind;
     const char *endings;
@@ -32,7 +40,7 @@ static const struct {
 
 enum { KINDS = sizeof kind_endings / sizeof kind_endings[0] };
 
-/* Write them with `before` each and blanks between. */
+/* Writes the endings that a command takes, each after `before`, separated by spaces. */
 static void put_endings(FILE *out, const command *c, const char *before)
 {
     const file_kinds kinds = c->inputs[0] | c->inputs[1];
@@ -52,7 +60,7 @@ static void put_names(FILE *out, json_name *names)
         fprintf(out, "%s%s", i ? " " : "", names(i));
 }
 
-/* What help takes. */
+/* Writes the names that octreel help takes. */
 static void put_subjects(FILE *out)
 {
     for (size_t i = 0; command_at(i); i++)
@@ -71,7 +79,7 @@ static void put_quoted(FILE *out, const char *text, size_t length, const char *e
             fprintf(out, "%s%c", strchr(escaped, text[i]) ? "\\" : "", text[i]);
 }
 
-/* How much of a sentence says in a few words what an option does. */
+/* Returns the length of the first clause of a description. */
 static size_t brief_length(const char *help)
 {
     size_t length = strcspn(help, ";:(");
@@ -92,7 +100,7 @@ static void put_bash_option(FILE *out, const command_option *o)
                                         [VALUE_LIST] = "list",
                                         [VALUE_FILE] = "file",
                                         [VALUE_FOLDER] = "directory"};
-    const value_kind kind = kind_of(o);
+    const value_kind kind = find_value_kind(o);
     if (kind == VALUE_NONE)
         return;
     fputs("                ", out);
@@ -202,7 +210,7 @@ static void put_zsh_option(FILE *out, const command_option *o)
         put_quoted(out, o->value, strlen(o->value), ZSH_ESCAPED);
         putc(':', out);
     }
-    switch (kind_of(o)) {
+    switch (find_value_kind(o)) {
     case VALUE_ONE:
         putc('(', out);
         put_names(out, o->names);
@@ -257,9 +265,9 @@ static void write_zsh(FILE *out)
         put_quoted(out, command_at(i)->line, strlen(command_at(i)->line), ":\\");
         fputs("'\n", out);
     }
-    fputs("    'help:say what a command takes'\n"
+    fputs("    'help:print the help of a command'\n"
           ")\n"
-          "_arguments -C '--help[say what there is]' '--version[print the version]' '1: :->command' '*:: :->arguments' "
+          "_arguments -C '--help[list all commands]' '--version[print the version]' '1: :->command' '*:: :->arguments' "
           "&& "
           "return\n"
           "if [[ $state == command ]]; then\n"
@@ -298,7 +306,7 @@ static void put_fish_option(FILE *out, const command *c, const command_option *o
     if (option_letter(o->name))
         fprintf(out, " -s %c", option_letter(o->name));
     fprintf(out, " -l %s", o->name);
-    switch (kind_of(o)) {
+    switch (find_value_kind(o)) {
     case VALUE_NONE:
         break;
     case VALUE_ANY:
@@ -347,9 +355,9 @@ static void write_fish(FILE *out)
 {
     fputs("# Completions of octreel for fish, as octreel help --complete fish prints them.\n"
           "complete -c octreel -f\n"
-          "complete -c octreel -n __fish_use_subcommand -l help -d 'say what there is'\n"
+          "complete -c octreel -n __fish_use_subcommand -l help -d 'list all commands'\n"
           "complete -c octreel -n __fish_use_subcommand -l version -d 'print the version'\n"
-          "complete -c octreel -n __fish_use_subcommand -a help -d 'say what a command takes'\n"
+          "complete -c octreel -n __fish_use_subcommand -a help -d 'print the help of a command'\n"
           "complete -c octreel -n '__fish_seen_subcommand_from help' -a '",
           out);
     put_subjects(out);

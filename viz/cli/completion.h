@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* completion.h - how shells complete a command line of octreel's, from the tables by which it is read. */
+/* completion.h - writes completion scripts for shells. */
 #ifndef CLI_COMPLETION_H
 #define CLI_COMPLETION_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-/* The n-th shell that has completions; null beyond the last. */
+/* Returns the name of the n-th supported shell; null: n is beyond the last. */
 const char *completion_shell(int n);
 
-/* Write the file of completions of a shell; false where it is none of these. */
+/* Write the completion script of a shell. False: the shell is not supported. */
 bool completion_write(FILE *out, const char *shell);
 
 #endif

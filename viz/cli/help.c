@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* help.c - prints --help and --version from the tables of the commands. */
 #include "help.h"
 #include "hint.h"
 #include "prose.h"
@@ -15,7 +16,7 @@ static void fill(FILE *out, const char *text, int column)
     prose_fill(out, text, strlen(text), column, column);
 }
 
-/* In lines of their own, below what an option does. */
+/* Prints the possible values of an option, one a line, below its description. */
 static void print_choices(FILE *out, const command_option *option)
 {
     for (int i = 0; option->names(i); i++) {
@@ -59,48 +60,51 @@ static void print_row(FILE *out, const char *help, const char *name, const char 
 
 static void print_commands(FILE *out)
 {
+    fputs("Commands:\n", out);
     for (size_t i = 0; command_at(i); i++)
         print_row(out, "", command_at(i)->name, command_at(i)->line);
-    print_row(out, "help ", "COMMAND", "what a command takes; so does COMMAND --help");
+    print_row(out, "help ", "COMMAND", "print the help of a command, as COMMAND --help does");
     for (size_t i = 0; help_topic_at(i); i++)
         print_row(out, "help ", help_topic_at(i)->name, help_topic_at(i)->line);
-    print_row(out, "", "--version", "the version, and who would draw");
+    print_row(out, "", "--version", "print the version and the available renderers");
 }
 
 const char *command_status(const command *c, int status)
 {
-    static const char *const usual[] = {[EXIT_DONE] = "done", [EXIT_TROUBLE] = "trouble"};
+    static const char *const usual[] = {[EXIT_DONE] = "done", [EXIT_TROUBLE] = "error"};
     return c->statuses[status] ? c->statuses[status] : usual[status];
 }
 
 static void print_statuses(FILE *out, const command *c)
 {
-    char text[512] = "Exit status:";
+    fputs("\nExit status:\n", out);
     for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
-        if (command_status(c, i))
-            snprintf(text + strlen(text), sizeof text - strlen(text), "%s %d %s", i ? ";" : "", i,
-                     command_status(c, i));
-    putc('\n', out);
-    fill(out, text, 0);
+        if (command_status(c, i)) {
+            fprintf(out, "  %d  ", i);
+            prose_fill(out, command_status(c, i), strlen(command_status(c, i)), 5, 5);
+        }
 }
 
-/* As the program was called. */
+/* The program is named as the user has called it. */
 static void print_examples(FILE *out, const char *examples)
 {
-    fputs("\nExamples:\n", out);
+    fputs("Examples:\n", out);
     for (const char *line = examples; *line; line += strcspn(line, "\n") + 1) {
         char example[256];
         snprintf(example, sizeof example, "  %.*s\n", (int)strcspn(line, "\n"), line);
         hint_write_commands(out, example);
     }
+    putc('\n', out);
 }
 
 int help_print(FILE *out, const command *c)
 {
     const bool whole = c == &command_octreel;
-    fprintf(out, "usage: %s%s%s %s\n\n", hint_program_name(), whole ? "" : " ", whole ? "" : c->name, c->usage);
+    fprintf(out, "%s%s: %s\n\nusage: %s%s%s %s\n\n", whole ? "" : "octreel ", c->name, c->line, hint_program_name(),
+            whole ? "" : " ", whole ? "" : c->name, c->usage);
     prose_print(out, c->about);
     putc('\n', out);
+    print_examples(out, c->examples);
     if (whole)
         print_commands(out);
     else
@@ -110,14 +114,12 @@ int help_print(FILE *out, const command *c)
         prose_print(out, c->more);
     }
     print_statuses(out, c);
-    if (c->examples)
-        print_examples(out, c->examples);
     return EXIT_DONE;
 }
 
 /* ---- The version -------------------------------------------------------------------------------------------- */
 
-/* Whether a context of this kind can be opened, and its renderer. */
+/* Prints the renderer of a kind of context, or why the context cannot be opened. Returns true if it can. */
 static bool print_renderer(draw_context kind)
 {
     const renderer_choice choice = {.context = kind, .fill = DRAW_FILL_GL};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* main.c - octreel's command line: a table of commands, and help on each. */
+/* main.c - the program octreel: a table of commands and help topics, and `octreel help`. */
 #include "command.h"
 #include "completion.h"
 #include "context.h"
@@ -25,9 +25,9 @@ const command *command_at(size_t n)
 }
 
 static const help_topic topics[] = {
-    {"session", "what a session file holds: a world, points, keys, edits, queries", session_text},
-    {"recording", "what the folder of a recording holds: frames, ticks, the view", recording_text},
-    {"baseline", "what a baseline holds: accepted digests and why, and where their pictures are", baseline_text},
+    {"session", "the session file: a world, points, keys, edits, queries", session_text},
+    {"recording", "the folder of a recording: frames, ticks, view options", recording_text},
+    {"baseline", "the baseline file: accepted digests, reasons, and the pictures' store", baseline_text},
 };
 
 const help_topic *help_topic_at(size_t n)
@@ -39,14 +39,18 @@ const command command_octreel = {
     .name = "octreel",
     .line = "an octree you can watch",
     .usage = "COMMAND [OPTION ...]",
-    .about = "Film a tree of points: every tick of a session becomes one PNG frame, drawn without a display. Look at "
-             "how a point cloud subdivides, ask what is at a pixel, compare frames and say why they differ, and judge "
-             "the answers of other spatial indices.\n",
-    .more = "octreel help --man NAME writes the manual of a command or a kind of file for man(1), and octreel help "
-            "--complete SHELL what bash, zsh and fish complete by; both are installed with the program.\n",
-    .statuses = {"done", "a finding", "trouble; stopped by a signal, that signal's (130 for Ctrl-C)"},
-    .examples = "octreel record -o flight\n"
+    .about = "Film an octree while points move through it, one PNG frame for each tick, drawn without a display. Show "
+             "how a point cloud subdivides. Compare frames and say why they differ. Check the answers of your own "
+             "spatial index against exact ones.\n",
+    .more = "octreel help --man NAME prints the manual of a command or file for man(1). octreel help --complete SHELL "
+            "prints the completions for bash, zsh or fish. Both are installed with the program.\n",
+    .statuses = {"done", "a difference or a wrong answer was found",
+                 "error; a command stopped by a signal ends with that signal (130 for Ctrl-C)"},
+    .examples = "# film the example; then open flight/index.html in a browser\n"
+                "octreel record -o flight\n"
+                "# draw the octree of a point cloud\n"
                 "octreel inspect scan.pcd -o cloud.png\n"
+                "# compare frames with a reference; then open evidence/report.html\n"
                 "octreel diff reference frames -o evidence\n",
 };
 
@@ -66,7 +70,7 @@ const help_topic *find_help_topic(const char *name)
     return NULL;
 }
 
-/* `help`: on what help was asked for. */
+/* Reports an unknown command or, with `help`, an unknown help topic, and suggests the nearest known word. */
 static int report_unknown_word(const char *word, bool help)
 {
     static const char *const other_words[] = {"help", "--help", "--version"};
@@ -80,16 +84,16 @@ static int report_unknown_word(const char *word, bool help)
         hint_offer(&h, other_words[i]);
     const file_kind kind = help ? KIND_UNKNOWN : file_kind_of(word);
     if (file_kind_rows[kind].command)
-        return print_error("there is no command \"%s\", which is %s; %s %s %s", word, file_kind_rows[kind].name,
+        return print_error("unknown command \"%s\": it is %s; %s %s %s", word, file_kind_rows[kind].name,
                            hint_program_name(), file_kind_rows[kind].command, file_kind_rows[kind].use);
     if (!help && *word == '-' && !h.name)
-        return print_error("a command comes first, and \"%s\" is an option; %s help lists them", word,
+        return print_error("expected a command before the option \"%s\"; %s help lists all commands", word,
                            hint_program_name());
-    return print_error("there is no %s \"%s\"%s%s help lists all", help ? "help on" : "command", word,
-                       hint_text(&h, "", meant), hint_program_name());
+    return print_error("unknown %s \"%s\"%s%s help lists all %s", help ? "help topic" : "command", word,
+                       hint_text(&h, "", meant), hint_program_name(), help ? "topics" : "commands");
 }
 
-/* The manual of octreel, a command or a topic, for man(1). */
+/* Prints the manual of octreel, of a command or of a topic, for man(1). */
 static int print_manual(const char *name)
 {
     const help_topic *topic = find_help_topic(name);
@@ -109,11 +113,11 @@ static int print_completions(const char *shell)
         hint_offer(&h, completion_shell(i));
     if (completion_write(stdout, shell))
         return EXIT_DONE;
-    return print_error("there are no completions for \"%s\"%sthere are those of %s", shell, hint_text(&h, "", meant),
+    return print_error("no completions for the shell \"%s\"%ssupported: %s", shell, hint_text(&h, "", meant),
                        json_list_names(completion_shell, known, sizeof known));
 }
 
-/* On nothing, a command or a topic. */
+/* octreel help [COMMAND | TOPIC], octreel help --man NAME, octreel help --complete SHELL */
 static int help(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "--man") == 0)
@@ -123,7 +127,7 @@ static int help(int argc, char **argv)
     if (argc == 1)
         return help_print(stdout, &command_octreel);
     if (argc > 2)
-        return print_error("help takes one command, not also \"%s\"", argv[2]);
+        return print_error("help: unexpected argument \"%s\": it takes one command or topic", argv[2]);
     const help_topic *topic = find_help_topic(argv[1]);
     const command *found = find_command(argv[1]);
     if (topic)
@@ -153,10 +157,10 @@ static int run(int argc, char **argv)
 
 static void report_context_fallback(const char *name, const char *instead_of, const char *why)
 {
-    note("%s draws, since %s does not: %s", name, instead_of, why);
+    note("drawing with %s, because %s does not work: %s", name, instead_of, why);
 }
 
-/* Output that could not be written is a failure, whatever the command returned. */
+/* Output that cannot be written is an error, whatever the command returned. */
 int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);
@@ -165,5 +169,5 @@ int main(int argc, char **argv)
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return status;
-    return print_error("what there is to say cannot be written to standard output");
+    return print_error("cannot write to standard output");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* manual.c - writes the macros of man(7) that groff, man-db and mandoc all know. */
+/* manual.c - writes manuals with the man(7) macros that groff, man-db and mandoc all support. */
 #include "manual.h"
 #include "prose.h"
 
@@ -10,13 +10,14 @@ enum { LINE = 78 };
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
-/* A character as it is written. */
+/* A character in roff notation. */
 typedef struct literal {
     char text[5];
 } literal;
 
-/* It is to be read as it stands: typesetting would make others of some, such as a true minus of none. */
-static literal literal_of(char c)
+/* Returns the notation that prints a character exactly. A plain - or ' would be typeset as a hyphen or a quotation
+ * mark. */
+static literal escape_literal(char c)
 {
     static const char from[] = "\\-'`^~";
     static const literal to[] = {{"\\e"}, {"\\-"}, {"\\(aq"}, {"\\(ga"}, {"\\(ha"}, {"\\(ti"}};
@@ -26,10 +27,10 @@ static literal literal_of(char c)
 
 static void put_literal(FILE *out, char c)
 {
-    fputs(literal_of(c).text, out);
+    fputs(escape_literal(c).text, out);
 }
 
-/* No line of text may begin as a macro does. */
+/* Protects a line of text that begins like a macro. */
 static void begin_line(FILE *out, char first)
 {
     if (first == '.' || first == '\'')
@@ -49,7 +50,7 @@ static void put_bold(FILE *out, const char *text, size_t length)
     fputs("\\fR", out);
 }
 
-/* The length of an option's name that a word begins with: "--size" of "--size,", "-o"; 0: it begins with none. */
+/* Returns the length of the option at the start of a word: "--size" in "--size,", "-o"; 0: none. */
 static size_t option_length(const char *word, size_t length)
 {
     size_t end = 0;
@@ -59,32 +60,32 @@ static size_t option_length(const char *word, size_t length)
     return named || (end == 2 && word[0] == '-' && isalpha((unsigned char)word[1])) ? end : 0;
 }
 
-enum { WORD = 512 }; /* as it is written */
+enum { WORD = 512 }; /* in roff notation */
 
-static void add(char set[WORD], const char *text)
+static void append(char set[WORD], const char *text)
 {
     strncat(set, text, WORD - 1 - strlen(set));
 }
 
-/* A word of a sentence, of which hyphens are hyphens, and options bold, and what is within `` is code. */
-static void set_word(char set[WORD], const char *word, size_t length, bool *code)
+/* Formats a word of a sentence: options and text between backquotes are bold, and hyphens inside words stay hyphens. */
+static void format_word(char set[WORD], const char *word, size_t length, bool *code)
 {
     const size_t before = strspn(word, "(\""), quoted = before < length ? before : 0;
     const size_t option = *code ? 0 : option_length(word + quoted, length - quoted), rest = quoted + option;
     for (size_t i = 0; i < length; i++) {
         const bool plain = word[i] == '\'' || (word[i] == '-' && i > 0 && isalpha((unsigned char)word[i - 1]));
         if (option && i == quoted)
-            add(set, "\\fB");
+            append(set, "\\fB");
         if (i >= rest && word[i] == '`')
-            add(set, (*code = !*code) ? "\\fB" : "\\fR");
+            append(set, (*code = !*code) ? "\\fB" : "\\fR");
         else
-            add(set, i >= rest && !*code && plain ? (char[]){word[i], 0} : literal_of(word[i]).text);
+            append(set, i >= rest && !*code && plain ? (char[]){word[i], 0} : escape_literal(word[i]).text);
         if (option && i + 1 == rest)
-            add(set, "\\fR");
+            append(set, "\\fR");
     }
 }
 
-/* Words in lines that are not long. */
+/* Writes words in lines of at most LINE characters. */
 static void put_words(FILE *out, const char *text, size_t length)
 {
     const char *at = text, *word;
@@ -92,7 +93,7 @@ static void put_words(FILE *out, const char *text, size_t length)
     bool code = false;
     while ((word = prose_word(&at, text + length, &size))) {
         char set[WORD] = "";
-        set_word(set, word, size, &code);
+        format_word(set, word, size, &code);
         const size_t width = strlen(set);
         if (column && column + 1 + width > LINE)
             putc('\n', out), column = 0;
@@ -142,7 +143,7 @@ static void put_item(FILE *out, const prose_block *block)
 static void put_text(FILE *out, const char *text)
 {
     prose_block block;
-    bool begins = true; /* of a section, which is a paragraph itself */
+    bool begins = true; /* true after .SH, which begins a paragraph itself */
     for (const char *at = text; prose_next(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
@@ -167,7 +168,7 @@ static void put_text(FILE *out, const char *text)
 
 /* ---- Sections ----------------------------------------------------------------------------------------------- */
 
-/* "octreel-record"; "octreel" of octreel itself. */
+/* "octreel-record"; "octreel" for the program itself. */
 static void put_page_name(FILE *out, const char *name)
 {
     fputs("octreel", out);
@@ -186,7 +187,7 @@ static void put_title(FILE *out, const char *name, int section, const char *line
     put_sentence(out, line);
 }
 
-/* What is typed as it is is bold, what it stands for is not. */
+/* Options are bold, placeholders are italic. */
 static void put_usage(FILE *out, const char *usage)
 {
     for (const char *at = usage; *at;) {
@@ -222,7 +223,7 @@ static void put_option(FILE *out, const command_option *o)
     put_sentence(out, o->help);
     if (!o->words)
         return;
-    fputs(".RS\n.PD 0\n", out); /* close together */
+    fputs(".RS\n.PD 0\n", out); /* no empty lines between the values */
     for (int i = 0; o->names(i); i++) {
         fputs(".TP\n", out);
         put_bold(out, o->names(i), strlen(o->names(i)));
@@ -254,7 +255,7 @@ static void put_statuses(FILE *out, const command *c)
         }
 }
 
-/* Whether anything that is said about a command names another, as in "octreel join". */
+/* True if a text of the command contains these words, such as "octreel join". */
 static bool mentions(const command *c, const char *words)
 {
     const char *const texts[] = {c->about, c->more, c->examples, c->files};
@@ -268,7 +269,7 @@ static bool mentions(const command *c, const char *words)
     return false;
 }
 
-/* A page that is another than `own`. */
+/* Writes a reference to a page, unless it is the page `own` itself. */
 static void put_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
 {
     if (own && strcmp(name, own) == 0)
@@ -310,8 +311,9 @@ static void put_commands(FILE *out)
 
 void manual_write(FILE *out, const command *c)
 {
-    static const char environment[] = "  TERM      where it is empty or \"dumb\", no progress is shown\n"
-                                      "  NO_COLOR  changes nothing: there are neither colours nor escape sequences\n";
+    static const char environment[] =
+        "  TERM      if empty or \"dumb\", no progress is shown\n"
+        "  NO_COLOR  has no effect: the output never contains colours or escape sequences\n";
     put_title(out, c->name, 1, c->line);
     put_section(out, "SYNOPSIS", 8);
     fprintf(out, "\\fBoctreel%s%s\\fR ", c == &command_octreel ? "" : " ", c == &command_octreel ? "" : c->name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* options.c - the values of options, and the sentences for those that do not fit. */
+/* options.c - reads the values of options and reports values that do not fit. */
 #include "options.h"
 #include "file_kind.h"
 #include "hint.h"
@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* One line, whatever the names of files in it hold. */
+/* Prints one line on standard error. Control characters, which file names may contain, become question marks. */
 static void print_sentence(const char *format, va_list arguments)
 {
     char sentence[1 << 14];
@@ -64,7 +64,7 @@ bool refuse(const char *format, ...)
 
 static bool check_name(const char *option, const char *name)
 {
-    return *name || refuse("%s takes a name, and the one that it is given is empty", option);
+    return *name || refuse("%s: the name is empty", option);
 }
 
 bool check_names(const char *command, char *const *names, int count)
@@ -107,6 +107,21 @@ bool read_flag(const command_option *option, const char *text, void *into)
     return *(bool *)into = true;
 }
 
+bool read_choice(const command_option *option, const char *text, void *into)
+{
+    char known[64], meant[HINT_TEXT];
+    hint h = hint_for(text, strlen(text));
+    const int found = json_find_name(option->names, text);
+    if (found >= 0) {
+        *(int *)into = found;
+        return true;
+    }
+    for (int i = 0; option->names(i); i++)
+        hint_offer(&h, option->names(i));
+    return refuse("--%s: unknown value \"%s\"%schoose from %s", option->name, text, hint_text(&h, "", meant),
+                  json_list_names(option->names, known, sizeof known));
+}
+
 bool read_quiet(const command_option *option, const char *text, void *into)
 {
     (void)option, (void)text, (void)into;
@@ -143,15 +158,15 @@ bool read_folder(const command_option *option, const char *text, void *into)
     char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
     if (file_is_standard(text))
-        return refuse("%s takes the name of a folder, and \"-\" is standard output; ./- is a folder of that name",
+        return refuse("%s needs a folder, but \"-\" is standard output; for a folder named -, write ./-",
                       option_as_typed(option, typed));
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
         return **(const char **)into != 0;
-    return refuse("%s takes the name of a folder, and \"%s\" is that of a %s%s", option_as_typed(option, typed), text,
+    return refuse("%s needs a folder, but \"%s\" names a %s%s", option_as_typed(option, typed), text,
                   kind == NAME_FILE   ? "file"
                   : kind == NAME_FILM ? "film"
                                       : "picture",
-                  kind == NAME_FILM ? ": ffmpeg makes films of the frames in it" : "");
+                  kind == NAME_FILM ? ": record into a folder, then make a film of its frames with ffmpeg" : "");
 }
 
 static bool read_file_name(const command_option *option, const char *text, void *into)
@@ -159,7 +174,7 @@ static bool read_file_name(const command_option *option, const char *text, void 
     char typed[OPTION_TYPED];
     return read_name(option, text, into) &&
            (file_is_standard(text) || !is_folder(text) ||
-            refuse("%s takes the name of a file, and \"%s\" is a folder", option_as_typed(option, typed), text));
+            refuse("%s needs a file, but \"%s\" is a folder", option_as_typed(option, typed), text));
 }
 
 bool read_picture(const command_option *option, const char *text, void *into)
@@ -167,11 +182,11 @@ bool read_picture(const command_option *option, const char *text, void *into)
     char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
     if (file_is_standard(text) && isatty(STDOUT_FILENO))
-        return refuse("%s - writes a PNG, which a terminal does not show: name a file, or send it on with | or >",
+        return refuse("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
                       option_as_typed(option, typed));
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
-            refuse("%s takes the name of a PNG, and \"%s\" is none", option_as_typed(option, typed), text));
+            refuse("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option, typed), text));
 }
 
 bool read_file(const command_option *option, const char *text, void *into)
@@ -180,7 +195,7 @@ bool read_file(const command_option *option, const char *text, void *into)
     const name_kind kind = name_kind_of(text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_FILE ||
-            refuse("%s writes text, and \"%s\" is the name of a picture", option_as_typed(option, typed), text));
+            refuse("%s writes text, but \"%s\" names a picture", option_as_typed(option, typed), text));
 }
 
 bool read_whole(const command_option *option, const char *text, void *into)
@@ -200,7 +215,7 @@ bool read_color(const command_option *option, const char *text, void *into)
 {
     const char *digits = text[0] == '#' ? text + 1 : text;
     if (strlen(digits) != 6 || strspn(digits, "0123456789abcdefABCDEF") != 6)
-        return refuse("--%s takes a colour as in ff8000, not \"%s\"", option->name, text);
+        return refuse("--%s takes a colour such as ff8000, not \"%s\"", option->name, text);
     const unsigned long value = strtoul(digits, NULL, 16);
     *(image_color *)into = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
     return true;
@@ -222,24 +237,12 @@ const char *draw_fill_words_at(int index)
     return words[index];
 }
 
-bool read_fill(const command_option *option, const char *text, void *into)
-{
-    char known[64], meant[HINT_TEXT];
-    hint h = hint_for(text, strlen(text));
-    if (draw_fill_parse(text, into))
-        return true;
-    for (int i = 0; draw_fill_at(i); i++)
-        hint_offer(&h, draw_fill_at(i));
-    return refuse("--%s takes no \"%s\"%sthere are %s", option->name, text, hint_text(&h, "", meant),
-                  json_list_names(draw_fill_at, known, sizeof known));
-}
-
 bool check_standard_output(const output_file *outputs, size_t count, bool json)
 {
     size_t writers = json;
     for (size_t i = 0; i < count; i++)
         writers += outputs[i].path && file_is_standard(outputs[i].path);
-    return writers <= 1 || refuse("standard output has room for one report: give the others a file");
+    return writers <= 1 || refuse("only one output can go to standard output; name files for the others");
 }
 
 bool is_standard_output_taken(const output_file *outputs, size_t count)
@@ -259,7 +262,7 @@ static bool read_view_text(const command_option *option, const char *text, void 
     return true;
 }
 
-/* Those of recording.json alone are passed over. */
+/* Skips rows without a name, which only recording.json has. */
 bool view_option_row(size_t n, command_option *option)
 {
     const view_option *row;
@@ -312,32 +315,20 @@ static const char *context_at(int n)
 
 static const char *context_words_at(int n)
 {
-    static const char *const words[DRAW_CONTEXTS] = {[DRAW_AUTO] = "the first of the others that there is",
+    static const char *const words[DRAW_CONTEXTS] = {[DRAW_AUTO] = "the first of the others that works",
                                                      [DRAW_OSMESA] = "Mesa's OSMesa, in memory",
                                                      [DRAW_EGL] = "EGL without a display"};
     return words[n];
 }
 
-static bool read_context(const command_option *option, const char *text, void *into)
-{
-    char known[64], meant[HINT_TEXT];
-    hint h = hint_for(text, strlen(text));
-    if (draw_context_parse(text, into))
-        return true;
-    for (int i = 0; context_at(i); i++)
-        hint_offer(&h, context_at(i));
-    return refuse("there is no %s \"%s\"%sthere are %s", option->name, text, hint_text(&h, "", meant),
-                  json_list_names(context_at, known, sizeof known));
-}
-
 bool renderer_option_row(size_t n, command_option *option)
 {
     static const command_option rows[] = {
-        {"context", "NAME", "what draws off-screen (default auto): one of", .read = read_context,
+        {"context", "NAME", "how OpenGL draws without a window (default auto): one of", .read = read_choice,
          OPTION_VALUE(renderer_choice, context), .names = context_at, .words = context_words_at},
         {"any-renderer", NULL,
-         "with --context egl: draw with a graphics card too. Frames are then the same for the same card and driver; "
-         "those of llvmpipe are the same everywhere",
+         "with --context egl: allow a graphics card. Its frames are the same only for the same card and driver; the "
+         "frames of llvmpipe, Mesa's software renderer, are the same everywhere",
          .read = read_flag, OPTION_VALUE(renderer_choice, any_renderer)},
     };
     if (n >= sizeof rows / sizeof rows[0])
@@ -352,5 +343,5 @@ bool check_renderer(const renderer_choice *choice)
         return refuse("--context has no effect with --fill integers, which loads no OpenGL: leave out one of them");
     if (!choice->any_renderer || choice->context == DRAW_EGL)
         return true;
-    return refuse("--any-renderer goes with --context egl alone: no other context has another renderer");
+    return refuse("--any-renderer works only with --context egl: add that option");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* options.h - the values of options, and the options that all commands that draw share. */
+/* options.h - the options of commands: how their values are read, and the tables of options that commands share. */
 #ifndef CLI_OPTIONS_H
 #define CLI_OPTIONS_H
 
@@ -15,63 +15,63 @@
 
 typedef struct command_option command_option;
 
-/* The n-th option of a table; false beyond the last. */
+/* Fills in the n-th option of a table. False: n is beyond the last. */
 typedef bool option_table_row(size_t n, command_option *option);
 
 /* Exit statuses. */
 enum { EXIT_DONE = 0, EXIT_FINDING = 1, EXIT_TROUBLE = 2 };
 
-/* Print "octreel: " and a sentence on stderr; returns EXIT_TROUBLE. */
+/* Print "octreel: " and a sentence on standard error. Returns EXIT_TROUBLE. */
 int print_error(const char *format, ...);
 
-/* The same for readers of values: returns false. */
+/* The same for functions that return bool. Returns false. */
 bool refuse(const char *format, ...);
 
-/* Whether --quiet was given: nothing is said but what was asked for and errors. */
+/* True if --quiet was given: only results and errors are printed. */
 bool is_quiet(void);
 
-/* Print "octreel: " and a sentence on stderr that is no error, unless all is to be quiet. */
+/* Print "octreel: " and a note, which is not an error, on standard error, unless --quiet was given. */
 void note(const char *format, ...);
 
-/* Read a value of an option. False, with the sentence printed, where `text` does not fit. */
+/* Read the value of an option into `into`. False, with an error printed, if `text` does not fit. */
 typedef bool command_option_reader(const command_option *option, const char *text, void *into);
 
-/* What is said about an option, how its value is read, and where it goes. */
+/* A row of an option table: the name and help of an option, how its value is read, and where the value goes. */
 struct command_option {
-    const char *name;  /* without dashes. Null: `help` is a paragraph between options, or `more` is set; a zeroed row
-                        * ends  a table */
-    const char *value; /* what stands for its value; null: it takes none. FILE and DIR are files and folders, LIST
-                        * several of `names` with commas between */
+    const char *name;  /* without dashes. Null: `help` is a heading for the options below it, or `more` is set. A zeroed
+                        * row ends a table */
+    const char *value; /* placeholder of the value in --help; null: the option takes no value. Completion offers files
+                        * for FILE, folders for DIR, and names separated by commas for LIST */
     const char *help;
     command_option_reader *read;
-    size_t offset, size;    /* of the value in the command's arguments */
-    uint64_t min, max;      /* of a whole number */
-    json_name *names;       /* what the value may be; null: anything that `read` takes */
-    json_name *words;       /* what each of these is; null: it is told elsewhere */
-    option_table_row *more; /* the options of a table that commands share stand here; what they read goes to `offset` */
+    size_t offset, size;    /* of the value in the structure of the command's arguments */
+    uint64_t min, max;      /* limits of a whole number */
+    json_name *names;       /* the possible values; null: `read` decides */
+    json_name *words;       /* the meaning of each value; null: `help` says it */
+    option_table_row *more; /* inserts a shared table here; its offsets start at `offset` */
 };
 
 #define OPTION_VALUE(type, member) .offset = offsetof(type, member), .size = sizeof(((type *)NULL)->member)
 
-/* The letter that may stand for the option, 0: none. */
+/* The short form of an option, such as 'o' for "output"; 0: it has none. */
 char option_letter(const char *name);
 
-/* As it is typed: "--every", "-o". */
+/* Write the option as the user types it, "--every" or "-o". Returns `text`. */
 #define OPTION_TYPED 32
 const char *option_as_typed(const command_option *option, char text[OPTION_TYPED]);
 
 command_option_reader read_flag;    /* bool: the option takes no value */
-command_option_reader read_text;    /* const char * */
-command_option_reader read_name;    /* the same, of a file or folder: not empty */
-command_option_reader read_folder;  /* the same, of a folder that is written: not named as a file */
-command_option_reader read_picture; /* the same, of a PNG that is written: not a folder, nor named as another file; "-"
-                                     * is standard output, unless that is a terminal */
-command_option_reader read_file;    /* the same, of another file: not a folder, nor named as a picture; "-" is standard
-                                     * output */
+command_option_reader read_text;    /* const char *: any text */
+command_option_reader read_name;    /* const char *: a file or folder; refuses "" */
+command_option_reader read_folder;  /* const char *: a folder to write; refuses names of files */
+command_option_reader read_picture; /* const char *: a PNG to write; refuses folders and names of other files. "-" is
+                                     * standard output, unless that is a terminal */
+command_option_reader read_file;    /* const char *: a text file to write; refuses folders and names of pictures. "-" is
+                                     * standard output */
 command_option_reader read_whole;   /* an integer type */
 command_option_reader read_color;   /* image_color, as RRGGBB or #RRGGBB */
-command_option_reader read_fill;    /* draw_fill, by its name */
-command_option_reader read_quiet;   /* nothing: --quiet */
+command_option_reader read_choice;  /* an enumeration, by its name in `names` */
+command_option_reader read_quiet;   /* sets is_quiet() */
 
 #define JSON_OPTION(type, member, text)                                                                                \
     {                                                                                                                  \
@@ -81,32 +81,32 @@ command_option_reader read_quiet;   /* nothing: --quiet */
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
         "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \
-            .read = read_fill, OPTION_VALUE(type, member), .names = draw_fill_at, .words = draw_fill_words_at          \
+            .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_at, .words = draw_fill_words_at        \
     }
 
-/* Whether a path without an option can be meant for -o, by the option's reader. */
+/* True if a path that was typed without an option fits -o, given the reader of the command's -o. */
 bool fits_output_option(command_option_reader *reader, const char *path);
 
 /* The keys of a game, which --keys takes. */
 #define KEYS_HELP "w s +-y, d a +-x, e f +-z, n nearest, . wait, q end"
 
-/* Names of files and folders, of an option or of a command, must not be empty. False, with the sentence printed. */
+/* False, with an error printed, if one of the names is "". */
 bool check_names(const char *command, char *const *names, int count);
 
-/* False, with the sentence printed, where more than one of what is written goes to standard output; `json` does. */
+/* False, with an error printed, if more than one output goes to standard output. `json`: the report does, too. */
 bool check_standard_output(const output_file *outputs, size_t count, bool json);
 
-/* Whether one of them does, so that what is said goes elsewhere. */
+/* True if one of the outputs goes to standard output: reports then go to standard error or are left out. */
 bool is_standard_output_taken(const output_file *outputs, size_t count);
 
-/* A whole number that is no option's. */
+/* Read a whole number that is an argument and not an option. False, with an error printed, if it does not fit. */
 bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value);
 
-/* The options of a view are the same for every command that draws. They are collected while the command line is read,
- * and then become a view. */
+/* View options are the same for every command that draws. Their texts are collected while the command line is read, and
+ * parsed afterwards by read_view(), which needs the command's default view. */
 #define MOST_VIEW_OPTIONS 32
 typedef struct view_options {
-    const char *values[MOST_VIEW_OPTIONS]; /* as they were typed, at the numbers of view_option_at(); null: not given */
+    const char *values[MOST_VIEW_OPTIONS]; /* the text of option view_option_at(i), or null */
 } view_options;
 
 option_table_row view_option_row;
@@ -115,23 +115,23 @@ option_table_row view_option_row;
         .more = view_option_row, OPTION_VALUE(type, member)                                                            \
     }
 
-/* Whether one was given. */
+/* True if this option was given. */
 bool has_view_option(const view_options *given, const char *name);
 
-/* The name of the first of them that was given; null: none was. */
+/* The name of the first view option that was given, or null. */
 const char *first_view_option(const view_options *given);
 
-/* Apply them to a command's default view; false, with the sentence printed, when a value does not fit. */
+/* Apply the given options to a command's default view. False, with an error printed, if a value does not fit. */
 bool read_view(const view_options *given, view *v);
 
-/* The renderer: --context and --any-renderer. */
+/* The options --context and --any-renderer. */
 option_table_row renderer_option_row;
 #define RENDERER_OPTIONS(type, member)                                                                                 \
     {                                                                                                                  \
         .more = renderer_option_row, OPTION_VALUE(type, member)                                                        \
     }
 
-/* Once all options are read: false, with the sentence printed, where they do not go together. */
+/* Call after all options are read. False, with an error printed, if --any-renderer and --context contradict. */
 bool check_renderer(const renderer_choice *choice);
 
 json_name draw_fill_at, draw_fill_words_at;

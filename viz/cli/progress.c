@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* progress.c - a progress bar, and pending signals. */
+/* progress.c - draws the progress bar, and checks for pending signals. */
 #include "progress.h"
 #include "options.h"
 
@@ -15,7 +15,7 @@
 /* ---- The bar ------------------------------------------------------------------------------------------------ */
 
 #define BAR 32
-#define LEAST_BAR 8 /* one that is shorter is left out */
+#define LEAST_BAR 8 /* a shorter bar is left out */
 #define LINE 512
 #define SECONDS_BETWEEN 0.1
 
@@ -26,14 +26,14 @@ static double now(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-/* Whether stderr is a terminal on which a line can be written over. */
-static bool is_terminal(void)
+/* True if standard error is a terminal that can overwrite a line. */
+static bool can_overwrite_line(void)
 {
     const char *term = getenv("TERM");
     return term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO);
 }
 
-/* It may be made narrower meanwhile. */
+/* Asked anew each time, because the window may be resized. */
 static int count_columns(void)
 {
     struct winsize size;
@@ -42,7 +42,7 @@ static int count_columns(void)
 
 progress progress_start(const char *unit)
 {
-    return (progress){.unit = unit, .started = now(), .visible = !is_quiet() && is_terminal()};
+    return (progress){.unit = unit, .started = now(), .visible = !is_quiet() && can_overwrite_line()};
 }
 
 double progress_seconds(const progress *p)
@@ -50,7 +50,7 @@ double progress_seconds(const progress *p)
     return now() - p->started;
 }
 
-/* What is left of a longer line before is written over. */
+/* Overwrites the rest of a longer previous line with spaces. */
 static void clear_rest(progress *p, int length, int columns)
 {
     const int longer = p->length < columns ? p->length : columns;
@@ -58,7 +58,7 @@ static void clear_rest(progress *p, int length, int columns)
     p->length = length;
 }
 
-/* One line, whatever the width: the bar shrinks before the text is cut. */
+/* Prints one line that fits the window: first the bar shrinks, then the text is cut. */
 static void print_line(progress *p, const char *text)
 {
     char bar[BAR + 1];
@@ -133,7 +133,7 @@ watch watch_begin(const char *unit)
     watch w = {.progress = progress_start(unit)};
     sigemptyset(&w.held);
     for (size_t i = 0; i < SIGNALS; i++)
-        if (!is_ignored(signals[i])) /* as by nohup */
+        if (!is_ignored(signals[i])) /* nohup ignores SIGHUP, for example */
             sigaddset(&w.held, signals[i]);
     sigprocmask(SIG_BLOCK, &w.held, &w.before);
     return w;

@@ -1,4 +1,12 @@
 /* SPDX-License-Identifier: MIT */
+/* prose.c - splits help texts into blocks and wraps their words.
+ *
+ * One source text serves --help and man pages, which lay it out differently, so the text must say what each part is.
+ * Its indentation does, as in prose.h; markup would make the C strings unreadable. A block is recognized by its first
+ * line and continues while the following lines have the indentation that fits its kind. Wrapping is greedy: a word goes
+ * on the current line if it fits into 80 columns, else it starts the next one. That gives the fewest lines, in one pass
+ * and without a buffer; optimal-fit wrapping (Knuth and Plass) would only make right margins more even. Cost: O(text).
+ */
 #include "prose.h"
 
 #include <string.h>
@@ -34,14 +42,14 @@ static bool is_heading(const char *line)
     return true;
 }
 
-/* Where the text of an item begins; null in a line that begins none. */
+/* Returns the start of an item's description; null: the line begins no item. */
 static const char *item_text(const char *line)
 {
     const char *term = line + indent_of(line), *gap = strstr(term, "  ");
     return gap && gap < line + line_length(line) ? gap + indent_of(gap) : NULL;
 }
 
-/* Whether a line goes on with the block that was begun. */
+/* True if a line continues the block. */
 static bool continues(const prose_block *block, const char *line)
 {
     const int indent = indent_of(line);
@@ -138,7 +146,7 @@ void prose_fill_column(FILE *out, int width, const char *text, size_t length, in
     prose_fill(out, text, length, column, column);
 }
 
-/* The width of the terms of items that follow one another: text stands in one column beside the short ones. */
+/* Column of the descriptions, relative to the indentation; shorter terms share a line with theirs. */
 enum { SHORT_TERM = 14 };
 
 static void print_item(FILE *out, const prose_block *block)
@@ -155,8 +163,8 @@ static void print_lines(FILE *out, const prose_block *block)
         fprintf(out, "%.*s\n", (int)length, line);
 }
 
-/* Items follow one another without an empty line, and a heading is above what it heads. */
-static bool parted(prose_kind before, prose_kind kind)
+/* An empty line separates blocks, except after a heading and between items. */
+static bool needs_empty_line(prose_kind before, prose_kind kind)
 {
     return before != PROSE_HEADING && !(before == PROSE_ITEM && kind == PROSE_ITEM);
 }
@@ -166,7 +174,7 @@ void prose_print(FILE *out, const char *text)
     prose_block block;
     prose_kind before = PROSE_HEADING;
     for (const char *at = text; prose_next(&at, &block); before = block.kind) {
-        if (parted(before, block.kind))
+        if (needs_empty_line(before, block.kind))
             putc('\n', out);
         if (block.kind == PROSE_ITEM)
             print_item(out, &block);

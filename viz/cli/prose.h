@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* prose.h - texts for people: what their lines are, by how they are set in, and lines that are filled.
+/* prose.h - formats help texts. The indentation of a line says what it is:
  *
- *     HEADING, without a small letter
- *     a paragraph, which ends at an empty line
- *       TERM  what it is, two blanks behind it;
- *             lines that are set in further go on with it
- *       a paragraph that is set in by two
- *         lines as they are, set in by four
+ *     HEADING, a line without lower-case letters
+ *     a paragraph; an empty line ends it
+ *       TERM  its description, after two spaces;
+ *             more deeply indented lines continue it
+ *       an indented paragraph
+ *         verbatim lines, indented by at least four spaces
  */
 #ifndef CLI_PROSE_H
 #define CLI_PROSE_H
@@ -15,36 +15,36 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* What help is filled to. */
+/* Width of wrapped lines. */
 #define PROSE_WIDTH 80
 
 typedef enum prose_kind { PROSE_HEADING, PROSE_PARAGRAPH, PROSE_ITEM, PROSE_VERBATIM } prose_kind;
 
-/* A part of a text; within `text` lines end and are set in as they are in it. */
+/* A block of a text. `text` still contains its line ends and indentation. */
 typedef struct prose_block {
     prose_kind kind;
-    int indent; /* blanks before its first line */
+    int indent; /* indentation of its first line */
     const char *term, *text;
     size_t term_length, length;
 } prose_block;
 
-/* Take the next block from *at, which then is behind it; false at the end. */
+/* Read the next block at *at and move *at past it. False: end of the text. */
 bool prose_next(const char **at, prose_block *block);
 
-/* Take the next word from *at, which ends at `end`. Null at the end. */
+/* Read the next word at *at and move *at past it. Null: `end` is reached. */
 const char *prose_word(const char **at, const char *end, size_t *length);
 
-/* Take the next line, without what it is set in by. */
+/* Read the next line and strip up to `indent` spaces of indentation. Null: `end` is reached. */
 const char *prose_line(const char **at, const char *end, int indent, size_t *length);
 
-/* Write words in lines that begin with `indent` blanks, the first at `column`; ends the last. */
+/* Write words, wrapped at PROSE_WIDTH. The output is at `column`; further lines are indented by `indent` spaces. */
 void prose_fill(FILE *out, const char *text, size_t length, int column, int indent);
 
-/* Write words beside a term, `width` blanks and letters that are written already: from `column` on, in the next line
- * where there is no room for two blanks between. */
+/* Write wrapped words at `column`, beside a term of `width` characters that is already written; on the next line if
+ * fewer than two spaces would lie between. */
 void prose_fill_column(FILE *out, int width, const char *text, size_t length, int column);
 
-/* Write a whole text so. */
+/* Write a whole text. */
 void prose_print(FILE *out, const char *text);
 
 #endif

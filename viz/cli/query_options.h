@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.h - queries on a command line: --nearest, --radius, --range. */
+/* query_options.h - the options that ask queries: --nearest, --radius, --range. */
 #ifndef CLI_QUERY_OPTIONS_H
 #define CLI_QUERY_OPTIONS_H
 
@@ -8,7 +8,7 @@
 
 #define MOST_QUERIES 100
 
-/* The queries that were given, in their order. */
+/* The queries of a command line, in the order given. */
 typedef struct query_options {
     octree_query items[MOST_QUERIES];
     size_t count;

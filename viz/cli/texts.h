@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* texts.h - what files hold, for people: formats/NAME.txt, as CMake makes an array of each. */
+/* texts.h - the texts of help topics: CMake turns formats/NAME.txt into an array each. */
 #ifndef CLI_TEXTS_H
 #define CLI_TEXTS_H
 
-/* ASCII, with their final zeros. */
+/* ASCII, ended by a zero. */
 extern const char session_text[], recording_text[], baseline_text[];
 
 #endif

@@ -19,7 +19,7 @@
     X(CLOUD, "a point cloud", "inspect", "draws it")                                                                   \
     X(PAGE, "a page made by octreel", NULL, "open it in a browser")                                                    \
     X(PART, "a file of a recording", NULL, "give the folder that contains it")                                         \
-    X(OTHER_PICTURE, "a picture, but not a PNG", NULL, "convert it to PNG first")                                      \
+    X(OTHER_PICTURE, "a picture in another format than PNG", NULL, "convert it to PNG first")                          \
     X(PACKED, "a compressed file", NULL, "unpack it first")
 
 typedef enum file_kind {

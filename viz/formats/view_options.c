@@ -175,7 +175,7 @@ static bool parse_camera_from(const view_option *option, const char *text, view 
     uint64_t every;
     const file_kind kind = file_kind_of(text);
     if (kind == KIND_MISSING)
-        return error_set(error, "%s: there is no such file or folder", text);
+        return error_set(error, "%s: no such file or folder", text);
     if (file_kind_rows[kind].name && kind != KIND_RECORDING)
         return error_set(error, "%s is %s, and --%s takes the folder of a recording", text, file_kind_rows[kind].name,
                          option->name);

@@ -1,4 +1,15 @@
 /* SPDX-License-Identifier: MIT */
+/* audit.c - measures how wrong the answers of a foreign index are.
+ *
+ * The game judges each foreign answer against the exact one; this file adds the judgements up. Two numbers describe an
+ * approximate index. Recall is the share of the true points that were named, over all answers of a kind: a sum, so
+ * large answers weigh more. Ratio compares a named neighbour's distance with that of the true neighbour of the same
+ * rank, and is kept for every answer, because its percentiles (the worst of 99 of 100 answers) need all of them,
+ * sorted; an average would hide a few terrible answers. Both are the usual measures of approximate nearest-neighbour
+ * benchmarks (Aumueller, Bernhardsson and Faithfull 2018, "ANN-Benchmarks"). Only approximation is excused by the
+ * limits; an answer that no honest approximation gives, such as an unknown id, always counts as wrong. Of each kind of
+ * query the three worst answers are kept in full, sorted by insertion, so that memory does not grow with the number of
+ * wrong answers. */
 #include "audit.h"
 #include "array.h"
 #include "file.h"
@@ -33,8 +44,8 @@ static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from,
         memcpy(to, from, (count < AUDIT_POINTS ? count : AUDIT_POINTS) * sizeof *to);
 }
 
-/* Whether a wrong answer is a less exact one, as approximate searches give: farther neighbours, fewer of them, or fewer
- * points. Nothing allows any other. */
+/* True if an approximate search could give this wrong answer: farther neighbours, fewer neighbours, or fewer points. No
+ * limit excuses any other fault. */
 static bool is_inexact(const octree_judgement *made)
 {
     return made->wrong == OCTREE_WRONG_FARTHER ||
@@ -42,7 +53,7 @@ static bool is_inexact(const octree_judgement *made)
            (made->wrong == OCTREE_WRONG_MISSING && made->extra_count == 0);
 }
 
-/* Whether a wrong answer is allowed, unless there are too many. */
+/* True if the limits excuse this wrong answer by itself. Many of them may still violate the recall. */
 static bool is_allowed(const octree_judgement *made, const audit_limits *limits)
 {
     if (limits->by_ratio && made->ratio > limits->ratio)
@@ -59,7 +70,7 @@ static bool is_worse(const audit_case *c, const audit_case *than)
     return judgement_is_worse(&c->made, &than->made);
 }
 
-/* Keep a wrong answer where it is among the worst. False when there is no memory. */
+/* Keep a wrong answer if it is among the worst. False: out of memory. */
 static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     size_t at = kind->worst_count;
@@ -81,8 +92,8 @@ static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answ
     return true;
 }
 
-/* The row of a tick, which is the last. Null when there is no memory. */
-static audit_tick *tick_of(audit_kind *kind, uint64_t tick)
+/* Returns the row of the current tick, and appends it if it is missing. Null: out of memory. */
+static audit_tick *find_or_add_tick(audit_kind *kind, uint64_t tick)
 {
     if (kind->tick_count && kind->ticks[kind->tick_count - 1].tick == tick)
         return &kind->ticks[kind->tick_count - 1];
@@ -104,10 +115,10 @@ static bool keep_ratio(audit_kind *kind, double ratio)
     return true;
 }
 
-/* False when there is no memory. */
+/* False: out of memory. */
 static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgement *made)
 {
-    audit_tick *row = tick_of(kind, tick);
+    audit_tick *row = find_or_add_tick(kind, tick);
     if (!row)
         return false;
     row->asked++;
@@ -118,7 +129,7 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     return true;
 }
 
-/* False when there is no memory. */
+/* False: out of memory. */
 static bool count_wrong(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     if (kind->wrong++ == 0)
@@ -146,7 +157,7 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     return count_wrong(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
 }
 
-static void keep_first(audit_nodes *nodes, const octree_tick *tick)
+static void keep_first_faults(audit_nodes *nodes, const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->foreign.listed_count; i++) {
         const octree_wrong_node *fault = &tick->foreign.listed[i];
@@ -168,10 +179,10 @@ static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
     nodes->faults += tick->foreign.wrong_count;
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
         nodes->kinds[i] += tick->foreign.wrong[i];
-    keep_first(nodes, tick);
+    keep_first_faults(nodes, tick);
 }
 
-/* Of a gap nothing is known. */
+/* A gap has no answers. False: out of memory. */
 static bool count_tick(audit_report *report, const octree_tick *tick)
 {
     report->ticks++;
@@ -220,7 +231,7 @@ static bool play_session(const char *path, const octree_session *session, audit_
         if (report->kinds[kind].ratio_count > 1)
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
     if (done && report->asked == 0 && !report->nodes.given)
-        return error_set(error, "%s: no query has an \"answer\" in a tick that is played, so there is nothing to judge",
+        return error_set(error, "%s: nothing to audit: no played tick has a query with an \"answer\" or foreign nodes",
                          file_title(path));
     return done;
 }
@@ -266,9 +277,10 @@ double audit_tick_recall(const audit_tick *tick)
     return tick->expected == 0 ? 1 : (double)(tick->expected - tick->missed) / (double)tick->expected;
 }
 
-/* ---- What is allowed ---------------------------------------------------------------------------------------- */
+/* ---- Limits ------------------------------------------------------------------------------------------------ */
 
-/* "NAME=NUMBER" at *at, which is moved after it and its comma. False where it is another, or said before. */
+/* Parses "NAME=NUMBER" at *at, and moves *at after it and a comma. False: another name, a second time, or no such
+ * number. */
 static bool parse_limit(const char **at, const char *name, double least, double most, bool *given, double *value)
 {
     const size_t length = strlen(name);
@@ -294,7 +306,7 @@ bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *e
         if (!parse_limit(&at, "ratio", 1, DBL_MAX, &limits->by_ratio, &limits->ratio) &&
             !parse_limit(&at, "recall", 0, 1, &limits->by_recall, &limits->recall))
             return error_set(error,
-                             "what is allowed is a ratio from 1 on, a recall from 0 to 1, or both, as in "
+                             "expected a ratio of at least 1, a recall from 0 to 1, or both, such as "
                              "ratio=1.01,recall=0.99, not \"%.200s\"",
                              text);
     } while (*at);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* audit.h - the verdict on a program's own index: a session whose queries carry answers is played, and for each kind of
- * query it is counted how many were wrong, and by how much.
- */
+/* audit.h - measures a foreign index: replays a session whose queries carry the answers of the foreign index, and
+ * counts for each kind of query how many answers are wrong and how wrong they are. */
 #ifndef REPLAY_AUDIT_H
 #define REPLAY_AUDIT_H
 
@@ -11,58 +10,57 @@
 #define AUDIT_WORST 3
 #define AUDIT_POINTS 4
 
-/* How wrong the answers of a kind may be. `ratio` allows neighbours that are farther, as long as none is more than so
- * many times as far as the true one of its rank; `recall` allows points that are missed, as long as so much of all true
- * points is named, and the farther neighbours that are named for them. Nothing allows ids that no point has, points
- * that are named twice, left out or outside, nor more neighbours than there are, nor faults of nodes. */
+/* The errors that an approximate index may make. `ratio`: a neighbour may be at most `ratio` times as far away as the
+ * true neighbour of its rank. `recall`: points may be missing, and farther neighbours named instead, as long as the
+ * answers of a kind name at least this share of all true points. Always wrong are unknown ids, points named twice,
+ * points that the query excludes, points outside the query, too many neighbours, and faults of nodes. */
 typedef struct audit_limits {
-    bool by_ratio, by_recall; /* neither: every answer must be right */
+    bool by_ratio, by_recall; /* which limits apply; none: every answer must be exact */
     double ratio, recall;
 } audit_limits;
 
 /* A wrong answer. */
 typedef struct audit_case {
     uint64_t tick;
-    size_t place;                                           /* among the answers of its tick, as in ticks.jsonl */
-    bool allowed;                                           /* by itself: too many of them may be beyond a recall */
-    octree_judgement made;                                  /* without its lists */
-    octree_point missed[AUDIT_POINTS], extra[AUDIT_POINTS]; /* the first of them */
-    char *answer; /* what was asked, found and answered: the object of ticks.jsonl */
+    size_t place;          /* index among the answers of its tick in ticks.jsonl */
+    bool allowed;          /* within the limits by itself; many such answers may still violate the recall */
+    octree_judgement made; /* without its lists of points */
+    octree_point missed[AUDIT_POINTS], extra[AUDIT_POINTS]; /* the first AUDIT_POINTS of each */
+    char *answer; /* query, exact answer and given answer, as the JSON object in ticks.jsonl; owned */
 } audit_case;
 
-/* The answers to a kind of query in one tick. */
+/* The answers to one kind of query in one tick. */
 typedef struct audit_tick {
     uint64_t tick, asked, wrong, expected, missed;
-    double ratio; /* neighbours: the worst */
+    double ratio; /* the largest ratio of a neighbour */
 } audit_tick;
 
 /* The answers to one kind of query. */
 typedef struct audit_kind {
     uint64_t asked, wrong;
-    uint64_t expected, missed; /* points of the true answers, and those of them that were missed */
+    uint64_t expected, missed; /* points of the exact answers, and how many of them were missing */
     uint64_t extra;
-    uint64_t faults[OCTREE_WRONG_KINDS]; /* answers, by what is wrong first */
-    uint64_t beyond;                     /* wrong answers that the limits do not allow by themselves */
-    uint64_t first_wrong;                /* tick; where one is wrong */
-    double *ratios;                      /* neighbours: of each answer, ascending */
+    uint64_t faults[OCTREE_WRONG_KINDS]; /* answers by their first fault */
+    uint64_t beyond;                     /* wrong answers that violate the limits by themselves */
+    uint64_t first_wrong;                /* the first tick with a wrong answer, if there is one */
+    double *ratios;                      /* the ratio of each neighbour answer, ascending */
     size_t ratio_count, ratio_room;
-    audit_case
-        worst[AUDIT_WORST]; /* the worst first: those beyond, what nothing allows, by judgement_is_worse(), by time */
+    audit_case worst[AUDIT_WORST]; /* worst first, then earliest first */
     size_t worst_count;
-    audit_tick *ticks; /* in which it was asked */
+    audit_tick *ticks; /* the ticks with such a query */
     size_t tick_count, tick_room;
 } audit_kind;
 
-/* The foreign nodes: what is proved wrong with them is counted at every tick. */
+/* Faults of the foreign nodes, counted again in every tick. */
 typedef struct audit_nodes {
     bool given;
-    uint64_t faults, ticks, first_wrong; /* in so many ticks, from this one on */
+    uint64_t faults, ticks, first_wrong; /* faults, number of ticks with faults, the first such tick */
     uint64_t kinds[OCTREE_WRONG_NODE_KINDS];
     struct {
-        bool known; /* that of a kind may be among those that a tick counts and does not list */
+        bool known; /* false also if the fault was counted but not listed in its tick */
         uint64_t tick;
         octree_wrong_node fault;
-    } first[OCTREE_WRONG_NODE_KINDS]; /* of each kind */
+    } first[OCTREE_WRONG_NODE_KINDS]; /* the first listed fault of each kind */
 } audit_nodes;
 
 typedef struct audit_report {
@@ -72,25 +70,25 @@ typedef struct audit_report {
     uint64_t ticks, asked, wrong;
 } audit_report;
 
-/* Play a recording, by its folder, or a session, by its file, and judge it by the limits. False with an error, also
- * where no query of it carries an answer and no nodes are said. Release the report in any case. `progress` may be null.
- * Cost: that of playing; 8 bytes an answer, and 48 a tick and kind. */
+/* Replay the recording or session at a path and compare its answers with the exact ones. Returns false with an error on
+ * failure, and also if the session has neither answers nor foreign nodes. Release the report in any case. `progress`
+ * may be null. Cost: that of playing the session; 8 bytes per answer, and 48 bytes per tick and kind of query. */
 typedef void audit_progress(uint64_t done, uint64_t total, void *context);
 bool audit_read(const char *path, const audit_limits *limits, audit_progress *progress, void *context,
                 audit_report *report, octreel_error *error);
 void audit_release(audit_report *report);
 
-/* What `share` of the ratios do not exceed; 1 where there are none. */
+/* Returns the ratio that a share of all answers, such as 0.99, does not exceed; 1 if there are none. */
 double audit_ratio(const audit_kind *kind, double share);
 
-/* Of the points of the true answers, the share that was named; 1 where there are none. */
+/* Returns the share of the true points that was named; 1 if there are no true points. */
 double audit_recall(const audit_kind *kind);
 double audit_tick_recall(const audit_tick *tick);
 
-/* "ratio=1.01,recall=0.99", or one of them. False with an error that says what fits. */
+/* Parse "ratio=1.01,recall=0.99" or one of the two. False with an error. */
 bool audit_limits_parse(const char *text, audit_limits *limits, octreel_error *error);
 
-/* Whether a kind is within the limits that it was read with; and all kinds, with nothing wrong about nodes. */
+/* True if one kind of query is within the limits; and if all kinds are, and no foreign node has a fault. */
 bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits);
 bool audit_passes(const audit_report *report);
 

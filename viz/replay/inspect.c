@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect.c - prints the statistics and the nodes of the tree of a cloud. */
+/* inspect.c - prints the statistics and the nodes of the tree of a point cloud. */
 #include "inspect.h"
 #include "file.h"
 #include "json_write.h"
@@ -13,12 +13,12 @@
 
 /* ---- Statistics ----------------------------------------------------------------------------------------- */
 
-/* Leaves with `from` to `to` points, or at that depth. */
+/* The number of leaves with `from` to `to` points, or at depths `from` to `to`. */
 typedef struct histogram_row {
     size_t from, to, leaves;
 } histogram_row;
 
-/* Leaves by the number of their points: row 0 counts empty leaves, row r those of 2^(r-1) to 2^r - 1 points. */
+/* Row 0 counts empty leaves, row r the leaves with 2^(r-1) to 2^r - 1 points. */
 #define OCCUPANCY_ROWS 34
 
 static octree_walk_order count_leaf(const octree_node *node, void *context)
@@ -31,7 +31,7 @@ static octree_walk_order count_leaf(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* Fill `rows` with those that have leaves, and return their number. */
+/* Fill `rows` with the rows that have leaves, and return their number. */
 static size_t count_occupancy(const octree *tree, histogram_row rows[OCCUPANCY_ROWS])
 {
     size_t used = 0;
@@ -117,7 +117,7 @@ static void print_box(FILE *out, const char *name, const octree_box *box)
     fputc('\n', out);
 }
 
-static octree_walk_order widen(const octree_node *node, void *context)
+static octree_walk_order widen_bounds(const octree_node *node, void *context)
 {
     octree_box *bounds = context;
     for (size_t i = 0; node->leaf && i < node->count; i++)
@@ -129,11 +129,11 @@ static octree_walk_order widen(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* The smallest box around the points of a tree that has any. */
-static octree_box bounds_of(const octree *tree)
+/* Returns the smallest box around the points of a tree, which must not be empty. */
+static octree_box find_bounds(const octree *tree)
 {
     octree_box bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    octree_walk(tree, widen, &bounds);
+    octree_walk(tree, widen_bounds, &bounds);
     return bounds;
 }
 
@@ -147,7 +147,7 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
         fprintf(out, "  skipped   %zu %s\n", i->skipped, i->why_skipped);
     inspect_print_values(i, out);
     if (stats->points) {
-        const octree_box bounds = bounds_of(i->tree);
+        const octree_box bounds = find_bounds(i->tree);
         print_box(out, "  bounds   ", &bounds);
     }
     print_box(out, "  world    ", &def.world);
@@ -195,7 +195,7 @@ static void write_statistics(const inspection *i, const octree_stats *stats, con
     json_member_integer(w, "stored", stats->points);
     inspect_write_values(i, w);
     if (stats->points) {
-        const octree_box bounds = bounds_of(i->tree);
+        const octree_box bounds = find_bounds(i->tree);
         json_member_box(w, "bounds", &bounds);
     }
     json_member_box(w, "world", &def.world);
@@ -257,10 +257,10 @@ bool inspect_find_node(const inspection *i, const char *address, octree_node *no
 {
     octree_address parsed;
     if (!octree_address_parse(address, &parsed))
-        return error_set(
-            error, "\"%s\" is not a node's address; it is octants from the root down, as in 0/3/7, or root", address);
-    return octree_node_at(i->tree, parsed, node) == OCTREE_OK ||
-           error_set(error, "there is no node %s in this tree", address);
+        return error_set(error,
+                         "\"%s\" is not a node address: write the octants from the root down, such as 0/3/7, or root",
+                         address);
+    return octree_node_at(i->tree, parsed, node) == OCTREE_OK || error_set(error, "the tree has no node %s", address);
 }
 
 void inspect_print_node(const octree_node *node, const char *name, bool json, FILE *out)

@@ -53,7 +53,7 @@ bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, 
     if (status == OCTREE_OK)
         return true;
     inspect_answers_release(result);
-    return error_set(error, "the tree cannot be asked: %s", octree_status_text(status));
+    return error_set(error, "the query cannot be answered: %s", octree_status_text(status));
 }
 
 void inspect_answers_release(inspect_answers *answers)
@@ -69,15 +69,15 @@ void inspect_answers_release(inspect_answers *answers)
 
 /* ---- Printing ----------------------------------------------------------------------------------------------- */
 
-/* One answer, as it is printed. */
+/* An answer and the facts needed to print it. */
 typedef struct shown_answer {
     const octree_answer *answer;
     const octree_query_traits *about;
-    const octree_neighbor *neighbors; /* null where there are no distances */
+    const octree_neighbor *neighbors; /* null if the query has no distances */
     octree_box world;
 } shown_answer;
 
-static shown_answer show_answer(const inspect_answers *answers, size_t i)
+static shown_answer make_shown_answer(const inspect_answers *answers, size_t i)
 {
     const octree_answer *answer = &answers->answers[i];
     return (shown_answer){answer, octree_query_about(answer->kind),
@@ -85,7 +85,7 @@ static shown_answer show_answer(const inspect_answers *answers, size_t i)
                           octree_definition(answers->tree).world};
 }
 
-/* By distance, or by id where there are no distances. */
+/* Points are sorted by distance, or by id if the query has no distances. */
 static const octree_point *point_at(const shown_answer *shown, size_t i)
 {
     return shown->neighbors ? &shown->neighbors[i].point : &shown->answer->points[i];
@@ -122,7 +122,7 @@ static bool find_note(const shown_answer *shown, char note[NOTE_TEXT])
     return *note != 0;
 }
 
-/* ---- For people --------------------------------------------------------------------------------------------- */
+/* ---- Text --------------------------------------------------------------------------------------------------- */
 
 static void print_member(const shown_answer *shown, const octree_query_member_traits *member, FILE *out)
 {
@@ -226,7 +226,7 @@ void inspect_print_answers(const inspect_answers *answers, const char *name, boo
         inspect_print_name(name, out);
     }
     for (size_t i = 0; i < answers->count; i++) {
-        const shown_answer shown = show_answer(answers, i);
+        const shown_answer shown = make_shown_answer(answers, i);
         if (json)
             write_answer(w, &shown);
         else

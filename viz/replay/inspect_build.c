@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect_build.c - the tree of a cloud, built of one part of space after the other: what has been inserted is freed
- * while the tree grows, and it can be told how far it is. The nodes are a function of the contents: they are the same.
- */
+/* inspect_build.c - builds the tree of a point cloud in up to 16 portions.
+ *
+ * Inserting all points in one call would be simplest, but the points and the tree would then be in memory together, and
+ * progress could not be shown. Inserting them one by one would be slow. So the points are sorted into portions, each
+ * portion is inserted in bulk, and its memory is freed before the next one. A portion must be compact in space: then it
+ * fills subtrees of its own, and the tree does not rework the same nodes 16 times. The world is therefore divided into
+ * 32 x 32 x 32 cells, and a portion is a run of cells in Morton order, which interleaves the bits of the three cell
+ * coordinates and so visits all cells of an octant before the next octant. A counting sort by cell takes two passes and
+ * keeps the file order within a portion. The nodes of the tree depend only on its contents, so the result is the same
+ * as that of one call. Under OCTREE_REFUSE the contents depend on the order, and all points form one portion. Cost:
+ * O(n). */
 #include "inspect.h"
 #include "octree/octree.h"
 #include "parallel.h"
@@ -10,25 +18,27 @@
 #include <string.h>
 
 enum {
-    MOST_PORTIONS = 16, /* each of a sixteenth or more: fewer than a twentieth would be inserted one by one */
+    MOST_PORTIONS =
+        16, /* each at least a sixteenth of the points: octree_insert_many() inserts less than a twentieth one by one */
     LEAST_PORTION = 1 << 16,
-    LEVELS = 5, /* of the cells that are shared out */
+    LEVELS = 5, /* subdivisions of the world down to a cell */
     SIDE = 1 << LEVELS,
     CELLS = 1 << 3 * LEVELS
 };
 
-/* Portions of a cloud, each a run of cells in Morton order, which lies together in space. */
+/* The cells of the world and the portions that they belong to. */
 typedef struct portions {
     double min[3], scale[3];
-    unsigned spread[SIDE];        /* the bits of a coordinate, two others between each */
-    size_t points[CELLS];         /* in each */
-    unsigned char of_cell[CELLS]; /* the portion of each */
-    size_t ends[MOST_PORTIONS];   /* where the next portion begins */
+    unsigned spread[SIDE];                /* the bits of a cell coordinate, spread for interleaving */
+    size_t points[CELLS];                 /* number of points in each cell */
+    unsigned char portion_of_cell[CELLS]; /* the portion of each cell */
+    size_t ends[MOST_PORTIONS];           /* index of the point after each portion */
     unsigned count;
 } portions;
 
-/* Outside the world too; where the world's extent overflows it is the first. */
-static uint16_t cell_of(const portions *p, const double position[3])
+/* Returns the Morton number of a position's cell. Positions outside the world get the nearest cell. If the extent of
+ * the world overflows a double, the scale is 0 and every position gets the first cell. */
+static uint16_t find_cell(const portions *p, const double position[3])
 {
     unsigned cell = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -51,13 +61,13 @@ static void begin_portions(portions *p, const octree_box *world)
             p->spread[k] |= (k >> bit & 1) << 3 * bit;
 }
 
-/* What is left after the last full portion joins it. */
-static void share_out(portions *p, size_t count)
+/* Assigns cells to portions. A remainder too small for a portion joins the last one. */
+static void assign_cells(portions *p, size_t count)
 {
     const size_t share = count / MOST_PORTIONS, least = share > LEAST_PORTION ? share : LEAST_PORTION;
     size_t taken = 0, begun = 0;
     for (unsigned cell = 0; cell < CELLS; cell++) {
-        p->of_cell[cell] = (unsigned char)p->count;
+        p->portion_of_cell[cell] = (unsigned char)p->count;
         taken += p->points[cell];
         if (taken - begun >= least && count - taken >= least) {
             p->ends[p->count++] = taken;
@@ -67,20 +77,19 @@ static void share_out(portions *p, size_t count)
     p->ends[p->count++] = count;
 }
 
-/* The points of a cloud in their portions, where they keep their order; `cells` has room for one of each. A full leaf
- * that refuses takes the first in the order of the file: then all are one portion. */
+/* Sorts the points by portion and keeps their order within each. `cells` has room for one number per point. */
 static void divide(const cloud *c, const octree_def *def, portions *p, uint16_t *cells, octree_point *points)
 {
     size_t next[MOST_PORTIONS] = {0};
     begin_portions(p, &def->world);
     for (size_t i = 0; i < c->count; i++) {
-        cells[i] = def->full_leaf == OCTREE_GROW ? cell_of(p, c->positions[i]) : 0;
+        cells[i] = def->full_leaf == OCTREE_GROW ? find_cell(p, c->positions[i]) : 0;
         p->points[cells[i]]++;
     }
-    share_out(p, c->count);
+    assign_cells(p, c->count);
     memcpy(next + 1, p->ends, (p->count - 1) * sizeof *next);
     for (size_t i = 0; i < c->count; i++) {
-        octree_point *point = &points[next[p->of_cell[cells[i]]]++];
+        octree_point *point = &points[next[p->portion_of_cell[cells[i]]]++];
         memcpy(point->position, c->positions[i], sizeof point->position);
         point->id = cloud_row(c, i);
     }
@@ -99,7 +108,7 @@ static octree_status insert_portion(const octree_point *points, size_t count, in
     return status;
 }
 
-/* From the last portion on, so that what was inserted can be cut off. */
+/* Inserts the last portion first, so that realloc() can free its memory at the end of the array. */
 static octree_status insert_portions(octree_point **points, const portions *p, inspect_progress *progress,
                                      void *context, inspection *result)
 {
@@ -125,7 +134,7 @@ static octree_status insert_all(cloud *c, const octree_def *def, inspect_progres
     if (divided)
         divide(c, def, p, cells, points);
     free(cells);
-    free(c->positions); /* before the tree takes as much again */
+    free(c->positions); /* before the tree needs the same amount of memory */
     c->positions = NULL;
     const octree_status status = divided ? insert_portions(&points, p, progress, context, result) : OCTREE_NO_MEMORY;
     free(points);
@@ -133,7 +142,7 @@ static octree_status insert_all(cloud *c, const octree_def *def, inspect_progres
     return status;
 }
 
-static void take_values(cloud *c, inspection *result)
+static void move_values(cloud *c, inspection *result)
 {
     result->values = c->values;
     c->values = (point_values){0};
@@ -152,13 +161,13 @@ bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, 
     if (status == OCTREE_OK)
         status = insert_all(c, def, progress, context, result);
     if (status == OCTREE_OK) {
-        take_values(c, result);
+        move_values(c, result);
         status = inspect_count_classes(result) ? OCTREE_OK : OCTREE_NO_MEMORY;
     }
     if (status == OCTREE_OK)
         return true;
     inspect_release(result);
-    return error_set(error, "the tree cannot be made: %s", octree_status_text(status));
+    return error_set(error, "the tree cannot be built: %s", octree_status_text(status));
 }
 
 void inspect_release(inspection *i)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* inspect_values.c - what the points of a cloud have beside their positions: colours, intensities and classes. */
+/* inspect_values.c - prints a summary of the colours, intensities and classes of the points of a cloud. */
 #include "inspect.h"
 #include "number.h"
 #include "text.h"
@@ -9,10 +9,10 @@
 
 enum { CLASSES = UINT16_MAX + 1, CLASSES_LISTED = 16 };
 
-/* What there is of each kind. */
+/* The summary of the values of all points. */
 typedef struct value_summary {
-    size_t counts[POINT_VALUE_KINDS]; /* points that have one */
-    float least, most;                /* intensities */
+    size_t counts[POINT_VALUE_KINDS]; /* number of points that have such a value */
+    float least, most;                /* smallest and largest intensity */
 } value_summary;
 
 static void count_intensity(value_summary *s, float intensity)
@@ -24,7 +24,7 @@ static void count_intensity(value_summary *s, float intensity)
         s->most = intensity;
 }
 
-static value_summary sum_up(const point_values *v)
+static value_summary summarize_values(const point_values *v)
 {
     value_summary s = {0};
     for (size_t row = 0; row < v->count; row++) {
@@ -75,7 +75,7 @@ static void print_kind(const inspection *i, const value_summary *s, point_value_
 
 void inspect_print_values(const inspection *i, FILE *out)
 {
-    const value_summary s = sum_up(&i->values);
+    const value_summary s = summarize_values(&i->values);
     const char *before = "  values    ";
     char beyond[CLOUD_OUT_OF_RANGE_TEXT];
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
@@ -110,7 +110,7 @@ static void write_classes(const size_t *classes, json_writer *w)
 /* "values": {"color": {"points": 3, "full": 255}, "intensity": {...}, "class": {...}} */
 void inspect_write_values(const inspection *i, json_writer *w)
 {
-    const value_summary s = sum_up(&i->values);
+    const value_summary s = summarize_values(&i->values);
     char beyond[CLOUD_OUT_OF_RANGE_TEXT];
     if (point_values_kinds(&i->values) == 0 && !i->column_note &&
         !*cloud_describe_out_of_range(i->out_of_range, beyond))

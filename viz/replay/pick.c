@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* pick.c - finds what is drawn at a pixel of a frame; prints it for people and as JSON. */
+/* pick.c - finds what is drawn at a pixel of a frame, and prints it as text or JSON.
+ *
+ * A PNG holds only colours, and many elements share a colour, so a pixel cannot be read back. Instead the recording is
+ * replayed to the frame's tick and the scene is composed again; its digest in the PNG proves that it is the scene of
+ * the frame. The renderer then draws the scene once more and reports every element that covers a sample of the pixel,
+ * in painter's order: the last one is on top, the others lie below it. If nothing covers the pixel, the whole picture
+ * is drawn with element numbers in place of colours, and the nearest pixel with a number is taken. That needs four
+ * bytes per sample of the picture, so it happens only then. Cost: one replay to the tick and one or two drawings. */
 #include "pick.h"
 #include "frame_file.h"
 #include "layer.h"
@@ -16,8 +23,8 @@
 
 /* ---- The frame and its recording ---------------------------------------------------------------------------- */
 
-/* The folder that a file is in; owned by the caller, null where there is no memory. */
-static char *folder_of(const char *path)
+/* Returns the folder of a file. The caller frees it. Null: out of memory. */
+static char *copy_folder_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     const size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : 1;
@@ -29,7 +36,7 @@ static char *folder_of(const char *path)
     return folder;
 }
 
-/* Read the picture, and check that it has the pixel. */
+/* Read the frame and check that the pixel lies inside it. */
 static bool read_picture(pick *p, image *frame, octreel_error *error)
 {
     if (!image_read_png(p->path, frame, error))
@@ -46,17 +53,17 @@ static bool check_beside(const pick *p, const char *folder, octreel_error *error
     static const char *const needed[] = {"recording.json", "session.json"};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (!folder_has(folder, needed[i]))
-            return error_set(error, "%s: there is no recording beside it: its folder has no %s", p->path, needed[i]);
+            return error_set(error, "%s: not a frame of a recording: its folder has no %s", p->path, needed[i]);
     return true;
 }
 
-/* Play to the frame's tick and make its scene, which must be that of the frame. */
-static bool remake(pick *p, replay *r, const char *folder, octreel_error *error)
+/* Replay to the frame's tick, compose its scene, and check that it is the scene of the frame. */
+static bool compose_scene_again(pick *p, replay *r, const char *folder, octreel_error *error)
 {
     if (!replay_open(r, folder, error))
         return false;
     if (p->tick >= r->ticks)
-        return error_set(error, "%s: is of tick %" PRIu64 ", and the session beside it ends with tick %" PRIu64,
+        return error_set(error, "%s: shows tick %" PRIu64 ", but the session in its folder ends with tick %" PRIu64,
                          p->path, p->tick, r->ticks - 1);
     if (!replay_to(r, p->tick, error) || !playback_scene(&r->playback, error))
         return false;
@@ -66,7 +73,7 @@ static bool remake(pick *p, replay *r, const char *folder, octreel_error *error)
 
 /* ---- The pixel ---------------------------------------------------------------------------------------------- */
 
-/* Whether anything is drawn at one of the samples of a pixel. */
+/* True if an element covers one of the samples of a pixel. */
 static bool is_drawn(const uint32_t *numbers, size_t samples, size_t width, int x, int y)
 {
     bool drawn = false;
@@ -81,7 +88,7 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* Find the nearest pixel on which anything is drawn; of several, the first in the order of rows. */
+/* Find the nearest drawn pixel; among equally near ones, the first row by row. */
 static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 {
     const int left = clamp(p->asked[0] - p->radius, 0, p->width), top = clamp(p->asked[1] - p->radius, 0, p->height);
@@ -100,7 +107,7 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
     }
 }
 
-static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
+static bool move_to_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
 {
     const size_t samples = (size_t)view_samples(&s->view);
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
@@ -112,7 +119,7 @@ static bool seek_nearest(pick *p, renderer *r, const scene *s, octreel_error *er
     return ok;
 }
 
-static void keep_foreign(pick_element *e)
+static void copy_foreign_node(pick_element *e)
 {
     if (!e->subject.foreign)
         return;
@@ -138,7 +145,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
             .layer = layer_rows[scene_head_of(s, element).style.layer].name,
             .subject = describe_element(from->game, &from->history.heat, s, element),
         };
-        keep_foreign(&p->elements[p->count++]);
+        copy_foreign_node(&p->elements[p->count++]);
     }
     draw_touches_release(&touches);
     return ok;
@@ -152,7 +159,7 @@ bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error
         return false;
     if (p->count || p->radius == 0)
         return true;
-    return seek_nearest(p, r, &from->scene, error) && name_elements(p, r, from, error);
+    return move_to_nearest(p, r, &from->scene, error) && name_elements(p, r, from, error);
 }
 
 static bool pick_pixel(pick *p, replay *from, const pick_options *options, octreel_error *error)
@@ -167,10 +174,10 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
         .path = path, .asked = {options->x, options->y}, .pixel = {options->x, options->y}, .radius = options->radius};
     replay r = {.ticks = 0};
     image frame = {0};
-    char *folder = folder_of(path);
+    char *folder = copy_folder_name(path);
     const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
                     frame_read_tick(path, &found->tick, error) && check_beside(found, folder, error) &&
-                    remake(found, &r, folder, error) && pick_pixel(found, &r, options, error);
+                    compose_scene_again(found, &r, folder, error) && pick_pixel(found, &r, options, error);
     if (ok)
         found->color = image_color_at(&frame, found->pixel[0], found->pixel[1]);
     replay_close(&r);
@@ -201,13 +208,13 @@ static double distance(const pick *p)
     return sqrt(dx * dx + dy * dy);
 }
 
-/* Whether the pixel is in a gap between dashes, which is painted too. */
+/* True if the pixel lies between two dashes of a dashed line. The renderer counts gaps as painted, without a colour. */
 static bool is_gap(const pick_element *e)
 {
     return e->touch.painted > 0 && e->touch.color == 0 && e->kind != SCENE_PANEL;
 }
 
-/* ---- For people --------------------------------------------------------------------------------------------- */
+/* ---- Text --------------------------------------------------------------------------------------------------- */
 
 static void print_heading(FILE *out, const pick *p)
 {
@@ -228,7 +235,7 @@ static const char *in_closeup(const pick_element *e)
     return e->in_closeup ? " (in the close-up)" : "";
 }
 
-/* What an element has to do with the pixel. */
+/* Prints how an element relates to the pixel: visible, covered, or with the same edge or place. */
 static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {
@@ -243,7 +250,7 @@ static void print_element(FILE *out, const pick *p, const pick_element *e)
     fprintf(out, "%s%s%s\n", e->subject.text, is_gap(e) ? " (between two of its dashes)" : "", in_closeup(e));
 }
 
-static void print_people(FILE *out, const pick *p)
+static void print_text(FILE *out, const pick *p)
 {
     print_heading(out, p);
     for (size_t i = 0; i < p->count; i++)
@@ -275,7 +282,7 @@ static void write_node(json_writer *w, const element_subject *subject)
     json_write_end_object(w);
 }
 
-/* Of a foreign index. */
+/* A node of the foreign index. */
 static void write_foreign_node(json_writer *w, const octree_foreign_place *place)
 {
     const octree_foreign_node *node = place->node;
@@ -354,5 +361,5 @@ static void print_json(FILE *out, const pick *p)
 
 void pick_print(FILE *out, const pick *p, bool json)
 {
-    (json ? print_json : print_people)(out, p);
+    (json ? print_json : print_text)(out, p);
 }

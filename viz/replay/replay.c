@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* replay.c - opens a recording and plays it to a tick. */
+/* replay.c - opens a recording and replays it to a tick. */
 #include "replay.h"
 #include "file.h"
 #include "recording_file.h"
@@ -11,8 +11,8 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
     *r = (replay){.film.folder = folder};
     if (folder_has(folder, "session.json.live") && !folder_has(folder, "session.json"))
         return error_set(error,
-                         "%s: its program is still recording, or was ended amid it: octreel record --resume makes a "
-                         "recording of what there is",
+                         "%s: its program is still recording or was interrupted: octreel record --resume completes the "
+                         "recording",
                          folder);
     if (!recording_read(folder, &r->film.view, &r->film.every, error) ||
         !read_session_file(folder, &r->session, &r->session_digest, error))
@@ -21,15 +21,15 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
     return true;
 }
 
-/* No renderer is opened: many callers need no pixels. */
-static bool start(replay *r, octreel_error *error)
+/* Opens no renderer, because many callers need no pixels. */
+static bool start_playback(replay *r, octreel_error *error)
 {
     return playback_open(&r->playback, &r->session.session, &r->session.values, &r->film.view, error);
 }
 
 bool replay_open(replay *r, const char *folder, octreel_error *error)
 {
-    return replay_read(r, folder, error) && start(r, error);
+    return replay_read(r, folder, error) && start_playback(r, error);
 }
 
 void replay_close(replay *r)
@@ -38,17 +38,17 @@ void replay_close(replay *r)
     session_release(&r->session);
 }
 
-static uint64_t tick_of(const replay *r)
+static uint64_t current_tick(const replay *r)
 {
     return octree_game_tick(r->playback.game)->number;
 }
 
-static bool start_again(replay *r, octreel_error *error)
+static bool restart_playback(replay *r, octreel_error *error)
 {
-    picture drawing = r->playback.picture; /* the view stays the same, so the renderer does */
+    picture drawing = r->playback.picture; /* keep the renderer: the view does not change */
     r->playback.picture = (picture){0};
     playback_close(&r->playback);
-    const bool ok = start(r, error);
+    const bool ok = start_playback(r, error);
     r->playback.picture = drawing;
     return ok;
 }
@@ -56,11 +56,11 @@ static bool start_again(replay *r, octreel_error *error)
 bool replay_to(replay *r, uint64_t tick, octreel_error *error)
 {
     if (tick >= r->ticks)
-        return error_set(error, "%s: there is no tick %" PRIu64 ": the session's last tick is %" PRIu64, r->film.folder,
+        return error_set(error, "%s: no tick %" PRIu64 ": the last tick of the session is %" PRIu64, r->film.folder,
                          tick, r->ticks - 1);
-    if (tick < tick_of(r) && !start_again(r, error))
+    if (tick < current_tick(r) && !restart_playback(r, error))
         return false;
-    while (tick_of(r) < tick)
+    while (current_tick(r) < tick)
         if (!playback_advance(&r->playback, error))
             return false;
     return true;

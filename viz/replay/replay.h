@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* replay.h - opens a recording and plays it to any tick: its game, and the scene of its frame.
+/* replay.h - opens a recording and replays it to any tick, with the game and the scene of that tick.
  *
  *   replay r;
  *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && playback_scene(&r.playback, &error))
@@ -16,23 +16,24 @@
 typedef struct replay {
     session_file session;
     uint64_t session_digest; /* of the bytes of session.json */
-    uint64_t ticks;          /* of the session, tick 0 included */
-    film_options film;       /* the folder, and the view and `every` of recording.json */
-    playback playback;       /* after replay_open(): the game, the scene, and the renderer once it is opened */
+    uint64_t ticks;          /* number of ticks of the session, including tick 0 */
+    film_options film;       /* the folder, and `view` and `every` from recording.json */
+    playback playback;       /* game and scene after replay_open(), and the renderer after replay_renderer() */
 } replay;
 
-/* Read session.json and recording.json of a folder, and play nothing yet. Close `r` in any case. */
+/* Read session.json and recording.json of a folder without playing. Close `r` in any case. */
 bool replay_read(replay *r, const char *folder, octreel_error *error);
 
-/* The same, and play tick 0. `r` must stay where it is until it is closed. */
+/* The same, and play tick 0. `r` must not move in memory until it is closed. */
 bool replay_open(replay *r, const char *folder, octreel_error *error);
 void replay_close(replay *r);
 
-/* Play to a tick; from the start again where it lies before the last one. False, with a sentence, also where the
- * session has no such tick. */
+/* Play to a tick. A tick before the current one is reached by playing from the start again. False, with an error, also
+ * if the session has no such tick. */
 bool replay_to(replay *r, uint64_t tick, octreel_error *error);
 
-/* The renderer of such scenes, opened at the first call and closed by replay_close(). Null with an error. */
+/* Returns a renderer for the scenes, which the first call opens and replay_close() closes. Null, with an error, on
+ * failure. */
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error);
 
 #endif

@@ -129,7 +129,7 @@ static void limits_that_make_no_sense_are_trouble(void **state)
     const place session = write_session_text(state, right);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         command_result result = run_script("%s audit %s --allow %s", octreel_program(), session.path, bad[i]);
-        assert_trouble(&result, "--allow: what is allowed is a ratio from 1 on, a recall from 0 to 1, or both");
+        assert_trouble(&result, "--allow: expected a ratio of at least 1, a recall from 0 to 1, or both");
     }
 }
 
@@ -155,11 +155,11 @@ static void reports_take_no_place_but_their_own(void **state)
 {
     const place session = write_session_text(state, right), file = place_in(*state, "a");
     command_result result = run_octreel(NULL, "audit %s --html %s", session.path, session.path);
-    assert_trouble(&result, "--html takes the name of a page, as in report.html, or of a folder, and \"");
+    assert_trouble(&result, "--html takes the name of an HTML file, such as report.html, or of a folder, not \"");
     result = run_octreel(NULL, "audit %s --html %s.html --junit %s.html", session.path, file.path, file.path);
     assert_trouble(&result, "--junit");
     result = run_octreel(NULL, "audit %s --html - --json", session.path);
-    assert_trouble(&result, "standard output has room for one report");
+    assert_trouble(&result, "only one output can go to standard output");
     result = run_octreel(NULL, "audit %s --html %s/none/a.html", session.path, file.path);
     assert_trouble(&result, "none/a.html");
     char *text = file_read(session.path, NULL);
@@ -181,10 +181,10 @@ static void the_folder_of_a_page_is_made(void **state)
         assert_true(file_exists(place_below(folder.path, "audit.html").path));
     }
     command_result result = run_octreel(NULL, "audit %s --html %s/report", none.path, none.path);
-    assert_trouble(&result, "there is no such file");
+    assert_trouble(&result, "no such file");
     assert_false(file_exists(none.path));
     result = run_octreel(NULL, "audit %s --html report.txt", session.path);
-    assert_trouble(&result, "\"report.txt\" is neither");
+    assert_trouble(&result, "not \"report.txt\"");
 }
 
 /* Each point leads to its frame, from wherever the page lies; a tick without a frame to the recording's page. */
@@ -409,9 +409,9 @@ static void sessions_without_answers_are_trouble(void **state)
 {
     const place session = write_session_text(state, START "{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0]}]}");
     command_result result = run_octreel(NULL, "audit %s", session.path);
-    assert_trouble(&result, "session.json: no query has an \"answer\" in a tick that is played");
+    assert_trouble(&result, "session.json: nothing to audit: no played tick has a query with an \"answer\"");
     result = run_octreel(NULL, "audit %s.none", session.path);
-    assert_trouble(&result, "there is no such file");
+    assert_trouble(&result, "no such file");
 }
 
 /* A recording keeps the answers, has the judgement in its ticks, verifies, and is audited as its session is. */

@@ -121,7 +121,7 @@ static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
         assert_trouble(&result, "work with a baseline only");
     }
     result = run_octreel(NULL, "accept %s - --from -", s.file.path);
-    assert_trouble(&result, "standard input can be read once, and \"-\" names it twice");
+    assert_trouble(&result, "\"-\" is given twice, but standard input can be read only once");
     result = run_octreel(NULL, "accept x.png %s --reason x", s.after.path);
     assert_trouble(&result, "cannot create a baseline under the name of a picture");
     accept_into(&s, &s.before, "--reason x");
@@ -131,7 +131,7 @@ static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
                                         "--reason ' a'"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         result = run_script("%s accept %s %s %s", octreel_program(), s.file.path, s.after.path, wrong[i]);
-        assert_trouble(&result, i < 2 ? "--date takes a date" : "--reason takes one line of text");
+        assert_trouble(&result, i < 2 ? "--date takes an existing date" : "--reason takes one line of text");
     }
     result = run_octreel(NULL, "accept %s %s --date 2026-11-22", s.file.path, s.after.path);
     assert_trouble(&result, "--date needs --reason TEXT");

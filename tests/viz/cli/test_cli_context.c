@@ -96,7 +96,7 @@ static void inspect_takes_a_context_too(void **state)
 static void choices_that_do_not_fit_are_refused(void **state)
 {
     const place folder = place_in(*state, "film");
-    assert_not_drawn(NULL, "--context glx", &folder, "there is no context \"glx\"; there are auto, osmesa, egl");
+    assert_not_drawn(NULL, "--context glx", &folder, "--context: unknown value \"glx\"; choose from auto, osmesa, egl");
     assert_not_drawn(NULL, "--any-renderer", &folder, "--context egl");
     assert_not_drawn(NULL, "--context egl --fill integers", &folder, "loads no OpenGL");
     assert_not_drawn(NULL, "--any-renderer --context osmesa", &folder, "--context egl");
@@ -122,7 +122,7 @@ static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
         const place folder = place_in(*state, jobs == 1 ? "film" : "film2");
         command_result result = run_octreel(&without, FILM " --fill gl --jobs %d -o %s", jobs, folder.path);
         assert_int_equal(result.status, 0);
-        assert_ptr_equal(strstr(result.err, "octreel: egl draws, since osmesa does not: OSMesa, "), result.err);
+        assert_ptr_equal(strstr(result.err, "octreel: drawing with egl, because osmesa does not work: OSMesa, "), result.err);
         assert_string_equal(strchr(result.err, '\n'), "\n"); /* once */
         command_release(&result);
         assert_renderer(&folder, "context", "egl");
@@ -223,15 +223,15 @@ static void inspect_fills_either_way(void **state)
     command_release(&result);
     assert_same_files(one.path, two.path);
     result = run_octreel(NULL, "inspect %s --fill gl", cloud.path);
-    assert_trouble(&result, "--fill is about a picture");
+    assert_trouble(&result, "--fill changes the picture, but no picture is drawn");
 }
 
 static void unknown_fill_is_refused(void **state)
 {
     const place folder = place_in(*state, "film");
     assert_not_drawn(NULL, "--fill GL", &folder,
-                     "--fill takes no \"GL\", did you mean gl? there are integers, checked, gl");
-    assert_not_drawn(NULL, "--fill ''", &folder, "there are integers, checked, gl");
+                     "--fill: unknown value \"GL\", did you mean gl? choose from integers, checked, gl");
+    assert_not_drawn(NULL, "--fill ''", &folder, "choose from integers, checked, gl");
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)

@@ -97,7 +97,7 @@ static void trouble_is_said_and_is_status_2(void **state)
         assert_trouble(&result, bad[i][1]);
     }
     command_result result = run_octreel(NULL, "diff %s", p.a.path);
-    assert_trouble(&result, "diff takes two sides");
+    assert_trouble(&result, "diff needs two sides");
     result = run_octreel(NULL, "diff %s %s", p.a.path, folder.path);
     assert_trouble(&result, "cannot compare a picture with a folder");
     result = run_octreel(NULL, "diff %s %s", p.a.path, text.path);
@@ -250,7 +250,7 @@ static void a_baseline_of_a_picture_is_compared_with_a_picture(void **state)
 static void help_teaches(void **state)
 {
     (void)state;
-    static const char *const commands[][2] = {{"diff", "Exit status: 0 the same"}, {"accept", "CI"}};
+    static const char *const commands[][2] = {{"diff", "Exit status:\n  0  the same"}, {"accept", "CI"}};
     for (size_t i = 0; i < 2; i++) {
         command_result result = run_octreel(NULL, "%s --help", commands[i][0]);
         assert_ends(&result, 0, commands[i][1]);

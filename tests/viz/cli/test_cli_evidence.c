@@ -162,7 +162,7 @@ static void dash_is_standard_output(void **state)
     static const char *const clashes[] = {"--markdown - --json", "--junit - --json", "--junit - --markdown -"};
     for (size_t i = 0; i < sizeof clashes / sizeof clashes[0]; i++) {
         result = run_octreel(NULL, "diff %s %s %s", t.a.path, t.b.path, clashes[i]);
-        assert_trouble(&result, "standard output has room for one report");
+        assert_trouble(&result, "only one output can go to standard output");
     }
 }
 
@@ -213,7 +213,7 @@ static void full_standard_output_is_trouble(void **state)
     static const command_setting full = {.output = "/dev/full"};
     const twins t = make_twins_of(state);
     command_result result = run_octreel(&full, "diff %s %s --markdown -", t.a.path, t.b.path);
-    assert_trouble(&result, "cannot be written");
+    assert_trouble(&result, "cannot write to standard output");
 }
 
 #define WITH_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)

@@ -335,8 +335,8 @@ static void the_picture_says_what_it_chose_for_the_points(void **state)
         int color_type; /* of the PNG: 2 is RGB, 3 indexed */
     } rows[] = {{"--size 1280x720 --zoom 20", "pixels; points by height (--color-points)\n", 2},
                 {"--size 320x180", "points by height (--color-points), lit by eye-dome lighting (--shade)\n", 2},
-                {"--size 16x9", "(--shade); leaves are too small to see, and larger with a larger --capacity", 2},
-                {"--size 16x9 --capacity 512", "by leaf (--color-points), since there are more of them than pixels", 2},
+                {"--size 16x9", "(--shade); leaves are too small to see: a larger --capacity makes them larger", 2},
+                {"--size 16x9 --capacity 512", "by leaf (--color-points), because there are more points than pixels", 2},
                 {"--size 16x9 --color-points id", "points by id (--color-points), lit by", 2},
                 {"--size 320x180 --shade none", "points by height (--color-points)\n", 2},
                 {"--size 320x180 --color-points id --shade none", "180 pixels\n", 2},
@@ -383,8 +383,8 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--depth 2:5", "--depths"},
         {"--depth 3 --depths 4", "the tree ends at depth 3"},
         {"second.txt third.txt",
-         "inspect takes one point cloud, not also \"second.txt\"; for several: for f in *.pcd; do "},
-        {"--node root --node 3", "--node names one node, not root and 3"},
+         "inspect: unexpected argument \"second.txt\"; for several files: for f in *.pcd; do "},
+        {"--node root --node 3", "--node can be given only once; found root and 3"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
     file_write_text(points.path, "1 2 3\n");
@@ -394,18 +394,18 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         assert_int_equal(temp_folder_count(*state), 1);
     }
     command_result result = run_octreel(NULL, "inspect -o %s", picture.path);
-    assert_trouble(&result, "takes one point cloud");
+    assert_trouble(&result, "needs one point cloud");
 }
 
 static void what_is_said_of_a_picture_is_refused_without_one(void **state)
 {
     static const char *const rows[][2] = {
-        {"--size 64x64", "--size is about a picture, and none is made without -o"},
-        {"--labels --camera top", "--camera is about a picture"},
-        {"--depths 1:2 --json", "--depths is about a picture"},
-        {"--camera-from nowhere", "--camera-from is about a picture"},
-        {"--context egl", "--context is about a picture"},
-        {"--context egl --any-renderer --nodes nodes.csv", "--any-renderer is about a picture"},
+        {"--size 64x64", "--size changes the picture, but no picture is drawn: add -o"},
+        {"--labels --camera top", "--camera changes the picture"},
+        {"--depths 1:2 --json", "--depths changes the picture"},
+        {"--camera-from nowhere", "--camera-from changes the picture"},
+        {"--context egl", "--context changes the picture"},
+        {"--context egl --any-renderer --nodes nodes.csv", "--any-renderer changes the picture"},
     };
     const place points = place_in(*state, "points.txt");
     file_write_text(points.path, "1 2 3\n");

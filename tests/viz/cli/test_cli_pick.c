@@ -216,7 +216,7 @@ static void what_is_no_pixel_of_the_frame_is_refused(void **state)
     assert_refused(frame.path, "10 90", "160 x 90 pixels");
     assert_refused(frame.path, "x 10", "not \"x\"");
     assert_refused(frame.path, "10 1.5", "not \"1.5\"");
-    assert_refused(frame.path, "-1 10", "from 0 on");
+    assert_refused(frame.path, "-1 10", "pixel coordinates start at (0, 0)");
     assert_refused(frame.path, "10", "two coordinates");
     assert_refused(frame.path, "1 2 3", "two coordinates");
     assert_refused(frame.path, "1 2 --radius -3", "--radius");
@@ -249,7 +249,7 @@ static void a_frame_without_its_recording_is_refused(void **state)
     size_t size;
     char *bytes = file_read(frame_place(folder.path, 3).path, &size);
     file_write(alone.path, bytes, size);
-    assert_refused(alone.path, "1 1", "no recording beside it");
+    assert_refused(alone.path, "1 1", "not a frame of a recording");
     free(bytes);
 }
 

@@ -145,7 +145,7 @@ static void what_is_no_page_of_play_stays(void **state)
 {
     need_pages_that_play();
     static const char *const rows[][2] = {
-        {"-o mine.html", "mine.html: is there already, and no page of octreel's"},
+        {"-o mine.html", "mine.html: exists and was not written by octreel play"},
         {"mine.json -o new.html", "mine.json:1: "},
         {"s.json -o s.json", "s.json"},
         {"-o film/index.html", "film/index.html: is the page of a recording"},
@@ -157,7 +157,7 @@ static void what_is_no_page_of_play_stays(void **state)
         {"film", "film is a recording"},
         {"--keys=x", "key 1"},
         {"--slice z=5000", "outside the world"},
-        {"absent.json", "absent.json: there is no such file"},
+        {"absent.json", "absent.json: no such file"},
     };
     command_result result = play_in(*state, "-o - | grep -c '</html>'");
     assert_string_equal(result.out, "1\n");
@@ -179,7 +179,7 @@ static void what_is_no_page_of_play_stays(void **state)
 static void frames_and_none_are_asked_for_alone(void **state)
 {
     command_result result = run_octreel(NULL, "record --no-frames --every 2 -o %s", place_in(*state, "film").path);
-    assert_trouble(&result, "--no-frames films no tick, and --every some");
+    assert_trouble(&result, "--no-frames and --every contradict each other");
     assert_int_equal(temp_folder_count(*state), 0);
 }
 

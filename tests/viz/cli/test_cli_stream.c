@@ -91,11 +91,11 @@ static void frames_show_nothing_that_comes_later(void **state)
 static void what_does_not_go_with_a_stream_is_refused(void **state)
 {
     static const char *const refused[][2] = {
-        {"--resume", "--resume completes what is in DIR without the stream"},
-        {"--ticks 1:", "--ticks films a part of a session that is there"},
-        {"--jobs 2", "--jobs divides a session that is there"},
+        {"--resume", "--resume uses the session stored in DIR"},
+        {"--ticks 1:", "--ticks needs a whole session"},
+        {"--jobs 2", "--jobs needs a whole session"},
         {"--keys x", "key 1, 'x', is not one of"},
-        {"-", "record takes one session, not also"},
+        {"-", "record: unexpected argument"},
     };
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         const place folder = place_in(*state, "film");
@@ -244,7 +244,7 @@ static void a_signal_ends_a_wait_with_a_whole_recording(void **state)
     assert_int_equal(kill(s.film.pid, SIGINT), 0);
     command_result result = end_of(&s.film);
     assert_int_equal(result.status, 128 + SIGINT);
-    assert_non_null(strstr(result.err, "octreel: stopped after 2 ticks, of which "));
+    assert_non_null(strstr(result.err, "octreel: stopped after 2 ticks; "));
     command_release(&result);
     close(s.write);
     assert_verified(&s, "identical: 2 ticks, 2 frames");
@@ -260,7 +260,7 @@ static void what_a_kill_leaves_is_resumed(void **state)
     command_release(&result);
     close(s.write);
     result = run_octreel(NULL, "verify %s", s.folder.path);
-    assert_trouble(&result, "its program is still recording, or was ended amid it: octreel record --resume");
+    assert_trouble(&result, "its program is still recording or was interrupted: octreel record --resume");
     result = run_octreel(NULL, "record --resume -o %s", s.folder.path);
     assert_done(&result);
     command_release(&result);

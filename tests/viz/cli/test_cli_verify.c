@@ -147,7 +147,7 @@ static void what_cannot_be_verified_is_trouble(void **state)
     } rows[] = {
         {"", "one recording"},
         {"a b", "one recording"},
-        {"nowhere", "nowhere: there is no such file or folder"},
+        {"nowhere", "nowhere: no such file or folder"},
         {"nowhere --context glx", "there is no context \"glx\""},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

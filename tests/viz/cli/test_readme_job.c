@@ -228,7 +228,7 @@ static void action_tells_trouble(void **state)
     job *j = *state;
     assert_int_equal(run_action(j, action_inputs("golden", "no\nframes", "why", "")), 2);
     assert_string_equal(output_of(j, "status"), "2");
-    assert_says(output_of(j, "summary"), "there is no such file or folder");
+    assert_says(output_of(j, "summary"), "no such file or folder");
     assert_says(j->run.out, "\n::error title=octreel diff::octreel: ");
     assert_summary_says(j, "### octreel diff: trouble\n");
     assert_int_equal(json_array_size(j->run.used), 0);

@@ -59,7 +59,7 @@ static void text_of_recordings_is_ignored_where_it_is(void **state)
         assert_int_equal(
             rename(place_below(folder, "frame_000002.png").path, place_below(folder, "frame_000009.png").path), 0);
     }
-    assert_not_compared(a.path, b.path, &options, "there is no tick 9: the session's last tick is 2");
+    assert_not_compared(a.path, b.path, &options, "no tick 9: the last tick of the session is 2");
 }
 
 /* One side is enough, and a folder of plain pictures may be the other. */

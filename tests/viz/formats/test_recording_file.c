@@ -312,7 +312,7 @@ static void camera_from_nowhere_is_refused(void **state)
 {
     const place absent = place_in(*state, "absent"), film = place_in(*state, "film");
     command_result result = run_octreel(NULL, "record --camera-from %s -o %s", absent.path, film.path);
-    assert_trouble(&result, "absent: there is no such file or folder");
+    assert_trouble(&result, "absent: no such file or folder");
     result = run_octreel(NULL, "record --fit everything -o %s", film.path);
     assert_trouble(&result, "there is no fit \"everything\"; there are world, points");
     assert_false(file_exists(film.path));

@@ -195,9 +195,9 @@ static void what_cannot_begin_leaves_the_recording(void **state)
     result = run_octreel(NULL, "record --replace --size 99999x1 -o %s", f.old.path);
     assert_trouble(&result, "99999 x 1");
     result = run_octreel(NULL, "record --replace --resume -o %s", f.old.path);
-    assert_trouble(&result, "--replace does not go with --resume");
+    assert_trouble(&result, "--replace starts a new recording and does not work with --resume");
     result = run_octreel(NULL, "record --replace --ticks 0:2 -o %s", f.old.path);
-    assert_trouble(&result, "--replace does not go with --ticks");
+    assert_trouble(&result, "--replace starts a new recording and does not work with --ticks");
     assert_same_folders(f.old.path, f.copy.path, NULL);
 }
 

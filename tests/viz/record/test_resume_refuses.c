@@ -60,22 +60,21 @@ static void folder_that_does_not_say_what_it_is_of_is_not_resumed(void **state)
     const place whole = recorded(state, "whole"), empty = place_in(*state, "empty");
     const place blind = copy_of(state, whole.path, "blind"), mute = copy_of(state, whole.path, "mute");
     remove(place_below(blind.path, "recording.json").path);
-    assert_refused(state, "--resume", blind.path,
-                   "holds no recording that could be resumed (recording.json is missing)");
+    assert_refused(state, "--resume", blind.path, "holds no recording that can be resumed: recording.json is missing");
     remove(place_below(mute.path, "session.json").path);
-    assert_refused(state, "--resume", mute.path, "holds no recording that could be resumed (session.json is missing)");
+    assert_refused(state, "--resume", mute.path, "holds no recording that can be resumed: session.json is missing");
     make_folder(empty.path);
-    assert_refused(state, "--resume --jobs 2", empty.path, "(recording.json is missing)");
+    assert_refused(state, "--resume --jobs 2", empty.path, "recording.json is missing");
 }
 
 static void folder_that_is_not_there_is_not_resumed(void **state)
 {
     const place folder = place_in(*state, "fligth");
     command_result result = run_octreel(NULL, "record --resume -o %s", folder.path);
-    assert_trouble(&result, "holds no recording that could be resumed (recording.json is missing)");
+    assert_trouble(&result, "holds no recording that can be resumed: recording.json is missing");
     assert_false(file_exists(folder.path));
     result = run_script("%s record --resume -o ''", octreel_program());
-    assert_trouble(&result, "-o takes a name");
+    assert_trouble(&result, "-o: the name is empty");
 }
 
 static void same_words_again_resume_what_has_just_begun(void **state)
@@ -83,7 +82,7 @@ static void same_words_again_resume_what_has_just_begun(void **state)
     const place whole = recorded(state, "whole"), begun = place_in(*state, "begun");
     make_folder(begun.path);
     file_write_text(place_below(begun.path, "ticks.jsonl").path, "");
-    assert_refused(state, "--resume", begun.path, "(recording.json is missing)");
+    assert_refused(state, "--resume", begun.path, "recording.json is missing");
     record("--resume " SMALL, begun.path);
     assert_same_folders(whole.path, begun.path, NULL);
 }

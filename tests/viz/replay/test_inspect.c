@@ -314,7 +314,7 @@ static void definition_that_a_tree_refuses_is_an_error(void **state)
         inspection made;
         octreel_error error = {""};
         assert_false(inspect_build(&c, &defs[i], NULL, NULL, &made, &error));
-        assert_non_null(strstr(error.text, "the tree cannot be made"));
+        assert_non_null(strstr(error.text, "the tree cannot be built"));
         assert_null(made.tree);
     }
     cloud_release(&c);
