@@ -122,7 +122,8 @@ static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
         const place folder = place_in(*state, jobs == 1 ? "film" : "film2");
         command_result result = run_octreel(&without, FILM " --fill gl --jobs %d -o %s", jobs, folder.path);
         assert_int_equal(result.status, 0);
-        assert_ptr_equal(strstr(result.err, "octreel: drawing with egl, because osmesa does not work: OSMesa, "), result.err);
+        assert_ptr_equal(strstr(result.err, "octreel: drawing with egl, because osmesa does not work: OSMesa, "),
+                         result.err);
         assert_string_equal(strchr(result.err, '\n'), "\n"); /* once */
         command_release(&result);
         assert_renderer(&folder, "context", "egl");

@@ -333,16 +333,17 @@ static void the_picture_says_what_it_chose_for_the_points(void **state)
     static const struct {
         const char *options, *said;
         int color_type; /* of the PNG: 2 is RGB, 3 indexed */
-    } rows[] = {{"--size 1280x720 --zoom 20", "pixels; points by height (--color-points)\n", 2},
-                {"--size 320x180", "points by height (--color-points), lit by eye-dome lighting (--shade)\n", 2},
-                {"--size 16x9", "(--shade); leaves are too small to see: a larger --capacity makes them larger", 2},
-                {"--size 16x9 --capacity 512", "by leaf (--color-points), because there are more points than pixels", 2},
-                {"--size 16x9 --color-points id", "points by id (--color-points), lit by", 2},
-                {"--size 320x180 --shade none", "points by height (--color-points)\n", 2},
-                {"--size 320x180 --color-points id --shade none", "180 pixels\n", 2},
-                {"--size 320x180 --layers -points", "180 pixels\n", 3},
-                {"--size 320x180 --diagram only", "180 pixels\n", 3},
-                {"--size 320x180 --color-points plain", "180 pixels\n", 3}};
+    } rows[] = {
+        {"--size 1280x720 --zoom 20", "pixels; points by height (--color-points)\n", 2},
+        {"--size 320x180", "points by height (--color-points), lit by eye-dome lighting (--shade)\n", 2},
+        {"--size 16x9", "(--shade); leaves are too small to see: a larger --capacity makes them larger", 2},
+        {"--size 16x9 --capacity 512", "by leaf (--color-points), because there are more points than pixels", 2},
+        {"--size 16x9 --color-points id", "points by id (--color-points), lit by", 2},
+        {"--size 320x180 --shade none", "points by height (--color-points)\n", 2},
+        {"--size 320x180 --color-points id --shade none", "180 pixels\n", 2},
+        {"--size 320x180 --layers -points", "180 pixels\n", 3},
+        {"--size 320x180 --diagram only", "180 pixels\n", 3},
+        {"--size 320x180 --color-points plain", "180 pixels\n", 3}};
     const place points = write_points(state, "points.txt", ""), picture = place_in(*state, "tree.png");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         static png_bytes file;
@@ -382,8 +383,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--region 9,9,9,10,10,10", "outside the world"},
         {"--depth 2:5", "--depths"},
         {"--depth 3 --depths 4", "the tree ends at depth 3"},
-        {"second.txt third.txt",
-         "inspect: unexpected argument \"second.txt\"; for several files: for f in *.pcd; do "},
+        {"second.txt third.txt", "inspect: unexpected argument \"second.txt\"; for several files: for f in *.pcd; do "},
         {"--node root --node 3", "--node can be given only once; found root and 3"},
     };
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");

@@ -58,7 +58,8 @@ static void unknown_and_unfinished_options_are_refused(void **state)
     const place folder = place_in(*state, "film");
     for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
         command_result result = run_octreel(NULL, "%s %s", arguments[i], folder.path);
-        assert_trouble(&result, i == 1 ? "unknown option -x; octreel record --help" : "unknown option --bogus; octreel");
+        assert_trouble(&result,
+                       i == 1 ? "unknown option -x; octreel record --help" : "unknown option --bogus; octreel");
     }
     command_result result = run_octreel(NULL, "record -o");
     assert_int_equal(result.status, 2);
@@ -240,8 +241,8 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     assert_done(&result);
     assert_ptr_equal(strchr(result.out, '\n'), result.out + strlen(result.out) - 1);
     json_t *summary = json_read(result.out);
-    assert_members(summary,
-                   "folder ticks frames gaps left_out checked checked_by over_budget below_lod refusals seconds frames_per_second events");
+    assert_members(summary, "folder ticks frames gaps left_out checked checked_by over_budget below_lod refusals "
+                            "seconds frames_per_second events");
     assert_string_equal(json_string_value(json_member(summary, "folder")), folder.path);
     assert_whole_number(json_member(summary, "ticks"), 253);
     assert_whole_number(json_member(summary, "frames"), 6);
