@@ -63,9 +63,8 @@ static bool refuse_layer(const command_option *option, const char *bad)
     hint h = hint_for(bad, length);
     for (int i = 0; view_layer_at(i); i++)
         hint_offer(&h, view_layer_at(i));
-    return refuse(
-        "--%s takes names of layers separated by commas, and \"%.*s\" is not a layer%s%s record --help lists them",
-        option->name, (int)length, bad, hint_text(&h, "", meant), hint_program_name());
+    return refuse("--%s: unknown layer \"%.*s\"%s%s record --help lists them", option->name, (int)length, bad,
+                  hint_text(&h, "", meant), hint_program_name());
 }
 
 static bool read_layers(const command_option *option, const char *text, void *into)

@@ -74,7 +74,8 @@ static void json_has_each_value_as_the_files_have_it(void **state)
         "{\"where\": \"player\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"reference\": null, \"frames\": "
         "[0, 0, "
         "0]}]}",
-        "{\"where\": \"slice\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"frames\": {\"z\": 1}}]}",
+        "{\"where\": \"slice\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"reference\": null, \"frames\": "
+        "{\"z\": 1}}]}",
     };
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     write_and_film(*state, "null", "{\"label\": \"one\", \"at\": [1, 2, 3]}", "", a);
@@ -185,7 +186,7 @@ static void damage_is_trouble_behind_the_report(void **state)
     assert_says(&result, "frame_000004.png: ");
     assert_non_null(strstr(result.err, "octreel: "));
     assert_non_null(strstr(result.err, "session.json"));
-    assert_non_null(strstr(result.err, "--causes 0 does not ask why\n"));
+    assert_non_null(strstr(result.err, "--causes 0 skips the explanation\n"));
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s --json", p.a.path, p.b.path);
     json_t *all = json_read(result.out);
@@ -213,7 +214,8 @@ static void the_same_frames_of_unlike_sessions_are_the_same(void **state)
 }
 
 /* What refuses to draw is no reason not to say what is known. */
-static void without_a_renderer_the_rest_is_told(void **state)
+/* The integer rasterizer draws the elements, so a driver that octreel refuses makes no difference. */
+static void pixels_are_traced_without_gl(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
@@ -222,11 +224,8 @@ static void without_a_renderer_the_rest_is_told(void **state)
     assert_string_equal(result.err, "");
     assert_says(&result, "another leaf capacity (4, was 2)");
     assert_says(&result, "\n    tick 1: node");
-    assert_says(&result, "\n  not traced to the elements that are drawn there: ");
-    command_release(&result);
-    result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
-    assert_null(strstr(result.out, "nothing is traced"));
     assert_says(&result, " pixels: ");
+    assert_null(strstr(result.out, "not traced"));
     command_release(&result);
 }
 
@@ -241,7 +240,7 @@ int main(void)
         TEST(json_has_the_facts),
         TEST(shapes_are_told_in_words_and_json),
         TEST(damage_is_trouble_behind_the_report),
-        TEST(without_a_renderer_the_rest_is_told),
+        TEST(pixels_are_traced_without_gl),
         TEST(the_same_frames_of_unlike_sessions_are_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

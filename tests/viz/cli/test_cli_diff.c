@@ -87,7 +87,7 @@ static void trouble_is_said_and_is_status_2(void **state)
         {"--ignore 1,2,3,4,5", "--ignore takes left, top, width and height"},
         {"--ignore 0,0,99999999999,1", "each at most 2147483647"},
         {"--ignore 0,0,0,0", "the last two at least 1"},
-        {"--ignore-layer nix", "--ignore-layer takes names of layers separated by commas, and \"nix\" is not a layer"},
+        {"--ignore-layer nix", "--ignore-layer: unknown layer \"nix\""},
         {"--ignore-layer nodes,points", "--ignore-layer needs a recording"},
         {"--ignore-layer text --ignore-layer nodes", "--ignore-layer can be given once"},
         {"--background red", "--background takes a colour"},

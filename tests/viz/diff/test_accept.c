@@ -140,7 +140,7 @@ static void before_anything_is_written_all_is_checked(void **state)
     assert_trouble(&result, "4.png: the file is cut short");
     assert_same_folders(c.before.path, untouched.path, NULL);
     result = run_octreel(NULL, "accept %s", c.before.path);
-    assert_trouble(&result, "accept takes a reference and new frames; ");
+    assert_trouble(&result, "accept needs a reference and new frames; ");
 }
 
 static void a_folder_of_other_pictures_is_left_alone(void **state)
