@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.c - what was handed over in a tick, as the change since the tick before. */
+/* batch.c - one tick of a program on its way to the file: see batch.h. */
 #include "batch.h"
 #include "session_file.h"
 #include "text.h"
@@ -31,7 +31,7 @@ uint64_t gap_list_ticks(const gap_run *runs, size_t count)
 
 /* ---- Batches ------------------------------------------------------------------------------------------------ */
 
-/* Copy items, counting their bytes. Null when there is no memory, or nothing to copy. */
+/* Copy items and add their bytes to the batch. Null if out of memory, or without items. */
 static void *copy(batch *b, const void *from, size_t count, size_t item_size)
 {
     void *to = count > 0 && count <= SIZE_MAX / item_size ? malloc(count * item_size) : NULL;
@@ -51,7 +51,7 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
         return false;
     b->queries = copy(b, about->queries, about->query_count, sizeof *about->queries);
     bool whole = b->queries || b->query_count == 0;
-    /* Each, since what they point to is the program's until then. */
+    /* Go on after a failure, so that no query points to the program's memory. */
     for (size_t i = 0; b->queries && i < b->query_count; i++) {
         octree_query *query = &b->queries[i];
         query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
@@ -61,7 +61,7 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
             ids->ids = whole ? copy(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
             whole = whole && (ids->ids || ids->count == 0);
         }
-        /* Files hold no more neighbours than a tree has points, at most. */
+        /* A tree has fewer points than this, and files hold no larger k. */
         if (query->k > UINT32_MAX)
             query->k = UINT32_MAX;
     }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* changes.c - how the points of one tick became those of the next. */
+/* changes.c - the changes of points from one tick to the next: see changes.h. */
 #include "changes.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* By value: whether a zero has a sign is no change. */
+/* By value: -0 equals 0. */
 static bool same_place(const octree_point *a, const octree_point *b)
 {
     return a->position[0] == b->position[0] && a->position[1] == b->position[1] && a->position[2] == b->position[2];
@@ -51,7 +51,7 @@ static int compare_changes(const void *a, const void *b)
     return c->id != d->id ? (c->id > d->id) - (c->id < d->id) : (c->order > d->order) - (c->order < d->order);
 }
 
-/* From the place before the first to the place after the last. False where that is no change. */
+/* Join the changes of one id: from before the first to after the last. False if nothing changed in total. */
 static bool join_changes(const change *first, const change *last, change *joined)
 {
     octree_point before = {.id = first->id}, after = {.id = last->id};

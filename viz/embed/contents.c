@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* contents.c - what points a program has, by a tree, a list, or what changed. */
+/* contents.c - reads the points of a program from its tree, its list, or its changes: see contents.h. */
 #include "contents.h"
 #include "array.h"
 #include "octree/digest.h"
@@ -29,9 +29,10 @@ static bool is_finite_place(const double at[3])
     return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
 }
 
-/* ---- By a tree ---------------------------------------------------------------------------------------------- */
+/* ---- The definition of a tree
+ * ---------------------------------------------------------------------------------------------- */
 
-/* Whether a tree has the world and the options of the definition; else names one that it has not. */
+/* Check that a tree has the world and the options that the recorder was opened with. */
 static octreel_status check_tree(const octree_def *own, const octree *tree, octreel_error *error)
 {
     const octree_def def = octree_definition(tree);
@@ -57,7 +58,8 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
     return OCTREEL_OK;
 }
 
-/* ---- By what changed ---------------------------------------------------------------------------------------- */
+/* ---- Changes from the program
+ * ---------------------------------------------------------------------------------------- */
 
 static bool start_table(contents *c)
 {
@@ -81,7 +83,7 @@ static bool make_room(contents *c, size_t more)
     return more == 0 || (changes && point_table_reserve(&c->table, c->table.count + more));
 }
 
-/* While no tick is taken, what changes there and back again takes no more memory than what there is. */
+/* Bounds memory while no tick is accepted: changes that cancel out are dropped once they have doubled. */
 static void settle(contents *c)
 {
     enum { FEW = 1024 };
@@ -95,17 +97,18 @@ static octreel_status add_change(contents *c, const octree_edit *edit, size_t nu
     const octree_point *there = point_table_find(&c->table, body->id);
     change made = {.kind = edit->kind, .id = body->id};
     if ((unsigned)edit->kind > OCTREE_EDIT_MOVE)
-        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: there is no such kind", number);
+        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: unknown kind of edit", number);
     if (body->id >= SESSION_ID_LIMIT)
         return status_refuse(error, OCTREEL_BAD_ID, "changes[%zu]: %s: %" PRIu64, number,
                              octreel_status_text(OCTREEL_BAD_ID), body->id);
     if (edit->kind != OCTREE_EDIT_REMOVE && !is_finite_place(body->position))
         return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: a coordinate is NaN or infinite", number);
     if (edit->kind == OCTREE_EDIT_INSERT && there)
-        return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: there is a point %" PRIu64 " already", number,
+        return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: point %" PRIu64 " exists already", number,
                              body->id);
     if (edit->kind != OCTREE_EDIT_INSERT && !there)
-        return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: there is no point %" PRIu64, number, body->id);
+        return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: point %" PRIu64 " does not exist", number,
+                             body->id);
     if (there)
         memcpy(made.from, there->position, sizeof made.from);
     if (edit->kind != OCTREE_EDIT_REMOVE)
@@ -133,19 +136,19 @@ void contents_undo(contents *c)
 {
     while (c->change_count > c->kept)
         change_undo(&c->changes[--c->change_count], &c->table);
-    c->tree.mark = (octree_cursor){0}; /* what it told was of this tick */
+    c->tree.mark = (octree_cursor){0}; /* its log was read up to this tick */
 }
 
-/* ---- By what a tree tells of its changes ------------------------------------------------------------------------ */
+/* ---- Changes from a tree's log ------------------------------------------------------------------------ */
 
-/* Of more changes, all of the points are looked at in less time. */
+/* With more changes, reading all points takes less time. */
 static bool are_few(size_t changes, size_t points)
 {
     return changes <= points / 8 + 16;
 }
 
-/* A name that no log has had. */
-static size_t next_name(followed_tree *f)
+/* A name that no log was given before. */
+static size_t make_log_name(followed_tree *f)
 {
     struct timespec now = {0};
     if (f->names == 0 && timespec_get(&now, TIME_UTC))
@@ -154,7 +157,7 @@ static size_t next_name(followed_tree *f)
     return name ? name : 1;
 }
 
-static void hear(const octree_change *said, void *context)
+static void add_heard(const octree_change *change, void *context)
 {
     followed_tree *f = context;
     octree_change *heard = array_reserve(f->heard, f->heard_count + 1, &f->heard_room, sizeof *heard);
@@ -162,22 +165,21 @@ static void hear(const octree_change *said, void *context)
     if (!heard)
         return;
     f->heard = heard;
-    f->heard[f->heard_count++] = *said;
+    f->heard[f->heard_count++] = *change;
 }
 
-static bool ask_tree(followed_tree *f, const octree *tree)
+static bool read_log(followed_tree *f, const octree *tree)
 {
     f->heard_count = 0;
     f->lost = false;
-    if (f->whole || f->busy) /* what `now` has is older, or newer */
+    if (f->whole || f->busy) /* the log does not continue from `now` */
         f->mark = (octree_cursor){0};
     f->whole = false;
-    return !f->busy && octree_changes_since(tree, next_name(f), &f->mark, hear, f) && !f->lost;
+    return !f->busy && octree_changes_since(tree, make_log_name(f), &f->mark, add_heard, f) && !f->lost;
 }
 
-/* False when it cannot be made as things stand: the id is there already, or not there; and of ids that no file can
- * have. */
-static bool make_heard(contents *c, const octree_change *said)
+/* Apply a change from the log. False if it contradicts the table, or if files cannot hold the id. */
+static bool apply_heard(contents *c, const octree_change *said)
 {
     const octree_point *there = point_table_find(&c->table, said->id);
     change made = {.kind = said->kind == OCTREE_INSERTED  ? OCTREE_EDIT_INSERT
@@ -188,7 +190,7 @@ static bool make_heard(contents *c, const octree_change *said)
         return false;
     for (int i = 0; there && i < 3; i++)
         if (there->position[i] != said->from[i])
-            return false; /* there are, or were, two points of this id */
+            return false; /* two points have or had this id */
     memcpy(made.from, said->from, sizeof made.from);
     memcpy(made.to, said->to, sizeof made.to);
     change_make(&made, &c->table);
@@ -196,9 +198,9 @@ static bool make_heard(contents *c, const octree_change *said)
     return true;
 }
 
-/* An insertion waits for the removal of the point with its id. False, and none is made, where a tree has two points of
- * one id, or there is no memory: whoever looks at the whole tree finds out. */
-static bool make_all_heard(contents *c)
+/* Apply all changes from the log; an insertion waits until the point with its id is removed. False without any change
+ * if two points share an id, or out of memory; reading the whole tree then reports which. */
+static bool apply_log(contents *c)
 {
     followed_tree *f = &c->tree;
     size_t waiting = 0;
@@ -207,17 +209,17 @@ static bool make_all_heard(contents *c)
         if (f->heard[i].kind == OCTREE_INSERTED && point_table_find(&c->table, f->heard[i].id))
             f->heard[waiting++] = f->heard[i];
         else
-            made = make_heard(c, &f->heard[i]);
+            made = apply_heard(c, &f->heard[i]);
     }
     for (size_t i = 0; made && i < waiting; i++)
-        made = make_heard(c, &f->heard[i]);
+        made = apply_heard(c, &f->heard[i]);
     if (!made)
         contents_undo(c);
     return made;
 }
 
-/* Let `now` be what was taken last, in place of the table. */
-static bool list_taken(contents *c)
+/* Turn the table back into `now`, the points of the last accepted tick. */
+static bool list_accepted(contents *c)
 {
     while (c->change_count > 0)
         change_undo(&c->changes[--c->change_count], &c->table);
@@ -233,7 +235,7 @@ static octreel_status read_whole_tree(contents *c, const octree *tree, octreel_e
 {
     uint64_t clash = 0;
     c->tree.whole = true;
-    if (c->tabled && !list_taken(c))
+    if (c->tabled && !list_accepted(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
     const octreel_status status = points_read(&c->next, &c->spare, tree, &clash);
     if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
@@ -246,15 +248,15 @@ static octreel_status read_tree(contents *c, const octree_def *def, const octree
     const octreel_status status = check_tree(def, tree, error);
     if (status != OCTREEL_OK)
         return status;
-    if (ask_tree(&c->tree, tree) && are_few(c->tree.heard_count, octree_count(tree)) && make_all_heard(c))
+    if (read_log(&c->tree, tree) && are_few(c->tree.heard_count, octree_count(tree)) && apply_log(c))
         return OCTREEL_OK;
     return read_whole_tree(c, tree, error);
 }
 
-/* ---- By a list ---------------------------------------------------------------------------------------------- */
+/* ---- A list ---------------------------------------------------------------------------------------------- */
 
-/* Let the table be what was read. */
-static bool table_list(contents *c)
+/* Change the table to the list that was read. */
+static bool apply_list(contents *c)
 {
     if (!point_table_list(&c->table, &c->now, &c->spare))
         return false;
@@ -277,13 +279,14 @@ static octreel_status read_list(contents *c, const octree_point *list, size_t co
     if (status == OCTREEL_BAD_ID)
         return status_refuse(error, status, "points: %s: %" PRIu64, octreel_status_text(status), clash);
     if (status == OCTREEL_DUPLICATE_ID)
-        return status_refuse(error, status, "points: two of them have one id: %" PRIu64, clash);
-    return status == OCTREEL_OK && (!c->tabled || table_list(c)) ? OCTREEL_OK : status_fail(error, OCTREEL_NO_MEMORY);
+        return status_refuse(error, status, "points: two points have the id %" PRIu64, clash);
+    return status == OCTREEL_OK && (!c->tabled || apply_list(c)) ? OCTREEL_OK : status_fail(error, OCTREEL_NO_MEMORY);
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Where a program says nothing of its points it is as it was: a list has none then, and changes are none. */
+/* Find how the program gives its points. If it gives none, the source stays: a list is then empty, and changes are
+ * none. */
 static octreel_status find_source(contents *c, const octree *tree, const octreel_tick_info *about, octreel_error *error)
 {
     const bool list = about && (about->points || about->point_count);
@@ -331,11 +334,11 @@ bool contents_add_changes(contents *c, batch *b)
     return true;
 }
 
-void contents_take(contents *c)
+void contents_accept(contents *c)
 {
     c->source = c->read_source;
     c->change_count = c->settled = 0;
     c->tree.whole = false;
     if (!c->tabled)
-        points_swap(&c->now, &c->next); /* the next tick is compared with the last one that was taken */
+        points_swap(&c->now, &c->next); /* the next tick is compared with this one */
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* points.c - the points of a program, by id. */
+/* points.c - a program's points by id: see points.h. */
 #include "points.h"
 #include "array.h"
 #include "octree/digest.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ids are sorted byte by byte, from the lowest: the bytes of those below SESSION_ID_LIMIT. */
+/* The radix sort goes byte by byte from the lowest; ids below SESSION_ID_LIMIT have seven bytes. */
 enum { DIGITS = 7, DIGIT_VALUES = 256 };
 
 void points_release(points *p)
@@ -31,7 +31,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
     if (!node->leaf)
         return OCTREE_WALK_ON;
     if (node->count > p->room - p->count)
-        return OCTREE_WALK_STOP; /* cannot happen: there is room for all */
+        return OCTREE_WALK_STOP; /* unreachable: there is room for all points of the tree */
     if (node->count > 0)
         memcpy(p->items + p->count, node->points, node->count * sizeof *p->items);
     p->count += node->count;
@@ -43,7 +43,7 @@ static unsigned digit_of(uint64_t id, int digit)
     return (unsigned)(id >> (8 * digit)) & (DIGIT_VALUES - 1);
 }
 
-/* Order by one digit, equal ones as they were. False when all points have the same: nothing is moved then. */
+/* Sort by one digit, stably. False, with nothing moved, if all points have the same digit. */
 static bool sort_by_digit(const points *from, octree_point *to, const size_t counts[DIGIT_VALUES], int digit)
 {
     size_t starts[DIGIT_VALUES], sum = 0;
@@ -122,7 +122,8 @@ octreel_status points_read_list(points *p, points *spare, const octree_point *li
 
 /* ---- The table ---------------------------------------------------------------------------------------------- *
  *
- * Open addressing with linear probing, at most three quarters full; what is taken out leaves no marks behind.
+ * Open addressing with linear probing, at most three quarters full. Removing a point moves later ones up instead of
+ * leaving a tombstone, so that long runs with many removals stay fast.
  */
 
 static const uint64_t NO_ID = UINT64_MAX;
@@ -139,7 +140,7 @@ static size_t home_of(const point_table *t, uint64_t id)
     return (size_t)octree_digest_word(0, id) & (t->size - 1);
 }
 
-/* The slot of an id, or the one where it would be put. */
+/* The slot of an id, or the empty slot where it belongs. */
 static size_t slot_of(const point_table *t, uint64_t id)
 {
     size_t slot = home_of(t, id);
@@ -180,7 +181,7 @@ void point_table_put(point_table *t, const octree_point *point)
     *at = *point;
 }
 
-/* Those after it move up, where that is on the way from their home. */
+/* Move each later point of the cluster into the hole, unless the hole lies before the point's home slot. */
 void point_table_remove(point_table *t, uint64_t id)
 {
     const size_t mask = t->size - 1;

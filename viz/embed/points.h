@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* points.h - the points of a program: those of its tree or list, sorted by id, and a table of them that changes.
- * Private to this folder. */
+/* points.h - a program's points as a list sorted by id, and as a hash table. Private to this folder. */
 #ifndef EMBED_POINTS_H
 #define EMBED_POINTS_H
 
 #include "octreel/recorder.h"
 
-/* By ascending id, each once. A zeroed one is empty. */
+/* Points in ascending order of ids, which are unique. Zero-initialized points are empty. */
 typedef struct points {
     octree_point *items;
     size_t count, room;
@@ -14,39 +13,39 @@ typedef struct points {
 
 void points_release(points *p);
 
-/* Make room for so many. False when there is no memory. */
+/* Make room for `count` points. False if out of memory. */
 bool points_reserve(points *p, size_t count);
 
 void points_swap(points *a, points *b);
 
-/* Read a tree, null being one without points; `spare` is used meanwhile. *clash is the id that is too large or there
- * twice. Errors: BAD_ID, DUPLICATE_ID, FLOAT_MODE, NO_MEMORY. Cost: O(nodes + n): ids are sorted by their digits. */
+/* Read the points of a tree; null is an empty tree. `spare` is scratch. On an error *clash is the id that is too large
+ * or occurs twice. Errors: BAD_ID, DUPLICATE_ID, FLOAT_MODE, NO_MEMORY. Cost: O(nodes + n), by a radix sort of ids. */
 octreel_status points_read(points *p, points *spare, const octree *tree, uint64_t *clash);
 
-/* The same of a list. */
+/* Read the points of a list in the same way. */
 octreel_status points_read_list(points *p, points *spare, const octree_point *list, size_t count, uint64_t *clash);
 
-/* Points that are found, put and taken out by id, each in O(1). A zeroed one is empty. */
+/* A hash table of points by id; each operation costs O(1) on average. A zero-initialized table is empty. */
 typedef struct point_table {
-    octree_point *slots; /* an id that is none: nothing is there */
-    size_t count, size;  /* of the slots: 0 or a power of two */
+    octree_point *slots; /* an empty slot has the id UINT64_MAX */
+    size_t count, size;  /* points; slots, 0 or a power of two */
 } point_table;
 
 void point_table_release(point_table *t);
 
-/* Make room for so many. False when there is no memory. */
+/* Make room for `count` points. False if out of memory. */
 bool point_table_reserve(point_table *t, size_t count);
 
-/* Null where there is none. */
+/* The point with an id, or null. */
 const octree_point *point_table_find(const point_table *t, uint64_t id);
 
-/* Put a point in, in place of the one with its id. There is room. */
+/* Insert a point, or replace the point with its id. The table has room. */
 void point_table_put(point_table *t, const octree_point *point);
 
-/* Take a point out that is there. */
+/* Remove a point, which must exist. */
 void point_table_remove(point_table *t, uint64_t id);
 
-/* List them all; `spare` is used meanwhile. False when there is no memory. Cost: O(n). */
+/* List all points sorted by id; `spare` is scratch. False if out of memory. Cost: O(slots + points). */
 bool point_table_list(const point_table *t, points *p, points *spare);
 
 #endif

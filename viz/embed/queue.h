@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* queue.h - ticks on their way from the program's thread to the one that films: bounded in number and in bytes. Private
- * to this folder. */
+/* queue.h - the queue of ticks from the program's thread to the recording thread, bounded in count and in bytes.
+ * Private to this folder. */
 #ifndef EMBED_QUEUE_H
 #define EMBED_QUEUE_H
 
@@ -13,36 +13,36 @@ typedef struct queue {
     pthread_cond_t changed;
     batch_list list;
     size_t most, most_bytes;
-    bool borrowed; /* the batches are not released by the queue */
-    bool ended;    /* nothing more is put */
-    bool broken;   /* nothing more is taken */
-    bool begun;    /* there is a recording to film into */
+    bool borrowed; /* the queue does not own the batches */
+    bool ended;    /* no more batches will be added */
+    bool broken;   /* recording failed: no more batches are taken */
+    bool begun;    /* the recording's folder exists */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
 
-/* No thread may be waiting. */
+/* No thread may be waiting on the queue. */
 void queue_release(queue *q);
 
-/* Hand a batch over. Where there is no room for it, wait, or with `wait` false return BUSY; BROKEN where none is taken
- * any more. On failure the batch stays the caller's. */
+/* Add a batch. If the queue is full, wait, or return BUSY if `wait` is false. Returns BROKEN after a failure of the
+ * recording. On failure the caller still owns the batch. */
 octreel_status queue_put(queue *q, batch *b, bool wait);
 
-/* The next batch, when there is one; null when the queue has ended. */
+/* Wait for the next batch and remove it; null after the queue has ended. */
 batch *queue_take(queue *q);
 
-/* Let go of the batch that was taken last: it was filmed. */
+/* Release the batch that was taken last, after it was recorded. */
 void queue_done(queue *q, batch *b);
 
-/* There is a recording to film into: who waits for that is woken. */
+/* Signal that the recording has begun. */
 void queue_begin(queue *q);
 
-/* Wait for it, or until the queue is broken. False then. */
+/* Wait until the recording has begun. False if the queue is broken. */
 bool queue_wait_begun(queue *q);
 
 void queue_end(queue *q);
 
-/* Drop what is in the queue, the batch that was taken last, and all that comes. */
+/* Signal a failure: drop the batch that was taken last, the queue, and all later batches. */
 void queue_break(queue *q, batch *b);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.c - ticks are checked, compared with those before them, and handed on to the ring or to what films them. */
+/* recorder.c - the public recorder: checks each tick of a program, finds its changes, and passes it to the queue of the
+ * recording thread or to the ring. */
 #include "octreel/recorder.h"
 #include "about.h"
 #include "contents.h"
@@ -22,30 +23,30 @@
 struct octreel_recorder {
     filmer_settings settings;
     bool never_wait, closed;
-    bool broken; /* the recording broke off */
+    bool broken; /* recording failed */
     contents contents;
-    octree_foreign_tree kept; /* nodes that were said in a tick that was refused, for the next one that is taken */
+    octree_foreign_tree kept; /* foreign nodes of a refused tick, for the next accepted one */
     bool has_kept;
-    ring ring; /* most is 0 where ticks are filmed as they come: */
+    ring ring; /* most is 0 without a ring; then the queue is used: */
     char *folder;
     queue queue;
     session_filmer filmer;
-    uint64_t put;   /* ticks that were put into the queue */
-    uint64_t ticks; /* that were handed over, taken or refused */
-    losses lost;    /* of them */
-    gap_list gaps;  /* since the last that was taken */
+    uint64_t put;   /* ticks that were added to the queue */
+    uint64_t ticks; /* all ticks, accepted or refused */
+    losses lost;    /* the refused ticks among them */
+    gap_list gaps;  /* since the last accepted tick */
     octreel_error error;
 };
 
-/* ---- Sentences ---------------------------------------------------------------------------------------------- */
+/* ---- Errors ---------------------------------------------------------------------------------------------- */
 
 const char *octreel_recorder_error(const octreel_recorder *recorder)
 {
     return recorder ? recorder->error.text : "";
 }
 
-/* What close and write say of a recording that has gaps. */
-static octreel_status tell_losses(octreel_recorder *r, const losses *lost, uint64_t ticks)
+/* The status and error of a recording that has gaps. */
+static octreel_status report_losses(octreel_recorder *r, const losses *lost, uint64_t ticks)
 {
     if (lost->ticks == 0)
         return OCTREEL_OK;
@@ -86,10 +87,10 @@ static octreel_status set_tree(octreel_recorder *r, const octree_def *def)
 {
     octree *tree;
     r->settings.tree = *def;
-    r->settings.tree.allocator = (octree_allocator){0}; /* the program's may not be used from another thread */
+    r->settings.tree.allocator = (octree_allocator){0}; /* another thread must not use the program's allocator */
     if (def->leaf_capacity == OCTREE_AUTO)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
-                             "tree: give the capacity in force, which is that of octree_definition(tree)");
+                             "tree: leaf_capacity is OCTREE_AUTO; use the capacity of octree_definition(tree)");
     const octree_status status = octree_create(&r->settings.tree, &tree);
     if (status != OCTREE_OK)
         return status_refuse(&r->error, status == OCTREE_NO_MEMORY ? OCTREEL_NO_MEMORY : OCTREEL_BAD_OPTION, "tree: %s",
@@ -119,7 +120,7 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     return OCTREEL_OK;
 }
 
-/* By the rows of the options of a view, as the command line does. */
+/* Parse the names and numbers by the table of view options, as the command line does. */
 static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *def)
 {
     view *v = &r->settings.film.view;
@@ -164,10 +165,10 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
                              "fill: there is no \"%s\"; octreel record --help lists the rasterizers", def->fill);
     if (!draw_context_parse(def->context, &film->renderer.context))
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
-                             "context: there is no \"%s\"; octreel record --help lists what there is", def->context);
+                             "context: unknown name \"%s\"; octreel record --help lists the names", def->context);
     film->renderer.any_renderer = def->any_renderer;
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
-        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "any_renderer: it goes with the context \"egl\" alone");
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "any_renderer: works only with the context \"egl\"");
     if (def->every > SESSION_LAST_TICK)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "every: it must be 0, for no frames, to %d",
                              SESSION_LAST_TICK);
@@ -195,7 +196,7 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
-/* What is replaced stays until a tick is filmed. */
+/* An existing recording that is replaced stays until the first tick is written. */
 static bool check_folder(octreel_recorder *r, const char *folder)
 {
     return r->settings.film.replace ? folder_make(folder, &r->error) && replacement_check(folder, &r->error)
@@ -205,7 +206,7 @@ static bool check_folder(octreel_recorder *r, const char *folder)
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
 {
     if (!def->folder)
-        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: there is none, and no ring");
+        return status_refuse(&r->error, OCTREEL_NULL_ARGUMENT, "folder: null; set a folder or a ring");
     r->folder = strdup(def->folder);
     if (!r->folder)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
@@ -256,7 +257,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Lists hold whatever the program's points are: a full leaf must not refuse one of them. */
+/* Points of a list need not fit a tree that refuses points: let its leaves grow. */
 static octreel_status let_leaves_grow(octreel_recorder *r)
 {
     const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
@@ -270,7 +271,7 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
     return OCTREEL_OK;
 }
 
-/* Of a tick that is refused for something else, the nodes come with the next. False when there is no memory. */
+/* Keep the foreign nodes of a refused tick for the next accepted one. False if out of memory. */
 static bool keep_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
 {
     octree_foreign_tree copy;
@@ -282,7 +283,7 @@ static bool keep_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
     return true;
 }
 
-/* What changed is read even where the tick is refused for something else. */
+/* Points are read first, so that no change is lost if the queries or shapes are refused. */
 static octreel_status read_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
     octreel_error why;
@@ -295,9 +296,9 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
     return read == OCTREEL_OK ? let_leaves_grow(r) : read;
 }
 
-/* Hand a batch to the thread that films, and with the first wait until that can. On failure the batch stays the
- * caller's. */
-static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
+/* Add a batch to the queue; with the first, wait until the recording has begun. *taken is false if the caller still
+ * owns the batch. */
+static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
 {
     const octreel_status status = queue_put(&r->queue, b, !r->never_wait);
     *taken = status == OCTREEL_OK;
@@ -310,12 +311,12 @@ static octreel_status film_batch(octreel_recorder *r, batch *b, bool *taken)
     return r->filmer.status;
 }
 
-static octreel_status hand_on(octreel_recorder *r, batch *b)
+static octreel_status pass_batch(octreel_recorder *r, batch *b)
 {
     octreel_status status = OCTREEL_OK;
     bool taken = true;
     if (r->ring.most == 0)
-        status = film_batch(r, b, &taken);
+        status = queue_batch(r, b, &taken);
     else if (!(taken = ring_put(&r->ring, b)))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (!taken)
@@ -328,12 +329,12 @@ static octreel_status put_tick(octreel_recorder *r, const octreel_tick_info *abo
     const octree_foreign_tree *said = about ? about->foreign : NULL;
     batch *b = batch_make(&r->gaps, about, said ? said : r->has_kept ? &r->kept : NULL);
     if (b && contents_add_changes(&r->contents, b))
-        return hand_on(r, b);
+        return pass_batch(r, b);
     batch_release(b);
     return status_fail(&r->error, OCTREEL_NO_MEMORY);
 }
 
-static octreel_status take_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
+static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
     octreel_error why;
     const octreel_status nodes = about_check_nodes(about, &why);
@@ -350,15 +351,15 @@ static octreel_status take_tick(octreel_recorder *r, const octree *tree, const o
         contents_undo(&r->contents);
     if (status != OCTREEL_OK)
         return status;
-    contents_take(&r->contents);
+    contents_accept(&r->contents);
     foreign_tree_release(&r->kept);
     r->has_kept = false;
     r->gaps.count = 0;
     return OCTREEL_OK;
 }
 
-/* A tick that is refused keeps its number. */
-static void note_gap(octreel_recorder *r)
+/* A refused tick keeps its number and becomes a gap. */
+static void add_gap(octreel_recorder *r)
 {
     gap_list_add(&r->gaps, r->error.text);
     if (r->lost.ticks++ > 0)
@@ -374,16 +375,16 @@ octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *t
         return OCTREEL_OK;
     if (r->closed)
         return status_fail(&r->error, OCTREEL_CLOSED);
-    const octreel_status status = take_tick(r, tree, about);
+    const octreel_status status = accept_tick(r, tree, about);
     if (status != OCTREEL_OK && !r->broken)
-        note_gap(r);
+        add_gap(r);
     r->ticks += !r->broken;
     return status;
 }
 
 /* ---- The end ------------------------------------------------------------------------------------------------ */
 
-/* Film the ring with the gaps after its last tick, which are in it for so long. */
+/* Record the ring. The gaps after its last tick are appended meanwhile. */
 static octreel_status ring_write(octreel_recorder *r, const char *folder)
 {
     ring *all = &r->ring;
@@ -398,7 +399,7 @@ static octreel_status ring_write(octreel_recorder *r, const char *folder)
     all->list = before;
     all->list.last->next = NULL;
     batch_release(tail);
-    return status == OCTREEL_OK ? tell_losses(r, &lost, ticks) : status;
+    return status == OCTREEL_OK ? report_losses(r, &lost, ticks) : status;
 }
 
 octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first)
@@ -421,12 +422,12 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
     return ring_write(r, folder);
 }
 
-/* The ticks that were refused after the last one that was taken. */
-static void put_last_gaps(octreel_recorder *r)
+/* Add the ticks that were refused after the last accepted one. */
+static void queue_last_gaps(octreel_recorder *r)
 {
     batch *b = r->gaps.count > 0 ? batch_make_gaps(&r->gaps) : NULL;
     if (b && queue_put(&r->queue, b, true) != OCTREEL_OK)
-        batch_release(b); /* the recording has broken off, which says more */
+        batch_release(b); /* the recording failed, and its error says more */
 }
 
 octreel_status octreel_recorder_close(octreel_recorder *recorder)
@@ -438,19 +439,19 @@ octreel_status octreel_recorder_close(octreel_recorder *recorder)
         return status_fail(&r->error, OCTREEL_CLOSED);
     r->closed = true;
     if (r->ring.most > 0)
-        return tell_losses(r, &r->lost, r->ticks);
+        return report_losses(r, &r->lost, r->ticks);
     if (r->put > 0)
-        put_last_gaps(r);
+        queue_last_gaps(r);
     queue_end(&r->queue);
     const octreel_status status = session_filmer_join(&r->filmer);
     queue_release(&r->queue);
     if (status != OCTREEL_OK)
         r->error = r->filmer.error;
     if (status != OCTREEL_OK || r->put > 0)
-        return status == OCTREEL_OK ? tell_losses(r, &r->lost, r->ticks) : status;
+        return status == OCTREEL_OK ? report_losses(r, &r->lost, r->ticks) : status;
     return r->lost.ticks == 0
                ? status_fail(&r->error, OCTREEL_NOTHING)
-               : status_refuse(&r->error, OCTREEL_NOTHING, "%s: all of them were refused, the first since %s",
+               : status_refuse(&r->error, OCTREEL_NOTHING, "%s: all ticks were refused; the first error is: %s",
                                octreel_status_text(OCTREEL_NOTHING), r->lost.why);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ring.c - the last ticks of a program, kept until they are wanted. */
+/* ring.c - a ring buffer of a program's last ticks: see ring.h. */
 #include "ring.h"
 #include "error.h"
 
@@ -13,7 +13,7 @@ void ring_release(ring *r)
     *r = (ring){0};
 }
 
-/* Let the points of the first tick be those of this one, and no gap come before it. */
+/* Make a tick the first of the ring: apply its changes to the start, and drop the gaps before it. */
 static bool start_at(ring *r, batch *b)
 {
     if (!point_table_reserve(&r->start, r->start.count + b->change_count))
@@ -28,8 +28,8 @@ static bool start_at(ring *r, batch *b)
     return true;
 }
 
-/* The nodes that are said in one tick are those of the next, where that says none. */
-static void hand_nodes_on(batch *from, batch *to)
+/* Foreign nodes stay valid until a tick has new ones: move them to the next tick if it has none. */
+static void pass_foreign_nodes(batch *from, batch *to)
 {
     if (!from->has_foreign || to->has_foreign)
         return;
@@ -46,7 +46,7 @@ bool ring_put(ring *r, batch *b)
         return false;
     if (full) {
         first = batch_list_take(&r->list);
-        hand_nodes_on(first, second);
+        pass_foreign_nodes(first, second);
         batch_release(first);
         r->dropped++;
     }
@@ -70,7 +70,7 @@ losses ring_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-/* As ring_film(), with its first points listed. */
+/* ring_film() with the points of the first tick as a list. */
 static octreel_status film(const ring *r, const points *start, const filmer_settings *s, const char *folder,
                            octreel_error *error)
 {
@@ -86,7 +86,7 @@ static octreel_status film(const ring *r, const points *start, const filmer_sett
     if (status == OCTREEL_OK)
         status = session_filmer_join(&f);
     else
-        error_set(&f.error, "a thread cannot be started");
+        error_set(&f.error, "cannot start a thread");
     queue_release(&ticks);
     if (status != OCTREEL_OK)
         *error = f.error;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* session_filmer.c - a thread that films ticks as a program handed them over. */
+/* session_filmer.c - a thread that records a program's ticks: see session_filmer.h. */
 #include "session_filmer.h"
 #include "error.h"
 #include "session_file.h"
@@ -11,7 +11,7 @@
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* The tick numbers given by the program are not used. */
+/* Number a batch's items, whose ticks the program does not set. */
 static void number_tick(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
@@ -37,8 +37,7 @@ static octreel_status fail_memory(session_filmer *f, octreel_status status)
     return status;
 }
 
-/* Film tick 0: these points, and the queries and shapes of a batch; or a gap, which has them where points are known at
- * last. */
+/* Record tick 0: these points with the queries and shapes of a batch, or a gap. */
 static octreel_status film_first(session_filmer *f, const points *start, const batch *first, const octree_gap *gap)
 {
     const filmer_settings *s = f->settings;
@@ -68,11 +67,11 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
         return OCTREEL_CANNOT_DRAW;
     if (!live_begin(f->live, &f->error))
         return OCTREEL_BAD_FOLDER;
-    queue_begin(f->queue); /* what may go wrong from here on, such as a full disk, may at any tick */
+    queue_begin(f->queue); /* later errors, such as a full disk, can happen at any tick */
     return live_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-/* The first points of all come by the changes of the first tick. */
+/* Begin the recording. Without a start, the first batch inserts the points. */
 static octreel_status begin(session_filmer *f, const batch *first, const octree_gap *gap)
 {
     points start = {0};
@@ -95,7 +94,7 @@ static octreel_status film_input(session_filmer *f, const octree_input *input)
     return live_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-/* `changes`: the batch's are made, which is not so where the recording has begun with its points. */
+/* `changes` is false if the recording has already begun with the batch's points. */
 static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
 {
     f->order.count = 0;
@@ -111,7 +110,7 @@ static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
                                          .foreign = b->has_foreign ? &b->foreign : NULL});
 }
 
-/* The gaps before the tick of a batch. */
+/* Record the gaps before a batch. */
 static octreel_status film_gaps(session_filmer *f, const batch *b)
 {
     octreel_status status = OCTREEL_OK;
@@ -129,7 +128,7 @@ static octreel_status film_gaps(session_filmer *f, const batch *b)
 static octreel_status film_batch(session_filmer *f, batch *b)
 {
     const bool begun = f->tick > 0;
-    batch_settle(b); /* here, and not in the program's thread */
+    batch_settle(b); /* in this thread, to spare the program's */
     octreel_status status = film_gaps(f, b);
     if (status != OCTREEL_OK || b->is_gap)
         return status;
@@ -141,8 +140,8 @@ static octreel_status film_batch(session_filmer *f, batch *b)
 
 /* ---- The thread --------------------------------------------------------------------------------------------- */
 
-/* Tick after tick, until there are no more or one fails. A program that waits for a tick is woken after f->status is
- * set; after a failure it does not wait for the last files. */
+/* Record ticks until the queue ends or one fails. f->status is set before a waiting program is woken; after a failure
+ * the program does not wait for the last files. */
 static void film_queue(session_filmer *f)
 {
     batch *b;

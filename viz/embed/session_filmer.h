@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* session_filmer.h - a thread that films ticks as a program handed them over: those of a queue as they come, those of a
- * ring when they are wanted.
+/* session_filmer.h - a thread that records the ticks of a queue, or of a ring on request.
  *
- * The thread leaves the program's alone: its signals go to others, its floating-point mode is the default, and what GL
- * context the program has is not its own. Private to this folder. */
+ * The thread does not disturb the program: it blocks all signals, uses the default floating-point mode, and leaves the
+ * program's GL context alone. Private to this folder. */
 #ifndef EMBED_SESSION_FILMER_H
 #define EMBED_SESSION_FILMER_H
 
@@ -12,20 +11,20 @@
 #include "live.h"
 #include "queue.h"
 
-/* The definition of a recorder, checked and copied. */
+/* A recorder's definition, checked and copied. */
 typedef struct filmer_settings {
-    octree_def tree; /* as a tree of it has it in force */
+    octree_def tree; /* with the options in force */
     octree_player player;
-    film_options film; /* without a folder */
+    film_options film; /* the folder is not set */
 } filmer_settings;
 
 typedef struct session_filmer {
     const filmer_settings *settings;
     const char *folder;
-    const points *start; /* at the first tick, whose batch has no changes then; null: there are none before it */
+    const points *start; /* points of the first tick, whose batch then has no changes; null: that batch inserts them */
     queue *queue;
     pthread_t thread;
-    /* The thread's, until the queue is broken or the thread has ended. */
+    /* Used by the thread alone until the queue is broken or the thread has ended. */
     live_recording *live;
     edit_order order;
     uint64_t tick;
@@ -33,12 +32,12 @@ typedef struct session_filmer {
     octreel_error error;
 } session_filmer;
 
-/* Start to film what comes through a queue; the four members above are set, and *f stays where it is until
+/* Start the thread. The caller sets settings, folder, start and queue, and keeps *f in place until
  * session_filmer_join(). Errors: NO_MEMORY. */
 octreel_status session_filmer_start(session_filmer *f);
 
-/* Wait until the queue has ended, all of it is filmed, and the recording is complete. Errors, the first that there was,
- * with the sentence in f->error: of the first tick CANNOT_DRAW, BAD_FOLDER and NO_MEMORY, then BROKEN. */
+/* Wait until the queue has ended and the recording is complete. Returns the first error, with its text in f->error: at
+ * the first tick CANNOT_DRAW, BAD_FOLDER or NO_MEMORY, later BROKEN. */
 octreel_status session_filmer_join(session_filmer *f);
 
 #endif

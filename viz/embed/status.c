@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* status.c - statuses with their sentences. */
+/* status.c - statuses with error texts. */
 #include "status.h"
 
 #include <stdarg.h>
@@ -10,7 +10,7 @@ const char *octreel_status_text(octreel_status status)
 #define OCTREEL_STATUS_TEXT(name, text) text,
     static const char *const texts[OCTREEL_STATUS_COUNT] = {OCTREEL_STATUS_MAP(OCTREEL_STATUS_TEXT)};
 #undef OCTREEL_STATUS_TEXT
-    return (unsigned)status < OCTREEL_STATUS_COUNT ? texts[status] : "there is no such status";
+    return (unsigned)status < OCTREEL_STATUS_COUNT ? texts[status] : "unknown status";
 }
 
 octreel_status status_refuse(octreel_error *error, octreel_status status, const char *format, ...)

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* status.h - statuses with their sentences. Private to this folder. */
+/* status.h - statuses with error texts. Private to this folder. */
 #ifndef EMBED_STATUS_H
 #define EMBED_STATUS_H
 
 #include "octreel/recorder.h"
 
-/* Write a sentence for a status, and return it. */
+/* Write an error text and return the status. */
 octreel_status status_refuse(octreel_error *error, octreel_status status, const char *format, ...);
 
-/* The same with the status's own. */
+/* Write the status's own text and return the status. */
 octreel_status status_fail(octreel_error *error, octreel_status status);
 
 #endif

@@ -68,7 +68,7 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(fill, "glow", OCTREEL_BAD_OPTION, "fill: there is no \"glow\"");
     REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "no tree \"mine\"");
     REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "no diagram \"above\"");
-    REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: there is no \"glx\"");
+    REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: unknown name \"glx\"");
     REFUSE(any_renderer, true, OCTREEL_BAD_OPTION, "any_renderer");
     REFUSE(width, 0, OCTREEL_BAD_OPTION, "0 x 90");
     REFUSE(width, 16385, OCTREEL_BAD_OPTION, "16385 x 90");
@@ -79,7 +79,7 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     REFUSE(budget, UINT64_MAX, OCTREEL_BAD_OPTION, "budget takes");
     REFUSE(every, UINT64_MAX, OCTREEL_BAD_OPTION, "every");
     REFUSE(queue_ticks, 0, OCTREEL_BAD_OPTION, "queue_ticks");
-    REFUSE(tree.leaf_capacity, OCTREE_AUTO, OCTREEL_BAD_OPTION, "tree: give the capacity in force");
+    REFUSE(tree.leaf_capacity, OCTREE_AUTO, OCTREEL_BAD_OPTION, "tree: leaf_capacity is OCTREE_AUTO");
     REFUSE(tree.leaf_capacity, 0, OCTREEL_BAD_OPTION, "tree: the leaf capacity");
     REFUSE(tree.world.min[1], NAN, OCTREEL_BAD_OPTION, "tree: the world");
     REFUSE(player.kind, OCTREE_PLAYER_KEYS, OCTREEL_BAD_OPTION, "player");

@@ -211,7 +211,7 @@ static void what_lists_and_changes_cannot_be_is_told(void **state)
                        large = {{0}, UINT64_C(1) << 53};
     octree_edit edit = {.kind = OCTREE_EDIT_INSERT, .body = {.id = 7}};
     octreel_tick_info about = {.points = twice, .point_count = 3};
-    assert_refused(&f, &about, OCTREEL_DUPLICATE_ID, "points: two of them have one id: 7");
+    assert_refused(&f, &about, OCTREEL_DUPLICATE_ID, "points: two points have the id 7");
     about.points = NULL;
     assert_refused(&f, &about, OCTREEL_NULL_ARGUMENT, "a required pointer is null");
     about = (octreel_tick_info){.points = &infinite, .point_count = 1};
@@ -220,14 +220,14 @@ static void what_lists_and_changes_cannot_be_is_told(void **state)
     assert_refused(&f, &about, OCTREEL_BAD_ID, "points: an id is not below 2^53, as files need it: 9007199254740992");
     assert_int_equal(list_tick(&f, three, 3), OCTREEL_OK);
     about = (octreel_tick_info){.changes = &edit, .change_count = 1};
-    assert_refused(&f, &about, OCTREEL_DUPLICATE_ID, "changes[0]: there is a point 7 already");
+    assert_refused(&f, &about, OCTREEL_DUPLICATE_ID, "changes[0]: point 7 exists already");
     edit.body.id = UINT64_MAX;
     assert_refused(&f, &about, OCTREEL_BAD_ID,
                    "changes[0]: an id is not below 2^53, as files need it: 18446744073709551615");
     edit = (octree_edit){.kind = OCTREE_EDIT_MOVE, .body = {.id = 8}};
-    assert_refused(&f, &about, OCTREEL_NO_POINT, "changes[0]: there is no point 8");
+    assert_refused(&f, &about, OCTREEL_NO_POINT, "changes[0]: point 8 does not exist");
     edit.kind = (octree_edit_kind)3;
-    assert_refused(&f, &about, OCTREEL_BAD_POINT, "changes[0]: there is no such kind");
+    assert_refused(&f, &about, OCTREEL_BAD_POINT, "changes[0]: unknown kind of edit");
     about.changes = NULL;
     assert_refused(&f, &about, OCTREEL_NULL_ARGUMENT, "a required pointer is null");
     assert_told(&f, OCTREEL_GAPS, "- - - - 3 - - - - -");

@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.h - record a program from inside: hand over its points, and what it asked of them, once a tick of its own
- * loop. The points are those of an octree, or, for a program with an index of its own, a list of them or of what
- * changed; its answers may come with its queries, and are then judged by the true ones ("octreel audit" sums up).
+/* recorder.h - record a program from inside. Once per tick of its loop the program passes its points and its queries.
+ * The points come from an octree, or from a list or changes if the program has an index of its own. Queries may carry
+ * the program's answers, which are checked against the exact ones ("octreel audit" sums up).
  *
- * A recorder keeps a session in the making: what changed in the tree since the last tick becomes the session's edits,
- * and beside them stand the program's queries and shapes. So the recording that comes out is like any other: octreel
- * verifies, joins, compares and replays it, and recording its session.json again gives the same bytes. A worker thread
- * plays and films it beside the program's loop. With `ring` nothing is filmed until the program says so: then the last
- * ticks are, say because an assertion fired.
+ * The recorder writes a session: point changes since the last tick become edits, and the program's queries and shapes
+ * are stored beside them. The result is a recording like any other: octreel verifies, joins, compares and replays it,
+ * and recording its session.json again gives the same bytes. A worker thread plays and draws beside the program's loop.
+ * With `ring` nothing is recorded until the program asks for its last ticks, for example after a failed assertion.
  *
  *     octreel_recorder_def def = octreel_recorder_def_default();
  *     def.folder = "my-flight";
  *     def.tree = octree_definition(tree);
  *     if (octreel_recorder_open(&def, &recorder, &why))
- *         puts(why.text); // and goes on: *recorder is null, which is a recorder that is off
+ *         puts(why.text); // the program goes on: recorder is null, and calls with it do nothing
  *     while (...)
  *         octreel_recorder_tick(recorder, tree, NULL);
  *     if (octreel_recorder_close(recorder))
  *         puts(octreel_recorder_error(recorder));
  *     octreel_recorder_destroy(recorder);
  *
- * and without an octree, say with a k-d tree that found point 17:
+ * Without an octree, for example with a k-d tree that found point 17:
  *
  *     octree_query asked = {.kind = OCTREE_QUERY_NEAREST, .target = {1, 2, 3}, .answered = true,
  *                           .answer = (uint64_t[]){17}, .answer_count = 1};
@@ -30,19 +29,19 @@
  *     octreel_recorder_tick(recorder, NULL, &(octreel_tick_info){.changes = &moved, .change_count = 1});
  *
  * Conventions
- *   - Nothing here ends the process, handles signals or keeps globals. A recorder may be used from any thread, from one
- *     at a time. The program's floating-point mode and GL contexts are left alone: a thread of the recorder's draws,
- *     with all signals blocked. A child of fork() must not use its parent's recorders.
- *   - Functions return a status; octreel_status_text() gives its sentence, octreel_recorder_error() the last one in
- *     full. Each call of octreel_recorder_tick() is a tick. One that is refused keeps its number and is a gap in the
- *     recording: no frame, and in ticks.jsonl the reason alone; closing says how many there are. Nothing else is lost:
- *     the next tick holds all that changed since the last one that was taken. After OCTREEL_BROKEN there are no further
- *     ticks; what was filmed is whole.
- *   - A null recorder is one that is off: every function takes it, does nothing, and returns OCTREEL_OK.
+ *   - The recorder never ends the process, handles signals or keeps globals. Any thread may use it, one at a time. The
+ *     program's floating-point mode and GL contexts stay as they are: the recorder draws in its own thread, with all
+ *     signals blocked. A child of fork() must not use its parent's recorders.
+ *   - Functions return a status; octreel_status_text() returns its text, octreel_recorder_error() the last error in
+ * full. Each call of octreel_recorder_tick() is a tick. A refused tick keeps its number and is a gap in the recording:
+ * it has no frame, and ticks.jsonl holds only the reason. Closing reports the count of gaps. No change is lost: the
+ *     next accepted tick holds all changes since the last accepted one. After OCTREEL_BROKEN no more ticks are
+ * recorded; the earlier ones are complete.
+ *   - Every function accepts a null recorder, does nothing, and returns OCTREEL_OK.
  *   - n is the number of points.
- *   - While it is recorded the session is in FOLDER/session.json.live, a tick a line. After a crash of the program
- *     "octreel record --resume -o FOLDER" makes a recording of it: what was in the queue alone is lost. Nothing is
- * synced to the disk: after a power cut a file may be damaged, which "octreel verify" finds.
+ *   - While recording, the session is in FOLDER/session.json.live, one tick on each line. After a crash of the program
+ *     "octreel record --resume -o FOLDER" completes the recording; only ticks in the queue are lost. Files are not
+ * synced to the disk: a power cut may damage one, which "octreel verify" finds.
  */
 #ifndef OCTREEL_RECORDER_H
 #define OCTREEL_RECORDER_H
@@ -54,7 +53,7 @@
 extern "C" {
 #endif
 
-/* One line per status: its name and its sentence. */
+/* One line per status: its name and its text. */
 #define OCTREEL_STATUS_MAP(X)                                                                                          \
     X(OK, "done")                                                                                                      \
     X(NULL_ARGUMENT, "a required pointer is null")                                                                     \
@@ -86,7 +85,7 @@ typedef enum octreel_status {
         OCTREEL_STATUS_COUNT
 } octreel_status;
 
-/* The sentence for a status, without a final stop. Never null; static storage. */
+/* The text of a status, without a final period. Never null; static storage. */
 const char *octreel_status_text(octreel_status status);
 
 typedef struct octreel_recorder octreel_recorder;
@@ -134,19 +133,17 @@ typedef struct octreel_recorder_def {
 /* No player, 1280 x 720, "iso", the default layers, "integers", 16 ticks or 64 MiB in the queue, no ring. */
 octreel_recorder_def octreel_recorder_def_default(void);
 
-/* What a program asked of its points in a tick, what else it shows, and, where it has no octree, which points it has.
- * The arrays are copied; their `tick` is not read. The recorder asks the queries itself: at the end of the tick, of the
- * points as they are handed over, with each query's `skip` and `epsilon` and in the exact mode. So its answers are the
- * program's own where that asked the same after its last change of the tick; what was asked before shows in a tick of
- * its own, handed over before the points are changed. What a query says that the program answered is copied, and judged
- * by the true answer.
+/* A program's queries and shapes at a tick, and its points if it has no octree. The arrays are copied; their `tick` is
+ * not read. The recorder answers the queries itself, exactly, at the end of the tick and with each query's `skip` and
+ * `epsilon`. The program gets the same answers if it asks after its last change of the tick. To show a query that it
+ * asked before a change, pass a tick of its own before that change. A query's own answer is copied and checked.
  *
- * In a tick points come from one of three: the tree, `points` or `changes`. A program may hand over a list and then
- * changes, tick by tick as it likes, but not a tree before or after them. With none of the three it is as at the tick
- * before: of a program that hands over lists an empty one, since that of a C++ vector is null; else nothing has
- * changed. A point outside the world is in no answer: the tick in which it comes or goes there has the event "refused".
+ * In one tick the points come from the tree, from `points` or from `changes`. A program may mix lists and changes from
+ * tick to tick, but not trees with either. Without any of the three nothing has changed; only a program that passes
+ * lists has no points then, since the data of an empty C++ vector may be null. A point outside the world is in no
+ * answer; the tick in which it enters or leaves has the event "refused".
  *
- * A point in a frame is one of these; a shape is what else there is, such as walls and goals. */
+ * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
     const octree_query *queries; /* in any order; all numbers finite; at_player where the recorder has a player */
     size_t query_count;
@@ -161,23 +158,22 @@ typedef struct octreel_tick_info {
                                            its queries' `met` says what it visited, left out and hit. Null: as before */
 } octreel_tick_info;
 
-/* Start a recorder into *recorder, which is null on an error, with the sentence in *error (may be null). The definition
- * is copied; the folder is made. Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID (the player's), BAD_FOLDER, NO_MEMORY.
- * Cost: a thread, which a ring has only while it is written. */
+/* Open a recorder. On an error *recorder is null and the text is in *error, which may be null. The definition is
+ * copied; the folder is made. Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID (the player's), BAD_FOLDER, NO_MEMORY. Cost: a
+ * thread; a ring needs one only while it is written. */
 octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder,
                                      octreel_error *error);
 
-/* Hand over a tick: the points as they are now, with ids that are unique, and what was asked and is shown; `about` may
- * be null. The first is tick 0. The points are those of the tree, or where that is null those of `about`: none, for
- * programs that record shapes alone. After a tick that had a tree, null is NULL_ARGUMENT. A tree under OCTREE_AUTO is
- * OTHER_TREE once it has chosen another capacity. Nothing is kept of the arguments when this returns. Waits for the
- * worker where the queue is full, and at tick 0 until it can draw, and the folder has the files that a recording begins
- * with.
+/* Record a tick: the current points with unique ids, the queries and the shapes; `about` may be null. The first call is
+ * tick 0. The points are those of the tree, or with a null tree those of `about`. After a tick with a tree, a null tree
+ * is NULL_ARGUMENT. A tree under OCTREE_AUTO is OTHER_TREE after it has changed its capacity. The arguments are not
+ * used after the call returns. It waits for the worker if the queue is full, and at tick 0 until the recording has
+ * begun.
  *
- * Of a tick that is refused, a list counts for nothing, and changes and nodes hold all the same, since the program
- * goes on from there: the next tick that is taken has them. Those that cannot be made alone are left out: BAD_POINT (a
- * NaN, an infinity, no such kind), BAD_ID, DUPLICATE_ID (an insertion of an id that is there) and NO_POINT (a move or
- * removal of one that is not); the sentence names the first. After NO_MEMORY none is made: hand the tick over again.
+ * If a tick is refused, its list is ignored, but its changes and foreign nodes stay valid: the next accepted tick has
+ * them. Only invalid changes are left out: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
+ * insertion of an existing id) and NO_POINT (a move or removal of a missing point); the error names the first. After
+ * NO_MEMORY no change is kept: pass the tick again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
  * BAD_NODE, FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree
@@ -188,22 +184,22 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * list, and up to 128 bytes a point; of foreign nodes O(m log m); and what changed until it is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 
-/* Film what the ring holds, and the gaps between and after its ticks, into a folder as a recording of its own, whose
- * tick 0 is tick *first of the recorder (may be null), and return when it is done. The ring goes on, and may be written
- * again, into another folder. Errors: NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN,
- * NO_MEMORY; and GAPS where all is done, and the recording has gaps. */
+/* Record the ring's ticks and gaps into a folder, and return when that is done. Tick 0 of the recording is tick *first
+ * of the recorder; `first` may be null. The ring continues and may be written again into another folder. Errors:
+ * NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN, NO_MEMORY; and GAPS after success if the
+ * recording has gaps. */
 octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first);
 
-/* Film what is in the queue, and complete the recording: session.json, and the page. A ring is let go unwritten. Where
- * a tick broke off, what came before it is whole, and octreel record --resume completes it. Errors: BROKEN, what tick 0
- * failed with, NOTHING, CLOSED; and GAPS where all is done, and ticks were refused on the way: the sentence has their
- * number, the first of them and its reason. */
+/* Record the rest of the queue and complete the recording with session.json and the page. A ring is dropped. If a tick
+ * failed, the earlier ticks are complete, and octreel record --resume continues them. Errors: BROKEN, the error of tick
+ * 0, NOTHING, CLOSED; and GAPS after success if ticks were refused: the error has their count, and the first one's
+ * number and reason. */
 octreel_status octreel_recorder_close(octreel_recorder *recorder);
 
-/* Close, where that was not done, and free all memory. */
+/* Close the recorder if it is open, and free it. */
 void octreel_recorder_destroy(octreel_recorder *recorder);
 
-/* The sentence of the last call that failed; "" where none did. Valid until the next call. */
+/* The error of the last call that failed, or "". Valid until the next call. */
 const char *octreel_recorder_error(const octreel_recorder *recorder);
 
 #ifdef __cplusplus
