@@ -28,6 +28,8 @@ macro(inline element regex)
       message(FATAL_ERROR "${part}: \"</${element}\" would close the element that holds this file")
     endif()
     strip(text)
+    string(REGEX REPLACE "\n*{\n" "{" text "${text}") # neither JavaScript nor CSS needs these line breaks
+    string(REGEX REPLACE ",\n" "," text "${text}")
     string(REPLACE "${tag}" "<${element}>${text}</${element}>" page "${page}")
   endforeach()
 endmacro()

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-# module.cmake - the page's module: the rooms that play, make scenes and draw, compiled to WebAssembly from the same
-# sources. Sets PAGE_MODULE to the file that the page takes in, or to nothing where clang cannot compile it.
-option(OCTREEL_PAGE_PLAYS "Put the program into the pages of recordings, where clang compiles to WebAssembly" ON)
-set(OCTREEL_WASI_SYSROOT /usr CACHE PATH "Where wasi-libc is: Debian's package wasi-libc")
+# module.cmake - compiles the rooms that play, compose and draw to WebAssembly, for the pages of recordings. Sets
+# PAGE_MODULE to the packed module, or to nothing if clang cannot compile it.
+option(OCTREEL_PAGE_PLAYS "Let the pages of recordings play and draw: needs clang for WebAssembly" ON)
+set(OCTREEL_WASI_SYSROOT /usr CACHE PATH "Prefix of wasi-libc (Debian package wasi-libc)")
 find_program(WASM_CLANG NAMES clang)
 set(PAGE_MODULE "")
 set(wasm_target --target=wasm32-wasi --sysroot=${OCTREEL_WASI_SYSROOT}
-    -msign-ext -mnontrapping-fptoint) # older than DecompressionStream, which pages use
+    -msign-ext -mnontrapping-fptoint) # every browser with DecompressionStream has both
 set(wasm_folder ${CMAKE_CURRENT_BINARY_DIR}/wasm)
 
-# Whether clang has all it takes: wasi-libc, lld, and its own runtime for the target.
+# Whether clang finds wasi-libc, lld and its runtime for the target.
 function(check_wasm result)
   set(${result} FALSE PARENT_SCOPE)
   if(NOT OCTREEL_PAGE_PLAYS OR NOT WASM_CLANG)
@@ -23,10 +23,10 @@ function(check_wasm result)
   endif()
 endfunction()
 
-# compile_wasm(SOURCE OBJECTS): adds the object of a source to a list.
+# compile_wasm(SOURCE OBJECTS): compiles a source and appends its object to a list.
 function(compile_wasm source objects)
   file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
-  # A page is to be small: fast is what is done for each node, point, line and pixel.
+  # Optimize for size, to keep pages small; for speed only the loops over nodes, points, lines and pixels.
   set(optimized -Oz)
   if(name MATCHES "/src/(tree/(leaf|tree|walk)|query/(region|search)|game/(game|bodies))[.]c$" OR
      name MATCHES "/(camera|filter|node_layers|node_boxes|fill|edges|box_lines|quads|stroke|project|splats|canvas)[.]c$")
@@ -42,14 +42,14 @@ endfunction()
 
 check_wasm(has_wasm)
 if(NOT has_wasm AND OCTREEL_REQUIRE_ORACLES)
-  message(FATAL_ERROR "The pages that play need clang, lld, wasi-libc and libclang-rt-dev-wasm32 (their Debian names)")
+  message(FATAL_ERROR "Pages that play need the Debian packages clang, lld, wasi-libc and libclang-rt-dev-wasm32")
 elseif(NOT has_wasm)
-  message(STATUS "Pages of recordings will not play: clang, lld, wasi-libc and clang's runtime for wasm32 are needed "
-                 "(Debian: clang lld wasi-libc libclang-rt-dev-wasm32)")
+  message(STATUS "Pages of recordings will show frames but not play; to let them play, install the Debian packages "
+                 "clang, lld, wasi-libc and libclang-rt-dev-wasm32")
   return()
 endif()
 
-# Headers of libraries, without those of this machine's own system that lie beside them.
+# Copy jansson's headers, since their folder also holds the headers of this machine's own libc.
 find_path(JANSSON_HEADER jansson.h HINTS ${JANSSON_INCLUDE_DIRS} REQUIRED)
 find_path(JANSSON_CONFIG_HEADER jansson_config.h HINTS ${JANSSON_INCLUDE_DIRS} REQUIRED)
 configure_file(${JANSSON_HEADER}/jansson.h ${wasm_folder}/include/jansson.h COPYONLY)
@@ -64,7 +64,7 @@ foreach(room base image scene layers compose draw clouds formats record replay)
 endforeach()
 list(APPEND wasm_includes -isystem ${wasm_folder}/include)
 
-# absent.c stands for what a page does not have; of the rest the linker takes what is used.
+# absent.c replaces the sources that are left out; the linker drops unused functions.
 file(GLOB wasm_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/src/*/*.c base/*.c image/image.c scene/*.c layers/*.c
      compose/*.c draw/*.c clouds/point_world.c formats/*.c record/playback.c record/picture.c replay/pick.c page/module/*.c)
 list(FILTER wasm_sources EXCLUDE REGEX "/(context[a-z_]*|gl_surface|file_read|parallel)\\.c$")
@@ -75,10 +75,10 @@ foreach(source ${wasm_sources})
 endforeach()
 
 file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/page/module/module.c exports REGEX "^[a-z].* \\**web_[a-z_]+\\(")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS page/module/module.c) # for its exports
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS page/module/module.c) # the exports are read from it
 list(TRANSFORM exports REPLACE "^[^(]*[ *](web_[a-z_]+)\\(.*" "-Wl,--export=\\1")
-# Without -O, which would have clang run wasm-opt where that is installed: it refuses what the stripped module does not
-# say it uses.
+# Link without -O: with it clang would run an installed wasm-opt, which rejects features that a stripped module does not
+# declare.
 add_custom_command(OUTPUT ${wasm_folder}/octreel.wasm DEPENDS ${wasm_objects} VERBATIM
                    COMMAND ${WASM_CLANG} ${wasm_target} -mexec-model=reactor ${wasm_objects} -Wl,--gc-sections
                            -Wl,--strip-all,--compress-relocations -Wl,-z,stack-size=1048576 ${exports}

@@ -65,10 +65,11 @@ static bool play(playing *p, const octree_session *session, octreel_error *error
 static bool check_size(size_t size, octreel_error *error)
 {
     return size <= PAGE_MOST_SESSION ||
-           error_set(error,
-                     "the session is larger than the %zu MB that a page holds: record it (--no-frames), and drop its "
-                     "session.json on its page",
-                     PAGE_MOST_SESSION / 1000000);
+           error_set(
+               error,
+               "the session is larger than %zu MB, the most that a page holds; record it with --no-frames, then drop "
+               "session.json on the recording's page",
+               PAGE_MOST_SESSION / 1000000);
 }
 
 /* A lower bound of the size of session.json, so that a far too large session is refused before it is written. */
@@ -83,8 +84,9 @@ bool write_played_page(const octree_session *session, const film_options *option
     session_bytes written;
     *summary = (film_summary){.total = octree_session_length(session) + 1};
     if (!page_plays())
-        return error_set(error, "this octreel was built without WebAssembly (clang, lld, wasi-libc), so no page of its "
-                                "own plays: octreel record films the session");
+        return error_set(error,
+                         "this octreel was built without WebAssembly, so its pages cannot play; use octreel record, "
+                         "or build it with clang, lld and wasi-libc");
     if (!check_size(find_least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
         return false;
     const bool ok = check_size(written.size, error) && play(&(playing){options, summary, page}, session, error);

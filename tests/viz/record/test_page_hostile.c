@@ -11,8 +11,7 @@
 #include "fixture.h"
 #include "recordings.h"
 
-#define CUT                                                                                                            \
-    "This page is being read. Where this sentence stays, the page is cut off or damaged: copy or record it again."
+#define CUT "Loading. If this sentence stays, the page is cut off or damaged: copy or record it again."
 
 /* A recording of a few ticks, and what was said of pages made of its page. */
 typedef struct driven {
@@ -129,7 +128,8 @@ static void one_whose_program_is_damaged_shows_frames_and_says_so(void **state)
     static const char *const names[] = {"program changed", "program begins otherwise"};
     const char *said = need_said(state);
     for (size_t i = 0; i < 2; i++) {
-        static const char expected[] = "tick 1 of 3: The page cannot play: the program in this page is damaged (";
+        static const char expected[] =
+            "tick 1 of 3: The page cannot play: the WebAssembly module in this page is damaged (";
         char what[64];
         snprintf(what, sizeof what, "%s: after a key", names[i]);
         char *told = said_about(said, what);

@@ -90,7 +90,7 @@ static void what_is_asked_is_answered_by_the_library(void **state)
 {
     const driven *d = need_page(state);
     assert_said_about(d->said, "answer", "[7]");
-    assert_said_about(d->said, "refused", "what is asked: range: min is above max on x");
+    assert_said_about(d->said, "refused", "query: range: min is above max on x");
     assert_said_about(d->said, "asked nothing", "true");
 }
 
@@ -105,8 +105,9 @@ static void what_is_played_on_is_a_session_that_films_the_same(void **state)
     assert_said_about(d->said, "taken", "41 of 41");
     assert_said_about(d->said, "taken again", "36 of 36");
     assert_said_about(d->said, "bar before", "Back to the recording; ");
-    assert_said_about(d->said, "bar taken",
-                      "Back to the recording; Played from tick 30, without what the session has after it: wwdnee");
+    assert_said_about(
+        d->said, "bar taken",
+        "Back to the recording; Played on from tick 30; the session's own later ticks are left out: wwdnee");
     char *text = said_about(d->said, "session");
     if (!session_parse("the session", "", text, strlen(text), &session, &error))
         fail_msg("%s", error.text);
@@ -122,18 +123,18 @@ static void what_cannot_be_opened_is_said_and_leaves_what_was_there(void **state
 {
     const driven *d = need_page(state);
     static const char *const rows[][2] = {
-        {"frame.png", "true frame.png cannot be opened: it is no session.json"},
+        {"frame.png", "true frame.png cannot be opened: not a session.json file"},
         {"newer.json", "true newer.json cannot be opened: line 1: version:"},
         {"cut.json", "true cut.json cannot be opened: line 1: "},
         {"nan.json", "true nan.json cannot be opened: line 1: "},
         {"cloud.json", "true cloud.json cannot be opened: "},
         {"huge.json", "true huge.json cannot be opened: line 1: "},
         {"label.json", "true label.json cannot be opened: line 1: "},
-        {"marked", "true a?gnp?.json cannot be opened: it is no session.json"},
-        {"binary", "true binary cannot be opened: it is no session.json"},
-        {"large.json", "true large.json cannot be opened: it is larger than 256 MiB, which a page does not take"},
-        {"folder", "true folder cannot be opened: it cannot be read; of a folder, drop the session.json that is in it"},
-        {"ticks.json", "false The session has 1,000,000,001 ticks, of which this page plays the first 100,000."},
+        {"marked", "true a?gnp?.json cannot be opened: not a session.json file"},
+        {"binary", "true binary cannot be opened: not a session.json file"},
+        {"large.json", "true large.json cannot be opened: larger than 256 MiB, the most that a page opens"},
+        {"folder", "true folder cannot be opened: it cannot be read; if it is a folder, drop the session.json in it"},
+        {"ticks.json", "false The session has 1,000,000,001 ticks; this page plays the first 100,000."},
         {"text.json", "false "},
         {"good.json", "false "},
     };
@@ -177,7 +178,7 @@ static void a_page_without_frames_draws_at_once(void **state)
     assert_said_about(alone.said, "given back", "true 252");
     assert_said_about(alone.said, "bar before", "; "); /* nothing is there to go back from */
     assert_said_about(alone.said, "bar looked at", "Back to the session; ");
-    assert_said_about(alone.said, "bar played on", "Back to the session; Played from tick 252: w");
+    assert_said_about(alone.said, "bar played on", "Back to the session; Played on from tick 252: w");
     assert_said_about(alone.said, "bar given back", "; ");
     assert_said_about(alone.said, "errors", "");
     free(alone.said);
@@ -194,8 +195,7 @@ static void a_page_that_cannot_draw_says_what_can(void **state)
     fprintf(file, "%.*s%s", (int)(module - text), text, strstr(module, "</script>"));
     assert_int_equal(fclose(file), 0);
     char *shown = browser_open(d->folder, page.path, "");
-    assert_non_null(strstr(shown, "<p id=\"caption\">This recording has no frames, and this page has no program that "
-                                  "draws them"));
+    assert_non_null(strstr(shown, "<p id=\"caption\">This recording has no frames, and this page cannot draw them"));
     free(shown);
     free(text);
 }

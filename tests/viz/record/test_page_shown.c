@@ -215,7 +215,7 @@ static void filter_leads_from_match_to_match(void **state)
     assert_walk(*state, "walk collided", "0 ", " collided ");
     assert_walk(*state, "walk collided or merged", "0 ", " collided merged ");
     assert_said(*state, "walk back", "234 193 121 120 11 10 6 2 1 0");
-    assert_said(*state, "filtered", "10 ticks collided: j and k go from one to the next.");
+    assert_said(*state, "filtered", "10 ticks with collided; j and k go to the next and previous.");
     assert_said(*state, "chosen", "collided");
     assert_said(*state, "chosen none", "0");
 }
@@ -292,7 +292,7 @@ static void tick_without_a_frame_shows_the_one_before_and_says_so(void **state)
     char *page = browser_open(d->folder, place_below(film.path, "index.html").path, "t=43&filter=collided,full");
     assert_has(page, "data-tick=\"43\"");
     assert_has(page, "<dd data-fact=\"tick\">43</dd>");
-    assert_has(page, "Tick 43 was not filmed: this is the frame of tick 40.");
+    assert_has(page, "Tick 43 has no frame; this is the frame of tick 40.");
     assert_has(page, "src=\"frame_000040.png\"");
     assert_has(page, "11 ticks collided or full");
     assert_has(page, "253 ticks \xc2\xb7 7 frames");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* absent.c - what a page does not have, in place of what the rooms are linked with elsewhere: files, and clouds, which
- * are files. */
+/* absent.c - stand-ins for functions that need files, which a page does not have. They fail with an error; the linker
+ * takes them in place of file_read.c and the cloud readers. */
 #include "cloud.h"
 #include "file.h"
 
@@ -15,14 +15,13 @@ FILE *fopen(const char *path, const char *mode)
     return NULL;
 }
 
-/* In place of file_read.c and of what reads clouds: a page has no files. */
-static const char absent[] = "cannot be opened: a page has no files";
+static const char no_files[] = "cannot be opened: a page cannot read files";
 
 FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
     (void)path;
     (void)size;
-    snprintf(reason, FILE_REASON, "%s", absent);
+    snprintf(reason, FILE_REASON, "%s", no_files);
     return NULL;
 }
 
@@ -37,7 +36,7 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
 {
     (void)watch;
     *out = (cloud){0};
-    return error_set(error, "%s: %s", path, absent);
+    return error_set(error, "%s: %s", path, no_files);
 }
 
 bool cloud_recognise(const unsigned char *bytes, size_t size)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* choices.h - what the page offers to choose from. Private to this folder. */
+/* choices.h - the choices that the page offers in its controls. Private to this folder. */
 #ifndef WEB_CHOICES_H
 #define WEB_CHOICES_H
 

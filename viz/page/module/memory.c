@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: MIT */
-/* memory.c - the end of the memory in use, kept in that memory: a page that returns to an earlier state of it returns
- * to an earlier end, and what was got from the browser since then is used again. In place of wasi-libc's sbrk(), which
- * would ask the browser for more. */
+/* memory.c - sbrk() that keeps the end of the used memory in that memory itself.
+ *
+ * The page goes back to an earlier state by copying the memory back, but WebAssembly's memory never shrinks.
+ * wasi-libc's sbrk() takes the memory's size for the end of the used part, so each return to an earlier state would
+ * leak all that was allocated since. Here the end goes back with the rest, and the memory behind it is used again. */
 #include <stddef.h>
 #include <stdint.h>
 #include <unistd.h>
 
-#define BROWSER_PAGE ((size_t)65536)
+#define MEMORY_PAGE ((size_t)65536)
 
 static size_t end;
 
-static size_t bytes_there(void)
+static size_t memory_size(void)
 {
-    return (size_t)__builtin_wasm_memory_size(0) * BROWSER_PAGE;
+    return (size_t)__builtin_wasm_memory_size(0) * MEMORY_PAGE;
 }
 
-/* The bytes from 0 on that hold the module's state: at first all that it began with, since newer versions of
- * wasi-libc take what lies behind the data there without asking. */
+/* The count of bytes from address 0 that hold the module's state. At first that is the whole memory, since newer
+ * versions of wasi-libc use the part behind the static data without calling sbrk(). */
 size_t web_used(void)
 {
-    return end ? end : bytes_there();
+    return end ? end : memory_size();
 }
 
 void *sbrk(intptr_t more)
 {
     const size_t before = web_used(), wanted = before + (size_t)more;
-    const size_t there = bytes_there();
+    const size_t size = memory_size();
     if (more < 0 || wanted < before ||
-        (wanted > there &&
-         __builtin_wasm_memory_grow(0, (wanted - there + BROWSER_PAGE - 1) / BROWSER_PAGE) == (size_t)-1))
+        (wanted > size && __builtin_wasm_memory_grow(0, (wanted - size + MEMORY_PAGE - 1) / MEMORY_PAGE) == (size_t)-1))
         return (void *)-1;
     end = wanted;
     return (void *)before;

@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* module.c - what the page of a recording plays and draws with, as WebAssembly: the game, the scene and the pixels of
- * this program, for one session at a time.
+/* module.c - the functions that a page calls in WebAssembly: they play one session at a time and draw its ticks.
  *
- * Every function is exported under its name. Those that return bool are false with the reason in web_text(), which is
- * also where the others leave their texts, until the next call. Texts that are given are written to web_room() before.
- * All that a session needs is in this module's memory, so that a copy of it is a state that the page can return to:
- * web_used() bytes from 0 on. */
+ * The page runs octreel's own code, so that it needs no recorded frame and can show any view of any tick. This file is
+ * the border between C and viewer/engine.js. Input: JavaScript asks web_room() for a buffer, writes one or more texts
+ * or numbers into it, and passes their sizes to the next call. Output: a function that returns bool leaves its text, or
+ * with false its error, in web_text() until the next call; numbers are returned as double, since JavaScript has no
+ * 64-bit integer that is convenient; web_draw() returns the address of the pixels. Every function named web_* is
+ * exported.
+ *
+ * The pixels equal those of the PNG frames because the same sources decide them: scenes come from double arithmetic in
+ * a fixed order without FMA, which WebAssembly defines bit for bit, and the integer rasterizer fills them without a
+ * GPU. All state is in linear memory. A copy of its first web_used() bytes is therefore a state of the game, to which
+ * the page returns by copying it back. */
 #include "choices.h"
 #include "describe.h"
 #include "layer.h"
@@ -24,12 +30,12 @@
 typedef struct web {
     session_file session;
     playback playback;
-    bool open, drawn; /* there is a playback; its last tick has been drawn */
-    bool scaled;      /* its view had no scale of points of its own */
-    unsigned counted; /* layers that show sums over all ticks, where those are made */
+    bool open, drawn; /* the playback is open; its current tick is drawn */
+    bool scaled;      /* the point scale was fitted, not given in the view */
+    unsigned counted; /* layers whose sums over all ticks are collected */
     char *room, *text;
     size_t room_size, text_size;
-    uint32_t *rgba; /* bytes in this order */
+    uint32_t *rgba; /* the picture: bytes R, G, B, A for each pixel */
     octreel_error error;
 } web;
 
@@ -37,7 +43,7 @@ static web page;
 
 /* ---- Texts -------------------------------------------------------------------------------------------------- */
 
-/* Room for the texts that the next call is given; null where there is no memory. */
+/* The buffer for the input of the next call, at least `size` + 1 bytes; null if out of memory. */
 char *web_room(size_t size)
 {
     if (size + 1 > page.room_size) {
@@ -65,8 +71,8 @@ static bool fails(void)
     return false;
 }
 
-/* What `write` prints becomes web_text(). */
-static bool say_text(bool (*write)(FILE *out))
+/* Let web_text() be what `write` prints. */
+static bool set_text(bool (*write)(FILE *out))
 {
     text_stream s;
     fails();
@@ -92,8 +98,8 @@ static void close_all(void)
     page.open = page.drawn = page.scaled = false;
 }
 
-/* Open a session and play its tick 0: in the room there is its text, of `session` bytes, and after it that of a
- * recording.json. What was open before is closed. */
+/* Open a session and play its tick 0. The room holds the session's text of `session` bytes and then a recording.json of
+ * `recording` bytes. A session that was open is closed. */
 bool web_open(size_t session, size_t recording)
 {
     view v;
@@ -112,7 +118,7 @@ bool web_open(size_t session, size_t recording)
     return page.open || fails();
 }
 
-/* Play a tick: by a key, or with 0 the session's next. */
+/* Play the next tick, with this key or with 0 as the session has it. */
 bool web_step(int key)
 {
     const octree_input input = {.key = (char)key};
@@ -130,13 +136,13 @@ double web_tick(void)
     return (double)octree_game_tick(page.playback.game)->number;
 }
 
-/* Ticks after tick 0. */
+/* Count of ticks after tick 0. */
 double web_length(void)
 {
     return (double)octree_session_length(&page.session.session);
 }
 
-/* The world's lowest and highest corner, three doubles each. */
+/* The world's minimum and maximum corner, three doubles each. */
 const double *web_world(void)
 {
     return page.session.session.tree.world.min;
@@ -148,15 +154,15 @@ static bool write_facts(FILE *out)
     return true;
 }
 
-/* The tick's line of ticks.jsonl, without its frame. */
+/* The tick's line of ticks.jsonl, without the members of its frame. */
 bool web_facts(void)
 {
-    return say_text(write_facts);
+    return set_text(write_facts);
 }
 
 /* ---- The picture -------------------------------------------------------------------------------------------- */
 
-/* By the points of tick 0, as when the session was opened. */
+/* Fit a view to the points of tick 0, as when the session was opened. */
 static bool fit_to_start(view *v)
 {
     octree_game *start;
@@ -168,8 +174,8 @@ static bool fit_to_start(view *v)
     return fitted;
 }
 
-/* A scale of points that was fitted stays until a view shows others, or in other colours: views follow each other as
- * fast as frames. */
+/* Fit a view. A point scale that was fitted before is kept while the filter and the colouring stay the same: dragging
+ * changes the view at every frame. */
 static bool fit(view *v)
 {
     const view *now = &page.playback.view;
@@ -183,7 +189,7 @@ static bool fit(view *v)
     return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
-/* View the session by the recording.json in the room from now on. */
+/* Set the view from the recording.json in the room. */
 bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
@@ -201,7 +207,7 @@ bool web_view(size_t recording)
     return true;
 }
 
-/* Whether the view shows sums over all ticks that are not made: the session is to be opened by this view. */
+/* Whether the view shows sums over all ticks that were not collected; then the session must be opened again with it. */
 bool web_lacks_sums(void)
 {
     return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.counted;
@@ -225,7 +231,7 @@ static uint32_t rgba_word(image_color color)
     return word;
 }
 
-/* Whole words, from a table where the pixels are indices: this is a good part of a frame. */
+/* Write whole words, from a table if the pixels are indices: this takes a good part of a frame's time. */
 static void color_pixels(const image *frame)
 {
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
@@ -241,8 +247,7 @@ static void color_pixels(const image *frame)
             page.rgba[i] = rgba_word((image_color){from[0], from[1], from[2]});
 }
 
-/* Draw the tick as it is viewed: rows of 4 bytes a pixel, red first, from the top; null with the reason in web_text().
- */
+/* Draw the tick. Returns rows of 4 bytes a pixel, R first, from the top; null with the error in web_text(). */
 const uint32_t *web_draw(void)
 {
     playback *p = &page.playback;
@@ -271,13 +276,13 @@ static bool write_digest(FILE *out)
     return true;
 }
 
-/* The digest of the scene that was drawn. */
+/* The digest of the drawn scene. */
 bool web_digest(void)
 {
-    return say_text(write_digest);
+    return set_text(write_digest);
 }
 
-/* What a camera looks at, at which pixel, and how long a pixel is there. */
+/* A camera's center, the pixel that shows it, and the length of a pixel there. */
 static void write_center(json_writer *w, const camera *c, const int origin[2])
 {
     json_member_vector(w, "center", c->center);
@@ -317,15 +322,15 @@ static bool write_camera(FILE *out)
     return true;
 }
 
-/* The camera of the picture that was drawn, as JSON: its axes, the place it looks at and at which pixel, and how long a
- * pixel is there, in world units; and those of the close-up, where there is one, with its part of the picture. */
+/* The camera of the drawn picture as JSON: its axes, its center with the pixel that shows it, and the length of a pixel
+ * there in world units; the same for a close-up, with its window in the picture. */
 bool web_camera(void)
 {
-    return say_text(write_camera);
+    return set_text(write_camera);
 }
 
-/* Turn places of the world, three doubles each in the room, into pixels of the picture that was drawn, two doubles each
- * in the same room: NaN where they are not before the camera. */
+/* Project places of the world onto the drawn picture. The room holds three doubles for each place, and afterwards two
+ * for its pixel: NaN for a place behind the camera. */
 void web_project(size_t count)
 {
     double *numbers = (double *)(void *)page.room;
@@ -361,7 +366,7 @@ static bool write_pick(FILE *out)
     return true;
 }
 
-/* What is at a pixel of the picture that was drawn, as JSON: see pick.h. */
+/* The elements at a pixel of the drawn picture as JSON: see pick.h. */
 bool web_pick(int x, int y, int radius)
 {
     picked.x = x;
@@ -369,15 +374,15 @@ bool web_pick(int x, int y, int radius)
     picked.radius = radius;
     if ((!page.drawn && !web_draw()) || x < 0 || y < 0 || x >= web_width() || y >= web_height())
         return fails();
-    return say_text(write_pick);
+    return set_text(write_pick);
 }
 
-/* Ask about the tick what the header of a session in the room asks at every tick; the answers are among the facts from
- * then on, until the next tick. */
+/* Answer, at the current tick, the queries in the header of the session in the room. The answers are among the facts
+ * until the next tick. */
 bool web_ask(size_t size)
 {
     session_file asked;
-    if (!session_parse("the question", "", page.room, size, &asked, &page.error))
+    if (!session_parse("the query", "", page.room, size, &asked, &page.error))
         return fails();
     const octree_status status = octree_game_ask(page.playback.game, asked.session.queries, asked.session.query_count);
     session_release(&asked);
@@ -385,31 +390,31 @@ bool web_ask(size_t size)
     return status == OCTREE_OK || (error_set(&page.error, "%s", octree_status_text(status)), fails());
 }
 
-typedef struct sought {
+typedef struct point_search {
     uint64_t id;
     const octree_point *found;
-} sought;
+} point_search;
 
-static octree_walk_order seek_point(const octree_node *node, void *context)
+static octree_walk_order find_point(const octree_node *node, void *context)
 {
-    sought *s = context;
+    point_search *s = context;
     for (size_t i = 0; node->leaf && i < node->count; i++)
         if (node->points[i].id == s->id)
             s->found = &node->points[i];
     return s->found ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* Where the point of an id is, three doubles; null when there is none. Cost: O(points). */
+/* The position of the point with an id, three doubles; null if there is none. Cost: O(points). */
 const double *web_point(double id)
 {
-    sought s = {.id = (uint64_t)id};
-    octree_walk(octree_game_tree(page.playback.game), seek_point, &s);
+    point_search s = {.id = (uint64_t)id};
+    octree_walk(octree_game_tree(page.playback.game), find_point, &s);
     return s.found ? s.found->position : NULL;
 }
 
-/* ---- What is played becomes a session ----------------------------------------------------------------------- */
+/* ---- Keys of the user ----------------------------------------------------------------------- */
 
-/* What is of ticks after `last`, among items that ascend by tick with those of every tick at the end. */
+/* Remove the items of ticks after `last`; items of every tick stay. */
 #define CUT_AFTER(items, count, last)                                                                                  \
     do {                                                                                                               \
         size_t kept = 0;                                                                                               \
@@ -419,8 +424,8 @@ const double *web_point(double id)
         (count) = kept;                                                                                                \
     } while (0)
 
-/* Change the session: as it is up to a tick that has been played, and then nothing but the keys in the room, `count` of
- * them. They are played by web_step(). */
+/* Cut the session off after tick `last`, which must have been played, and append `count` keys from the room. web_step()
+ * plays them. */
 bool web_keys(double last, size_t count)
 {
     octree_session *s = &page.session.session;
@@ -457,14 +462,14 @@ static bool write_session(FILE *out)
     return session_write(&page.session.session, &page.session.values, out);
 }
 
-/* The session as session.json. */
+/* The session as the text of session.json. */
 bool web_session(void)
 {
-    return say_text(write_session);
+    return set_text(write_session);
 }
 
-/* The cameras, layers and other choices of a view, and the kinds of queries with what they read, as JSON. */
+/* The choices for a view's options, its layers, and the query kinds with their members, as JSON. */
 bool web_choices(void)
 {
-    return say_text(choices_write);
+    return set_text(choices_write);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* accept.js - what a person ticks to be accepted, and accept.txt, which says it to octreel accept --from: a name a
- * line. */
+/* accept.js - the ticks of frames to accept, and accept.txt, which lists them for octreel accept --from: one name on
+ * each line. */
 "use strict";
 
-/* What a shell reads as this word. */
+/* A text as one word of a shell. */
 const shellWord = text => /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 
 class Ticks {
@@ -18,8 +18,8 @@ class Ticks {
         this.show();
     }
 
-    /* What cannot be read is no reference, and a name with a line end is no line. */
-    can(i)
+    /* An unreadable frame cannot become a reference, and accept.txt cannot hold a name with a line break. */
+    isAcceptable(i)
     {
         const {finding, frames} = this.findings.frames[i];
         return finding !== "unreadable" && !frames.some(name => /[\n\r]/.test(name));
@@ -29,14 +29,14 @@ class Ticks {
     {
         const box = element("input", "", {type: "checkbox", "aria-label": `Accept ${titleOf(finding)}`,
                                           title: "accept (x)"});
-        box.disabled = !this.can(i);
+        box.disabled = !this.isAcceptable(i);
         box.addEventListener("change", () => this.set(i, box.checked));
         return box;
     }
 
     set(i, on)
     {
-        if (!this.can(i))
+        if (!this.isAcceptable(i))
             return;
         this.ticked[on ? "add" : "delete"](i);
         this.show();
@@ -49,7 +49,7 @@ class Ticks {
 
     toggleAll()
     {
-        const all = this.boxes.map((_, i) => i).filter(i => this.can(i));
+        const all = this.boxes.map((_, i) => i).filter(i => this.isAcceptable(i));
         this.ticked = new Set(this.ticked.size < all.length ? all : []);
         this.show();
     }
@@ -85,7 +85,7 @@ class Ticks {
         setTimeout(() => URL.revokeObjectURL(link.href));
     }
 
-    /* A page that was opened as a file may have no clipboard of its own. */
+    /* A page opened as a file may have no navigator.clipboard. */
     async copy()
     {
         try {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* curve.js - how many pixels differ over all frames that were compared, as bars; a click goes to the frame. */
+/* curve.js - a bar for each compared frame: its count of pixels that differ. A click goes to the frame. */
 "use strict";
 
 const BAR_GAP = 3; /* CSS pixels: bars narrower than this touch */
 
-/* The share of the height that a number of pixels takes: a hundredth of the most is still seen. */
+/* A bar's share of the height. By the square root, a hundredth of the most is still visible. */
 function barHeight(pixels, most)
 {
     return most > 0 ? Math.sqrt(pixels / most) : 0;
@@ -15,7 +15,7 @@ class Curve {
     {
         this.canvas = figure.querySelector("canvas");
         this.pixels = findings.whole.pixels;
-        this.entries = findings.whole.entries; /* of each frame its finding in the page, or null */
+        this.entries = findings.whole.entries; /* for each frame the index of its finding in the page, or null */
         this.most = this.pixels.reduce((most, pixels) => Math.max(most, pixels ?? 0), 0);
         this.entry = -1;
         this.canvas.addEventListener("click", event => goTo(this.nearest(event.offsetX)));
@@ -33,7 +33,7 @@ class Curve {
             `${grouped(this.most)}; the first that differs is ${shortName(frames[0])}`);
     }
 
-    /* The finding of the frame that is nearest to a place across the canvas, of those that the page has. */
+    /* The finding in the page whose frame is nearest to x on the canvas. */
     nearest(x)
     {
         const place = Math.floor(x / this.canvas.clientWidth * this.pixels.length);
@@ -59,7 +59,7 @@ class Curve {
         context.fillRect(0, height - 1, width, 1);
         const step = width / this.pixels.length, wide = Math.max(step > BAR_GAP ? step - 1 : step, 1);
         this.pixels.forEach((pixels, i) => {
-            /* What has no number stands out as much as the most. */
+            /* A frame without a count is as tall as the most. */
             const tall = pixels === null ? height : Math.ceil(barHeight(pixels, this.most) * height);
             context.fillStyle = this.entries[i] === this.entry ? text : warm;
             context.fillRect(i * step, height - tall, wide, tall);

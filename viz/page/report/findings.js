@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* findings.js - what was found, as the page has it, and in words. */
+/* findings.js - the findings of a comparison, parsed from the page, and their words. */
 "use strict";
 
 const KINDS = {
     pixels: "pixels differ",
-    size: "another size",
-    digest: "another digest",
+    size: "different size",
+    digest: "different digest",
     no_frame: "no frame",
     no_reference: "no reference",
     unreadable: "unreadable",
@@ -36,13 +36,13 @@ class Findings {
     }
 }
 
-/* What counts; in a frame of unlike size, say, nothing was counted. */
+/* The counted differences; if none were counted, as in frames of different sizes, all differences. */
 function tallyOf(finding)
 {
     return finding.counted?.pixels > 0 ? finding.counted : finding.unlike ?? {pixels: 0};
 }
 
-/* All frames of a finding, which are alike: the first one's pictures are shown. */
+/* A finding's name: its frames differ alike, and the first one's pictures are shown. */
 function titleOf(finding)
 {
     return finding.frames.length > 1 ? finding.frames_words : shortName(finding);
@@ -63,10 +63,10 @@ function shortWords(finding)
     return `${grouped(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
 }
 
-/* What begins with the name of a picture stays as it is. */
+/* A text with a capital letter, unless it starts with the name of a picture. */
 const capital = text => /^[^;]*\.png /i.test(text) ? text : text.charAt(0).toUpperCase() + text.slice(1);
 
-/* The cause where one is known, or how much differs, up to the first pause. */
+/* The cause, or the amount of difference if it is unknown; only the part before the first semicolon. */
 function headlineOf(finding)
 {
     return capital((finding.cause ?? finding.words).split("; ")[0]);
@@ -80,7 +80,7 @@ function headlineOfAll(whole, [first])
             ...whole.headline ? [whole.headline] : []].join(": ");
 }
 
-/* What else the cause says, and what differs where it is not counted. */
+/* The rest of the cause, and the difference itself if it is not in pixels. */
 function detailsOf(finding)
 {
     const [, ...rest] = (finding.cause ?? "").split("; ");
@@ -98,11 +98,11 @@ function share(pixels, [width, height])
 
 function forgivenIn(finding)
 {
-    return [["close", "close"], ["antialiased", "anti-aliased"], ["ignored", "in what is ignored"]]
+    return [["close", "close"], ["antialiased", "anti-aliased"], ["ignored", "in ignored areas"]]
         .filter(([member]) => finding[member] > 0).map(([member, words]) => `${grouped(finding[member])} ${words}`);
 }
 
-/* One where both are the same. */
+/* The sizes of both pictures; one row if they are equal. */
 function sizesOf({reference_size: expected, frame_size: actual})
 {
     const sizes = [["expected", expected], ["actual", actual]].filter(([, size]) => size);
@@ -110,13 +110,13 @@ function sizesOf({reference_size: expected, frame_size: actual})
         sizes.map(([name, size]) => [name, sides(size)]);
 }
 
-/* Rounded up, as all reports have it: what is shown is enough to forgive it. */
+/* Rounded up as in all reports, so that the shown number works as a tolerance. */
 function shownDelta(delta)
 {
     return (Math.ceil(delta * 1e4) / 1e4).toFixed(4);
 }
 
-/* Names and values, for people. */
+/* The names and values that the panel shows. */
 function factsOf(finding)
 {
     const tally = tallyOf(finding), facts = [], forgiven = forgivenIn(finding);

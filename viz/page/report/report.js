@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* report.js - which frame is looked at and how, the keys that change that, and what is said beside it. The place is in
- * the address: #frame=frame_000041.png&mode=blink. */
+/* report.js - the report page: the current finding, how its pictures are compared, and the facts beside them. The
+ * address holds the frame and the mode: #frame=frame_000041.png&mode=blink. */
 "use strict";
 
 const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes too often */
 const SWIPE_STEP = 2; /* percent */
 const ZOOM_STEP = 1.5;
 
-/* Ways to look: their keys, and what they are. */
+/* Ways to compare: mode, key, name and help text. */
 const MODES = [
     ["swipe", "s", "swipe", "expected on the left of the line, actual on its right"],
-    ["blink", "b", "blink", "one after the other"],
-    ["difference", "d", "difference", "what differs glows"],
-    ["side", "t", "side by side", "all three together"],
-    ["expected", "e", "expected", "the reference alone"],
-    ["actual", "a", "actual", "the frame alone"],
+    ["blink", "b", "blink", "expected and actual in turn"],
+    ["difference", "d", "difference", "pixels that differ glow"],
+    ["side", "t", "side by side", "expected, actual and difference"],
+    ["expected", "e", "expected", "only the reference"],
+    ["actual", "a", "actual", "only the frame"],
 ];
 
 const byId = id => document.getElementById(id);
@@ -63,7 +63,7 @@ class Report {
         this.writeAddressSoon();
     }
 
-    /* ---- What is seen --------------------------------------------------------------------------------------- */
+    /* ---- What is shown --------------------------------------------------------------------------------------- */
 
     show()
     {
@@ -95,7 +95,7 @@ class Report {
         this.showFiles(finding);
     }
 
-    /* Links to what lies beside the page, where it was taken along. */
+    /* Links to the picture files beside the page. */
     showFiles(finding)
     {
         const links = Object.entries(finding.files).map(([word, file]) =>
@@ -122,16 +122,16 @@ class Report {
         byId("nothing").hidden = Object.keys(addresses).length > 0;
         byId("nothing").textContent = this.whyNothing(finding);
         this.showStage();
-        document.body.dataset.frame = finding.frame; /* all of it is seen */
+        document.body.dataset.frame = finding.frame; /* set once everything is shown: tests wait for it */
     }
 
     whyNothing(finding)
     {
         if (finding.finding === "unreadable")
-            return "It cannot be read, so there is no picture of it.";
+            return "This frame cannot be read, so it has no picture.";
         if (finding.embedded)
-            return "There is no picture of it.";
-        return "Its pictures are too large for this page. They lie beside it.";
+            return "This frame has no picture.";
+        return "The pictures are too large for this page; they are files beside it.";
     }
 
     showStage()
@@ -171,23 +171,25 @@ class Report {
 
 /* ---- Keys and buttons --------------------------------------------------------------------------------------- */
 
-/* Keys as KeyboardEvent names them, as people read them, what they do in words, and what they do. */
+/* For each key: its names in KeyboardEvent, its name in the help, the help text, and the action. */
 const KEYS = [
     [["n", "ArrowRight", "ArrowDown"], "n →", "next difference", report => report.step(1)],
     [["p", "ArrowLeft", "ArrowUp"], "p ←", "previous difference", report => report.step(-1)],
     [["Home"], "Home", "first difference", report => report.step(-Infinity)],
     [["End"], "End", "last difference", report => report.step(Infinity)],
     ...MODES.map(([mode, key, name, words]) => [[key], key, `${name}: ${words}`, report => report.look(mode)]),
-    [[" "], "space", "blink by hand", report => report.stage.can("blink") && report.stage.flipByHand()],
+    [[" "], "space", "blink by hand: show the other picture",
+     report => report.stage.can("blink") && report.stage.flipByHand()],
     [["["], "[", "swipe to the left", report => report.stage.swipe(report.stage.swiped - SWIPE_STEP)],
     [["]"], "]", "swipe to the right", report => report.stage.swipe(report.stage.swiped + SWIPE_STEP)],
-    [["z"], "z", "the worst place, and back", report => report.stage.seen && report.stage.zoomToWorst()],
-    [["+", "="], "+", "larger", report => report.stage.seen && report.stage.zoomBy(ZOOM_STEP)],
-    [["-"], "-", "smaller", report => report.stage.seen && report.stage.zoomBy(1 / ZOOM_STEP)],
+    [["z"], "z", "zoom to the worst pixel, or back", report => report.stage.seen && report.stage.zoomToWorst()],
+    [["+", "="], "+", "zoom in", report => report.stage.seen && report.stage.zoomBy(ZOOM_STEP)],
+    [["-"], "-", "zoom out", report => report.stage.seen && report.stage.zoomBy(1 / ZOOM_STEP)],
     [["0"], "0", "the whole picture", report => report.stage.seen && report.stage.zoomTo(0)],
-    [["x"], "x", "tick it, to be accepted, or not", report => report.ticks.toggle(report.frame)],
-    [["m"], "m", "marks of the worst place and of all that differs, on or off", report => report.stage.toggleMarks()],
-    [["?"], "?", "these keys", () => byId("help").showModal()],
+    [["x"], "x", "tick or untick the frame for accepting", report => report.ticks.toggle(report.frame)],
+    [["m"], "m", "show or hide the marks of the worst pixel and of all differences",
+     report => report.stage.toggleMarks()],
+    [["?"], "?", "show these keys", () => byId("help").showModal()],
 ];
 
 function actionOf(key)
@@ -195,7 +197,7 @@ function actionOf(key)
     return KEYS.find(([names]) => names.includes(key))?.[3];
 }
 
-/* What the focused control would do with the key by itself goes before. */
+/* Whether the focused control handles the key itself. */
 function isTaken(event)
 {
     const control = event.target.closest?.("button, a, input");
@@ -225,7 +227,7 @@ function listen(report)
     byId("handle").addEventListener("keydown", event => swipeByKey(event, report.stage));
     for (const button of document.querySelectorAll("[data-key]"))
         button.addEventListener("click", () => actionOf(button.dataset.key)(report));
-    /* After a click the space bar is for blinking, and not for the button that was clicked. */
+    /* A clicked button gives up the focus, so that the space bar blinks and does not press it again. */
     document.addEventListener("click", event => event.detail > 0 && event.target.closest("button")?.blur());
     byId("help-open").addEventListener("click", () => byId("help").showModal());
     addEventListener("hashchange", () => report.readAddress());
@@ -242,7 +244,7 @@ function describe({whole, frames})
                          ` · ${words.slice(colon + 2)} · ${whole.tolerance_words}`);
     byId("headline").textContent = frames.length > 0 ? headlineOfAll(whole, frames) : "";
     byId("headline").hidden = frames.length === 0;
-    byId("trouble").textContent = `Nobody can say why: ${whole.trouble}`;
+    byId("trouble").textContent = `The cause is unknown: ${whole.trouble}`;
     byId("trouble").hidden = !whole.trouble;
     document.title = `${whole.verdict}: ${whole.compared.path} – octreel diff`;
 }
@@ -263,7 +265,7 @@ function fillList(findings, boxes, goTo)
     const {left_out: leftOut} = findings.whole, kept = findings.frames.length;
     byId("left-out").hidden = leftOut === 0;
     byId("left-out").textContent = `${grouped(leftOut)} more ${leftOut === 1 ? "finding" : "findings"}: ` +
-        `this page has the first ${kept}. The pictures of all lie beside it.`;
+        `this page has the first ${kept}. The pictures of all are files beside it.`;
 }
 
 function fillControls(look)

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* stage.js - the pictures of one frame: in panes that show the same part of them, one over the other or beside. */
+/* stage.js - the pictures of one frame, in panes that lie over each other or side by side and show the same part. */
 "use strict";
 
 const PICTURES = ["expected", "actual", "difference"];
 const LARGEST_SCALE = 64;
-const WORST_ACROSS = 48; /* pixels of a picture that are seen around the worst place */
+const WORST_ACROSS = 48; /* picture pixels across a pane that is zoomed to the worst pixel */
 const BLINK = 600; /* ms */
-const EDGE = 8; /* around a mark, in pixels of the screen */
+const EDGE = 8; /* between a mark and its content, in CSS pixels */
 
 const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
-/* Panes of a way to look; those that lie on each other have the last one on top. */
+/* The panes of each mode; of panes that overlap the last is on top. */
 const PANES = {
     swipe: ["expected", "actual"],
     blink: ["expected", "actual"],
@@ -28,8 +28,8 @@ class Stage {
         this.panes = new Map(PICTURES.map(name => [name, root.querySelector(`[data-picture="${name}"]`)]));
         this.images = new Map();
         this.mode = "swipe";
-        this.swiped = 50; /* percent of the stage that is expected */
-        this.zoom = null; /* {scale, x, y}: the point of the picture in the middle; null: all of it */
+        this.swiped = 50; /* percent of the stage that shows expected */
+        this.zoom = null; /* {scale, x, y}: (x, y) of the picture is in the middle; null: the whole picture */
         this.marked = true;
         this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
         this.onchange = () => {};
@@ -37,9 +37,9 @@ class Stage {
         this.listen();
     }
 
-    /* ---- What is there -------------------------------------------------------------------------------------- */
+    /* ---- Pictures -------------------------------------------------------------------------------------- */
 
-    /* Pictures as addresses by their names; `place` has the worst place and the box around all that differs. */
+    /* `addresses` holds a data URL for each picture; `place` the worst pixel and the box around all differences. */
     async show(addresses, place)
     {
         const wanted = this.wanted = {};
@@ -65,9 +65,9 @@ class Stage {
         const image = new Image();
         image.alt = name;
         image.draggable = false;
-        image.decoding = "sync"; /* no empty moment before it is seen */
+        image.decoding = "sync"; /* avoids an empty moment before it shows */
         return new Promise(done => {
-            image.onload = image.onerror = () => done(image); /* what cannot be decoded is empty */
+            image.onload = image.onerror = () => done(image); /* an undecodable picture stays empty */
             image.src = address;
         });
     }
@@ -86,9 +86,9 @@ class Stage {
         return PANES[mode].every(name => this.images.has(name));
     }
 
-    /* ---- Ways to look --------------------------------------------------------------------------------------- */
+    /* ---- Modes --------------------------------------------------------------------------------------- */
 
-    /* Where a frame has not all that a way needs, what it has is shown; the way that was asked for stays in mind. */
+    /* Show a mode. If the frame lacks a picture for it, show one that it has; the next frame uses the mode again. */
     look(mode)
     {
         this.mode = mode;
@@ -107,7 +107,7 @@ class Stage {
         this.root.classList.toggle("flipped");
     }
 
-    /* By hand: from then on nothing blinks by itself. */
+    /* Switch pictures by hand, which ends the automatic blinking. */
     flipByHand()
     {
         if (this.seen !== "blink")
@@ -130,7 +130,7 @@ class Stage {
         return this.seen ? PANES[this.seen].map(name => this.panes.get(name)) : [];
     }
 
-    /* How many beside each other let them be largest. */
+    /* The count of columns with which the panes are largest. */
     columns()
     {
         if (this.seen !== "side")
@@ -171,7 +171,7 @@ class Stage {
         this.zoomTo(this.scale() * factor, x, y);
     }
 
-    /* The worst place in the middle, and the second time all of it again. */
+    /* Zoom to the worst pixel; the second time show the whole picture again. */
     zoomToWorst()
     {
         if (!this.place || this.zoom?.worst) {
@@ -184,7 +184,7 @@ class Stage {
             this.zoom.worst = true;
     }
 
-    /* ---- Putting it there ----------------------------------------------------------------------------------- */
+    /* ---- Layout ----------------------------------------------------------------------------------- */
 
     arrange()
     {
@@ -238,7 +238,7 @@ class Stage {
             this.root.addEventListener(end, () => this.held = null);
     }
 
-    /* What is under the pointer stays there. */
+    /* Zoom; the place under the pointer stays there. */
     wheel(event)
     {
         const pane = event.target.closest(".pane");

@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* ask.js - questions to the tick that is shown, at a place: the kinds of queries as the program names them, and what
- * each of them reads. */
+/* ask.js - the form for a query at the shown tick: the query kinds with their names and members come from the module.
+ * */
 "use strict";
 
-/* The label and the first value of an input: by the member's name, else by its type. */
+/* The label and the initial value of an input, by the member's name, else by its type. */
 const QUERY_INPUTS = {
-    k: ["how many", "8"],
-    radius: ["within", "100"],
-    at: ["of the place", "0,0,0"],
+    k: ["count", "8"],
+    radius: ["radius", "100"],
+    at: ["position", "0,0,0"],
     box: ["box (two corners)", "-100,-100,-100,100,100,100"],
 };
 const INPUT_VALUES = {position: "0,0,0", number: "1", box: "-100,-100,-100,100,100,100"};
 
 class AskForm {
-    /* `ask(query)` is called with a query as a session file has it; `forget()` when there is to be none. */
+    /* `ask(query)` is called with a query as in a session file, `forget()` to remove it. */
     constructor(root, kinds, {ask, forget})
     {
         this.kinds = kinds;
-        this.kind = element("select", "", {"aria-label": "What is asked"});
+        this.kind = element("select", "", {"aria-label": "Query kind"});
         for (const {name, words} of kinds)
             this.kind.append(new Option(words, name));
         this.inputs = {};
         for (const {name, type} of kinds.flatMap(({members}) => members))
             this.inputs[name] ??= this.input(...(QUERY_INPUTS[name] ?? [name, INPUT_VALUES[type]]));
-        const button = element("button", "Ask", {type: "submit"});
-        const reset = element("button", "Ask nothing", {type: "button"});
+        const button = element("button", "Run query", {type: "submit"});
+        const reset = element("button", "Clear", {type: "button"});
         root.append(this.kind, ...Object.values(this.inputs).map(({label}) => label), button, reset);
         this.kind.addEventListener("change", () => this.showInputs());
         reset.addEventListener("click", forget);
@@ -54,7 +54,7 @@ class AskForm {
             label.hidden = !this.members.some(({name}) => name === member);
     }
 
-    /* The place that is asked about, and a box of a tenth of the world around it. */
+    /* Fill in a position, a box around it with a tenth of the world's extent, and a radius. */
     setPlace(place, extent)
     {
         this.inputs.at.input.value = place.map(roundedPlace).join(",");
@@ -71,7 +71,7 @@ class AskForm {
         return type === "position" ? numbers : numbers[0];
     }
 
-    /* The member that bears the kind's name comes first. */
+    /* The query as in a session file. Its first member is named by the kind. */
     query()
     {
         const [named, ...others] = this.members;

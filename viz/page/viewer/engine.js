@@ -1,19 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* engine.js - the program itself, as WebAssembly: it plays the session, draws its ticks and answers questions with the
- * code that recorded them. What each function does is said in viz/page/module/module.c. */
+/* engine.js - octreel's game and its drawing as a WebAssembly module, and states that a session can go back to.
+ *
+ * The page does not imitate the program: the module is the same C, from reading session.json to filling pixels,
+ * compiled for WebAssembly. It plays a session by itself and needs no recorded frame. Few things cross the border: texts (the
+ * session, the view, a query; facts and picks as JSON) are copied as UTF-8 into a buffer that web_room() gives and are
+ * read back from web_text(); numbers pass as doubles; and a picture is the RGBA bytes at the address that web_draw()
+ * returns. C calls JavaScript only to parse JSON (json_values.js); every system call fails, as a page has no files.
+ *
+ * Its pixels equal those of the recorded PNGs: the integer rasterizer uses no GPU, scenes come from double arithmetic
+ * that IEEE 754 and the C code fix bit by bit (no fused multiply-add, no libm beyond exact functions), and WebAssembly
+ * specifies that arithmetic. test_page_plays compares every tick. Since all state is in the module's linear memory, a
+ * copy of that memory is a state of the game: going back copies it in again. Functions are described in
+ * module/module.c. */
 "use strict";
 
-const NO_FILE = 8; /* EBADF: what every call of a system says, since a page has no files */
+const NO_FILE = 8; /* EBADF of WASI: every system call returns it, as a page has no files */
 
 const moduleText = () => document.getElementById("module")?.textContent.trim();
 
-/* Whether the page holds the module and the browser takes it. */
+/* Whether the page holds the module and the browser can run it. */
 function hasModule()
 {
     return Boolean(moduleText()) && typeof WebAssembly === "object" && typeof DecompressionStream === "function";
 }
 
-/* The bytes of such a text: what viz/page/module/pack_module makes. */
+/* Decode a text that module/pack_module wrote: Z85 with some digits replaced. */
 function unpackLetters(text)
 {
     const digits = new Map([..."0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?,_>()[]{}~%$#"]
@@ -35,7 +46,8 @@ async function compileModule()
         const unpacked = new Blob([unpackLetters(moduleText())]).stream().pipeThrough(new DecompressionStream("gzip"));
         return await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
     } catch (error) {
-        throw new Error(`the program in this page is damaged (${error.message}); record or copy the page again`);
+        throw new Error(`the WebAssembly module in this page is damaged (${error.message}); record or copy the page ` +
+                        "again");
     }
 }
 
@@ -49,7 +61,7 @@ class Engine {
         imports.page = {parse_json: (...text) => json.parse(...text), write_json: at => json.write(at)};
         this.wasm = new WebAssembly.Instance(module, imports).exports;
         this.wasm._initialize?.();
-        this.tick = -1; /* none is played */
+        this.tick = -1; /* no tick is played yet */
     }
 
     bytes(at, size)
@@ -62,22 +74,22 @@ class Engine {
         return new TextDecoder().decode(this.bytes(this.wasm.web_text(), this.wasm.web_text_size()));
     }
 
-    /* What a function says when it succeeds. */
-    said(done)
+    /* The text that a function left; throws its error if it failed. */
+    textAfter(done)
     {
         if (!done)
             throw new Error(this.text());
         return this.text();
     }
 
-    /* Leave texts where the next call reads them; their sizes in bytes. */
-    give(...texts)
+    /* Write texts or bytes for the next call. Returns their sizes in bytes. */
+    writeInput(...texts)
     {
         const parts = texts.map(text => typeof text === "string" ? new TextEncoder().encode(text) : text);
         const size = parts.reduce((sum, part) => sum + part.length, 0);
         let at = this.wasm.web_room(size);
         if (!at)
-            throw new Error("there is no memory");
+            throw new Error("out of memory");
         for (const part of parts) {
             this.bytes(at, part.length).set(part);
             at += part.length;
@@ -87,37 +99,37 @@ class Engine {
 
     open(session, view)
     {
-        this.said(this.wasm.web_open(...this.give(session, JSON.stringify(view))));
+        this.textAfter(this.wasm.web_open(...this.writeInput(session, JSON.stringify(view))));
         this.view = view;
         this.tick = 0;
         this.length = this.wasm.web_length() + 1;
     }
 
-    /* Play the next tick: the session's, or one by a key. */
+    /* Play the session's next tick, or a key. */
     step(key)
     {
-        this.said(this.wasm.web_step(key ? key.charCodeAt(0) : 0));
+        this.textAfter(this.wasm.web_step(key ? key.charCodeAt(0) : 0));
         this.tick++;
     }
 
     facts()
     {
-        return this.said(this.wasm.web_facts()).trimEnd();
+        return this.textAfter(this.wasm.web_facts()).trimEnd();
     }
 
     look(view)
     {
-        this.said(this.wasm.web_view(...this.give(JSON.stringify(view))));
+        this.textAfter(this.wasm.web_view(...this.writeInput(JSON.stringify(view))));
         this.view = view;
     }
 
-    /* Whether the view shows sums over all ticks that the engine has not made. */
+    /* Whether the view shows sums over all ticks that were not collected since tick 0. */
     get lacksSums()
     {
         return Boolean(this.wasm.web_lacks_sums());
     }
 
-    /* The picture of the tick. */
+    /* Draw the tick. The picture is valid until the next call. */
     draw()
     {
         const at = this.wasm.web_draw();
@@ -129,15 +141,15 @@ class Engine {
 
     digest()
     {
-        return this.said(this.wasm.web_digest());
+        return this.textAfter(this.wasm.web_digest());
     }
 
     camera()
     {
-        return JSON.parse(this.said(this.wasm.web_camera()));
+        return JSON.parse(this.textAfter(this.wasm.web_camera()));
     }
 
-    /* The world of the session. */
+    /* The session's world. */
     world()
     {
         const at = new Float64Array(this.wasm.memory.buffer, this.wasm.web_world(), 6);
@@ -146,49 +158,49 @@ class Engine {
 
     choices()
     {
-        return JSON.parse(this.said(this.wasm.web_choices()));
+        return JSON.parse(this.textAfter(this.wasm.web_choices()));
     }
 
     pick(x, y, radius)
     {
-        return JSON.parse(this.said(this.wasm.web_pick(x, y, radius)));
+        return JSON.parse(this.textAfter(this.wasm.web_pick(x, y, radius)));
     }
 
-    /* Pixels of the picture at which places of the world are seen; NaN where they are not. */
+    /* The pixels of places in the world; NaN for a place behind the camera. */
     project(places)
     {
-        this.give(new Uint8Array(new Float64Array(places.flat()).buffer));
+        this.writeInput(new Uint8Array(new Float64Array(places.flat()).buffer));
         this.wasm.web_project(places.length);
         const numbers = new Float64Array(this.wasm.memory.buffer, this.wasm.web_room(0), 2 * places.length);
         return places.map((place, i) => [numbers[2 * i], numbers[2 * i + 1]]);
     }
 
-    /* Where the point of an id is, or null. */
+    /* The position of the point with an id, or null. */
     point(id)
     {
         const at = this.wasm.web_point(id);
         return at ? [...new Float64Array(this.wasm.memory.buffer, at, 3)] : null;
     }
 
-    /* Ask queries about the tick that was played last, as session files have them. */
+    /* Answer queries, written as in a session file, at the current tick. */
     ask(queries)
     {
         const text = JSON.stringify({octreel: "session", version: 2, queries});
-        this.said(this.wasm.web_ask(...this.give(text)));
+        this.textAfter(this.wasm.web_ask(...this.writeInput(text)));
     }
 
-    /* From now on the session is what it was up to a tick, and then these keys. */
+    /* Replace the session's ticks after `last` by keys. */
     setKeys(last, keys)
     {
-        this.give(keys);
-        this.said(this.wasm.web_keys(last, keys.length));
+        this.writeInput(keys);
+        this.textAfter(this.wasm.web_keys(last, keys.length));
         this.length = this.wasm.web_length() + 1;
     }
 
     /* The session as session.json. */
     session()
     {
-        return this.said(this.wasm.web_session());
+        return this.textAfter(this.wasm.web_session());
     }
 
     /* ---- States ----------------------------------------------------------------------------------------------- */
@@ -198,7 +210,7 @@ class Engine {
         return this.bytes(0, this.wasm.web_used());
     }
 
-    /* Go back to a state of an engine of the same module. The view is not part of what is played. */
+    /* Go back to a state of an engine of the same module. The view stays. */
     restore(state)
     {
         const view = this.view, missing = state.size - this.wasm.memory.buffer.byteLength;
@@ -214,11 +226,11 @@ class Engine {
 
 const BLOCK = 4096;
 const MOST_STATE_BYTES = 160 << 20;
-const STATE_INTERVAL = 40; /* ms of playing from one state to the next: what going anywhere costs at most */
+const STATE_INTERVAL = 40; /* ms of playing between two states: the most that going to a tick costs */
 
-/* States of an engine at some of its ticks. A state is its memory in blocks, of which it shares those that are the same
- * as in the state before it. Where they become too many every other one goes, and the next are as far apart as those
- * that stay. */
+/* States of an engine at some of its ticks. A state is a copy of the engine's memory in blocks; blocks that did not
+ * change are shared with the state before it. When the states grow too large, every other one is dropped and the
+ * interval between new ones doubles. */
 class States {
     constructor()
     {
@@ -227,7 +239,7 @@ class States {
         this.interval = STATE_INTERVAL;
     }
 
-    /* The last state that is not after a tick; null when there is none. */
+    /* The last state at or before a tick, or null. */
     before(tick)
     {
         return this.list.findLast(state => state.tick <= tick) ?? null;
@@ -242,7 +254,7 @@ class States {
             this.bytes += block.length;
     }
 
-    /* `isTaken`: keys have changed the session. */
+    /* Save a state. `isTaken`: the user's keys are part of it. */
     keep(engine, isTaken)
     {
         const bytes = engine.used(), last = this.list.at(-1);
@@ -255,7 +267,7 @@ class States {
         this.interval *= 2;
     }
 
-    /* All at once: copied one by one they take three times as long. */
+    /* One copy of all: copying block by block takes three times as long. */
     copiedBlocks(bytes)
     {
         const copy = bytes.slice(), blocks = [];

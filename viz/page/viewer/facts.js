@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* facts.js - what the recording says: the lines of ticks.jsonl, read one by one when they are wanted. */
+/* facts.js - the recording: the lines of ticks.jsonl, each parsed only when it is shown. */
 "use strict";
 
-/* The curves: where a tick has the fact, and its name; "own" is of Octreel's tree, and is called so where there is a
- * program's too. One line more is one curve more. Of a fact that is a list the entries are counted; a curve that no tick
- * has a fact for is left out. */
+/* The curves: the path of the fact in a tick, and the curve's name. "own" facts are those of Octreel's tree, and are
+ * named so if the recording has foreign nodes too. A list counts as the number of its entries. A curve without values
+ * is left out. */
 const CURVES = [
     ["foreign_nodes.count", "foreign nodes"],
     ["foreign_nodes.depth", "foreign depth"],
@@ -16,8 +16,8 @@ const CURVES = [
     ["visits.visited", "visits", "own"],
 ];
 
-/* The events and their signs, in the order of octree_event. One that is rare comes last, has no key, and has a lane only
- * where there is one; "own" as above. */
+/* The events and their signs, in the order of octree_event. A "rare" event comes last, has no key, and has a lane only
+ * if it occurs; "own" as above. */
 const EVENTS = [
     ["moved", "→"],
     ["refused", "⊘"],
@@ -36,7 +36,7 @@ function factAt(tick, path)
     return path.split(".").reduce((value, name) => value?.[name], tick);
 }
 
-/* A list was cut off by octreel when its last entry is {"more": how many}. */
+/* The count of entries that octreel cut off a list: then its last entry is {"more": count}. */
 function leftOut(list)
 {
     return list.at(-1)?.more ?? 0;
@@ -64,21 +64,21 @@ function eventBits(names)
     return EVENTS.reduce((bits, [name], i) => names.includes(name) ? bits | 1 << i : bits, 0);
 }
 
-/* Ten thousand ticks are ten thousand strings and a few lists of numbers; of the parsed ticks none is kept. */
+/* Keeps each tick as its line of text, with a few lists of numbers; parsed ticks are not kept. */
 class Recording {
     constructor(about, lines)
     {
         this.about = about;
         this.lines = [];
         this.events = [];
-        this.filmed = []; /* the tick whose frame is the latest at this one; -1: none is */
+        this.filmed = []; /* for each tick the last tick up to it with a frame; -1: none */
         this.curves = CURVES.map(([path, name, of]) => ({path, name, of, values: []}));
         lines.forEach(line => this.append(line));
         this.curves = this.curves.filter(curve => !this.length || curve.values.some(value => !isNaN(value)));
         this.hasForeignNodes = this.length > 0 && this.curves.some(({path}) => path.startsWith("foreign_nodes"));
     }
 
-    /* What a curve or an event is called. */
+    /* The name of a curve or an event. */
     nameOf(name, of)
     {
         return of === "own" && this.hasForeignNodes ? `Octreel's ${name}` : name;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* frames.js - the pictures: decoded before they are shown, and only a few of them kept. */
+/* frames.js - the recorded PNG frames: each is decoded before it is shown, and the last few are kept. */
 "use strict";
 
 const FRAMES_KEPT = 12;
 
 class Frames {
-    /* `nameOf` gives the file of a tick that was filmed. */
+    /* `nameOf(tick)` returns the file name of a tick's frame. */
     constructor(stage, nameOf)
     {
         this.stage = stage;
         this.nameOf = nameOf;
-        this.decoded = new Map(); /* tick -> promise of an image; the least recently wanted first */
+        this.decoded = new Map(); /* tick -> promise of an image; the least recently used first */
         this.shown = this.wanted = -1;
         this.busy = false;
     }
@@ -35,18 +35,18 @@ class Frames {
             await image.decode();
             return image;
         } catch {
-            return this.excuse(tick);
+            return this.describeMissing(tick);
         }
     }
 
-    excuse(tick)
+    describeMissing(tick)
     {
         const text = document.createElement("p");
-        text.textContent = `${this.nameOf(tick)} is not beside this page, or cannot be read.`;
+        text.textContent = `${this.nameOf(tick)} is missing beside this page or cannot be read.`;
         return text;
     }
 
-    /* However fast the slider is dragged, one picture is under way at a time, and the one wanted last is next. */
+    /* Show a tick's frame. One frame loads at a time; if the slider moves on meanwhile, only the last tick follows. */
     async show(tick)
     {
         this.wanted = tick;
@@ -61,7 +61,7 @@ class Frames {
         this.busy = false;
     }
 
-    /* Begin to decode what will be wanted soon. */
+    /* Start to decode frames that are likely to be shown next. */
     prepare(ticks)
     {
         ticks.forEach(tick => this.load(tick));

@@ -1,33 +1,33 @@
 /* SPDX-License-Identifier: MIT */
-/* interaction.js - the page plays: at the first gesture it begins to draw by itself, and from any tick the keys of the
- * game play on. */
+/* interaction.js - playing in the page: the first gesture starts the WebAssembly module, which draws in place of the
+ * recorded frames; from any tick on, the keys of the game play on. */
 "use strict";
 
-const LONG_WAIT = 100; /* ms: what takes longer has a bar */
-const LARGE = 1 << 20; /* letters of a session */
-const MOST_FILE = 256 << 20; /* bytes of a session that is dropped */
-const FEW = 4; /* elements at a pixel that are shown without asking for more */
+const LONG_WAIT = 100; /* ms; a longer wait shows a progress bar */
+const LARGE = 1 << 20; /* characters of a session; reading a larger one shows a progress bar first */
+const MOST_FILE = 256 << 20; /* bytes of a session file */
+const FEW = 4; /* elements at a pixel that are shown before "and n more" */
 
-/* The view of a session that has none: that of a recording without what depends on its world. */
+/* A view for a session without one: the recording's, without the options that depend on its world. */
 function plainView(about)
 {
     const {fit, look, center, zoom, slice, region, depths, derived, ...view} = about;
     return view;
 }
 
-/* The name of a file as a word of a sentence: on one line, in one direction, and not too long. */
+/* A file's name for a sentence: no line breaks or changes of text direction, at most 60 characters. */
 const shownName = name => name.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "?").replace(/^(.{60}).+$/u, "$1…");
 
-/* The text of a session file. One that is none is not read to its end, nor one that no page could hold. */
+/* The text of a session file. A file that does not start as JSON, or is too large, is not read to its end. */
 async function readSession(file)
 {
     const read = part => part.text().catch(() => {
-        throw new Error("it cannot be read; of a folder, drop the session.json that is in it");
+        throw new Error("it cannot be read; if it is a folder, drop the session.json in it");
     });
     if (!/^\s*\{/.test(await read(file.slice(0, 4096))))
-        throw new Error("it is no session.json");
+        throw new Error("not a session.json file");
     if (file.size > MOST_FILE)
-        throw new Error(`it is larger than ${MOST_FILE >> 20} MiB, which a page does not take; octreel record films it`);
+        throw new Error(`larger than ${MOST_FILE >> 20} MiB, the most that a page opens; use octreel record`);
     return read(file);
 }
 
@@ -48,19 +48,19 @@ class Interaction {
         return this.live !== undefined;
     }
 
-    tell(text)
+    showStatus(text)
     {
         byId("told").textContent = text;
     }
 
     /* ---- Begin and end ------------------------------------------------------------------------------------------ */
 
-    /* Begin to draw, once. False where that cannot be, which is told. */
+    /* Start the module and draw, once. False if that fails; the page then shows the error. */
     start()
     {
         return this.starting ??= this.begin().catch(error => {
             this.starting = undefined;
-            this.tell(`The page cannot play: ${error.message}`);
+            this.showStatus(`The page cannot play: ${error.message}`);
             return false;
         });
     }
@@ -70,12 +70,12 @@ class Interaction {
         this.module ??= await compileModule();
         this.session ??= byId("session").textContent.trim();
         if (!this.session)
-            throw new Error("the session is not in the page, as it is large; drop session.json here");
+            throw new Error("the session is too large to be in the page; drop its session.json here");
         await this.take(this.session, this.recorded.about, this.recorded);
         return true;
     }
 
-    /* Play a session from now on. A large one takes a while to be read, of which nothing is known. */
+    /* Play a session from now on. While a large one is read, the progress bar shows no value. */
     async take(session, view, recording)
     {
         const bar = byId("ahead");
@@ -93,7 +93,7 @@ class Interaction {
         this.recorded = recording;
         this.makeControls(player.engine.choices());
         this.live = new Live(this.stage, player, {
-            told: text => this.tell(text),
+            showStatus: text => this.showStatus(text),
             picked: (pick, place) => this.showPick(pick, place),
             changed: () => this.showView(),
             again: () => this.playAgain(),
@@ -103,23 +103,23 @@ class Interaction {
         this.showTaken();
         byId("view").hidden = byId("asking").hidden = false;
         byId("live-start").hidden = true;
-        byId("hint").hidden = recording.hasFrames; /* else nobody began, and has not read it */
+        byId("hint").hidden = recording.hasFrames; /* no frames: it started by itself */
         byId("caption").hidden = true;
         this.stage.classList.remove("stale");
-        this.tell(player.isCut ? `The session has ${grouped(player.engine.length)} ticks, of which this page plays the ` +
-                                 `first ${grouped(player.length)}.` : "");
+        this.showStatus(!player.isCut ? "" : `The session has ${grouped(player.engine.length)} ticks; ` +
+                                             `this page plays the first ${grouped(player.length)}.`);
         const {tick} = this.viewer;
         if (tick > 0)
             this.playAhead();
         await this.show(tick);
-        if (tick === 0) /* whose picture needs no other tick, and does not wait for them */
+        if (tick === 0) /* its picture does not need ticks played ahead, so it is drawn first */
             this.playAhead();
     }
 
     makePlayer(session, view, known)
     {
         try {
-            return new Player(this.module, session, view, known, (tick, engine) => this.hear(tick, engine));
+            return new Player(this.module, session, view, known, (tick, engine) => this.appendTick(tick, engine));
         } finally {
             byId("ahead").hidden = true;
         }
@@ -139,10 +139,10 @@ class Interaction {
         this.player.playAhead((tick, last) => {
             bar.hidden = tick >= last || performance.now() - start < LONG_WAIT;
             bar.value = last > 0 ? tick / last : 1;
-        }).catch(error => this.tell(error.message));
+        }).catch(error => this.showStatus(error.message));
     }
 
-    /* All from the beginning, up to what is shown. */
+    /* Play from tick 0 to the shown tick once more, for a view that needs sums over all ticks. */
     playAgain()
     {
         this.player.reopen(this.session);
@@ -150,8 +150,8 @@ class Interaction {
         return this.show(this.viewer.tick);
     }
 
-    /* A tick that was played: its facts, where they are not known. */
-    hear(tick, engine)
+    /* Add the facts of a tick that was played, unless the recording has them. */
+    appendTick(tick, engine)
     {
         const recording = this.viewer.recording;
         if (recording.length !== tick)
@@ -160,7 +160,7 @@ class Interaction {
         this.viewer.follow(recording);
     }
 
-    /* Show a tick; of several that are asked for meanwhile, the last. */
+    /* Show a tick. If more are requested while it is drawn, only the last of them follows. */
     async show(tick)
     {
         this.wanted = Math.min(tick, this.player.length - 1);
@@ -173,12 +173,12 @@ class Interaction {
                 await this.live?.draw();
             } while (this.isLive && this.player.engine.tick !== this.wanted);
         } catch (error) {
-            this.tell(error.message);
+            this.showStatus(error.message);
         }
         this.busy = false;
     }
 
-    /* To the recording and its frames. */
+    /* Leave playing: show the recorded frames again. */
     goBack()
     {
         if (!this.isLive)
@@ -189,13 +189,13 @@ class Interaction {
         for (const hidden of ["view", "asking", "live-end", "save", "taken", "picked", "ahead"])
             byId(hidden).hidden = true;
         byId("live-start").hidden = byId("hint").hidden = false;
-        this.tell("");
+        this.showStatus("");
         this.viewer.stage.shown = -1;
         this.viewer.follow(this.recorded);
         this.viewer.goTo(this.viewer.tick);
     }
 
-    /* By keys, which begin as dragging does. */
+    /* Keys start the module as dragging does. */
     async turn(dx, dy)
     {
         if (await this.start())
@@ -214,9 +214,9 @@ class Interaction {
             this.live?.zoomStep(factor);
     }
 
-    /* ---- Taking over -------------------------------------------------------------------------------------------- */
+    /* ---- Playing on -------------------------------------------------------------------------------------------- */
 
-    /* One key after the other, however fast they come. */
+    /* Play a key after those that were pressed before it. */
     press(key)
     {
         this.pressed = (this.pressed ?? Promise.resolve()).then(() => this.playKey(key));
@@ -229,19 +229,19 @@ class Interaction {
             return;
         const {viewer, player} = this;
         viewer.pause();
-        do /* while it goes there, another tick may be wanted */
+        do /* the viewer's tick may change while the player goes there */
             await player.goTo(viewer.tick);
         while (player === this.player && player.engine.tick !== Math.min(viewer.tick, player.length - 1));
         if (!this.isLive || player !== this.player)
             return;
         if (key === "q") {
-            this.tell(player.isTaken ? "The game has ended. Save it, or go back." : "");
+            this.showStatus(player.isTaken ? "The game has ended. Save the session, or go back." : "");
             return;
         }
         try {
             player.press(key);
         } catch (error) {
-            this.tell(error.message);
+            this.showStatus(error.message);
             return;
         }
         const recording = viewer.recording === this.recorded || viewer.recording.length > viewer.tick + 1
@@ -256,13 +256,14 @@ class Interaction {
     showTaken()
     {
         const {isTaken, taken, keys, given} = this.player;
-        const without = taken < given - 1 ? ", without what the session has after it" : "";
+        const without = taken < given - 1 ? "; the session's own later ticks are left out" : "";
         byId("taken").hidden = byId("save").hidden = !isTaken;
-        byId("taken").textContent = `Played from tick ${grouped(taken)}${without}: ${keys.slice(-24)}`;
+        byId("taken").textContent = `Played on from tick ${grouped(taken)}${without}: ${keys.slice(-24)}`;
         this.showWayBack();
     }
 
-    /* To frames always; where there are none, from another view and from what was played. */
+    /* Show the button that goes back. Without recorded frames it appears only after the view or the keys were changed.
+     * */
     showWayBack()
     {
         const {hasFrames} = this.recorded, button = byId("live-end");
@@ -278,7 +279,7 @@ class Interaction {
         const link = element("a", "", {href: URL.createObjectURL(blob), download: "session.json"});
         link.click();
         setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-        this.tell("octreel record session.json films exactly this.");
+        this.showStatus("To make frames of it, run octreel record session.json.");
     }
 
     async open(file)
@@ -290,11 +291,12 @@ class Interaction {
             this.starting = Promise.resolve(true);
             this.viewer.goTo(0);
         } catch (error) {
-            this.tell(`${shownName(file.name)} cannot be opened: ${error.message.replace(/^the session:/, "line ")}`);
+            const reason = error.message.replace(/^the session:/, "line ");
+            this.showStatus(`${shownName(file.name)} cannot be opened: ${reason}`);
         }
     }
 
-    /* Ask something else about this tick, or nothing. What is asked is answered in the picture and among the facts. */
+    /* Replace the user's query at this tick, or remove it. The answer is in the picture and among the facts. */
     ask(query)
     {
         if (!this.isLive)
@@ -304,9 +306,9 @@ class Interaction {
             this.player.replay();
             if (query)
                 engine.ask([query]);
-            this.tell("");
+            this.showStatus("");
         } catch (error) {
-            this.tell(error.message.replace(/^the question:\d+: queries\[0\]\.?/, "what is asked: "));
+            this.showStatus(error.message.replace(/^the query:\d+: queries\[0\]\.?/, "query: "));
         }
         showTick(byId("facts-of-tick"), JSON.parse(engine.facts()));
         return this.live.draw();
@@ -332,7 +334,8 @@ class Interaction {
         const list = element("ol"), rest = texts.splice(FEW);
         list.append(...texts);
         root.hidden = false;
-        root.replaceChildren(element("h2", pixel ? `At (${pixel.join(", ")}), ${color}` : "Nothing is drawn there"), list);
+        const heading = pixel ? `At (${pixel.join(", ")}), ${color}` : "Nothing is drawn here";
+        root.replaceChildren(element("h2", heading), list);
         if (rest.length === 0)
             return;
         const more = element("details", element("summary", `and ${rest.length} more`));
@@ -351,7 +354,7 @@ class Interaction {
         byId("live-start").addEventListener("click", () => this.start());
         byId("live-end").addEventListener("click", () => this.goBack());
         byId("save").addEventListener("click", () => this.save());
-        const held = new Set(); /* a click may end before the page has begun to draw */
+        const held = new Set(); /* pointers that are down: a click may end before the module has started */
         stage.addEventListener("pointerdown", event => {
             held.add(event.pointerId);
             this.start().then(begun => begun && (held.has(event.pointerId) ? this.live?.down(event) : this.live?.pickAt(event)));

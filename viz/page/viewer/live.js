@@ -1,38 +1,39 @@
 /* SPDX-License-Identifier: MIT */
-/* live.js - the picture that the page draws by itself, in place of the recorded frame: turned, moved and zoomed by
- * pointer, and asked what is at a pixel. */
+/* live.js - the picture that the module draws in place of the recorded frame: the pointer turns, moves and zooms it,
+ * and a click identifies what is at a pixel. */
 "use strict";
 
 const DEGREES_A_PIXEL = 0.3;
-const ZOOM_A_NOTCH = 1.0015; /* to the power of what a wheel turns */
-const ZOOMS = [0.001, 1e6];  /* what --zoom takes */
-const CLICK = 4;             /* CSS pixels: what moves less is a click */
+const ZOOM_A_NOTCH = 1.0015; /* the zoom factor for a wheel delta of 1 */
+const ZOOMS = [0.001, 1e6];  /* the range of --zoom */
+const CLICK = 4;             /* CSS pixels: a pointer that moves less clicks */
 const PICK_RADIUS = 5;
-const KEY_STEP = 16;         /* pixels that a key turns by */
+const KEY_STEP = 16;         /* a key turns as dragging by this many pixels does */
 
 const MARK_COLOR = "#ffffff";
 
 const BOX_EDGES = [0, 1, 2, 3].flatMap(i => [[i, i + 4], [2 * i, 2 * i + 1], [i + (i & 2), i + (i & 2) + 2]]);
 
 const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-/* Short on a command line: enough for angles and sizes; a place keeps the small steps that it has far from the origin. */
+/* Numbers for a command line: 8 digits are enough for angles and sizes; a position far from the origin needs 15. */
 const rounded = number => Number(number.toPrecision(8));
 const roundedPlace = number => Number(number.toPrecision(15));
 
 class Live {
-    /* `player` plays; `told(text)` shows a sentence, `picked(pick)` what was clicked. */
-    constructor(stage, player, {told, picked, changed, again})
+    /* `showStatus(text)` shows a sentence, `picked(pick, place)` the elements at a pixel; `changed()` is called after
+     * the view changed; `again()` plays from tick 0 to this tick once more. */
+    constructor(stage, player, {showStatus, picked, changed, again})
     {
         this.stage = stage;
         this.player = player;
-        this.told = told;
+        this.showStatus = showStatus;
         this.picked = picked;
         this.changed = changed;
-        this.again = again; /* plays from tick 0 to this one */
+        this.again = again;
         this.recorded = player.engine.view;
         this.canvas = element("canvas", "", {class: "live", role: "img"});
         this.marks = element("canvas", "", {class: "marks", "aria-hidden": "true"});
-        this.subject = null; /* what is marked: {node} or {point} */
+        this.subject = null; /* the marked element: {node} or {point} */
         this.pointers = new Map();
     }
 
@@ -46,7 +47,7 @@ class Live {
         return this.engine.view;
     }
 
-    /* That of the picture; a gesture may come before there is one. */
+    /* The camera of the picture, which is drawn first if there is none yet. */
     get camera()
     {
         if (!this.seen)
@@ -68,7 +69,7 @@ class Live {
 
     /* ---- Drawing ----------------------------------------------------------------------------------------------- */
 
-    /* Draw soon: many changes at once are one picture. */
+    /* Draw at the next animation frame: several changes make one picture. */
     draw()
     {
         this.waiting ??= new Promise(done => requestAnimationFrame(() => {
@@ -84,7 +85,7 @@ class Live {
         try {
             const picture = this.engine.draw();
             if (this.canvas.width !== picture.width || this.canvas.height !== picture.height)
-                Object.assign(this.canvas, {width: picture.width, height: picture.height}); /* which clears it */
+                Object.assign(this.canvas, {width: picture.width, height: picture.height});
             this.canvas.getContext("2d").putImageData(picture, 0, 0);
             this.canvas.dataset.tick = this.engine.tick;
             this.canvas.setAttribute("aria-label", `The picture of tick ${this.engine.tick}`);
@@ -93,11 +94,11 @@ class Live {
                 this.stage.replaceChildren(this.canvas, this.marks);
             this.mark();
         } catch (error) {
-            this.told(error.message);
+            this.showStatus(error.message);
         }
     }
 
-    /* Change the view; what it refuses leaves it as it was. */
+    /* Change the view. Values that are refused leave the view unchanged. */
     look(changes)
     {
         const view = {...this.view, ...changes};
@@ -106,9 +107,9 @@ class Live {
                 delete view[name];
         try {
             this.engine.look(view);
-            this.told("");
+            this.showStatus("");
         } catch (error) {
-            this.told(error.message.replace(/^the view:\d+: /, ""));
+            this.showStatus(error.message.replace(/^the view:\d+: /, ""));
         }
         this.changed();
         return this.engine.lacksSums ? this.again() : this.draw();
@@ -136,14 +137,14 @@ class Live {
         return this.look({look: [rounded(turned), rounded(clamp(elevation + dy * DEGREES_A_PIXEL, -90, 90))]});
     }
 
-    /* That of the close-up, at a pixel in it. */
+    /* The camera at a pixel: the close-up's inside the close-up. */
     cameraAt([x, y])
     {
         const {closeup} = this.camera, [left, top, width, height] = closeup?.window ?? [0, 0, 0, 0];
         return x >= left && y >= top && x < left + width && y < top + height ? {...this.camera, ...closeup} : this.camera;
     }
 
-    /* Where the center of what a camera shows is when that moves by pixels of the picture. */
+    /* A camera's center after the picture moved by pixels. */
     moved(dx, dy, {right, up, center, pixel} = this.camera)
     {
         return center.map((at, i) => roundedPlace(at - (right[i] * dx - up[i] * dy) * pixel));
@@ -154,7 +155,7 @@ class Live {
         return this.look({center: this.moved(dx, dy)});
     }
 
-    /* What is at a pixel of the picture stays there. */
+    /* Zoom; the place at pixel (x, y) stays at that pixel. */
     zoom(factor, x, y)
     {
         const before = this.view.zoom ?? 1, after = clamp(before * factor, ...ZOOMS);
@@ -165,7 +166,8 @@ class Live {
 
     /* ---- The pointer -------------------------------------------------------------------------------------------- */
 
-    /* A place on the page as a pixel of the picture, which lies in the middle of the stage as large as it can. */
+    /* A pointer's position as a pixel of the picture, which fills the stage as far as its shape allows and is centered.
+     * */
     pixelAt(event)
     {
         const box = this.stage.getBoundingClientRect(), [width, height] = this.view.size;
@@ -180,7 +182,7 @@ class Live {
         this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY, far: 0});
     }
 
-    /* One pointer turns, or moves with shift or another button than the first; two move and zoom. */
+    /* One pointer turns; with Shift or a secondary button it moves. Two pointers move and zoom. */
     drag(event)
     {
         const pointer = this.pointers.get(event.pointerId);
@@ -223,9 +225,9 @@ class Live {
         this.drawNow();
     }
 
-    /* ---- What is there ------------------------------------------------------------------------------------------ */
+    /* ---- Identifying ------------------------------------------------------------------------------------------ */
 
-    /* At a place on the page; without one, in the middle of what the camera looks at. */
+    /* Identify the elements at a pointer's position, or without an event in the middle of the view. */
     pickAt(event)
     {
         const [x, y] = (event ? this.pixelAt(event) : this.camera.middle).map(Math.floor), [width, height] = this.view.size;
@@ -237,7 +239,7 @@ class Live {
         this.mark();
     }
 
-    /* What keys do: turn by a step, and zoom about the middle. */
+    /* Keys turn by a step, and zoom about the middle. */
     turnStep(dx, dy)
     {
         return this.turn(dx * KEY_STEP, dy * KEY_STEP);
@@ -248,7 +250,7 @@ class Live {
         return this.zoom(factor, ...this.camera.middle);
     }
 
-    /* Where what was picked is; null where nothing was. */
+    /* The position of the picked element: a node's center, or null if nothing was picked. */
     placeOfSubject()
     {
         if (this.subject?.point)
@@ -257,14 +259,14 @@ class Live {
         return box ? box.min.map((low, i) => (low + box.max[i]) / 2) : null;
     }
 
-    /* The place that is seen at a pixel, as far away as what the camera looks at. */
+    /* The place at a pixel, at the distance of the camera's center. */
     placeAt([x, y])
     {
         const camera = this.cameraAt([x, y]), {middle} = camera;
         return this.moved(middle[0] - x, middle[1] - y, camera);
     }
 
-    /* Mark what was picked, where it is at this tick. */
+    /* Mark the picked element where it is at this tick. */
     mark()
     {
         const [width, height] = this.view.size, point = this.subject?.point && this.engine.point(this.subject.point.id);

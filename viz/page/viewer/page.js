@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* page.js - where the viewer is, how it gets elsewhere, and what follows from that. The place is in the address:
- * #t=41&filter=collided,full. */
+/* page.js - the viewer: its current tick, playing, the event filter, keys and buttons. The address holds the tick and
+ * the filter: #t=41&filter=collided,full. */
 "use strict";
 
 const SPEEDS = [1, 2, 5, 10, 15, 30, 60]; /* frames a second */
@@ -11,10 +11,10 @@ const GROWTH_DELAY = 250; /* ms from one drawing of a timeline that grows to the
 const ADDRESS_DELAY = 200; /* ms: browsers refuse an address that changes with each frame */
 
 const NO_FRAMES = "This recording has no frames.";
-const NO_MODULE = "This recording has no frames, and this page has no program that draws them: let octreel record film " +
-    "session.json.";
-const NO_BROWSER = "This recording has no frames, and this browser has no WebAssembly to draw them, or does not unpack it: " +
-    "another one may, and octreel record films session.json.";
+const NO_MODULE = "This recording has no frames, and this page cannot draw them: octreel was built without " +
+    "WebAssembly. To get frames, run octreel record session.json.";
+const NO_BROWSER = "This recording has no frames, and this browser lacks WebAssembly or DecompressionStream to " +
+    "draw them. Use a newer browser, or run octreel record session.json.";
 
 const byId = id => document.getElementById(id);
 
@@ -23,7 +23,7 @@ class Viewer {
     {
         this.recording = recording;
         this.tick = 0;
-        this.filter = 0; /* bits of the events that are chosen; 0: none is */
+        this.filter = 0; /* bits of the selected events; 0: no filter */
         this.playing = false;
         this.stage = new Frames(byId("stage"), tick => recording.tick(tick).frame);
         this.timeline = new Timeline(recording, {goTo: tick => this.goTo(tick), toggle: bit => this.toggle(bit)});
@@ -40,7 +40,7 @@ class Viewer {
         return Math.max(10, Math.round(this.recording.length / 20));
     }
 
-    /* Show another recording from now on, or the same when it has more ticks. */
+    /* Show another recording, or the same one after ticks were added. */
     follow(recording)
     {
         const other = recording !== this.recording;
@@ -70,7 +70,7 @@ class Viewer {
         this.goTo(this.tick + ticks);
     }
 
-    /* The nearest tick in a direction that is wanted, or -1. */
+    /* The nearest tick in a direction for which wanted(tick) is true; -1 if there is none. */
     seek(from, direction, wanted)
     {
         for (let i = from + direction; i >= 0 && i <= this.last; i += direction)
@@ -79,7 +79,7 @@ class Viewer {
         return -1;
     }
 
-    /* Without a filter every event counts but the common one. */
+    /* Without a filter any event matches except "moved", which most ticks have. */
     matches(tick)
     {
         return (this.recording.events[tick] & (this.filter || ~MOVED)) !== 0;
@@ -107,7 +107,7 @@ class Viewer {
 
     /* ---- Playing -------------------------------------------------------------------------------------------- */
 
-    /* What is played: the chosen ticks, or all that have a picture. */
+    /* Whether playing shows a tick: with a filter the ticks that match, else those with a picture. */
     isPlayed(tick)
     {
         return this.filter ? this.matches(tick) : this.interaction.isLive || this.recording.hasFrame(tick);
@@ -135,7 +135,7 @@ class Viewer {
         this.showPlaying();
     }
 
-    /* A frame that is not decoded yet is waited for, so that none is skipped. */
+    /* Waits for a frame that is still being decoded, so that playing skips none. */
     beat()
     {
         const now = performance.now();
@@ -175,7 +175,7 @@ class Viewer {
         this.showFrame();
         this.showFilter();
         if (!this.playing)
-            byId("spoken").textContent = `Tick ${this.tick}: ${(tick.events ?? []).join(", ") || "nothing happened"}`;
+            byId("spoken").textContent = `Tick ${this.tick}: ${(tick.events ?? []).join(", ") || "no events"}`;
         this.writeAddressSoon();
     }
 
@@ -192,13 +192,14 @@ class Viewer {
         const filmed = this.recording.filmed[this.tick], caption = byId("caption");
         this.stage.show(filmed).then(() => this.prepareFrames());
         caption.hidden = filmed === this.tick;
-        const gap = this.recording.tick(this.tick).gap, why = gap ? `is a gap (${gap})` : "was not filmed";
-        caption.textContent = filmed < 0 ? "No tick so far has a frame." :
-            `Tick ${this.tick} ${why}: this is the frame of tick ${filmed}.`;
+        const gap = this.recording.tick(this.tick).gap, why = gap ? `is a gap (${gap})` : "has no frame";
+        caption.textContent = filmed < 0 ? "No tick up to here has a frame." :
+            `Tick ${this.tick} ${why}; this is the frame of tick ${filmed}.`;
         byId("stage").classList.toggle("stale", filmed !== this.tick);
     }
 
-    /* Without any frames the page draws at once, or says what would; why it cannot is told by who begins. */
+    /* A recording without frames: start drawing, or say what is missing. Interaction shows an error that occurs on the
+     * way. */
     async drawOrSay()
     {
         const caption = byId("caption");
@@ -223,7 +224,7 @@ class Viewer {
         this.timeline.choose(this.filter);
         const count = this.recording.count(this.filter);
         byId("filtered").textContent = this.filter === 0 ? "" :
-            `${counted(count, "tick")} ${this.filterNames().join(" or ")}: j and k go from one to the next.`;
+            `${counted(count, "tick")} with ${this.filterNames().join(" or ")}; j and k go to the next and previous.`;
     }
 
     showPlaying()
@@ -260,37 +261,37 @@ class Viewer {
 
 /* ---- Keys and buttons --------------------------------------------------------------------------------------- */
 
-/* As below, where the page plays. */
+/* Rows of KEYS for pages that can play. */
 const PLAYING_KEYS = [
-    ...[..."wsdaefn.q"].map(key => [[key], key, `play on from here: ${KEY_MEANINGS[key]}`,
+    ...[..."wsdaefn.q"].map(key => [[key], key, `play on from this tick: ${KEY_MEANINGS[key]}`,
                                    viewer => viewer.interaction.press(key)]),
     ...[["Left", "←", -1, 0], ["Right", "→", 1, 0], ["Up", "↑", 0, 1], ["Down", "↓", 0, -1]].map(
-        ([name, sign, dx, dy]) => [[`Shift+Arrow${name}`], `Shift ${sign}`, "turn the view; so does dragging",
+        ([name, sign, dx, dy]) => [[`Shift+Arrow${name}`], `Shift ${sign}`, "turn the view (or drag)",
                                    viewer => viewer.interaction.turn(dx, dy)]),
-    [["Shift+PageUp"], "Shift Page Up", "closer; so does the wheel", viewer => viewer.interaction.zoom(1.25)],
-    [["Shift+PageDown"], "Shift Page Down", "farther", viewer => viewer.interaction.zoom(0.8)],
-    [["c"], "c", "what is in the middle of the view; a click says it of any place", viewer => viewer.interaction.pick()],
-    [["Escape"], "Esc", "back to the recording, or the session, as it was", viewer => viewer.interaction.goBack()],
+    [["Shift+PageUp"], "Shift Page Up", "zoom in (or scroll)", viewer => viewer.interaction.zoom(1.25)],
+    [["Shift+PageDown"], "Shift Page Down", "zoom out", viewer => viewer.interaction.zoom(0.8)],
+    [["c"], "c", "identify what is in the middle of the view (or click anywhere)", viewer => viewer.interaction.pick()],
+    [["Escape"], "Esc", "back to the recording or session", viewer => viewer.interaction.goBack()],
 ];
 
-/* Keys as KeyboardEvent names them, as people read them, what they do in words, and what they do. */
+/* For each key: its names in KeyboardEvent, its name in the help, the help text, and the action. */
 const KEYS = [
     [["ArrowRight"], "→", "next tick", viewer => viewer.step(1)],
     [["ArrowLeft"], "←", "previous tick", viewer => viewer.step(-1)],
-    [["PageDown"], "Page Down", "forward by a twentieth, ten ticks at least", viewer => viewer.step(viewer.page)],
-    [["PageUp"], "Page Up", "back as far", viewer => viewer.step(-viewer.page)],
+    [["PageDown"], "Page Down", "forward by 5 % of the ticks, at least ten", viewer => viewer.step(viewer.page)],
+    [["PageUp"], "Page Up", "back by the same", viewer => viewer.step(-viewer.page)],
     [["Home"], "Home", "first tick", viewer => viewer.step(-Infinity)],
     [["End"], "End", "last tick", viewer => viewer.step(Infinity)],
     [[" "], "space", "play or pause", viewer => viewer.playing ? viewer.pause() : viewer.play()],
     [["+", "="], "+", "faster", viewer => viewer.changeSpeed(1)],
     [["-"], "-", "slower", viewer => viewer.changeSpeed(-1)],
-    [["j"], "j", "next chosen event; with none chosen, any but moved", viewer => viewer.seekMatch(1)],
-    [["k"], "k", "previous chosen event", viewer => viewer.seekMatch(-1)],
+    [["j"], "j", "next selected event; without a selection, any event except moved", viewer => viewer.seekMatch(1)],
+    [["k"], "k", "previous selected event", viewer => viewer.seekMatch(-1)],
     ...EVENTS.filter(([, , of]) => of !== "rare").map(([name], i) =>
-        [[String(i + 1)], String(i + 1), `choose ${name}, or no longer`, viewer => viewer.toggle(1 << i)]),
-    [["0"], "0", "choose no event: show all", viewer => viewer.clearFilter()],
+        [[String(i + 1)], String(i + 1), `select or deselect ${name}`, viewer => viewer.toggle(1 << i)]),
+    [["0"], "0", "clear the selection", viewer => viewer.clearFilter()],
     ...(hasModule() ? PLAYING_KEYS : []),
-    [["?"], "?", "these keys", () => byId("help").showModal()],
+    [["?"], "?", "show these keys", () => byId("help").showModal()],
 ];
 
 const BUTTONS = {"previous-match": "k", previous: "ArrowLeft", play: " ", next: "ArrowRight", "next-match": "j"};
@@ -300,7 +301,7 @@ function actionOf(key)
     return KEYS.find(([names]) => names.includes(key))?.[3];
 }
 
-/* What the focused control would do with the key by itself goes before. */
+/* Whether the focused control handles the key itself. */
 function isTaken(event)
 {
     const control = event.target.closest?.("button, select, a, input, dialog");
@@ -322,7 +323,7 @@ function listenToKeys(viewer)
     });
 }
 
-/* What is no number leaves the tick, and is written over by it. */
+/* Go to a tick that was typed; anything but a number restores the current one. */
 function typeTick(viewer, tick)
 {
     viewer.step(isNaN(tick) ? 0 : Math.trunc(tick) - viewer.tick);
@@ -332,7 +333,7 @@ function listenToControls(viewer)
 {
     for (const button of document.querySelectorAll("[data-does]"))
         button.addEventListener("click", () => actionOf(BUTTONS[button.dataset.does])(viewer));
-    /* After a click the space bar is for playing again, and not for the button that was clicked. */
+    /* A clicked button gives up the focus, so that the space bar plays and does not press it again. */
     document.addEventListener("click", event => event.detail > 0 && event.target.closest("button")?.blur());
     byId("speed").addEventListener("change", event => event.target.blur());
     byId("slider").addEventListener("input", event => viewer.goTo(Number(event.target.value)));
@@ -344,7 +345,7 @@ function listenToControls(viewer)
 
 /* ---- The page ----------------------------------------------------------------------------------------------- */
 
-/* That of the folder, or of a page with a name of its own. */
+/* The folder's name; for a page with a file name other than index.html, that name. */
 function recordingName()
 {
     const [folder, file] = location.pathname.split("/").slice(-2);
@@ -352,7 +353,7 @@ function recordingName()
     try {
         return decodeURIComponent(name);
     } catch {
-        return name; /* a % that stands for itself */
+        return name; /* the name holds a plain % */
     }
 }
 
@@ -397,4 +398,4 @@ function openRecording()
     return viewer;
 }
 
-const octreel = openRecording(); /* for the console */
+const octreel = openRecording(); /* global for the browser's console and the tests */

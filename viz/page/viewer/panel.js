@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* panel.js - the facts of one tick, beside its frame: all that its line of ticks.jsonl has, in its order and under its
- * names, so that a new fact needs no change here. */
+/* panel.js - the facts of one tick beside its frame: every member of its line of ticks.jsonl, in the same order. Names
+ * are the members' own with spaces for underscores, so a new fact needs no change here. */
 "use strict";
 
 const KEY_MEANINGS = {
     w: "+y", s: "−y", d: "+x", a: "−x", e: "+z", f: "−z", n: "nearest neighbour", ".": "wait", q: "end",
 };
 
-/* Positions are lists of three numbers and yet one thing; events are few and seen at a glance. */
+/* Lists without a count beside their names: positions are single things, and events are few. */
 const NOT_COUNTED = new Set(["player", "attempt", "position", "target", "min", "max", "center", "events"]);
 
 const ABSENT = "–";
@@ -32,13 +32,13 @@ function counted(count, noun)
     return `${grouped(count)} ${noun}${count === 1 ? "" : "s"}`;
 }
 
-/* The digits of ticks.jsonl: a number's shortest text, minus zero included. */
+/* A value as in ticks.jsonl: the shortest text of a number, with the sign of -0. */
 function textOf(value)
 {
     return value === null ? ABSENT : Object.is(value, -0) ? "-0" : String(value);
 }
 
-/* Seven digits are enough to read: all of them are in the tooltip. */
+/* Digits that are shown; the tooltip has all of them. */
 const READ_DIGITS = 7;
 
 function readable(value)
@@ -52,10 +52,10 @@ function showPlain(values)
     return read === exact ? exact : element("span", read, {title: exact});
 }
 
-/* As many of a list as stand open. */
+/* Entries of a list that are shown before "more". */
 const OPEN_ENTRIES = 10;
 
-/* A longer list opens when it is wanted. */
+/* The rest of a longer list, folded. */
 function folded(list)
 {
     const rest = element("details", element("summary", `${grouped(listLength(list) - OPEN_ENTRIES)} more`));
@@ -120,7 +120,7 @@ function showKey(key)
 const SHOWN_AS = {
     events: showEvents,
     key: showKey,
-    frame: name => [element("a", name, {href: `./${name}`, target: "_blank"})], /* a file here, whatever its name */
+    frame: name => [element("a", name, {href: `./${name}`, target: "_blank"})], /* beside the page */
 };
 
 function showValue(value, path)
@@ -132,16 +132,16 @@ function showValue(value, path)
     return isPlain(value) ? [showPlain([value])] : [showObject(value, path)];
 }
 
-/* A name, and of a list how many entries it has. */
+/* A fact's name, with the count of entries of a list. */
 function showTerm(name, value)
 {
-    const term = element("dt", name);
+    const term = element("dt", name.replaceAll("_", " "));
     if (Array.isArray(value) && value.length > 0 && !NOT_COUNTED.has(name))
         term.append(" ", element("span", grouped(listLength(value)), {class: "count"}));
     return term;
 }
 
-/* What holds facts of its own stands below its term, the rest beside it. */
+/* An object's facts stand below its name, a plain value beside it. */
 function showFact(name, value, path)
 {
     const description = element("dd", "", {"data-fact": path});

@@ -1,35 +1,37 @@
 /* SPDX-License-Identifier: MIT */
-/* player.js - any tick of a session at once: one engine plays ahead and keeps states, another goes back to them and
- * draws. What is played by keys follows the session from the tick at which they took over. */
+/* player.js - reaches any tick of a session in a few milliseconds: one engine (the scout) plays ahead and saves states,
+ * another goes back to the nearest state, plays from there and draws. Keys that the user plays replace the session's
+ * ticks from one tick on. */
 "use strict";
 
-const SLICE = 12;         /* ms of playing before the page may do something else */
-const MOST_AHEAD = 64 << 20; /* bytes of a state: larger sessions are not played ahead, as that takes two of them */
+const SLICE = 12;         /* ms of playing before control returns to the browser */
+const MOST_AHEAD = 64 << 20; /* bytes of a state; larger sessions have no scout, which needs as much again */
 
-const MOST_TICKS = 100000; /* that are played ahead; a session may say a billion */
+const MOST_TICKS = 100000; /* played at most: a session may have a billion */
 
 const rest = () => new Promise(done => setTimeout(done));
 
 class Player {
-    /* `known`: ticks whose facts are known. `heard(tick, engine)` is told each tick that is played ahead. */
-    constructor(module, session, view, known, heard)
+    /* `known`: ticks whose facts the recording has. `played(tick, engine)` is called for each tick that is played
+     * ahead. */
+    constructor(module, session, view, known, played)
     {
         this.module = module;
         this.most = Math.max(MOST_TICKS, known);
-        this.heard = heard;
+        this.played = played;
         this.states = new States();
-        this.keys = ""; /* played after tick `taken` */
-        this.run = 0;   /* the number of what goes on in the background; a new one ends the old */
+        this.keys = ""; /* the user's, played after tick `taken` */
+        this.run = 0;   /* number of the current run in the background; a new run ends the old one */
         this.engine = new Engine(module);
         this.engine.open(session, view);
-        this.given = this.length; /* ticks, whatever is played after some of them */
+        this.given = this.length; /* ticks of the session itself */
         this.taken = this.given - 1;
         this.states.keep(this.engine, false);
         this.playsAhead = this.engine.used().length <= MOST_AHEAD;
-        this.scout = null; /* who plays ahead, once the first picture is drawn */
+        this.scout = null; /* the engine that plays ahead, made after the first picture */
     }
 
-    /* The ticks that are played. */
+    /* Count of ticks that can be shown. */
     get length()
     {
         return this.isTaken ? this.taken + 1 + this.keys.length : Math.min(this.engine.length, this.most);
@@ -45,13 +47,13 @@ class Player {
         return this.keys.length > 0;
     }
 
-    /* Play the tick after an engine's. */
+    /* Play an engine's next tick. */
     step(engine)
     {
         engine.step(engine.tick >= this.taken ? this.keys[engine.tick - this.taken] : "");
     }
 
-    /* Play ahead in the background, to the end of what is known, and keep states on the way. */
+    /* Play ahead in the background to the last tick, and save states on the way. */
     async playAhead(progress)
     {
         const run = ++this.run;
@@ -63,7 +65,7 @@ class Player {
             let now = start;
             while (scout.tick + 1 < this.length && now - start < SLICE && since + now - start < this.states.interval) {
                 this.step(scout);
-                this.heard(scout.tick, scout);
+                this.played(scout.tick, scout);
                 now = performance.now();
             }
             since += now - start;
@@ -87,13 +89,13 @@ class Player {
         return this.scout;
     }
 
-    /* Play no further ahead. */
+    /* Stop playing ahead. */
     stop()
     {
         this.run++;
     }
 
-    /* Bring the engine that draws to a tick. False where another call came meanwhile. */
+    /* Bring the engine that draws to a tick. False if another call replaced this one. */
     async goTo(tick)
     {
         const going = this.going = {};
@@ -112,7 +114,7 @@ class Player {
         return true;
     }
 
-    /* The tick that is shown, played once more: without what was asked about it since. */
+    /* Play the shown tick once more, which removes the user's query from it. */
     replay()
     {
         const {engine} = this, {tick} = engine;
@@ -127,7 +129,7 @@ class Player {
             engine.setKeys(this.taken, this.keys);
     }
 
-    /* Play a key after the tick that is shown: what was known after it is left. */
+    /* Play a key after the shown tick; later ticks are dropped. */
     press(key)
     {
         const {engine, scout} = this;
@@ -145,7 +147,7 @@ class Player {
         this.step(engine);
     }
 
-    /* Forget states, and play ahead from the last that is left. */
+    /* Drop states, and play ahead from the last one that is left. */
     rewind(isForgotten)
     {
         this.run++;
@@ -154,16 +156,7 @@ class Player {
             this.restore(this.scout, this.states.list.at(-1));
     }
 
-    /* Back to the session as it was given. */
-    giveBack()
-    {
-        this.keys = "";
-        this.rewind(state => state.isTaken);
-        this.restore(this.engine, this.states.list.at(-1));
-        this.taken = this.given - 1;
-    }
-
-    /* Open the session once more, for a view that shows sums over all ticks: the engine is then at tick 0. */
+    /* Open the session once more, at tick 0, for a view that shows sums over all ticks. */
     reopen(session)
     {
         const {engine} = this;
@@ -176,7 +169,7 @@ class Player {
             this.restore(one, this.states.list[0]);
     }
 
-    /* The session with the keys that were played. */
+    /* The session with the user's keys, as session.json. */
     save()
     {
         return this.engine.session();

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* timeline.js - a lane an event and a lane a curve, above each other on one scale of ticks, with the tick marked. */
+/* timeline.js - one lane for each event and curve, all on one scale of ticks, with the current tick marked. */
 "use strict";
 
-const THUMB = 8; /* half the slider's thumb, in CSS pixels: what the lanes are set in by, to agree with it */
+const THUMB = 8; /* half the slider's thumb in CSS pixels: the lanes are inset by it to agree with the slider */
 
 function colorOf(name)
 {
     return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`);
 }
 
-/* Clear a canvas that is to be as sharp as the screen; its context measures in CSS pixels. */
+/* Clear a canvas and give it the screen's resolution; its context measures in CSS pixels. */
 function prepareCanvas(canvas)
 {
     const ratio = window.devicePixelRatio, context = canvas.getContext("2d");
@@ -19,7 +19,7 @@ function prepareCanvas(canvas)
     return context;
 }
 
-/* Where ticks lie across a lane. */
+/* The position of ticks across a lane. */
 class Scale {
     constructor(ticks, width)
     {
@@ -39,7 +39,7 @@ class Scale {
     }
 }
 
-/* Ticks in a row that have the event are one bar: a lane is a few rectangles, however many ticks there are. */
+/* Consecutive ticks with the event are one bar, so that a lane is a few rectangles for any count of ticks. */
 function drawEvents(context, scale, height, events, bit)
 {
     const half = Math.max(Math.min(scale.width / Math.max(scale.last, 1) * 0.4, 5), 0.75);
@@ -63,8 +63,8 @@ function rangeOf(values)
     return [low, high];
 }
 
-/* Steps, not slopes: between two ticks there is nothing. A tick without the fact is a gap. Where many ticks are a pixel
- * wide, of each pixel's there are the first value, the lowest, the highest and the last. */
+/* Trace steps, not slopes, as there is nothing between two ticks. A tick without a value is a gap. If several ticks
+ * share a pixel, its first, lowest, highest and last values are drawn. */
 function traceCurve(context, scale, y, values)
 {
     const ticksAPixel = 1 / (scale.x(1) - scale.x(0));
@@ -97,7 +97,7 @@ function drawCurve(context, scale, height, values, [low, high])
 }
 
 class Timeline {
-    /* `goTo` is called with a tick, `toggle` with the bit of an event. */
+    /* `goTo(tick)` shows a tick, `toggle(bit)` selects or deselects an event. */
     constructor(recording, {goTo, toggle})
     {
         this.root = document.getElementById("timeline");
@@ -108,12 +108,12 @@ class Timeline {
         this.toggle = toggle;
         this.show(recording);
         this.followPointer(goTo);
-        this.measure(); /* once and at each change of size: asking at each tick costs a layout */
+        this.measure(); /* and again only after a resize: measuring at each tick costs a layout */
         new ResizeObserver(() => this.scrub.clientWidth !== this.width && this.draw()).observe(this.root);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     }
 
-    /* Another recording, or one that has more ticks. */
+    /* Show another recording, or the same one after ticks were added. */
     show(recording)
     {
         this.recording = recording;
@@ -134,7 +134,7 @@ class Timeline {
     {
         const count = this.recording.count(bit);
         const label = element("button", this.recording.nameOf(name, of), {type: "button", class: "lane-label", "data-event": name,
-                                               "aria-pressed": "false", title: `Show ticks that ${name}`});
+                                               "aria-pressed": "false", title: `Select ticks with the event ${name}`});
         label.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
         label.disabled = count === 0;
         label.addEventListener("click", () => this.toggle(bit));
@@ -200,7 +200,7 @@ class Timeline {
             lane.shown.textContent = lane.value(tick);
     }
 
-    /* Lanes that the filter leaves out fade. */
+    /* Fade the lanes of events that are not selected. */
     choose(bits)
     {
         this.bits = bits;

@@ -1,27 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* view.js - the controls of what the page draws: a row a member of recording.json, and the choices as the program names
- * them. */
+/* view.js - the controls of the view: one row for each member of recording.json; the module lists the choices. */
 "use strict";
 
 const AXES = ["x", "y", "z"];
 
 const numbersOf = text => text.trim() === "" ? [] : text.split(/[\s,]+/).map(Number);
 
-/* Members of the view, their names for people, and how they are entered: as one of the program's choices, a switch, a
- * number, or a text that is read and written by two functions. An empty entry removes the member, which gives the option its default. */
+/* For each member of the view: its label and its control. That is a choice from the module's list, a switch, a number,
+ * or a text with functions that read and write it; an empty text removes the member. */
 const VIEW_ROWS = [
     ["camera", "camera", "choice"],
-    ["look", "look from", "text", {hint: "30,22", read: numbersOf, write: look => look.join(",")}],
-    ["center", "at", "text", {hint: "x,y,z", read: numbersOf, write: center => center.join(",")}],
+    ["look", "direction (degrees)", "text", {hint: "30,22", read: numbersOf, write: look => look.join(",")}],
+    ["center", "center", "text", {hint: "x,y,z", read: numbersOf, write: center => center.join(",")}],
     ["zoom", "zoom", "text", {hint: "1", read: Number, write: String}],
-    ["color_by", "nodes by", "choice"],
-    ["color_points", "points by", "choice"],
+    ["color_by", "color nodes by", "choice"],
+    ["color_points", "color points by", "choice"],
     ["shade", "shade", "choice"],
     ["tree", "tree", "choice"],
     ["diagram", "diagram", "choice"],
     ["closeup", "close-up", "switch"],
     ["labels", "labels", "switch"],
-    ["leaves", "only leaves", "switch"],
+    ["leaves", "leaves only", "switch"],
     ["depths", "depths", "text", {
         hint: "2:5",
         read: text => {
@@ -36,16 +35,16 @@ const VIEW_ROWS = [
         write: slice => Object.entries(slice).map(([axis, at]) => `${axis}=${at}`).join(),
     }],
     ["region", "region", "text", {
-        hint: "six numbers",
+        hint: "x,y,z,x,y,z",
         read: text => ({min: numbersOf(text).slice(0, 3), max: numbersOf(text).slice(3)}),
         write: ({min, max}) => [...min, ...max].join(","),
     }],
-    ["lod", "detail (px)", "number"],
+    ["lod", "smallest box (px)", "number"],
     ["budget", "most boxes", "number"],
 ];
 
 class ViewControls {
-    /* `change(members)` is called with what is chosen. */
+    /* `change(members)` is called with the members that the user changed. */
     constructor(root, choices, change)
     {
         this.root = root;
@@ -122,7 +121,7 @@ class ViewControls {
     }
 }
 
-/* The options of a command line that give one view in place of another. */
+/* The command-line options that turn the recorded view into another. */
 function optionsOf(view, recorded)
 {
     const written = {
