@@ -29,7 +29,7 @@ macro(inline element regex)
     endif()
     strip(text)
     string(REGEX REPLACE "\n*{\n" "{" text "${text}") # neither JavaScript nor CSS needs these line breaks
-    string(REGEX REPLACE ",\n" "," text "${text}")
+    string(REGEX REPLACE "([,;])\n" "\\1" text "${text}")
     string(REPLACE "${tag}" "<${element}>${text}</${element}>" page "${page}")
   endforeach()
 endmacro()

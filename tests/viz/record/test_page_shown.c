@@ -294,7 +294,7 @@ static void tick_without_a_frame_shows_the_one_before_and_says_so(void **state)
     assert_has(page, "<dd data-fact=\"tick\">43</dd>");
     assert_has(page, "Tick 43 has no frame; this is the frame of tick 40.");
     assert_has(page, "src=\"frame_000040.png\"");
-    assert_has(page, "11 ticks collided or full");
+    assert_has(page, "11 ticks with collided or full");
     assert_has(page, "253 ticks \xc2\xb7 7 frames");
     free(page);
 }
@@ -330,7 +330,7 @@ static void page_takes_what_it_does_not_expect(void **state)
     assert_has(page, "<dd data-fact=\"unheard_of.weight\">-0.5</dd>");
     assert_has(page, "long\"><span title=\"17.299999999999997\">17.3</span></dd>");
     assert_has(page, "<dd data-fact=\"unheard_of.of\">true, x</dd>");
-    assert_has(page, "frame_000000.png is not beside this page");
+    assert_has(page, "frame_000000.png is missing beside this page");
     free(page);
 }
 
