@@ -28,8 +28,11 @@ macro(inline element regex)
       message(FATAL_ERROR "${part}: \"</${element}\" would close the element that holds this file")
     endif()
     strip(text)
-    string(REGEX REPLACE "\n*{\n" "{" text "${text}") # neither JavaScript nor CSS needs these line breaks
-    string(REGEX REPLACE "([,;])\n" "\\1" text "${text}")
+    string(REGEX REPLACE "[ \n]*([{}])" "\\1" text "${text}") # no string of JavaScript or CSS here has a blank there
+    string(REGEX REPLACE "([(,;{])\n" "\\1" text "${text}")
+    if("${element}" STREQUAL "style")
+      string(REPLACE ": " ":" text "${text}")
+    endif()
     string(REPLACE "${tag}" "<${element}>${text}</${element}>" page "${page}")
   endforeach()
 endmacro()
