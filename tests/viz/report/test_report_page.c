@@ -174,7 +174,8 @@ static void page_says_how_many_frames_were_left_out(void **state)
 {
     assert_said(state, "listed", "50");
     assert_said(state, "place", "1 of 50");
-    assert_said(state, "left out", "6 more findings: this page has the first 50. The pictures of all lie beside it.");
+    assert_said(state, "left out",
+                "6 more findings: this page has the first 50. The pictures of all are files beside it.");
 }
 
 static void keys_choose_how_to_look(void **state)
@@ -238,7 +239,7 @@ static void address_names_the_frame_and_leads_to_it(void **state)
 static void bars_show_how_much_differs_over_the_frames(void **state)
 {
     assert_said(state, "bars",
-                "56 tick 0; pixels that differ, frame by frame; click for the nearest that does; tick 56");
+                "56 tick 0; pixels that differ in each frame; click to go to the nearest difference; tick 56");
     assert_said(state, "end of the bars", "frame_000050.png");
 }
 
@@ -296,8 +297,8 @@ static void page_of_no_difference_says_so(void **state)
     const place a = gallery_make(d->folder, "same", "1.png 2.png"), folder = place_in(d->folder, "calm");
     write_page(a.path, a.path, folder.path, NULL, NULL);
     assert_opens_with(state, folder,
-                      "<h2>No frame differs</h2>\n  <p id=\"calm-words\">2 frames, 2 the same by their "
-                      "bytes</p>\n  <p id=\"calm-tolerance\">Compared exactly</p>");
+                      "<h2>No frame differs</h2>\n<p id=\"calm-words\">2 frames, 2 the same by their "
+                      "bytes</p>\n<p id=\"calm-tolerance\">Compared exactly</p>");
 }
 
 static void page_of_what_is_forgiven_says_that_it_differs(void **state)
@@ -385,7 +386,7 @@ static void pictures_that_are_too_large_for_a_page_are_left_beside_it(void **sta
     assert_null(strstr(page, "<img data-frame=\"0\""));
     assert_non_null(strstr(page, "<img data-frame=\"1\" data-picture=\"difference\" src=\"data:image/png;base64,"));
     free(page);
-    assert_opens_with(state, folder, "Its pictures are too large for this page. They lie beside it.");
+    assert_opens_with(state, folder, "The pictures are too large for this page; they are files beside it.");
 }
 
 int main(void)
