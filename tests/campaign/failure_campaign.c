@@ -42,7 +42,6 @@ static const char PREPARE[] =
     "cp -r film half && rm half/frame_000002.png half/index.html && "
     "head -n 2 film/ticks.jsonl >half/ticks.jsonl && "
     "cp film/session.json session.json && "
-    "\"$octreel\" digest film -o film.digests && "
     "\"$octreel\" accept film.baseline film --reason first --date 2026-11-22 --store pictures && "
     "printf '{\"octreel\": \"session\", \"version\": 2, \"points\": [[10, 0, 0], [0, 20, 0]], "
     "\"ticks\": 2}\\n{\"tick\": 1, \"queries\": [{\"knearest\": 2, \"at\": [0, 0, 0], "
@@ -100,7 +99,6 @@ static const struct {
     {"diff-layers", "diff film other --ignore-layer nodes,text --antialias --max-delta 0.1"},
     {"diff-folders", "diff frames frames_other -o evidence"},
     {"diff-reports", "diff film other --json --junit diff.xml --markdown diff.md -o evidence"},
-    {"digest", "digest other -o new.digests"},
     {"audit", "audit answers.json"},
     {"audit-json", "audit nodes.json --json"},
     {"audit-reports", "audit nodes --html audit.html --junit audit.xml"},
@@ -112,7 +110,7 @@ static const struct {
     {"accept", "accept film other"},
     {"accept-from", "accept film other --from list --json"},
     {"accept-new", "accept new film"},
-    {"accept-digests", "accept film.digests other"},
+    {"accept-one", "accept one.baseline film/frame_000001.png --reason why --date 2026-11-23"},
     {"accept-baseline", "accept film.baseline other --variant --reason why --date 2026-11-23 --store pictures"},
     {"diff-baseline", "diff film.baseline other --store pictures -o evidence"},
     {"help", "help session"},

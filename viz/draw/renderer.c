@@ -86,7 +86,7 @@ renderer_info renderer_about(const renderer *r)
     renderer_info info = {0};
     if (fills_by_gl(r))
         info = r->surface->about(r->surface);
-    info.fill = draw_fill_name(r->choice.fill);
+    info.fill = draw_fill_name(r->choice.fill == DRAW_FILL_GL ? DRAW_FILL_GL : DRAW_FILL_INTEGERS);
     return info;
 }
 

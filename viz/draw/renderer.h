@@ -22,7 +22,7 @@ bool draw_fill_parse(const char *name, draw_fill *fill);
 typedef struct renderer_info {
     const char *context;                     /* "osmesa", "egl" */
     const char *vendor, *renderer, *version; /* GL's own strings */
-    const char *fill;                        /* draw_fill_name(); unless it is "gl", all others are null */
+    const char *fill; /* "integers" or "gl": who fills the pixels; unless it is "gl", all others are null */
 } renderer_info;
 
 /* Open a renderer of this size in samples. Null with an error: the size is outside 1..VIEW_MAX_SIDE, there is no

@@ -58,12 +58,17 @@ static bool pipe_poll(int pipe, int milliseconds)
     return poll(&asked, 1, milliseconds) > 0;
 }
 
-/* A message of a job. After each tick it has the step, followed by the bytes of its line. A job that fails writes
- * `failed`, followed by an octreel_error. Job 0 ends with the frame_checks of the recording. */
+/* A message of a job, and the bytes that follow it. */
+typedef enum message_kind {
+    MESSAGE_STEP,   /* a tick was filmed; the bytes are its line */
+    MESSAGE_FAILED, /* the job failed; the bytes are an octreel_error */
+    MESSAGE_ENDED,  /* job 0 filmed its last tick or was stopped; the bytes are its frame_checks */
+} message_kind;
+
 typedef struct message {
-    film_step step;
-    bool failed;
-    size_t size; /* of the bytes */
+    message_kind kind;
+    film_step step; /* of MESSAGE_STEP */
+    size_t size;    /* of the bytes */
 } message;
 
 static bool write_message(int pipe, message m, const void *bytes, size_t size)
@@ -148,9 +153,9 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     p->learn_context = self;
     const bool ok = recording_film(r, p, &error) && playback_run(p, share, write_step, job_keeps_going, self, &error);
     if (ok && share->index == 0)
-        write_message(self->pipe, (message){.failed = false}, &p->checks, sizeof p->checks);
+        write_message(self->pipe, (message){.kind = MESSAGE_ENDED}, &p->checks, sizeof p->checks);
     else if (!ok)
-        write_message(self->pipe, (message){.failed = true}, &error, sizeof error);
+        write_message(self->pipe, (message){.kind = MESSAGE_FAILED}, &error, sizeof error);
     _exit(ok ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
@@ -244,9 +249,13 @@ static bool collect(job_pool *pool, octreel_error *error)
         const unsigned i = (unsigned)share_find_job(&share, tick / r->options->every, r->options->every);
         if (!read_message(pool, &pool->jobs[i], &m))
             return explain_end(pool, i, error);
-        if (m.failed) {
+        if (m.kind == MESSAGE_FAILED) {
             memcpy(error, pool->bytes, sizeof *error);
             return false;
+        }
+        if (m.kind == MESSAGE_ENDED) { /* stopped before this tick */
+            memcpy(&r->summary->checks, pool->bytes, sizeof r->summary->checks);
+            return true;
         }
         m.step.line = pool->bytes;
         if (!recording_add(r, &m.step, error))

@@ -128,7 +128,7 @@ static void create_refuses_capacity_zero_and_unlisted_options(void **state)
     def = define(cube(0, 1), 1, 5, OCTREE_REFUSE);
     def.allocator.release = counting_allocator_use(&(counting_allocator){0}).release;
     assert_int_equal(octree_create(&def, &tree), OCTREE_BAD_OPTION);
-    assert_non_null(strstr(octree_status_text(OCTREE_BAD_OPTION), "enumeration"));
+    assert_non_null(strstr(octree_status_text(OCTREE_BAD_OPTION), "unknown value"));
     assert_non_null(strstr(octree_status_text(OCTREE_BAD_OPTION), "allocator"));
 }
 

@@ -205,7 +205,7 @@ static void any_renderer_draws_where_it_is_asked_for(void **state)
 static void integers_and_gl_film_the_same_bytes(void **state)
 {
     const place plain = place_in(*state, "plain"), integers = place_in(*state, "integers"), gl = place_in(*state, "gl");
-    assert_drawn_by(NULL, "", &plain, "fill", "checked");
+    assert_drawn_by(NULL, "", &plain, "fill", "integers");
     assert_drawn_by(NULL, "--fill integers", &integers, "fill", "integers");
     assert_drawn_by(NULL, "--fill gl", &gl, "fill", "gl");
     assert_same_folders(plain.path, integers.path, "renderer.json");

@@ -469,8 +469,12 @@ static void statistics_need_no_renderer(void **state)
     assert_done(&result);
     command_release(&result);
     result = run_octreel(&other, "inspect %s -o %s", points.path, picture.path);
+    assert_int_equal(result.status, 0); /* the integer rasterizer draws, and a note says why OSMesa checked nothing */
+    assert_non_null(strstr(result.err, "softpipe"));
+    assert_true(file_exists(picture.path));
+    command_release(&result);
+    result = run_octreel(&other, "inspect %s --fill gl -o %s.gl.png", points.path, picture.path);
     assert_trouble(&result, "softpipe");
-    assert_false(file_exists(picture.path));
 }
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)

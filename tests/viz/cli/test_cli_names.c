@@ -10,19 +10,19 @@
 static void an_empty_name_is_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
-        {"diff '' a.png", "diff takes a name"},
-        {"diff a.png ''", "diff takes a name"},
-        {"diff a.png a.png -o ''", "-o takes a name"},
-        {"diff a.png a.png --junit ''", "--junit takes a name"},
-        {"diff a.png a.png --markdown=", "--markdown takes a name"},
-        {"inspect ''", "inspect takes a name"},
-        {"inspect p.xyz -o ''", "-o takes a name"},
-        {"inspect p.xyz --nodes ''", "--nodes takes a name"},
-        {"verify ''", "verify takes a name"},
-        {"join ''", "join takes a name"},
-        {"pick '' 1 1", "pick takes a name"},
-        {"accept '' a.png", "accept takes a name"},
-        {"record -o ''", "-o takes a name"},
+        {"diff '' a.png", "diff: the name is empty"},
+        {"diff a.png ''", "diff: the name is empty"},
+        {"diff a.png a.png -o ''", "-o: the name is empty"},
+        {"diff a.png a.png --junit ''", "--junit: the name is empty"},
+        {"diff a.png a.png --markdown=", "--markdown: the name is empty"},
+        {"inspect ''", "inspect: the name is empty"},
+        {"inspect p.xyz -o ''", "-o: the name is empty"},
+        {"inspect p.xyz --nodes ''", "--nodes: the name is empty"},
+        {"verify ''", "verify: the name is empty"},
+        {"join ''", "join: the name is empty"},
+        {"pick '' 1 1", "pick: the name is empty"},
+        {"accept '' a.png", "accept: the name is empty"},
+        {"record -o ''", "-o: the name is empty"},
     };
     const temp_folder *folder = *state;
     gallery_write(place_in(folder, "a.png").path, 1, 0);

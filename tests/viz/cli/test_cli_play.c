@@ -151,7 +151,7 @@ static void what_is_no_page_of_play_stays(void **state)
         {"-o film/index.html", "film/index.html: is the page of a recording"},
         {"-o film", "\"film\" is a folder"},
         {"-o p.png", "p.png"},
-        {"-o ''", "-o takes a name"},
+        {"-o ''", "-o: the name is empty"},
         {"-o none/p.html", "none/p.html"},
         {"s.json mine.html", "play takes one session"},
         {"film", "film is a recording"},

@@ -102,7 +102,7 @@ static void values_that_do_not_fit_are_refused_in_one_sentence(void **state)
         {"--budget -1", "-1"},
         {"--budget 1e6", "1e6"},
         {"--region 1,2,3", "six numbers"},
-        {"--region 0,0,0,1,-1,1", "below"},
+        {"--region 0,0,0,1,-1,1", "min must not be above max"},
         {"--region 2000,0,0,3000,1,1", "on x it reaches from 2000 to 3000"},
         {"--layers nodes,walls", "there is no layer \"walls\"; there are world, nodes, visit-heat, "},
         {"--layers nodes,,text", "layer"},

@@ -84,7 +84,6 @@ static void another_renderer_can_differ_in_pixels_alone(void **state)
     if (result.status != 0) {
         assert_int_equal(result.status, 1);
         assert_non_null(strstr(result.out, "differs, only in its pixels: "));
-        assert_non_null(strstr(result.out, "llvmpipe"));
         assert_non_null(strstr(result.out, "now drawn by egl, softpipe"));
     }
     command_release(&result);
@@ -148,7 +147,7 @@ static void what_cannot_be_verified_is_trouble(void **state)
         {"", "one recording"},
         {"a b", "one recording"},
         {"nowhere", "nowhere: no such file or folder"},
-        {"nowhere --context glx", "there is no context \"glx\""},
+        {"nowhere --context glx", "--context: unknown value \"glx\""},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         command_result result = run_octreel(NULL, "verify %s", rows[i].arguments);
@@ -174,7 +173,7 @@ static void help_teaches(void **state)
     assert_done(&result);
     assert_non_null(strstr(result.out, "usage: octreel verify RECORDING"));
     assert_non_null(strstr(result.out, "--context"));
-    assert_non_null(strstr(result.out, "0 identical; 1 differs; 2 trouble"));
+    assert_non_null(strstr(result.out, "  0  identical\n  1  different\n  2  error"));
     assert_non_null(strstr(result.out, " gaps"));
     command_release(&result);
     result = run_octreel(NULL, "--help");

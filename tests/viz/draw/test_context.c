@@ -47,7 +47,7 @@ static void a_driver_that_is_not_llvmpipe_is_refused_by_name(void **state)
     for (int kind = DRAW_AUTO; kind < DRAW_CONTEXTS; kind++) {
         if (!draw_context_built((draw_context)kind))
             continue;
-        const int said = open_under_softpipe(&(renderer_choice){.context = (draw_context)kind});
+        const int said = open_under_softpipe(&(renderer_choice){.context = (draw_context)kind, .fill = DRAW_FILL_GL});
         assert_true(said == REFUSED_WITH_REASON || said == DRAWN_BY_LLVMPIPE);
     }
 }
@@ -57,9 +57,10 @@ static void a_driver_that_is_not_llvmpipe_draws_where_any_will_do(void **state)
     (void)state;
     if (!draw_context_built(DRAW_EGL))
         skip();
-    const int said = open_under_softpipe(&(renderer_choice){.context = DRAW_EGL, .any_renderer = true});
+    const int said =
+        open_under_softpipe(&(renderer_choice){.context = DRAW_EGL, .fill = DRAW_FILL_GL, .any_renderer = true});
     assert_true(said == DRAWN_BY_ANOTHER || said == DRAWN_BY_LLVMPIPE);
-    if (open_under_softpipe(&(renderer_choice){.context = DRAW_EGL}) == REFUSED_WITH_REASON)
+    if (open_under_softpipe(&(renderer_choice){.context = DRAW_EGL, .fill = DRAW_FILL_GL}) == REFUSED_WITH_REASON)
         assert_int_equal(said, DRAWN_BY_ANOTHER);
 }
 
@@ -83,7 +84,7 @@ static void a_context_that_is_not_built_is_refused_by_name(void **state)
     (void)state;
     assert_true(draw_context_built(DRAW_AUTO));
     for (int kind = FIRST_KIND; kind < DRAW_CONTEXTS; kind++) {
-        const renderer_choice choice = {.context = (draw_context)kind};
+        const renderer_choice choice = {.context = (draw_context)kind, .fill = DRAW_FILL_GL};
         octreel_error error = {""};
         renderer *r = renderer_open(16, 16, &choice, &error);
         assert_int_equal(r != NULL, draw_context_built(choice.context));
@@ -129,7 +130,7 @@ static void kinds_draw_the_same_bytes(void **state)
 static void egl_draws_the_same_bytes_with_and_without_naming_its_device(void **state)
 {
     (void)state;
-    const renderer_choice any = {.context = DRAW_EGL, .any_renderer = true};
+    const renderer_choice any = {.context = DRAW_EGL, .fill = DRAW_FILL_GL, .any_renderer = true};
     octreel_error error;
     if (!draw_context_built(DRAW_EGL))
         skip();

@@ -43,12 +43,12 @@ static void film(const char *folder, const char *options)
     command_release(&result);
 }
 
-/* The causes are between the first line and ": the same ticks, looked at in another way". */
+/* The causes are between the first line and ": the ticks are the same, only the view differs". */
 static void assert_one_cause(const char *a, const char *b, const char *cause)
 {
     char expected[160];
     command_result result = run_octreel(NULL, "diff %s %s", a, b);
-    snprintf(expected, sizeof expected, "\n%s%s: the same ticks, looked at in another way\n",
+    snprintf(expected, sizeof expected, "\n%s%s: the ticks are the same, only the view differs\n",
              strncmp(cause, "one ", 4) == 0 ? "" : "another ", cause);
     if (!strstr(result.out, expected))
         fail_msg("expected \"%s\" in:\n%s", expected + 1, result.out);

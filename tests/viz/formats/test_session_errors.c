@@ -75,7 +75,7 @@ static void text_that_is_not_a_stream_of_objects_is_refused(void **state)
         {HEADER "\"ticks\":1}\n}", "3: '{' expected near '}'"},
         {HEADER "\"ticks\":1}\n[]", "3: expected an object, found a list of 0"},
         {HEADER "\"ticks\":1}\n" HEADER "\"ticks\":1}", "3: this is a second header; only objects of ticks may follow"},
-        {HEADER "\"keys\":\"\\u0000\"}", "2: a text cannot hold \\u0000 near '"},
+        {HEADER "\"keys\":\"\\u0000\"}", "2: a text cannot contain \\u0000 near '"},
         {HEADER "\"keys\":\"\xff\"}", "2: unable to decode byte 0xff"},
         {HEADER "\x1b[31m", "2: string or '}' expected near '?'"},
     };

@@ -311,7 +311,7 @@ static void frame_that_the_recording_has_not_is_named(void **state)
 {
     const place chunks = film_chunks(state), extra = frame_place(chunks.path, TICKS);
     file_write_text(extra.path, "");
-    assert_not_joined(chunks.path, extra.path, "no frame of this recording");
+    assert_not_joined(chunks.path, extra.path, "not a frame of this recording");
 }
 
 /* ---- Parts that are refused --------------------------------------------------------------------------------- */
@@ -348,7 +348,7 @@ static void chunk_beyond_the_session_is_refused_and_makes_nothing(void **state)
     const place folder = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
     const film_options options = chunk_of(small_film(folder.path), TICKS, TICKS + 5);
-    assert_not_filmed(&session, &options, "from tick 17 on", "last tick is 16");
+    assert_not_filmed(&session, &options, "tick 17", "last tick is 16");
     assert_false(file_exists(folder.path));
 }
 
@@ -426,7 +426,7 @@ static void command_lines_of_chunks_that_make_no_sense_are_refused(void **state)
         {"record --ticks -1:5 -o x", "-1:5"},   {"record --ticks 5:6:7 -o x", "5:6:7"},
         {"record --ticks 253: -o x", "252"},    {"record --jobs 0 -o x", "--jobs"},
         {"record --jobs 257 -o x", "256"},      {"join", "one recording"},
-        {"join a b", "one recording"},          {"join absent", "absent: there is no such"},
+        {"join a b", "one recording"},          {"join absent", "absent: no such file or folder"},
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {

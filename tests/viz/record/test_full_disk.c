@@ -125,10 +125,10 @@ static void stdout_that_is_full_is_trouble(void **state)
     file_write_text(points.path, "1 2 3\n4 5 6\n");
     for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
         command_result result = run_octreel(&full, "inspect %s %s", points.path, arguments[i]);
-        assert_trouble(&result, "cannot be written");
+        assert_trouble(&result, "cannot write to standard output");
     }
     command_result result = run_octreel(&full, "record --keys=w --size 16x16 -o %s", folder.path);
-    assert_trouble(&result, "cannot be written");
+    assert_trouble(&result, "cannot write to standard output");
 }
 
 static void help_and_version_that_cannot_be_written_are_trouble(void **state)
@@ -138,7 +138,7 @@ static void help_and_version_that_cannot_be_written_are_trouble(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof arguments / sizeof arguments[0]; i++) {
         command_result result = run_octreel(&full, "%s", arguments[i]);
-        assert_trouble(&result, "cannot be written");
+        assert_trouble(&result, "cannot write to standard output");
     }
 }
 

@@ -84,7 +84,7 @@ static void tick_beyond_the_end_is_refused(void **state)
     replay r;
     open_it(&r, &folder);
     assert_false(replay_to(&r, SHORT_TICKS, &error));
-    assert_non_null(strstr(error.text, "last tick is 13"));
+    assert_non_null(strstr(error.text, "last tick of the session is 13"));
     replay_close(&r);
 }
 
