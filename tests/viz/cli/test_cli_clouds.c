@@ -114,7 +114,7 @@ static void progress_is_shown_on_a_terminal_alone(void **state)
     command_result shown = run_octreel(&terminal, "inspect %s", a.path);
     assert_int_equal(shown.status, 0);
     assert_non_null(strstr(shown.err, " kB read"));
-    assert_non_null(strstr(shown.err, "] 140000/140000 points in the tree"));
+    assert_non_null(strstr(shown.err, "] 140000/140000 points inserted"));
     assert_null(strchr(shown.err, '\n'));
     assert_string_equal(shown.err + strlen(shown.err) - 2, " \r");
     assert_null(strchr(shown.err, '\033'));

@@ -153,7 +153,7 @@ static void what_is_no_page_of_play_stays(void **state)
         {"-o p.png", "p.png"},
         {"-o ''", "-o: the name is empty"},
         {"-o none/p.html", "none/p.html"},
-        {"s.json mine.html", "play takes one session"},
+        {"s.json mine.html", "unexpected argument \"mine.html\""},
         {"film", "film is a recording"},
         {"--keys=x", "key 1"},
         {"--slice z=5000", "outside the world"},

@@ -119,7 +119,7 @@ static void reading_and_building_a_cloud_are_shown(void **state)
                                             place_in(*state, "tree.png").path);
         assert_int_equal(result.status, 0);
         assert_non_null(strstr(result.err, "4/4 kB read"));
-        assert_non_null(strstr(result.err, "500/500 points in the tree"));
+        assert_non_null(strstr(result.err, "500/500 points inserted"));
         assert_non_null(strstr(result.err, "drawing "));
         command_release(&result);
     }

@@ -154,7 +154,9 @@ static void what_cannot_be_verified_is_trouble(void **state)
         assert_trouble(&result, rows[i].part);
     }
     command_result result = run_octreel(&softpipe, "verify %s", folder.path);
-    assert_trouble(&result, "llvmpipe alone");
+    assert_int_equal(result.status, 0); /* the integer rasterizer draws again, and a note says why */
+    assert_non_null(strstr(result.err, "llvmpipe alone"));
+    command_release(&result);
     result = run_octreel(NULL, "verify %s --any-renderer", folder.path);
     assert_trouble(&result, "--context egl");
     result = run_octreel(NULL, "verify %s --size 20x20", folder.path);
