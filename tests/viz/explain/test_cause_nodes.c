@@ -103,8 +103,7 @@ static void other_nodes_met_are_told_by_their_number(void **state)
     assert_says_of(meet_one, meet_two,
                    "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
                    "nodes visited (2, was 1)");
-    assert_says_of(meet_one, meet_another,
-                   "the query met other nodes at tick 0; no tick that both have differs");
+    assert_says_of(meet_one, meet_another, "the query met other nodes at tick 0; no tick that both have differs");
     assert_says_of(
         meet_one_always, meet_two_always,
         "3 queries met other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of foreign "

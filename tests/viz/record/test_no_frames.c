@@ -124,8 +124,8 @@ static void a_session_that_no_page_holds_is_refused(void **state)
     assert_false(write_played_page(&session, &options, page, &summary, &error));
     assert_int_equal(fclose(page), 0);
     assert_int_equal(size, 0);
-    assert_non_null(
-        strstr(error.text, page_plays() ? "larger than 134 MB, the most that a page holds" : "built without WebAssembly"));
+    assert_non_null(strstr(error.text, page_plays() ? "larger than 134 MB, the most that a page holds"
+                                                    : "built without WebAssembly"));
     free(text);
     free(keys);
 }
