@@ -10,7 +10,7 @@
 /* Read a value into `into`. False, with an error. r->row is the row of its member. */
 typedef bool json_read_value(json_reader *r, json_t *value, const json_place *at, void *into);
 
-/* Write a value. w->row is the row of its member. */
+/* Write the value of one member. w->row is the table row that describes the member. */
 typedef void json_write_value(json_writer *w, const void *from);
 
 typedef struct json_codec {

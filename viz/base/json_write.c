@@ -138,7 +138,7 @@ static void write_quoted(FILE *out, const char *text)
                 write_escape(out, *at++);
             continue;
         }
-        const size_t length = utf8_length(at);
+        const size_t length = utf8_sequence_length(at);
         if (length > 0)
             fwrite(at, 1, length, out);
         else

@@ -39,7 +39,7 @@ static const struct {
     {0xee, 0xef, 0x80, 0xbf, 3}, {0xf0, 0xf0, 0x90, 0xbf, 4}, {0xf1, 0xf3, 0x80, 0xbf, 4}, {0xf4, 0xf4, 0x80, 0x8f, 4},
 };
 
-size_t utf8_length(const unsigned char *at)
+size_t utf8_sequence_length(const unsigned char *at)
 {
     for (size_t i = 0; i < sizeof sequences / sizeof *sequences; i++) {
         if (at[0] < sequences[i].first || at[0] > sequences[i].last)
@@ -58,7 +58,7 @@ char *make_printable(char *text)
 {
     char *to = text;
     for (const char *at = text; *at;) {
-        const size_t length = utf8_length((const unsigned char *)at);
+        const size_t length = utf8_sequence_length((const unsigned char *)at);
         *to++ = (char)(*at < ' ' || *at > '~' ? '?' : *at);
         at += length ? length : 1;
     }
@@ -145,7 +145,7 @@ bool utf8_is_unprintable(const unsigned char *at)
 /* Returns the number of bytes read. */
 static size_t write_beyond_ascii(FILE *out, const unsigned char *at)
 {
-    const size_t length = utf8_length(at);
+    const size_t length = utf8_sequence_length(at);
     if (length == 0 || utf8_is_unprintable(at))
         fputs(UTF8_REPLACEMENT, out);
     else

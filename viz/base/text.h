@@ -27,7 +27,7 @@ bool text_stream_end(text_stream *s, char **text);
 
 /* Returns the length in bytes of the non-ASCII character at `at`; 0 if it is not valid UTF-8. The text ends with a
  * zero. */
-size_t utf8_length(const unsigned char *at);
+size_t utf8_sequence_length(const unsigned char *at);
 
 /* True if the non-ASCII character at `at` must not be printed: a control character, a mark that changes the direction
  * of writing, a line separator, U+FFFE or U+FFFF. */

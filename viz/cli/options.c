@@ -231,8 +231,8 @@ const char *draw_fill_words_at(int index)
     static const char *const words[] = {
         [DRAW_FILL_INTEGERS] = "the integer rasterizer; OpenGL is never loaded",
         [DRAW_FILL_CHECKED] =
-            "the integer rasterizer; OSMesa also draws the first, every 100th and the last frame, and "
-            "the pixels are compared (the default)",
+            ("the integer rasterizer; OSMesa also draws the first, every 100th and the last frame, and the pixels are "
+             "compared (the default)"),
         [DRAW_FILL_GL] = "OpenGL, which takes 2 to 3 times as long"};
     return words[index];
 }

@@ -226,7 +226,7 @@ static void add_left_out(scene *s)
         text_add_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_closeup(scene *s, const layer_source *in, view_layer own)
 {
     (void)in, (void)own;
     if (s->times > 0) {
@@ -253,4 +253,4 @@ static void describe(description *d, const described_element *element)
                     element->id < SCALE_ID ? "a line from the enlarged area to the close-up" : "the close-up's scale");
 }
 
-const layer_type layer_CLOSEUP = {.add = add, .describe = describe};
+const layer_type layer_CLOSEUP = {.add = add_closeup, .describe = describe};

@@ -403,7 +403,7 @@ static void find_path(diagram *d)
     d->path = found ? d->end.address : 0;
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_diagram(scene *s, const layer_source *in, view_layer own)
 {
     diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
     d.capacity = octree_definition(in->tree).leaf_capacity;
@@ -470,4 +470,4 @@ static void describe(description *d, const described_element *element)
     }
 }
 
-const layer_type layer_DIAGRAM = {.add = add, .legend_place = 190, .legend = add_legend, .describe = describe};
+const layer_type layer_DIAGRAM = {.add = add_diagram, .legend_place = 190, .legend = add_legend, .describe = describe};

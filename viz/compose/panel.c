@@ -485,7 +485,7 @@ static void add_column(scene *s, const layer_source *in, const char *title)
     write_legend(&p, in);
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_panel(scene *s, const layer_source *in, view_layer own)
 {
     (void)own;
     char title[SCENE_TEXT];
@@ -507,4 +507,4 @@ static void describe(description *d, const described_element *element)
                                                          : "a symbol or a rule in the panel");
 }
 
-const layer_type layer_TEXT = {.add = add, .describe = describe};
+const layer_type layer_TEXT = {.add = add_panel, .describe = describe};

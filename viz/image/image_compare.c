@@ -6,8 +6,8 @@
  * time. Only differing pixels are expanded to r, g, b and measured; neighbours often have the same pair of colours, so
  * the last measurement is kept. An identical picture thus costs about as much as reading it.
  *
- * Colour distances use only sums and products of doubles, and squares until the very end, so that every machine gets
- * the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see below.
+ * Colour distances are computed with sums and products of doubles only and stay squared until the very end, so that
+ * every machine gets the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see below.
  */
 #include "image_compare.h"
 #include "bytes.h"

@@ -12,7 +12,7 @@ static bool applies(const layer_source *in)
 }
 
 /* Draw the node bold, in the colour of its path in the diagram, and with a mark when it is small on screen. */
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_requested_node(scene *s, const layer_source *in, view_layer own)
 {
     octree_node node;
     double middle[3];
@@ -37,4 +37,4 @@ static void describe(description *d, const described_element *element)
 }
 
 const layer_type layer_ASKED = {
-    .applies = applies, .add = add, .legend_place = 60, .legend = add_legend, .describe = describe};
+    .applies = applies, .add = add_requested_node, .legend_place = 60, .legend = add_legend, .describe = describe};

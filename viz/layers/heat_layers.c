@@ -57,7 +57,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
     return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_heat(scene *s, const layer_source *in, view_layer own)
 {
     heat_walk w = {s, in, own};
     if (in->heat && view_shows(&s->view, own))
@@ -85,7 +85,7 @@ static void describe(description *d, const described_element *element)
 }
 
 const layer_type layer_VISIT_HEAT = {
-    .applies = layer_in_games, .add = add, .legend_place = 170, .legend = add_legend, .describe = describe};
+    .applies = layer_in_games, .add = add_heat, .legend_place = 170, .legend = add_legend, .describe = describe};
 
 const layer_type layer_POINT_HEAT = {
-    .applies = layer_in_games, .add = add, .legend_place = 180, .legend = add_legend, .describe = describe};
+    .applies = layer_in_games, .add = add_heat, .legend_place = 180, .legend = add_legend, .describe = describe};

@@ -393,7 +393,7 @@ static double thinned_spacing(uint64_t one_in)
 
 /* Add both layers in one walk. The more points there are, the smaller they are drawn. A game uses the session's number
  * of bodies, so that the size does not change from tick to tick. */
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_nodes_and_points(scene *s, const layer_source *in, view_layer own)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
     tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
@@ -466,6 +466,7 @@ static void describe(description *d, const described_element *element)
         describe_node(d, element->id);
 }
 
-const layer_type layer_NODES = {.add = add, .legend_place = 50, .legend = add_legend, .describe = describe};
+const layer_type layer_NODES = {
+    .add = add_nodes_and_points, .legend_place = 50, .legend = add_legend, .describe = describe};
 
 const layer_type layer_POINTS = {.legend_place = 30, .legend = add_point_legend, .worth = DROP_EARLY};

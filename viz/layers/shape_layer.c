@@ -39,7 +39,7 @@ static void add_label(scene *s, text_space *words, uint64_t id, const octree_sha
     scene_add_label(s, label);
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_shapes(scene *s, const layer_source *in, view_layer own)
 {
     text_space words = {.count = 0}; /* empty: label positions must not depend on the other layers */
     for (size_t i = 0; i < in->tick->shape_count; i++) {
@@ -76,4 +76,4 @@ static void describe(description *d, const described_element *element)
 }
 
 const layer_type layer_SHAPES = {
-    .applies = applies, .add = add, .legend_place = 160, .legend = add_legend, .describe = describe};
+    .applies = applies, .add = add_shapes, .legend_place = 160, .legend = add_legend, .describe = describe};

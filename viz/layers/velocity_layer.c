@@ -155,7 +155,7 @@ static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick
     return sieve;
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_velocities(scene *s, const layer_source *in, view_layer own)
 {
     const octree_tick *tick = in->tick;
     const arrow_context a = {s, octree_game_tree(in->game), &octree_game_session(in->game)->tree.world,
@@ -204,4 +204,4 @@ static void describe(description *d, const described_element *element)
 }
 
 const layer_type layer_VELOCITIES = {
-    .applies = applies, .add = add, .legend_place = 40, .legend = add_legend, .describe = describe};
+    .applies = applies, .add = add_velocities, .legend_place = 40, .legend = add_legend, .describe = describe};

@@ -9,7 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TICK_SPACE 40     /* the least distance between numbers on a level axis, in units of the picture */
+#define TICK_SPACE                                                                                                     \
+    40 /* the least distance between numbers on an axis that is horizontal in the picture, in units of the picture */
 #define UPRIGHT_SPACE 2   /* the least distance between numbers on an upright axis, in lines */
 #define MOST_TICKS 10     /* the largest number of intervals between numbers on an axis */
 #define TICK_LENGTH 0.012 /* the length of a tick mark, as a part of the box's longest side */
@@ -244,7 +245,7 @@ static void add_box(scene *s, uint64_t id, const octree_box *box, scene_style st
     scene_add_box(s, (scene_box){.id = id, .box = *box, .style = style});
 }
 
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_world(scene *s, const layer_source *in, view_layer own)
 {
     const view_filter *f = &s->view.filter;
     const scene_style dashed = {.layer = (uint8_t)own, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1};
@@ -275,4 +276,4 @@ static void describe(description *d, const described_element *element)
     }
 }
 
-const layer_type layer_WORLD = {.add = add, .describe = describe};
+const layer_type layer_WORLD = {.add = add_world, .describe = describe};

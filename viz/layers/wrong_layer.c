@@ -110,7 +110,7 @@ static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 }
 
 /* Marks come first, so that texts do not cover them. Texts of answers get room before texts of nodes. */
-static void add(scene *s, const layer_source *in, view_layer own)
+static void add_wrong_answers(scene *s, const layer_source *in, view_layer own)
 {
     size_t worst, left_out = 0;
     const bool few = judgement_count_wrong(in->answers, in->answer_count, &worst) <= FEW_RINGS;
@@ -198,7 +198,7 @@ static void describe(description *d, const described_element *element)
 
 const layer_type layer_WRONG = {.applies = applies,
                                 .in_session = is_in_session,
-                                .add = add,
+                                .add = add_wrong_answers,
                                 .legend_place = 5,
                                 .legend = add_legend,
                                 .describe = describe};

@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Starting a process takes about as long as filming ten small frames. */
+/* The least number of frames that justifies another process: starting one costs about as much as filming ten small
+ * frames. */
 #define FRAMES_WORTH_A_JOB 16
 
 /* ---- A session ---------------------------------------------------------------------------------------------- */

@@ -6,7 +6,8 @@
 #include "octree/octree.h"
 #include "point_scale.h"
 
-_Static_assert(VIEW_MAX_SIDE <= IMAGE_MAX_SIDE, "what is drawn can be written, and read again");
+_Static_assert(VIEW_MAX_SIDE <= IMAGE_MAX_SIDE,
+               "each picture that can be drawn can also be saved as a PNG and read back");
 
 static image_palette theme_palette(void)
 {
@@ -35,10 +36,11 @@ static bool check_samples(const view *v, octreel_error *error)
         return error_set(error, "there is no anti-aliasing by %d; there are 1, 2 and 4", samples);
     if (samples == 1 || (v->width <= VIEW_MAX_SIDE / samples && v->height <= VIEW_MAX_SIDE / samples))
         return true;
-    return error_set(error,
-                     "a picture of %d x %d pixels cannot be drawn with %d samples on each side of a pixel: a side "
-                     "must be 1 to %d",
-                     v->width, v->height, samples, VIEW_MAX_SIDE / samples);
+    return error_set(
+        error,
+        "a picture of %d x %d pixels is too large for %d x %d samples per pixel: width and height must each "
+        "be 1 to %d pixels",
+        v->width, v->height, samples, samples, VIEW_MAX_SIDE / samples);
 }
 
 static bool create_images(picture *p, const view *v)

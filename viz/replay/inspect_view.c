@@ -42,7 +42,7 @@ static bool prefers_leaf_colors(const inspection *made, const view *v, const cha
 }
 
 /* True if neighbouring points, seen from the camera of tick 0, touch and so form surfaces. */
-static bool forms_surfaces(const inspection *made, const view *v)
+static bool points_form_surfaces(const inspection *made, const view *v)
 {
     const octree_box world = octree_definition(made->tree).world;
     double center[3];
@@ -84,7 +84,7 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
     if (!point_scale_fit(&fitted, made->tree, &made->values))
         return error_no_memory(error);
     v->point_scale = fitted.point_scale; /* kept, because it costs a walk over all points */
-    if (!shade_given && forms_surfaces(made, &fitted)) {
+    if (!shade_given && points_form_surfaces(made, &fitted)) {
         v->shade = SHADE_EDL;
         lit = ", lit by eye-dome lighting (--shade)";
     }

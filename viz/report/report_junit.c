@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 /* Print all details of the first frame of a group. */
-static void print_words(FILE *out, const diff_report *report, size_t i)
+static void print_finding(FILE *out, const diff_report *report, size_t i)
 {
     const size_t group = report->groups->of[i];
     diff_print_difference(out, &report->result->pairs[i]);
@@ -39,7 +39,7 @@ static bool write_fault(FILE *out, const diff_report *report, size_t i)
         return false;
     fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
     if (frame_groups_shows(report->groups, i))
-        print_words(s.stream, report, i);
+        print_finding(s.stream, report, i);
     else
         fprintf(s.stream, "like %s", name_of_first(report, i));
     if (!text_stream_end(&s, &words))

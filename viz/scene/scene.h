@@ -66,7 +66,7 @@ typedef struct scene_marker {
     uint64_t id; /* a point's in LAYER_POINTS */
     scene_style style;
     uint8_t shape;     /* scene_shape */
-    theme_color color; /* of ROLE_OWN alone */
+    theme_color color; /* used only if the role is ROLE_OWN */
     double at[3];
 } scene_marker;
 
@@ -85,7 +85,7 @@ typedef struct scene_label {
 typedef struct scene_panel {
     uint64_t id;
     scene_style style;
-    theme_color color; /* of ROLE_OWN alone */
+    theme_color color; /* used only if the role is ROLE_OWN */
     int x, y, width, height;
 } scene_panel;
 

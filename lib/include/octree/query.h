@@ -120,7 +120,8 @@ typedef struct octree_query {
     bool answered; /* the session holds the answer of a foreign index. The game judges it by the exact answer, for which
                       it ignores epsilon */
     octree_precision precision; /* answered: the precision that the foreign index promises */
-    const uint64_t *answer;     /* answered: the ids that the foreign index returned, in any order; null for none */
+    const uint64_t
+        *answer; /* if answered: the ids that the foreign index returned, in any order; null if it returned none */
     size_t answer_count;
     octree_ids visits[OCTREE_NODE_VISITS]; /* the foreign nodes that the query visited, pruned and hit, by their ids.
                                          Pruned nodes are judged by the exact answer, with precision and epsilon */

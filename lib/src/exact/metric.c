@@ -40,7 +40,7 @@ metric metric_make(double scale, bool subnormal, const double target[3])
 }
 
 #ifdef OCTREE_SSE2
-/* The squared distances of two points at once. Not for subnormal worlds. */
+/* The squared distances of two points from the target, computed together. Not for worlds of subnormal numbers. */
 static inline __m128d square_pair(const double a[3], const double b[3], const __m128d target[3], __m128d scale)
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b), z = _mm_loadh_pd(_mm_load_sd(&a[2]), &b[2]);

@@ -149,7 +149,7 @@ static void add_taken(octree_address address, octree_trace_kind touch, void *con
     add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
 }
 
-static bool count_only(const octree_point *point, void *context)
+static bool accept_point(const octree_point *point, void *context)
 {
     (void)point;
     (void)context;
@@ -162,7 +162,7 @@ static octree_cost cost_of_range(const octree *trial, const octree_point *target
     octree_box box;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
         octree_range_search(trial, &box, &(octree_search){.cost = &r.all, .trace = add_taken, .trace_context = &r},
-                            count_only, NULL);
+                            accept_point, NULL);
     return r.all;
 }
 

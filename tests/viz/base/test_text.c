@@ -47,7 +47,7 @@ static void every_character_is_known_by_its_bytes(void **state)
     for (uint32_t code = 0x80; code < 0x120000; code++) {
         const bool is_none = (code >= 0xd800 && code < 0xe000) || code > 0x10ffff;
         const size_t length = encode(code, bytes);
-        assert_int_equal(utf8_length(bytes), is_none ? 0 : length);
+        assert_int_equal(utf8_sequence_length(bytes), is_none ? 0 : length);
         if (!is_none)
             assert_int_equal(utf8_is_unprintable(bytes), is_one_of_the_unfit(code));
     }
@@ -62,7 +62,7 @@ static void what_is_no_utf8_is_no_character(void **state)
                                         "\xe2\x80 ",    "\xff",         "\xe2\x80\xc0", "\xf5\x80\x80\x80"};
     (void)state;
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        assert_int_equal(utf8_length((const unsigned char *)texts[i]), 0);
+        assert_int_equal(utf8_sequence_length((const unsigned char *)texts[i]), 0);
 }
 
 static void assert_escaped(escape *how, const char *text, const char *expected)

@@ -207,7 +207,7 @@ static void pictures_with_too_many_samples_are_refused_with_a_sentence(void **st
         const char *part;
     } rows[] = {
         {8193, 1, 2,
-         "8193 x 1 pixels cannot be drawn with 2 samples on each side of a pixel: a side must be 1 to 8192"},
+         "8193 x 1 pixels is too large for 2 x 2 samples per pixel: width and height must each be 1 to 8192 pixels"},
         {1, 4097, 4, "1 to 4096"},
         {16384, 16384, 4, "16384 x 16384"},
         {INT32_MAX, INT32_MAX, 2, "1 to 8192"},
