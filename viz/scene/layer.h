@@ -3,10 +3,10 @@
  *
  * To add a layer:
  *   1. a row in LAYER_MAP below, in painter's order
- *   2. a file in viz/layers with its layer_type, and a row in the table of layer types (layer_type.h)
+ *   2. a file in viz/layers that defines its layer_type (layer_type.h)
  *   3. a test of the file in tests/viz/layers
  *   4. a row in the tables of test_describe.c, test_legend.c and test_picture.c (tests/viz), and of
- *      tests/support/viz/golden_frames.c with its golden frame
+ *      tests/support/viz/golden_frames.c with its golden frame; if the layer is hidden by default, in test_view.c
  * If a tick lacks the data, add them to octree_tick first. A new colour is a row of theme.h. A curve in the page of a
  * recording is a line of CURVES in viz/page/viewer/facts.js.
  */
