@@ -30,6 +30,18 @@ char *path_join(const char *folder, const char *name)
     return path;
 }
 
+char *path_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+}
+
+const char *path_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 /* Returns the folder in which a path lies; the path may end in slashes. The caller frees it. Null: out of memory. */
 static char *copy_parent_name(const char *path)
 {

@@ -14,6 +14,12 @@
  * Returns null when out of memory. */
 char *path_join(const char *folder, const char *name);
 
+/* Returns the folder of a file: "a" for "a/b", "." for "b". The caller frees it. Returns null when out of memory. */
+char *path_folder(const char *path);
+
+/* Returns the part of a path after its last slash. */
+const char *path_base_name(const char *path);
+
 /* Whether the folder contains a file or folder of this name. "" is the current folder. */
 bool folder_has(const char *folder, const char *name);
 

@@ -15,16 +15,14 @@ typedef struct arguments {
 
 static bool read_date(const command_option *option, const char *text, void *into)
 {
-    return baseline_is_date(text)
-               ? read_text(option, text, into)
-               : refuse("--%s takes an existing date such as 2026-11-22, not \"%s\"", option->name, text);
+    return baseline_is_date(text) ? read_text(option, text, into)
+                                  : refuse_value(option, "an existing date such as 2026-11-22", text);
 }
 
 static bool read_reason(const command_option *option, const char *text, void *into)
 {
-    return baseline_is_reason(text)
-               ? read_text(option, text, into)
-               : refuse("--%s takes one line of text without blanks at its ends, not \"%s\"", option->name, text);
+    return baseline_is_reason(text) ? read_text(option, text, into)
+                                    : refuse_value(option, "one line of text without blanks at its ends", text);
 }
 
 static const command_option options[] = {
@@ -122,8 +120,8 @@ const command command_accept = {
         "# accept the findings that were ticked in the page, beside the old digests\n"
         "octreel accept baseline.txt frames --from accept.txt --variant --reason \"Mesa 26 rounds otherwise\"\n",
     .environment = "  CI  if set, nothing is accepted\n",
-    .least = 2,
-    .most = INT_MAX,
+    .min_arguments = 2,
+    .max_arguments = INT_MAX,
     .takes = "a reference and new frames",
     .inputs = {FILE_KIND(MISSING) | FILE_KIND(BASELINE) | SIDE, FILE_KIND(BASELINE) | SIDE},
 };

@@ -12,9 +12,13 @@
 #include <string.h>
 #include <strings.h>
 
+/* The files that the command writes. */
+enum { HTML, JUNIT, OUTPUTS };
+
 typedef struct arguments {
     audit_limits limits;
-    const char *html, *junit; /* files to write, or null */
+    output_file outputs[OUTPUTS];
+    const char *folder; /* of --html DIR, or null */
     bool json;
 } arguments;
 
@@ -22,12 +26,6 @@ static bool read_limits(const command_option *option, const char *text, void *in
 {
     octreel_error error;
     return audit_limits_parse(text, into, &error) || refuse("--%s: %s", option->name, error.text);
-}
-
-static bool is_folder(const char *path)
-{
-    const file_kind kind = file_kind_of(path);
-    return !file_is_standard(path) && (kind == KIND_FOLDER || kind == KIND_RECORDING);
 }
 
 /* True for the name of a page, false for the name of the folder that is to hold it. */
@@ -49,55 +47,29 @@ static bool read_page(const command_option *option, const char *text, void *into
 static const command_option options[] = {
     {"allow", "LIMITS",
      "accept approximate answers within limits: ratio=1.01, a neighbour at most 1.01 times as far away as the true "
-     "one; "
-     "recall=0.99, at least 0.99 of all true points named; or both, separated by a comma. Always wrong are unknown "
-     "ids, points named twice, points outside the query, skipped answers and wrong nodes. A neighbour query without "
-     "any point in its answer has an infinite ratio",
+     "one; recall=0.99, at least 0.99 of all true points named; or both, separated by a comma. Always wrong are "
+     "unknown ids, points named twice, points outside the query, skipped answers and wrong nodes. A neighbour query "
+     "without any point in its answer has an infinite ratio",
      .read = read_limits, OPTION_VALUE(arguments, limits)},
     {"html", "FILE.html|DIR",
      "write a page, FILE.html or DIR/audit.html: recall and ratio over time, with a link from every tick to its frame, "
      "and the worst cases",
-     .read = read_page, OPTION_VALUE(arguments, html)},
+     .read = read_page, OPTION_VALUE(arguments, outputs[HTML].path)},
     {"junit", "FILE", "write JUnit XML with one test case for each kind of query", .read = read_file,
-     OPTION_VALUE(arguments, junit)},
+     OPTION_VALUE(arguments, outputs[JUNIT].path)},
     JSON_OPTION(arguments, json,
                 "print JSON; a ratio of null is infinite: the true neighbour is at the target, or none was named"),
     {0},
 };
 
-static void on_progress(uint64_t done, uint64_t total, void *context)
-{
-    progress_show(context, done, total);
-}
-
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the page, which a folder holds as audit.html. The caller frees it. Null: out of memory. */
-static char *make_page_path(const char *html)
-{
-    return is_page(html) ? strdup(html) : path_join(html, AUDIT_PAGE);
-}
-
-/* Makes the folder of --html DIR if it is missing. */
-static bool make_folder(const char *html, octreel_error *error)
-{
-    return !html || is_page(html) || folder_make(html, error);
-}
-
-/* Returns the folder of a file; for standard output the current one. The caller frees it. Null: out of memory. */
-static char *copy_folder_name(const char *file)
-{
-    const char *slash = file_is_standard(file) ? NULL : strrchr(file, '/');
-    return slash ? strndup(file, slash == file ? 1 : (size_t)(slash - file)) : strdup(".");
-}
-
 /* No output may overwrite an input or another output. */
-static bool check_files(const char *path, const char *page, const char *junit, octreel_error *error)
+static bool check_files(const char *path, const output_file outputs[OUTPUTS], octreel_error *error)
 {
-    const output_file outputs[] = {{"--html", page}, {"--junit", junit}};
     char *session = path_join(path, "session.json");
-    bool ok = session ? check_outputs_differ(outputs, 2, error) : error_no_memory(error);
-    for (int i = 0; ok && i < 2; i++)
+    bool ok = session ? check_outputs_differ(outputs, OUTPUTS, error) : error_no_memory(error);
+    for (int i = 0; ok && i < OUTPUTS; i++)
         ok = check_output_is_not_input(&outputs[i], path, error) &&
              check_output_is_not_input(&outputs[i], session, error);
     free(session);
@@ -121,7 +93,7 @@ static bool write_file(const char *path, printer *print, const audit_verdict *ve
         return true;
     if (!file_writer_open(&file, path, error))
         return false;
-    from = copy_folder_name(path);
+    from = path_folder(path);
     const bool made = from && print(file.stream, verdict, from);
     free(from);
     if (made)
@@ -132,25 +104,24 @@ static bool write_file(const char *path, printer *print, const audit_verdict *ve
 
 static void print_verdict(const arguments *a, const audit_verdict *verdict)
 {
-    const output_file outputs[] = {{"--html", a->html}, {"--junit", a->junit}};
     if (a->json)
         audit_print_json(stdout, verdict);
-    else if (!is_standard_output_taken(outputs, 2))
+    else if (!is_standard_output_taken(a->outputs, OUTPUTS))
         audit_print_text(stdout, verdict);
 }
 
 /* ---- The command -------------------------------------------------------------------------------------------- */
 
-static bool write_audit(const arguments *a, const char *path, const char *page, audit_report *report,
-                        octreel_error *error)
+static bool write_audit(const arguments *a, const char *path, audit_report *report, octreel_error *error)
 {
     progress p = progress_start("ticks");
     const bool done =
-        check_files(path, page, a->junit, error) && audit_read(path, &a->limits, on_progress, &p, report, error);
+        check_files(path, a->outputs, error) && audit_read(path, &a->limits, progress_show, &p, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report};
-    if (!done || !make_folder(a->html, error) || !write_file(page, audit_print_page, &verdict, error) ||
-        !write_file(a->junit, print_junit, &verdict, error))
+    if (!done || (a->folder && !folder_make(a->folder, error)) ||
+        !write_file(a->outputs[HTML].path, audit_print_page, &verdict, error) ||
+        !write_file(a->outputs[JUNIT].path, print_junit, &verdict, error))
         return false;
     print_verdict(a, &verdict);
     return true;
@@ -158,25 +129,30 @@ static bool write_audit(const arguments *a, const char *path, const char *page, 
 
 static int audit(const arguments *a, const char *path)
 {
-    const output_file outputs[] = {{"--html", a->html}, {"--junit", a->junit}};
     audit_report report = {0};
     octreel_error error;
-    if (!check_standard_output(outputs, 2, a->json))
-        return EXIT_TROUBLE;
-    char *page = a->html ? make_page_path(a->html) : NULL;
-    if (a->html && !page)
-        return print_error("out of memory");
-    const bool done = write_audit(a, path, page, &report, &error), passes = done && audit_passes(&report);
-    free(page);
+    const bool done = write_audit(a, path, &report, &error), passes = done && audit_passes(&report);
     audit_release(&report);
     return !done ? print_error("%s", error.text) : passes ? EXIT_DONE : EXIT_FINDING;
 }
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.json = false};
-    const int status = command_read_arguments(&command_audit, &a, argc, argv);
-    return status == COMMAND_GO_ON ? audit(&a, argv[optind]) : status;
+    arguments a = {.outputs = {[HTML] = {"--html", NULL}, [JUNIT] = {"--junit", NULL}}};
+    const char **html = &a.outputs[HTML].path;
+    char *page = NULL;
+    int status = command_read_arguments(&command_audit, &a, argc, argv);
+    if (status != COMMAND_GO_ON)
+        return status;
+    if (!check_standard_output(a.outputs, OUTPUTS, a.json))
+        return EXIT_TROUBLE;
+    if (*html && !is_page(*html)) {
+        a.folder = *html;
+        *html = page = path_join(a.folder, AUDIT_PAGE);
+    }
+    status = a.folder && !page ? print_error("out of memory") : audit(&a, argv[optind]);
+    free(page);
+    return status;
 }
 
 const command command_audit = {
@@ -202,8 +178,8 @@ const command command_audit = {
                 "# accept an approximate index within limits, and print JSON\n"
                 "octreel audit game.json --allow ratio=1.01,recall=0.99 --json\n",
     .files = "  DIR/audit.html  the page of --html DIR\n",
-    .least = 1,
-    .most = 1,
+    .min_arguments = 1,
+    .max_arguments = 1,
     .takes = "the folder of one recording, or one session",
     .inputs = {FILE_KIND(RECORDING) | FILE_KIND(SESSION)},
 };

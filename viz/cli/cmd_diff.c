@@ -15,15 +15,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The output files. The folder of --output counts as one, its page. */
+enum { PAGE, JUNIT, MARKDOWN, OUTPUTS };
+
 typedef struct arguments {
     diff_options options;
-    unsigned layers;                       /* the ignored layers: bits 1 << view_layer */
-    image_rectangle *ignored;              /* owned */
-    const char *folder, *junit, *markdown; /* null: the option was not given */
-    const char *store;                     /* null: the option was not given */
-    uint64_t causes;                       /* the number of frames and ticks that are explained */
-    bool causes_said;
-    size_t lines; /* the number of groups that are listed: at least as many as --causes says */
+    unsigned layers;              /* the ignored layers: bits 1 << view_layer */
+    image_rectangle *ignored;     /* owned */
+    output_file outputs[OUTPUTS]; /* PAGE has no path: the folder is known instead */
+    const char *folder, *store;   /* of --output and --store; null: not given */
+    uint64_t causes;              /* the number of frames and ticks that are explained */
+    bool has_causes;              /* --causes was given */
+    size_t lines;                 /* the number of groups that are listed: at least as many as --causes says */
     bool json, each, annotate;
 } arguments;
 
@@ -32,7 +35,7 @@ static bool read_delta(const command_option *option, const char *text, void *int
     double *delta = into;
     if (numbers_parse(text, delta, 1) && *delta >= 0 && *delta <= 1)
         return true;
-    return refuse("--%s takes a number from 0 to 1, not \"%s\"", option->name, text);
+    return refuse_value(option, "a number from 0 to 1", text);
 }
 
 static bool read_rectangle(const command_option *option, const char *text, void *into)
@@ -85,7 +88,7 @@ static bool read_causes(const command_option *option, const char *text, void *in
 {
     arguments *a = into;
     a->causes = UINT64_MAX;
-    a->causes_said = true;
+    a->has_causes = true;
     return strcmp(text, "all") == 0 || read_whole(option, text, &a->causes);
 }
 
@@ -130,12 +133,11 @@ static const command_option options[] = {
      .read = read_folder, OPTION_VALUE(arguments, folder)},
     JSON_OPTION(arguments, json, "print JSON; share/octreel/diff.schema.json describes it"),
     {"junit", "FILE", "write JUnit XML, one test case for each frame, for GitLab, Jenkins and GitHub",
-     .read = read_file, OPTION_VALUE(arguments, junit)},
+     .read = read_file, OPTION_VALUE(arguments, outputs[JUNIT].path)},
     {"markdown", "FILE",
      "write a summary for the page of a CI job: the verdict and a table of differences. One of --markdown FILE, "
-     "--junit "
-     "FILE and --json may write to standard output; FILE is then -",
-     .read = read_file, OPTION_VALUE(arguments, markdown)},
+     "--junit FILE and --json may write to standard output; FILE is then -",
+     .read = read_file, OPTION_VALUE(arguments, outputs[MARKDOWN].path)},
     {"annotate", NULL,
      "print GitHub annotations, which show differences beside a pull request, to standard error (default when the "
      "environment variable GITHUB_ACTIONS is set)",
@@ -161,23 +163,6 @@ static int print_first_error(const diff_result *result, const explanation *why)
 
 typedef bool reporter(FILE *out, const diff_report *report);
 
-/* The number of output files. The folder of --output counts as one, its page. */
-enum { OUTPUTS = 3 };
-
-static void list_outputs(const arguments *a, const char *page, output_file outputs[OUTPUTS])
-{
-    outputs[0] = (output_file){"-o", page};
-    outputs[1] = (output_file){"--junit", a->junit};
-    outputs[2] = (output_file){"--markdown", a->markdown};
-}
-
-static bool check_outputs(const arguments *a)
-{
-    output_file outputs[OUTPUTS];
-    list_outputs(a, NULL, outputs);
-    return check_standard_output(outputs, OUTPUTS, a->json);
-}
-
 static bool write_report(const char *path, reporter *write, const diff_report *report, octreel_error *error)
 {
     file_writer file;
@@ -193,17 +178,15 @@ static bool write_report(const char *path, reporter *write, const diff_report *r
 
 static void print_report(const arguments *a, const diff_report *report)
 {
-    output_file outputs[OUTPUTS];
-    list_outputs(a, NULL, outputs);
     if (a->json)
         diff_report_json(stdout, report);
-    else if (!is_standard_output_taken(outputs, OUTPUTS) &&
+    else if (!is_standard_output_taken(a->outputs, OUTPUTS) &&
              (report->result->count != 1 ||
               report->result->found[FOUND_UNREADABLE] == 0)) /* else standard error has the only message */
         diff_report_text(stdout, report);
 }
 
-static int report(const arguments *a, diff_report *all)
+static int write_reports(const arguments *a, diff_report *all)
 {
     static const int statuses[] = {
         [DIFF_SAME] = EXIT_DONE, [DIFF_DIFFERENT] = EXIT_FINDING, [DIFF_TROUBLE] = EXIT_TROUBLE};
@@ -216,8 +199,8 @@ static int report(const arguments *a, diff_report *all)
         all->evidence = &e;
         ok = ok && contact_sheet_write(all, &error) && diff_report_page(all, &error);
     }
-    ok = ok && write_report(a->junit, diff_report_junit, all, &error) &&
-         write_report(a->markdown, diff_report_markdown, all, &error);
+    ok = ok && write_report(a->outputs[JUNIT].path, diff_report_junit, all, &error) &&
+         write_report(a->outputs[MARKDOWN].path, diff_report_markdown, all, &error);
     if (ok)
         print_report(a, all);
     if (ok && a->annotate && !diff_report_github(stderr, all))
@@ -232,8 +215,7 @@ static int report(const arguments *a, diff_report *all)
 static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
-    output_file outputs[OUTPUTS];
-    list_outputs(a, page, outputs);
+    const output_file outputs[OUTPUTS] = {{"-o", page}, a->outputs[JUNIT], a->outputs[MARKDOWN]};
     bool ok = check_outputs_differ(outputs, OUTPUTS, error);
     for (size_t i = 0; ok && i < OUTPUTS; i++)
         ok = diff_side_spared(&sides[0], &outputs[i], error) && diff_side_spared(&sides[1], &outputs[i], error);
@@ -242,7 +224,7 @@ static bool check_files(const arguments *a, const diff_side sides[2], octreel_er
 }
 
 /* Check everything before the folder of evidence is changed. */
-static bool check(const arguments *a, const diff_side sides[2], octreel_error *error)
+static bool check_before_writing(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     return diff_check(&sides[0], &sides[1], &a->options, error) && check_files(a, sides, error) &&
            (!a->folder || evidence_prepare(a->folder, &sides[0], &sides[1], error));
@@ -256,13 +238,14 @@ static int compare(const arguments *a, const char *paths[2])
     frame_groups groups = {0};
     octreel_error error;
     const bool ok = diff_side_open(&sides[0], paths[0], &error) && diff_side_open(&sides[1], paths[1], &error) &&
-                    check(a, sides, &error) && diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
+                    check_before_writing(a, sides, &error) &&
+                    diff_run(&sides[0], &sides[1], &a->options, &result, &error) &&
                     (!a->store || picture_store_fetch(a->store, &sides[0], &result, &error)) &&
                     explain(&sides[0], &sides[1], &result, a->causes, &why, &error) &&
                     frame_groups_make(&groups, &result, &why, a->each, &error);
     diff_report all = {
         .a = &sides[0], .b = &sides[1], .result = &result, .why = &why, .lines = a->lines, .groups = &groups};
-    const int status = ok ? report(a, &all) : print_error("%s", error.text);
+    const int status = ok ? write_reports(a, &all) : print_error("%s", error.text);
     frame_groups_release(&groups);
     explanation_release(&why);
     diff_release(&result);
@@ -275,14 +258,18 @@ static int compare(const arguments *a, const char *paths[2])
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.options = diff_options_default(), .causes = EXPLAIN_DEFAULT};
+    arguments a = {.options = diff_options_default(),
+                   .outputs = {[JUNIT] = {"--junit", NULL}, [MARKDOWN] = {"--markdown", NULL}},
+                   .causes = EXPLAIN_DEFAULT};
     int status = command_read_arguments(&command_diff, &a, argc, argv);
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
-    a.lines = a.causes_said && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
-    if (a.folder && !a.causes_said)
+    a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
+    if (a.folder && !a.has_causes)
         a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows a cause beside each frame */
     if (status == COMMAND_GO_ON)
-        status = check_outputs(&a) ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]}) : EXIT_TROUBLE;
+        status = check_standard_output(a.outputs, OUTPUTS, a.json)
+                     ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]})
+                     : EXIT_TROUBLE;
     free(a.ignored);
     return status;
 }
@@ -311,8 +298,8 @@ const command command_diff = {
     .files = "  DIR/report.html  the page, which needs no other file\n"
              "  DIR/contact.png  small copies of the pictures of all findings\n"
              "  DIR/NAME.expected.png, DIR/NAME.actual.png, DIR/NAME.difference.png  the first frame of a finding\n",
-    .least = 2,
-    .most = 2,
+    .min_arguments = 2,
+    .max_arguments = 2,
     .takes = "two sides, each a PNG, a folder of PNGs, a recording or a baseline",
     .inputs = {SIDE, SIDE},
 };

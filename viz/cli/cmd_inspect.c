@@ -24,10 +24,13 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The files that the command writes. */
+enum { PICTURE, NODES, OUTPUTS };
+
 typedef struct arguments {
     const char *cloud;
-    const char *picture, *nodes; /* files to write, or null */
-    const char *node;            /* the address of the node to print, or null */
+    output_file outputs[OUTPUTS];
+    const char *node; /* the address of the node to print, or null */
     query_options queries;
     octree_def def;
     bool has_world, json;
@@ -44,13 +47,13 @@ static bool read_depth(const command_option *option, const char *text, void *int
     return read_whole(option, text, into);
 }
 
-static const char *full_at(int n)
+static const char *full_leaf_name_at(int n)
 {
     static const char *const names[] = {[OCTREE_REFUSE] = "refuse", [OCTREE_GROW] = "grow"};
     return n <= OCTREE_GROW ? names[n] : NULL;
 }
 
-static const char *full_words_at(int n)
+static const char *full_leaf_words_at(int n)
 {
     static const char *const words[] = {
         [OCTREE_REFUSE] = "refuses the point", [OCTREE_GROW] = "keeps the point beyond its capacity (default)"};
@@ -64,7 +67,7 @@ static bool read_world(const command_option *option, const char *text, void *int
     double corners[6];
     a->has_world = true;
     if (!numbers_parse(text, corners, 6))
-        return refuse("--%s takes six numbers such as -10,-10,-10,10,10,10, not \"%s\"", option->name, text);
+        return refuse_value(option, "six numbers such as -10,-10,-10,10,10,10", text);
     for (int i = 0; i < 3; i++) {
         world->min[i] = corners[i];
         world->max[i] = corners[i + 3];
@@ -89,16 +92,16 @@ static const command_option options[] = {
     {"depth", "N", "deepest level, 0 to 21 (default 21)", .read = read_depth, OPTION_VALUE(arguments, def.max_depth),
      .max = OCTREE_MAX_DEPTH},
     {"full", "MODE", "what a full leaf at the deepest level does with another point: one of", .read = read_choice,
-     OPTION_VALUE(arguments, def.full_leaf), .names = full_at, .words = full_words_at},
+     OPTION_VALUE(arguments, def.full_leaf), .names = full_leaf_name_at, .words = full_leaf_words_at},
     {"world", "BOX", "x0,y0,z0,x1,y1,z1 (default: the smallest cube around the points)", .read = read_world,
      .size = sizeof(arguments)},
     {.help = "What is printed and written:"},
     {"output", "FILE", "draw the tree into this PNG; - is standard output, and the report then goes to standard error",
-     .read = read_picture, OPTION_VALUE(arguments, picture)},
+     .read = read_picture, OPTION_VALUE(arguments, outputs[PICTURE].path)},
     {"node", "ADDRESS", "print the box and the points of one node, such as 0/3/7 or root; a picture marks it",
      .read = read_node, OPTION_VALUE(arguments, node)},
     {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
-     .read = read_file, OPTION_VALUE(arguments, nodes)},
+     .read = read_file, OPTION_VALUE(arguments, outputs[NODES].path)},
     QUERY_OPTIONS(arguments, queries),
     JSON_OPTION(arguments, json, "print JSON; it lists every point of an answer"),
     {.help = "How the picture looks:"},
@@ -122,46 +125,35 @@ typedef struct report {
     char chosen[INSPECT_CHOICE]; /* a sentence that names the view options chosen by the program, or "" */
 } report;
 
-static bool draw(const report *r, octreel_error *error)
+static bool draw_picture(const report *r, octreel_error *error)
 {
     film_summary drawn = {0};
     char left_out[FILM_LEFT_OUT];
     const arguments *a = r->a;
+    const char *picture = file_output_title(a->outputs[PICTURE].path);
     const tree_subject about = {.title = r->name,
                                 .node = a->node ? r->node.address : 0,
                                 .answers = r->answers.answers,
                                 .answer_count = r->answers.count};
     const film_options options = {.view = r->view, .values = &r->made->values, .renderer = a->renderer};
     progress bar = progress_start("");
-    progress_say(&bar, "drawing %s", file_output_title(a->picture));
-    const bool ok = film_tree(r->made->tree, &about, &options, a->picture, &drawn, error);
+    progress_say(&bar, "drawing %s", picture);
+    const bool ok = film_tree(r->made->tree, &about, &options, a->outputs[PICTURE].path, &drawn, error);
     progress_end(&bar);
     if (!ok)
         return false;
     if (*drawn.checks.reason.text)
-        note("%s was not checked: %s", file_output_title(a->picture), drawn.checks.reason.text);
+        note("%s was not checked: %s", picture, drawn.checks.reason.text);
     if (point_scale_lacks(&r->view, &r->made->values))
         note("no point has %s: --color-points %s shows all points alike", point_scale_lacks(&r->view, &r->made->values),
              view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
-        note("%s leaves out %s beyond --budget", file_output_title(a->picture),
-             film_left_out_text(drawn.beyond, left_out));
+        note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
     if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* the text layer prints this in the picture */
-        note("%s leaves out %s smaller than --lod", file_output_title(a->picture),
-             film_left_out_text(drawn.small, left_out));
+        note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
-        note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural(drawn.left_out),
-             file_output_title(a->picture));
+        note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural(drawn.left_out), picture);
     return true;
-}
-
-/* The files that the command writes. */
-enum { OUTPUTS = 2 };
-
-static void list_outputs(const arguments *a, output_file outputs[OUTPUTS])
-{
-    outputs[0] = (output_file){"-o", a->picture};
-    outputs[1] = (output_file){"--nodes", a->nodes};
 }
 
 /* Prints "wrote tree.png: " and returns `out`. */
@@ -174,23 +166,22 @@ static FILE *print_wrote(const char *path, FILE *out)
 }
 
 /* --node and queries replace the statistics. With --json, the files are not mentioned: the output is one object. */
-static void print(const report *r)
+static void print_report(const report *r)
 {
     const arguments *a = r->a;
-    output_file outputs[OUTPUTS];
-    list_outputs(a, outputs);
-    FILE *out = is_standard_output_taken(outputs, OUTPUTS) ? stderr : stdout;
+    const char *picture = a->outputs[PICTURE].path, *nodes = a->outputs[NODES].path;
+    FILE *out = is_standard_output_taken(a->outputs, OUTPUTS) ? stderr : stdout;
     if (a->node)
         inspect_print_node(&r->node, r->name, a->json, out);
     if (a->queries.count)
         inspect_print_answers(&r->answers, r->name, a->json, out);
     if (!a->node && !a->queries.count)
         inspect_print(r->made, r->name, a->json, out);
-    if (a->picture && !a->json && !is_quiet())
-        fprintf(print_wrote(a->picture, out), "%d x %d pixels%s%s\n", a->view.width, a->view.height,
+    if (picture && !a->json && !is_quiet())
+        fprintf(print_wrote(picture, out), "%d x %d pixels%s%s\n", a->view.width, a->view.height,
                 *r->chosen ? "; " : "", r->chosen);
-    if (a->nodes && !a->json && !is_quiet())
-        fputs("all nodes\n", print_wrote(a->nodes, out));
+    if (nodes && !a->json && !is_quiet())
+        fputs("all nodes\n", print_wrote(nodes, out));
 }
 
 /* Checks everything that can fail before it writes the first file. */
@@ -202,13 +193,13 @@ static bool make_report(report *r, octreel_error *error)
     if (!inspect_ask(r->made->tree, a->queries.items, a->queries.count, &r->answers, error))
         return false;
     r->view = a->view;
-    const bool ok =
-        (!a->picture || (inspect_choose_view(r->made, has_view_option(&a->view_options, "color-points"),
-                                             has_view_option(&a->view_options, "shade"), &r->view, r->chosen, error) &&
-                         draw(r, error))) &&
-        (!a->nodes || inspect_write_nodes(r->made, a->nodes, error));
+    const bool ok = (!a->outputs[PICTURE].path ||
+                     (inspect_choose_view(r->made, has_view_option(&a->view_options, "color-points"),
+                                          has_view_option(&a->view_options, "shade"), &r->view, r->chosen, error) &&
+                      draw_picture(r, error))) &&
+                    (!a->outputs[NODES].path || inspect_write_nodes(r->made, a->outputs[NODES].path, error));
     if (ok)
-        print(r);
+        print_report(r);
     inspect_answers_release(&r->answers);
     return ok;
 }
@@ -220,39 +211,34 @@ typedef struct reading {
     double size; /* bytes read */
 } reading;
 
-static void on_block(uint64_t done, uint64_t total, void *context)
+static void show_read_bytes(uint64_t done, uint64_t total, void *context)
 {
     reading *r = context;
     r->size = (double)done;
-    progress_show(&r->bar, done / 1000, total / 1000);
+    progress_show(done / 1000, total / 1000, &r->bar);
 }
 
-static void on_step(double fraction, void *context)
+static void show_parsed_part(double fraction, void *context)
 {
     reading *r = context;
-    progress_show(&r->bar, (uint64_t)(r->size * fraction / 1000), (uint64_t)(r->size / 1000));
-}
-
-static void on_built(uint64_t done, uint64_t total, void *context)
-{
-    progress_show(context, done, total);
+    progress_show((uint64_t)(r->size * fraction / 1000), (uint64_t)(r->size / 1000), &r->bar);
 }
 
 /* Reads the cloud and builds its tree. Shows a progress bar meanwhile. */
-static bool build(const arguments *a, inspection *made, octreel_error *error)
+static bool build_tree(const arguments *a, inspection *made, octreel_error *error)
 {
     reading r = {.bar = progress_start("kB read")};
     octree_def def = a->def;
     octreel_error why;
     cloud points;
     char left_out[sizeof points.note] = "";
-    bool ok = cloud_read(a->cloud, &(cloud_watch){on_block, on_step, &r}, &points, error);
+    bool ok = cloud_read(a->cloud, &(cloud_watch){show_read_bytes, show_parsed_part, &r}, &points, error);
     if (ok) {
         if (!a->has_world)
             def.world = point_world(points.positions, sizeof *points.positions, points.count);
         progress_end(&r.bar);
         r.bar = progress_start("points inserted");
-        ok = inspect_build(&points, &def, on_built, &r.bar, made, &why) ||
+        ok = inspect_build(&points, &def, progress_show, &r.bar, made, &why) ||
              error_set(error, "%s: %s", file_title(a->cloud), why.text);
         memcpy(left_out, points.note, sizeof left_out);
         cloud_release(&points);
@@ -265,12 +251,11 @@ static bool build(const arguments *a, inspection *made, octreel_error *error)
 
 static int inspect(const arguments *a)
 {
-    const char *title = file_title(a->cloud), *slash = strrchr(title, '/');
     inspection made;
     octreel_error error;
-    if (!build(a, &made, &error))
+    if (!build_tree(a, &made, &error))
         return print_error("%s", error.text);
-    report r = {.a = a, .name = slash ? slash + 1 : title, .made = &made};
+    report r = {.a = a, .name = path_base_name(file_title(a->cloud)), .made = &made};
     const bool ok = make_report(&r, &error);
     inspect_release(&made);
     return ok ? EXIT_DONE : print_error("%s", error.text);
@@ -281,12 +266,12 @@ static int inspect(const arguments *a)
 /* Refuses picture options without -o, because they would have no effect. */
 static bool check_picture(const arguments *a)
 {
-    const char *first = first_view_option(&a->view_options);
+    const char *first = find_first_view_option(&a->view_options);
     if (!first && a->renderer.fill != DRAW_FILL_CHECKED)
         first = "fill";
     if (!first)
         first = a->renderer.any_renderer ? "any-renderer" : a->renderer.context != DRAW_AUTO ? "context" : NULL;
-    if (a->picture || !first)
+    if (a->outputs[PICTURE].path || !first)
         return true;
     return refuse("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
 }
@@ -294,20 +279,21 @@ static bool check_picture(const arguments *a)
 /* Neither output may be the cloud, and the outputs must be two different files. */
 static bool check_outputs(const arguments *a)
 {
-    output_file outputs[OUTPUTS];
     octreel_error error;
-    list_outputs(a, outputs);
-    if (!check_standard_output(outputs, OUTPUTS, a->json))
+    if (!check_standard_output(a->outputs, OUTPUTS, a->json))
         return false;
-    return (check_outputs_differ(outputs, OUTPUTS, &error) &&
-            check_output_is_not_input(&outputs[0], a->cloud, &error) &&
-            check_output_is_not_input(&outputs[1], a->cloud, &error)) ||
+    return (check_outputs_differ(a->outputs, OUTPUTS, &error) &&
+            check_output_is_not_input(&a->outputs[PICTURE], a->cloud, &error) &&
+            check_output_is_not_input(&a->outputs[NODES], a->cloud, &error)) ||
            refuse("%s", error.text);
 }
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.def = octree_def_default(), .view = view_default(), .renderer.fill = DRAW_FILL_CHECKED};
+    arguments a = {.outputs = {[PICTURE] = {"-o", NULL}, [NODES] = {"--nodes", NULL}},
+                   .def = octree_def_default(),
+                   .view = view_default(),
+                   .renderer.fill = DRAW_FILL_CHECKED};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube, and few clouds fill a cube */
     const int status = command_read_arguments(&command_inspect, &a, argc, argv);
@@ -342,9 +328,9 @@ const command command_inspect = {
                 "for f in *.ply; do octreel inspect \"$f\" -o \"$f.png\" --nearest 1,2,3,8; done\n"
                 "# print the statistics of a cloud that pdal converts\n"
                 "pdal translate scan.laz STDOUT --writer text | octreel inspect -\n",
-    .least = 1,
-    .most = 1,
+    .min_arguments = 1,
+    .max_arguments = 1,
     .takes = "one point cloud",
     .inputs = {FILE_KIND(CLOUD)},
-    .several = "*.pcd",
+    .files_pattern = "*.pcd",
 };

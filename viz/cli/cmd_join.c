@@ -9,19 +9,20 @@
 
 static int join(const char *folder, bool json)
 {
-    watch w = watch_begin("ticks");
-    film_options film = {.folder = folder, .progress = watch_progress, .keep_going = watch_keep_going, .context = &w};
+    progress p = progress_start("ticks");
+    film_options film = {.folder = folder, .progress = progress_show, .keep_going = has_no_stop_signal, .context = &p};
     film_summary summary;
     octreel_error error;
+    block_stop_signals();
     const bool ok = join_chunks(&film, &summary, &error), whole = ok && summary.ticks == summary.total;
-    progress_end(&w.progress);
+    progress_end(&p);
     if (!ok)
         print_error("%s", error.text);
     else if (!whole)
         print_error("stopped; %s is unchanged", folder);
     else if (json || !is_quiet())
         film_report_joined(stdout, &summary, &film, json);
-    watch_end(&w);
+    unblock_stop_signals();
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 
@@ -57,8 +58,8 @@ const command command_join = {
     .examples = "# film the two halves of a session at the same time, then join them\n"
                 "octreel record s.json --ticks :500 -o film & octreel record s.json --ticks 500: -o film; wait\n"
                 "octreel join film\n",
-    .least = 1,
-    .most = 1,
+    .min_arguments = 1,
+    .max_arguments = 1,
     .takes = "the folder of one recording",
     .inputs = {FILE_KIND(RECORDING)},
 };

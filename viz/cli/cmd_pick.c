@@ -5,14 +5,13 @@
 
 #include <stdio.h>
 
-#define MOST_PLACE                                                                                                     \
-    1000000000 /* larger than any picture: the error for a pixel outside then names the picture's size                 \
-                */
+/* Larger than any picture, because the error for a pixel outside of the picture is to name the size of the picture. */
+enum { MOST_COORDINATE = 1000000000 };
 
-static bool read_place(const char *name, const char *text, int *value)
+static bool read_coordinate(const char *name, const char *text, int *value)
 {
     uint64_t number = 0;
-    const bool ok = read_count(name, text, 0, MOST_PLACE, &number);
+    const bool ok = read_count(name, text, 0, MOST_COORDINATE, &number);
     *value = (int)number;
     return ok;
 }
@@ -53,8 +52,8 @@ static int run(int argc, char **argv)
         return status;
     if (a.pick.renderer.context != DRAW_AUTO)
         a.pick.renderer.fill = DRAW_FILL_GL;
-    const bool ok = check_renderer(&a.pick.renderer) && read_place("X", argv[optind + 1], &a.pick.x) &&
-                    read_place("Y", argv[optind + 2], &a.pick.y);
+    const bool ok = check_renderer(&a.pick.renderer) && read_coordinate("X", argv[optind + 1], &a.pick.x) &&
+                    read_coordinate("Y", argv[optind + 2], &a.pick.y);
     return ok ? print_pick(argv[optind], &a.pick, a.json) : EXIT_TROUBLE;
 }
 
@@ -72,10 +71,10 @@ const command command_pick = {
     .examples = "# record the example, and ask for the element at pixel (800, 200) of tick 219\n"
                 "octreel record -o flight\n"
                 "octreel pick flight/frame_000219.png 800 200\n",
-    .no_negative = "pixel coordinates start at (0, 0) in the top left corner and cannot be negative",
-    .least = 3,
-    .most = 3,
+    .negative_error = "pixel coordinates start at (0, 0) in the top left corner and cannot be negative",
+    .min_arguments = 3,
+    .max_arguments = 3,
     .takes = "a frame and two coordinates, as in frames/frame_000041.png 312 200",
     .inputs = {FILE_KIND(PNG)},
-    .no_standard_input = true,
+    .refuses_standard_input = true,
 };

@@ -36,16 +36,10 @@ static const command_option options[] = {
 
 /* ---- Where the page goes ------------------------------------------------------------------------------------- */
 
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 /* The default name of the page: "walk.html" for "sessions/walk.json". */
 static void make_page_name(const char *session, char name[NAME_MAX + 1])
 {
-    const char *base = session && !file_is_standard(session) ? base_name(session) : "octreel",
+    const char *base = session && !file_is_standard(session) ? path_base_name(session) : "octreel",
                *dot = strrchr(base, '.');
     const size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     snprintf(name, NAME_MAX + 1, "%.*s.html", (int)length, base);
@@ -54,7 +48,7 @@ static void make_page_name(const char *session, char name[NAME_MAX + 1])
 static bool is_recording_page(const char *path)
 {
     char beside[PATH_MAX];
-    const char *base = base_name(path);
+    const char *base = path_base_name(path);
     snprintf(beside, sizeof beside, "%.*srecording.json", (int)(base - path), path);
     return folder_is_name(base) && access(beside, F_OK) == 0;
 }
@@ -120,25 +114,24 @@ static bool write_file(const arguments *a, const octree_session *session, film_s
 
 static int make_page(arguments *a, const octree_session *session)
 {
-    watch w = watch_begin("ticks");
+    progress p = progress_start("ticks");
     film_summary summary;
     octreel_error error;
-    a->film.progress = watch_progress;
-    a->film.keep_going = watch_keep_going;
-    a->film.context = &w;
+    a->film.context = &p;
+    block_stop_signals();
     const bool ok = write_file(a, session, &summary, &error);
-    progress_end(&w.progress);
+    progress_end(&p);
     if (ok && !is_quiet())
         film_report_start(stderr, &summary.start, session);
     if (!ok)
         print_error("%s", error.text);
     else if (!file_is_standard(a->page) && !is_quiet())
         print_page_address(a->page, summary.ticks);
-    watch_end(&w);
+    unblock_stop_signals();
     return ok ? EXIT_DONE : EXIT_TROUBLE;
 }
 
-static int play(arguments *a)
+static int play_session(arguments *a)
 {
     const octree_session paper = octree_session_default();
     session_file file = {0};
@@ -155,7 +148,7 @@ static int play(arguments *a)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_default()}};
+    arguments a = {.film = {.view = view_default(), .progress = progress_show, .keep_going = has_no_stop_signal}};
     char name[NAME_MAX + 1];
     const int status = command_read_arguments(&command_play, &a, argc, argv);
     if (status != COMMAND_GO_ON)
@@ -164,7 +157,7 @@ static int run(int argc, char **argv)
     make_page_name(a.session, name);
     if (!a.page)
         a.page = name;
-    return read_view(&a.view, &a.film.view) && check_page(&a) ? play(&a) : EXIT_TROUBLE;
+    return read_view(&a.view, &a.film.view) && check_page(&a) ? play_session(&a) : EXIT_TROUBLE;
 }
 
 const command command_play = {
@@ -182,7 +175,7 @@ const command command_play = {
                 "octreel play\n"
                 "# write walk.html, which starts with an orbiting camera\n"
                 "octreel play session.json --camera orbit -o walk.html\n",
-    .most = 1,
+    .max_arguments = 1,
     .takes = "one session",
     .inputs = {FILE_KIND(SESSION)},
 };

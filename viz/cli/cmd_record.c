@@ -34,8 +34,7 @@ static bool read_ticks(const command_option *option, const char *text, void *int
     const bool ends = open && whole_parse(&at, UINT64_MAX, &film->last);
     if (open && (begins || ends) && *at == 0 && film->first < film->last)
         return true;
-    return refuse("--%s takes a range of ticks such as 100:200 (ticks 100 to 199), 100: or :200, not \"%s\"",
-                  option->name, text);
+    return refuse_value(option, "a range of ticks such as 100:200 (ticks 100 to 199), 100: or :200", text);
 }
 
 static const command_option options[] = {
@@ -50,8 +49,7 @@ static const command_option options[] = {
      .read = read_flag, OPTION_VALUE(arguments, no_frames)},
     {"ticks", "A:B",
      "film one chunk, the ticks from A to B - 1 (A: and :B are open ended, and B may lie beyond the last tick). "
-     "Several "
-     "processes or machines can film chunks into one folder; octreel join then completes the recording",
+     "Several processes or machines can film chunks into one folder; octreel join then completes the recording",
      .read = read_ticks, OPTION_VALUE(arguments, film)},
     {"jobs", "N",
      "number of processes that film at the same time; the frames are the same for any number (default: one per core, "
@@ -74,24 +72,23 @@ static const command_option options[] = {
     {0},
 };
 
-static void print_summary(const arguments *a, const film_summary *summary, const watch *w)
+static void print_summary(const arguments *a, const film_summary *summary, const progress *p)
 {
     if (a->json || !is_quiet())
-        film_report(stdout, summary, &a->film, progress_seconds(&w->progress), a->json);
+        film_report(stdout, summary, &a->film, progress_seconds(p), a->json);
 }
 
-static int film(arguments *a, const octree_session *session)
+static int film_to_folder(arguments *a, const octree_session *session)
 {
-    watch w = watch_begin("ticks");
+    progress p = progress_start("ticks");
     film_summary summary;
     octreel_error error;
     if (a->film.jobs == 0)
         a->film.jobs = film_default_jobs(session, &a->film);
-    a->film.progress = watch_progress;
-    a->film.keep_going = watch_keep_going;
-    a->film.context = &w;
+    a->film.context = &p;
+    block_stop_signals();
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
-    progress_end(&w.progress);
+    progress_end(&p);
     if (ok && !is_quiet())
         film_report_notes(stderr, &summary, &a->film, session);
     if (!ok)
@@ -99,8 +96,8 @@ static int film(arguments *a, const octree_session *session)
     else if (!whole)
         film_report_stopped(stderr, &summary, &a->film);
     else
-        print_summary(a, &summary, &w);
-    watch_end(&w);
+        print_summary(a, &summary, &p);
+    unblock_stop_signals();
     return whole ? EXIT_DONE : EXIT_TROUBLE;
 }
 
@@ -115,17 +112,16 @@ static const char *explain_stream_conflict(const arguments *a)
         return "--ticks needs a whole session and cannot film standard input: save the session to a file first";
     if (a->film.jobs > 1)
         return "--jobs needs a whole session and cannot film standard input with more than one process: leave out "
-               "--jobs, or "
-               "save the session to a file first";
+               "--jobs, or save the session to a file first";
     return NULL;
 }
 
-static int end_stream(const arguments *a, film_stream_end how, const film_summary *summary, const watch *w,
-                      const octreel_error *error)
+static int report_stream_end(const arguments *a, film_stream_end how, const film_summary *summary, const progress *p,
+                             const octreel_error *error)
 {
     const uint64_t ticks = summary->ticks;
     if (how == FILM_STREAM_WHOLE)
-        print_summary(a, summary, w);
+        print_summary(a, summary, p);
     else if (how == FILM_STREAM_STOPPED && ticks == 0)
         print_error("stopped before the first tick was filmed; nothing was written");
     else if (how == FILM_STREAM_STOPPED)
@@ -141,25 +137,24 @@ static int end_stream(const arguments *a, film_stream_end how, const film_summar
 
 static int film_standard_input(arguments *a)
 {
-    watch w = watch_begin("ticks");
+    progress p = progress_start("ticks");
     film_summary summary;
     octreel_error error;
-    a->film.progress = watch_progress;
-    a->film.keep_going = watch_keep_going;
-    a->film.context = &w;
-    session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, watch_keep_going, &w);
+    a->film.context = &p;
+    block_stop_signals();
+    session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, has_no_stop_signal, NULL);
     if (!stream)
         return print_error("out of memory while reading standard input");
     const film_stream_end how = film_stream(stream, a->keys, &a->film, &summary, &error);
-    progress_end(&w.progress);
+    progress_end(&p);
     if (*session_stream_note(stream))
         note("%s", session_stream_note(stream));
     a->film.values = session_stream_values(stream);
     if (how == FILM_STREAM_WHOLE && !is_quiet())
         film_report_notes(stderr, &summary, &a->film, session_stream_start(stream));
-    const int status = end_stream(a, how, &summary, &w, &error);
+    const int status = report_stream_end(a, how, &summary, &p, &error);
     session_stream_close(stream);
-    watch_end(&w);
+    unblock_stop_signals();
     return status;
 }
 
@@ -170,7 +165,7 @@ static int film_standard_input(arguments *a)
 static const char *find_missing_file(const arguments *a)
 {
     const char *folder = a->film.folder;
-    if (!a->film.resume || a->session || a->keys || a->every || a->no_frames || first_view_option(&a->view))
+    if (!a->film.resume || a->session || a->keys || a->every || a->no_frames || find_first_view_option(&a->view))
         return NULL;
     if (!folder_has(folder, "recording.json"))
         return "recording.json";
@@ -208,7 +203,7 @@ static bool read_session(const arguments *a, session_file *file, octreel_error *
     return a->session ? session_read(a->session, file, error) : session_copy(&paper, file, error);
 }
 
-static int play(arguments *a)
+static int film_session_file(arguments *a)
 {
     session_file file = {0};
     octreel_error error;
@@ -216,7 +211,7 @@ static int play(arguments *a)
     a->film.values = &file.values;
     if (ok && *file.note)
         note("%s", file.note);
-    const int status = ok ? film(a, &file.session) : print_error("%s", error.text);
+    const int status = ok ? film_to_folder(a, &file.session) : print_error("%s", error.text);
     session_release(&file);
     return status;
 }
@@ -243,7 +238,10 @@ static bool may_hold_frames(const char *folder)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_default(), .renderer.fill = DRAW_FILL_CHECKED}};
+    arguments a = {.film = {.view = view_default(),
+                            .renderer.fill = DRAW_FILL_CHECKED,
+                            .progress = progress_show,
+                            .keep_going = has_no_stop_signal}};
     const int status = command_read_arguments(&command_record, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;
@@ -264,7 +262,7 @@ static int run(int argc, char **argv)
         return print_error("%s", explain_stream_conflict(&a));
     if (!check_renderer(&a.film.renderer) || !complete_film_options(&a))
         return EXIT_TROUBLE;
-    return stream ? film_standard_input(&a) : play(&a);
+    return stream ? film_standard_input(&a) : film_session_file(&a);
 }
 
 const command command_record = {
@@ -317,7 +315,7 @@ const command command_record = {
                 "(cd frames && ffmpeg -pattern_type glob -i 'frame_*.png' -vf \"select='not(mod(n,10))',"
                 "scale=320:-1,tile=5x5\" -frames:v 1 -update 1 sheet.png)\n",
     .files = "  DIR  the recording; octreel-recording(5) describes its files\n",
-    .most = 1,
+    .max_arguments = 1,
     .takes = "one session",
     .inputs = {FILE_KIND(SESSION)},
 };

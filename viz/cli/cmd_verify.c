@@ -6,11 +6,6 @@
 
 #include <stdio.h>
 
-static void on_progress(uint64_t done, uint64_t total, void *context)
-{
-    progress_show(context, done, total);
-}
-
 typedef struct arguments {
     renderer_choice renderer;
     bool json;
@@ -25,7 +20,7 @@ static const command_option options[] = {
 static int verify(const char *folder, const arguments *a)
 {
     progress p = progress_start("ticks");
-    const verify_options options = {.renderer = a->renderer, .progress = on_progress, .context = &p};
+    const verify_options options = {.renderer = a->renderer, .progress = progress_show, .context = &p};
     verify_report report;
     octreel_error error;
     const bool ok = verify_recording(folder, &options, &report, &error);
@@ -73,15 +68,14 @@ const command command_verify = {
             "number of different pixels, and \"text\" a sentence; each is present where it applies\n"
             "  \"drawn_by\", \"drawn_now\"  the renderer of the recording and of this run; null if nothing was drawn\n"
             "  \"fill\"        the rasterizer of this run: \"gl\", or \"integers\" if OpenGL cannot be loaded; null if "
-            "nothing "
-            "was drawn\n",
+            "nothing was drawn\n",
     .statuses = {"identical", "different", "error"},
     .examples = "# check a recording\n"
                 "octreel verify frames\n"
                 "# check it with EGL, and print JSON\n"
                 "octreel verify frames --context egl --json\n",
-    .least = 1,
-    .most = 1,
+    .min_arguments = 1,
+    .max_arguments = 1,
     .takes = "the folder of one recording",
     .inputs = {FILE_KIND(RECORDING)},
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* command.h - the description of a command. The command line is read, --help and the manual are printed, and shells
- * complete, all from this one description. Each command is defined in its cmd_*.c. */
+/* command.h - the description of a command, which each cmd_*.c defines. From it the command line is read, and --help,
+ * the manual and the completions of shells are written. */
 #ifndef CLI_COMMAND_H
 #define CLI_COMMAND_H
 
@@ -12,7 +12,7 @@
 typedef struct command {
     const char *name;
     int (*run)(int argc, char **argv); /* argv[0] is the command's name; returns the exit status */
-    const command_option *options;     /* its own options, ended by a zeroed row; may be null */
+    const command_option *options;     /* ended by a zeroed row; null: only the options that every command has */
 
     /* Help texts, in the notation of prose.h; null: none. */
     const char *line;        /* says in one line what the command does */
@@ -20,16 +20,16 @@ typedef struct command {
     const char *about;       /* before the options */
     const char *more;        /* after the options */
     const char *statuses[3]; /* the meaning of exit statuses 0, 1, 2; null: "done", none, "error" */
-    const char *examples;    /* a command a line, each after a line that begins with # and says what it produces */
+    const char *examples;    /* lines in pairs: "# what the command produces", and the command */
     const char *files;       /* only in the manual */
     const char *environment; /* only in the manual */
 
-    const char *no_negative; /* error for an argument such as -10; null: such an argument is an unknown option */
-    int least, most;         /* number of arguments without the options */
-    const char *takes;       /* names these arguments in errors: "one session" */
-    file_kinds inputs[2];    /* kinds of file that the first two arguments may be; 0: not a file */
-    bool no_standard_input;  /* "-" is refused, because the command also reads files beside its input */
-    const char *several;     /* a pattern such as "*.pcd" for the hint about several inputs, or null */
+    const char *negative_error;       /* printed for an argument such as -10; null: -1 is an unknown option */
+    int min_arguments, max_arguments; /* not counting options */
+    const char *takes;                /* the arguments in errors: "one session" */
+    file_kinds inputs[2];             /* the kinds of file that the first and second argument may be; 0: no file */
+    bool refuses_standard_input;      /* because the command also reads files beside its input */
+    const char *files_pattern;        /* such as "*.pcd": the error for several files shows a shell loop; or null */
 } command;
 
 extern const command command_record, command_play, command_join, command_verify, command_audit, command_pick,
@@ -52,15 +52,15 @@ typedef struct help_topic {
 const help_topic *help_topic_at(size_t n);
 const help_topic *find_help_topic(const char *name);
 
-/* Fills in the n-th row of a command's options: its own rows, the shared tables that they insert, and at the end the
+/* Get the n-th row of a command's options: the rows of its own table, with the shared tables inserted, and then the
  * options that every command has. False: n is beyond the last. */
 bool command_option_at(const command *c, size_t n, command_option *option);
 
 /* The meaning of an exit status; null: the command never returns it. */
 const char *command_status(const command *c, int status);
 
-/* Read the command line into the structure `arguments`; argv[optind] is then the first argument that is no option.
- * Returns COMMAND_GO_ON, or an exit status: help was printed, or an error was. */
+/* Read the options into the structure `arguments`; argv[optind] is then the first argument that is no option. Returns
+ * COMMAND_GO_ON, or the exit status after it has printed help or an error. */
 enum { COMMAND_GO_ON = -1 };
 int command_read_arguments(const command *c, void *arguments, int argc, char **argv);
 

@@ -78,7 +78,7 @@ static void fill_getopt_tables(const command *c, struct option all[MOST_OPTIONS]
         }
     }
     all[count] = (struct option){NULL, 0, NULL, 0};
-    memcpy(letters + used, c->no_negative ? "0123456789" : "", c->no_negative ? 11 : 1);
+    memcpy(letters + used, c->negative_error ? "0123456789" : "", c->negative_error ? 11 : 1);
 }
 
 /* ---- Mistakes ------------------------------------------------------------------------------------------------ */
@@ -145,7 +145,7 @@ static int read_option(const command *c, int number, char **argv, void *argument
 {
     command_option o;
     if (!find_option(c, number, &o))
-        return print_error("%s", c->no_negative);
+        return print_error("%s", c->negative_error);
     if (strcmp(o.name, "help") == 0)
         return help_print(stdout, c);
     if (strcmp(o.name, "version") == 0)
@@ -181,10 +181,10 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
     const bool no_output = word[0] == '-' || kind & (c->inputs[0] | FILE_KIND(RECORDING));
     if (!has_output && !no_output && find_option_by_letter(c, 'o', &output) && fits_output_option(output.read, word))
         return print_error("%s: unexpected argument \"%s\", did you mean -o %s?", c->name, word, word);
-    if (c->several)
+    if (c->files_pattern)
         return print_error("%s: unexpected argument \"%s\"; for several files: "
                            "for f in %s; do %s %s \"$f\" -o \"$f.png\"; done",
-                           c->name, word, c->several, hint_program_name(), c->name);
+                           c->name, word, c->files_pattern, hint_program_name(), c->name);
     return print_error("%s: unexpected argument \"%s\": it takes %s; see %s %s --help", c->name, word, c->takes,
                        hint_program_name(), c->name);
 }
@@ -192,19 +192,19 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
 /* Reports a file of a recording where the folder is expected, and names the folder. False: not such a file. */
 static bool refuse_recording_part(const command *c, const char *path, file_kind kind)
 {
-    const char *slash = strrchr(path, '/');
-    char folder[PATH_MAX] = ".";
-    if (slash)
-        snprintf(folder, sizeof folder, "%.*s", slash > path ? (int)(slash - path) : 1, path);
-    return file_kind_of(folder) == KIND_RECORDING &&
-           !refuse("%s is %s, but %s takes %s: use %s", path, file_kind_rows[kind].name, c->name, c->takes, folder);
+    char *folder = path_folder(path);
+    const bool found = folder && file_kind_of(folder) == KIND_RECORDING;
+    if (found)
+        print_error("%s is %s, but %s takes %s: use %s", path, file_kind_rows[kind].name, c->name, c->takes, folder);
+    free(folder);
+    return found;
 }
 
 /* Standard input works for a file, but not for a folder or for a file that the command may create. */
 static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);
-    return (taken & files && !(taken & FILE_KIND(MISSING)) && !c->no_standard_input) ||
+    return (taken & files && !(taken & FILE_KIND(MISSING)) && !c->refuses_standard_input) ||
            refuse("\"-\" is standard input, but %s takes %s; for a file or folder named -, write ./-", c->name,
                   c->takes);
 }
@@ -243,11 +243,11 @@ int command_read_arguments(const command *c, void *arguments, int argc, char **a
     const int count = argc - optind;
     if (status != COMMAND_GO_ON)
         return status;
-    if (count > c->most)
-        return refuse_surplus(c, argv[optind + c->most], has_output);
-    if (count < c->least)
+    if (count > c->max_arguments)
+        return refuse_surplus(c, argv[optind + c->max_arguments], has_output);
+    if (count < c->min_arguments)
         return print_error("%s needs %s; see %s %s --help", c->name, c->takes, hint_program_name(), c->name);
-    if (!check_names(c->name, argv + optind, count))
+    if (!check_names_not_empty(c->name, argv + optind, count))
         return EXIT_TROUBLE;
     return check_inputs(c, argv + optind, count) ? COMMAND_GO_ON : EXIT_TROUBLE;
 }

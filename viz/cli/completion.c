@@ -3,20 +3,171 @@
  *
  * Scripts written by hand go stale when an option is added. These are generated from the tables by which the command
  * line is read: an option's placeholder says what its value is (FILE, DIR, LIST or one of `names`), and a command's
- * `inputs` say which file endings it takes. The shells differ in one respect that shapes the code: bash runs a function
- * that must parse the words before the cursor itself, so its script is a case for each command and option; zsh's
- * _arguments and fish's complete take declarations, one for each option, with a description. So descriptions are cut to
- * their first clause. */
+ * `inputs` say which file endings it takes. Each shell is a row of templates, which put_template() fills in. The
+ * scripts differ because bash runs a function that must parse the words before the cursor itself: its script is a case
+ * for each command and option. zsh's _arguments and fish's complete take declarations, one for each option, with a
+ * description, which is cut to its first clause. */
 #include "completion.h"
 #include "cloud.h"
 #include "command.h"
 
 #include <string.h>
 
-/* ---- Values and inputs --------------------------------------------------------------------------------------- */
+/* ---- Shells -------------------------------------------------------------------------------------------------- */
 
 /* How the value of an option is completed. */
-typedef enum value_kind { VALUE_NONE, VALUE_ANY, VALUE_ONE, VALUE_LIST, VALUE_FILE, VALUE_FOLDER } value_kind;
+typedef enum value_kind { VALUE_NONE, VALUE_ANY, VALUE_ONE, VALUE_LIST, VALUE_FILE, VALUE_FOLDER, VALUES } value_kind;
+
+/* The templates of a script. They are shell code with markers; put_marker() is the list of markers. */
+typedef struct shell {
+    const char *name;
+    const char *head, *summary, *middle; /* `summary` is written for each command, between `head` and `middle` */
+    const char *command;                 /* the start of a command's part; its options follow */
+    const char *option, *short_option;   /* an option without and with a letter */
+    const char *files, *folders;         /* the end of a command's part: the command takes files, or only folders */
+    const char *tail;
+    const char *ending, *separator; /* an ending of file names, and the text between two of them */
+    struct {
+        const char *before, *after;
+    } values[VALUES];    /* what is written around the possible values of an option */
+    const char *escaped; /* characters that need a backslash inside of quotation marks */
+} shell;
+
+static const shell shells[] = {
+    {
+        .name = "bash",
+        .head = "# Completions of octreel for bash, as octreel help --complete bash prints them.\n"
+                "_octreel()\n"
+                "{\n"
+                "    local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]}\n"
+                "    local options='' endings='' values='' kind='' before='' ending\n"
+                "    COMPREPLY=()\n"
+                "    if [[ $word == = ]]; then # --camera=\n"
+                "        word=\n"
+                "    elif [[ $option == = ]]; then # --camera=is\n"
+                "        option=${COMP_WORDS[COMP_CWORD - 2]}\n"
+                "    fi\n"
+                "    if [[ $COMP_CWORD -eq 1 ]]; then\n"
+                "        mapfile -t COMPREPLY < <(compgen -W '%Chelp --help --version' -- \"$word\")\n"
+                "        return\n"
+                "    fi\n"
+                "    case ${COMP_WORDS[1]} in\n"
+                "        help)\n"
+                "            kind=one values='%C%T'\n"
+                "            ;;\n",
+        .command = "        %c)\n"
+                   "            options='%O'\n"
+                   "            endings='%E'\n"
+                   "            case $option in\n",
+        .option = "                --%n)%v ;;\n",
+        .short_option = "                -%l | --%n)%v ;;\n",
+        .files = "            esac\n"
+                 "            ;;\n",
+        .folders = "            esac\n"
+                   "            ;;\n",
+        .tail =
+            "    esac\n"
+            "    case $kind in\n"
+            "        one) mapfile -t COMPREPLY < <(compgen -W \"$values\" -- \"$word\") ;;\n"
+            "        list) # a name behind the last comma, or behind the - that leaves it out\n"
+            "            [[ $word == *,* ]] && before=${word%%,*},\n"
+            "            word=${word##*,}\n"
+            "            [[ $word == -* ]] && before+=- word=${word#-}\n"
+            "            mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$values\" -- \"$word\")\n"
+            "            compopt -o nospace 2>/dev/null\n"
+            "            ;;\n"
+            "        directory | file)\n"
+            "            mapfile -t COMPREPLY < <(compgen \"-${kind:0:1}\" -- \"$word\")\n"
+            "            compopt -o filenames 2>/dev/null\n"
+            "            ;;\n"
+            "        '')\n"
+            "            if [[ $word == -* ]]; then\n"
+            "                mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
+            "                return\n"
+            "            fi\n"
+            "            mapfile -t COMPREPLY < <(compgen -d -- \"$word\")\n"
+            "            for ending in $endings; do\n"
+            "                mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -X \"!*.$ending\" -- \"$word\")\n"
+            "            done\n"
+            "            compopt -o filenames 2>/dev/null\n"
+            "            ;;\n"
+            "    esac\n"
+            "}\n"
+            "complete -F _octreel octreel\n",
+        .ending = "%e",
+        .separator = " ",
+        .values = {[VALUE_ANY] = {" kind=any", ""},
+                   [VALUE_ONE] = {" kind=one values='", "'"},
+                   [VALUE_LIST] = {" kind=list values='", "'"},
+                   [VALUE_FILE] = {" kind=file", ""},
+                   [VALUE_FOLDER] = {" kind=directory", ""}},
+    },
+    {
+        .name = "zsh",
+        .head = "#compdef octreel\n"
+                "# Completions of octreel for zsh, as octreel help --complete zsh prints them.\n"
+                "local context state state_descr line\n"
+                "local -a commands\n"
+                "typeset -A opt_args\n"
+                "commands=(\n",
+        .summary = "    '%c:%d'\n",
+        .middle = "    'help:print the help of a command'\n"
+                  ")\n"
+                  "_arguments -C '--help[list all commands]' '--version[print the version]' '1: :->command' "
+                  "'*:: :->arguments' && return\n"
+                  "if [[ $state == command ]]; then\n"
+                  "    _describe -t commands command commands\n"
+                  "else\n"
+                  "    case $words[1] in\n"
+                  "        help)\n"
+                  "            _arguments '1:command:(%C%T)'\n"
+                  "            ;;\n",
+        .command = "        %c)\n"
+                   "            _arguments -s \\\n",
+        .option = "                '--%n%=[%h]%v' \\\n",
+        .short_option = "                '(-%l --%n)'{-%l%+,--%n%=}'[%h]%v' \\\n",
+        .files = "                '*:%t:_files -g \"%E\"'\n"
+                 "            ;;\n",
+        .folders = "                '*:%t:_files -/'\n"
+                   "            ;;\n",
+        .tail = "    esac\n"
+                "fi\n",
+        .ending = "*.%e",
+        .separator = " ",
+        .values = {[VALUE_NONE] = {"", ""},
+                   [VALUE_ANY] = {":%p:", ""},
+                   [VALUE_ONE] = {":%p:(", ")"},
+                   [VALUE_LIST] = {":%p:_sequence compadd - ", ""},
+                   [VALUE_FILE] = {":%p:_files", ""},
+                   [VALUE_FOLDER] = {":%p:_files -/", ""}},
+        .escaped = "[]:\\",
+    },
+    {
+        .name = "fish",
+        .head = "# Completions of octreel for fish, as octreel help --complete fish prints them.\n"
+                "complete -c octreel -f\n"
+                "complete -c octreel -n __fish_use_subcommand -l help -d 'list all commands'\n"
+                "complete -c octreel -n __fish_use_subcommand -l version -d 'print the version'\n"
+                "complete -c octreel -n __fish_use_subcommand -a help -d 'print the help of a command'\n"
+                "complete -c octreel -n '__fish_seen_subcommand_from help' -a '%C%T'\n",
+        .command = "complete -c octreel -n __fish_use_subcommand -a %c -d '%d'\n"
+                   "complete -c octreel -n '__fish_seen_subcommand_from %c' -k -a '(__fish_complete_directories)'\n"
+                   "%E",
+        .option = "complete -c octreel -n '__fish_seen_subcommand_from %c' -l %n%v -d '%h'\n",
+        .short_option = "complete -c octreel -n '__fish_seen_subcommand_from %c' -s %l -l %n%v -d '%h'\n",
+        .ending = "complete -c octreel -n '__fish_seen_subcommand_from %c' -k -a '(__fish_complete_suffix .%e)'\n",
+        .separator = "",
+        .values = {[VALUE_NONE] = {"", ""},
+                   [VALUE_ANY] = {" -x", ""},
+                   [VALUE_ONE] = {" -x -a '", "'"},
+                   [VALUE_LIST] = {" -x -a '(__fish_complete_list , \"string join \\n ", "\")'"},
+                   [VALUE_FILE] = {" -r -F", ""},
+                   [VALUE_FOLDER] = {" -x -a '(__fish_complete_directories)'", ""}},
+        .escaped = "\\",
+    },
+};
+
+/* ---- Values and inputs --------------------------------------------------------------------------------------- */
 
 static value_kind find_value_kind(const command_option *o)
 {
@@ -38,45 +189,9 @@ static const struct {
     {FILE_KIND(CLOUD), CLOUD_ENDINGS},
 };
 
-enum { KINDS = sizeof kind_endings / sizeof kind_endings[0] };
-
-/* Writes the endings that a command takes, each after `before`, separated by spaces. */
-static void put_endings(FILE *out, const command *c, const char *before)
+static bool takes_files(const command *c)
 {
-    const file_kinds kinds = c->inputs[0] | c->inputs[1];
-    const char *blank = "";
-    for (int i = 0; i < KINDS; i++)
-        for (const char *at = kind_endings[i].endings; kinds & kind_endings[i].kind && *at;) {
-            const int length = (int)strcspn(++at, ".");
-            fprintf(out, "%s%s%.*s", blank, before, length, at);
-            blank = " ";
-            at += length;
-        }
-}
-
-static void put_names(FILE *out, json_name *names)
-{
-    for (int i = 0; names(i); i++)
-        fprintf(out, "%s%s", i ? " " : "", names(i));
-}
-
-/* Writes the names that octreel help takes. */
-static void put_subjects(FILE *out)
-{
-    for (size_t i = 0; command_at(i); i++)
-        fprintf(out, "%s ", command_at(i)->name);
-    for (size_t i = 0; help_topic_at(i); i++)
-        fprintf(out, "%s%s", i ? " " : "", help_topic_at(i)->name);
-}
-
-/* Write a text within '', with a backslash before each of some characters; "'\''" is every shell's quoted '. */
-static void put_quoted(FILE *out, const char *text, size_t length, const char *escaped)
-{
-    for (size_t i = 0; i < length; i++)
-        if (text[i] == '\'')
-            fputs("'\\''", out);
-        else
-            fprintf(out, "%s%c", strchr(escaped, text[i]) ? "\\" : "", text[i]);
+    return (c->inputs[0] | c->inputs[1]) & ~(FILE_KIND(RECORDING) | FILE_KIND(FOLDER) | FILE_KIND(MISSING));
 }
 
 /* Returns the length of the first clause of a description. */
@@ -91,287 +206,156 @@ static size_t brief_length(const char *help)
     return length;
 }
 
-/* ---- bash --------------------------------------------------------------------------------------------------- */
+/* ---- Templates ----------------------------------------------------------------------------------------------- */
 
-static void put_bash_option(FILE *out, const command_option *o)
+/* The place in a script, which decides what markers stand for. */
+typedef struct script {
+    FILE *out;
+    const shell *shell;
+    const command *command;
+    command_option option;
+    const char *ending; /* not ended by a zero: the next ending follows */
+} script;
+
+static void put_template(const script *s, const char *template);
+
+/* Writes a text within '', with a backslash before each special character; "'\''" is every shell's quoted '. */
+static void put_quoted(const script *s, const char *text, size_t length)
 {
-    static const char *const kinds[] = {[VALUE_ANY] = "any",
-                                        [VALUE_ONE] = "one",
-                                        [VALUE_LIST] = "list",
-                                        [VALUE_FILE] = "file",
-                                        [VALUE_FOLDER] = "directory"};
-    const value_kind kind = find_value_kind(o);
-    if (kind == VALUE_NONE)
-        return;
-    fputs("                ", out);
-    if (option_letter(o->name))
-        fprintf(out, "-%c | ", option_letter(o->name));
-    fprintf(out, "--%s) kind=%s", o->name, kinds[kind]);
-    if (o->names) {
-        fputs(" values='", out);
-        put_names(out, o->names);
-        putc('\'', out);
-    }
-    fputs(" ;;\n", out);
+    for (size_t i = 0; i < length; i++)
+        if (text[i] == '\'')
+            fputs("'\\''", s->out);
+        else
+            fprintf(s->out, "%s%c", strchr(s->shell->escaped, text[i]) ? "\\" : "", text[i]);
 }
 
-static void put_bash_command(FILE *out, const command *c)
+/* Writes the option's value: which words or files complete it. */
+static void put_value(const script *s)
+{
+    const value_kind kind = find_value_kind(&s->option);
+    put_template(s, s->shell->values[kind].before);
+    for (int i = 0; s->option.names && s->option.names(i); i++)
+        fprintf(s->out, "%s%s", i ? " " : "", s->option.names(i));
+    put_template(s, s->shell->values[kind].after);
+}
+
+/* Writes the endings of the files that the command takes. */
+static void put_endings(script s)
+{
+    const file_kinds kinds = s.command->inputs[0] | s.command->inputs[1];
+    bool begun = false;
+    for (size_t i = 0; i < sizeof kind_endings / sizeof kind_endings[0]; i++)
+        for (s.ending = kind_endings[i].endings; kinds & kind_endings[i].kind && *s.ending;) {
+            s.ending++;
+            fputs(begun ? s.shell->separator : "", s.out);
+            put_template(&s, s.shell->ending);
+            s.ending += strcspn(s.ending, ".");
+            begun = true;
+        }
+}
+
+static void put_option_names(const script *s)
 {
     command_option o;
-    fprintf(out, "        %s)\n            options='", c->name);
-    for (size_t n = 0; command_option_at(c, n, &o); n++)
+    for (size_t n = 0; command_option_at(s->command, n, &o); n++)
         if (o.name)
-            fprintf(out, "%s--%s", n ? " " : "", o.name);
-    fputs("'\n            endings='", out);
-    put_endings(out, c, "");
-    fputs("'\n            case $option in\n", out);
-    for (size_t n = 0; command_option_at(c, n, &o); n++)
-        if (o.name)
-            put_bash_option(out, &o);
-    fputs("            esac\n            ;;\n", out);
+            fprintf(s->out, "%s--%s", n ? " " : "", o.name);
 }
 
-static void write_bash(FILE *out)
+static void put_command_names(FILE *out)
 {
-    fputs("# Completions of octreel for bash, as octreel help --complete bash prints them.\n"
-          "_octreel()\n"
-          "{\n"
-          "    local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]}\n"
-          "    local options='' endings='' values='' kind='' before='' ending\n"
-          "    COMPREPLY=()\n"
-          "    if [[ $word == = ]]; then # --camera=\n"
-          "        word=\n"
-          "    elif [[ $option == = ]]; then # --camera=is\n"
-          "        option=${COMP_WORDS[COMP_CWORD - 2]}\n"
-          "    fi\n"
-          "    if [[ $COMP_CWORD -eq 1 ]]; then\n"
-          "        mapfile -t COMPREPLY < <(compgen -W '",
-          out);
     for (size_t i = 0; command_at(i); i++)
         fprintf(out, "%s ", command_at(i)->name);
-    fputs("help --help --version' -- \"$word\")\n"
-          "        return\n"
-          "    fi\n"
-          "    case ${COMP_WORDS[1]} in\n"
-          "        help)\n"
-          "            kind=one values='",
-          out);
-    put_subjects(out);
-    fputs("'\n            ;;\n", out);
-    for (size_t i = 0; command_at(i); i++)
-        put_bash_command(out, command_at(i));
-    fputs("    esac\n"
-          "    case $kind in\n"
-          "        one) mapfile -t COMPREPLY < <(compgen -W \"$values\" -- \"$word\") ;;\n"
-          "        list) # a name behind the last comma, or behind the - that leaves it out\n"
-          "            [[ $word == *,* ]] && before=${word%,*},\n"
-          "            word=${word##*,}\n"
-          "            [[ $word == -* ]] && before+=- word=${word#-}\n"
-          "            mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$values\" -- \"$word\")\n"
-          "            compopt -o nospace 2>/dev/null\n"
-          "            ;;\n"
-          "        directory | file)\n"
-          "            mapfile -t COMPREPLY < <(compgen \"-${kind:0:1}\" -- \"$word\")\n"
-          "            compopt -o filenames 2>/dev/null\n"
-          "            ;;\n"
-          "        '')\n"
-          "            if [[ $word == -* ]]; then\n"
-          "                mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
-          "                return\n"
-          "            fi\n"
-          "            mapfile -t COMPREPLY < <(compgen -d -- \"$word\")\n"
-          "            for ending in $endings; do\n"
-          "                mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < <(compgen -f -X \"!*.$ending\" -- \"$word\")\n"
-          "            done\n"
-          "            compopt -o filenames 2>/dev/null\n"
-          "            ;;\n"
-          "    esac\n"
-          "}\n"
-          "complete -F _octreel octreel\n",
-          out);
 }
 
-/* ---- zsh ---------------------------------------------------------------------------------------------------- */
-
-#define ZSH_ESCAPED "[]:\\"
-
-static void put_zsh_option(FILE *out, const command_option *o)
+static void put_topic_names(FILE *out)
 {
-    const char letter = option_letter(o->name), *takes = o->value ? "=" : "";
-    if (letter)
-        fprintf(out, "                '(-%c --%s)'{-%c%s,--%s%s}'[", letter, o->name, letter, o->value ? "+" : "",
-                o->name, takes);
-    else
-        fprintf(out, "                '--%s%s[", o->name, takes);
-    put_quoted(out, o->help, brief_length(o->help), ZSH_ESCAPED);
-    putc(']', out);
-    if (o->value) {
-        putc(':', out);
-        put_quoted(out, o->value, strlen(o->value), ZSH_ESCAPED);
-        putc(':', out);
-    }
-    switch (find_value_kind(o)) {
-    case VALUE_ONE:
-        putc('(', out);
-        put_names(out, o->names);
-        putc(')', out);
-        break;
-    case VALUE_LIST:
-        fputs("_sequence compadd - ", out);
-        put_names(out, o->names);
-        break;
-    case VALUE_FILE:
-        fputs("_files", out);
-        break;
-    case VALUE_FOLDER:
-        fputs("_files -/", out);
-        break;
-    default:
-        break;
-    }
-    fputs("' \\\n", out);
+    for (size_t i = 0; help_topic_at(i); i++)
+        fprintf(out, "%s%s", i ? " " : "", help_topic_at(i)->name);
 }
 
-static void put_zsh_command(FILE *out, const command *c)
+static void put_marker(const script *s, char marker)
 {
-    command_option o;
-    fprintf(out, "        %s)\n            _arguments -s \\\n", c->name);
-    for (size_t n = 0; command_option_at(c, n, &o); n++)
-        if (o.name)
-            put_zsh_option(out, &o);
-    fputs("                '*:", out);
-    put_quoted(out, c->takes, strcspn(c->takes, ","), ZSH_ESCAPED);
-    fputs(":_files", out);
-    if ((c->inputs[0] | c->inputs[1]) & ~(FILE_KIND(RECORDING) | FILE_KIND(FOLDER) | FILE_KIND(MISSING))) {
-        fputs(" -g \"", out);
-        put_endings(out, c, "*.");
-        fputs("\"'\n            ;;\n", out);
-    } else {
-        fputs(" -/'\n            ;;\n", out);
+    const command *c = s->command;
+    const command_option *o = &s->option;
+    switch (marker) {
+    case 'C': /* the names of all commands, each with a space behind it */
+        put_command_names(s->out);
+        break;
+    case 'T': /* the names of all help topics */
+        put_topic_names(s->out);
+        break;
+    case 'c': /* the command: its name, its description, its arguments */
+        fputs(c->name, s->out);
+        break;
+    case 'd':
+        put_quoted(s, c->line, strlen(c->line));
+        break;
+    case 't':
+        put_quoted(s, c->takes, strcspn(c->takes, ","));
+        break;
+    case 'O': /* all its options, and all its file endings */
+        put_option_names(s);
+        break;
+    case 'E':
+        put_endings(*s);
+        break;
+    case 'e': /* one ending */
+        fprintf(s->out, "%.*s", (int)strcspn(s->ending, "."), s->ending);
+        break;
+    case 'n': /* the option: its name, letter, placeholder, description, value */
+        fputs(o->name, s->out);
+        break;
+    case 'l':
+        putc(option_letter(o->name), s->out);
+        break;
+    case 'p':
+        put_quoted(s, o->value, strlen(o->value));
+        break;
+    case 'h':
+        put_quoted(s, o->help, brief_length(o->help));
+        break;
+    case 'v':
+        put_value(s);
+        break;
+    case '+': /* itself, if the option has a value */
+    case '=':
+        fputs(o->value ? (char[]){marker, 0} : "", s->out);
+        break;
+    default: /* %% */
+        putc(marker, s->out);
     }
 }
 
-static void write_zsh(FILE *out)
+/* Writes a template; null: nothing. */
+static void put_template(const script *s, const char *template)
 {
-    fputs("#compdef octreel\n"
-          "# Completions of octreel for zsh, as octreel help --complete zsh prints them.\n"
-          "local context state state_descr line\n"
-          "local -a commands\n"
-          "typeset -A opt_args\n"
-          "commands=(\n",
-          out);
-    for (size_t i = 0; command_at(i); i++) {
-        fprintf(out, "    '%s:", command_at(i)->name);
-        put_quoted(out, command_at(i)->line, strlen(command_at(i)->line), ":\\");
-        fputs("'\n", out);
-    }
-    fputs("    'help:print the help of a command'\n"
-          ")\n"
-          "_arguments -C '--help[list all commands]' '--version[print the version]' '1: :->command' '*:: :->arguments' "
-          "&& "
-          "return\n"
-          "if [[ $state == command ]]; then\n"
-          "    _describe -t commands command commands\n"
-          "else\n"
-          "    case $words[1] in\n"
-          "        help)\n"
-          "            _arguments '1:command:(",
-          out);
-    put_subjects(out);
-    fputs(")'\n            ;;\n", out);
-    for (size_t i = 0; command_at(i); i++)
-        put_zsh_command(out, command_at(i));
-    fputs("    esac\nfi\n", out);
+    for (const char *at = template ? template : ""; *at; at++)
+        if (*at == '%')
+            put_marker(s, *++at);
+        else
+            putc(*at, s->out);
 }
 
-/* ---- fish --------------------------------------------------------------------------------------------------- */
-
-#define FISH_ESCAPED "\\"
-
-static void begin_fish(FILE *out, const char *command)
+static void put_command(script s)
 {
-    fprintf(out, "complete -c octreel -n '__fish_seen_subcommand_from %s'", command);
+    put_template(&s, s.shell->command);
+    for (size_t n = 0; command_option_at(s.command, n, &s.option); n++)
+        if (s.option.name && s.shell->values[find_value_kind(&s.option)].before)
+            put_template(&s, option_letter(s.option.name) ? s.shell->short_option : s.shell->option);
+    put_template(&s, takes_files(s.command) ? s.shell->files : s.shell->folders);
 }
 
-static void end_fish(FILE *out, const char *words, size_t length)
+static void put_script(script s)
 {
-    fputs(" -d '", out);
-    put_quoted(out, words, length, FISH_ESCAPED);
-    fputs("'\n", out);
+    put_template(&s, s.shell->head);
+    for (size_t i = 0; (s.command = command_at(i)); i++)
+        put_template(&s, s.shell->summary);
+    put_template(&s, s.shell->middle);
+    for (size_t i = 0; (s.command = command_at(i)); i++)
+        put_command(s);
+    put_template(&s, s.shell->tail);
 }
-
-static void put_fish_option(FILE *out, const command *c, const command_option *o)
-{
-    begin_fish(out, c->name);
-    if (option_letter(o->name))
-        fprintf(out, " -s %c", option_letter(o->name));
-    fprintf(out, " -l %s", o->name);
-    switch (find_value_kind(o)) {
-    case VALUE_NONE:
-        break;
-    case VALUE_ANY:
-        fputs(" -x", out);
-        break;
-    case VALUE_ONE:
-        fputs(" -x -a '", out);
-        put_names(out, o->names);
-        putc('\'', out);
-        break;
-    case VALUE_LIST:
-        fputs(" -x -a '(__fish_complete_list , \"string join \\n ", out);
-        put_names(out, o->names);
-        fputs("\")'", out);
-        break;
-    case VALUE_FILE:
-        fputs(" -r -F", out);
-        break;
-    case VALUE_FOLDER:
-        fputs(" -x -a '(__fish_complete_directories)'", out);
-        break;
-    }
-    end_fish(out, o->help, brief_length(o->help));
-}
-
-static void put_fish_command(FILE *out, const command *c)
-{
-    command_option o;
-    fprintf(out, "complete -c octreel -n __fish_use_subcommand -a %s", c->name);
-    end_fish(out, c->line, strlen(c->line));
-    begin_fish(out, c->name);
-    fputs(" -k -a '(__fish_complete_directories)'\n", out);
-    for (int i = 0; i < KINDS; i++)
-        for (const char *at = kind_endings[i].endings; (c->inputs[0] | c->inputs[1]) & kind_endings[i].kind && *at;) {
-            const int length = (int)strcspn(at, " ");
-            begin_fish(out, c->name);
-            fprintf(out, " -k -a '(__fish_complete_suffix .%.*s)'\n", length, at);
-            at += length + (at[length] == ' ');
-        }
-    for (size_t n = 0; command_option_at(c, n, &o); n++)
-        if (o.name)
-            put_fish_option(out, c, &o);
-}
-
-static void write_fish(FILE *out)
-{
-    fputs("# Completions of octreel for fish, as octreel help --complete fish prints them.\n"
-          "complete -c octreel -f\n"
-          "complete -c octreel -n __fish_use_subcommand -l help -d 'list all commands'\n"
-          "complete -c octreel -n __fish_use_subcommand -l version -d 'print the version'\n"
-          "complete -c octreel -n __fish_use_subcommand -a help -d 'print the help of a command'\n"
-          "complete -c octreel -n '__fish_seen_subcommand_from help' -a '",
-          out);
-    put_subjects(out);
-    fputs("'\n", out);
-    for (size_t i = 0; command_at(i); i++)
-        put_fish_command(out, command_at(i));
-}
-
-/* ---- All of them -------------------------------------------------------------------------------------------- */
-
-static const struct {
-    const char *name;
-    void (*write)(FILE *out);
-} shells[] = {{"bash", write_bash}, {"zsh", write_zsh}, {"fish", write_fish}};
 
 const char *completion_shell(int n)
 {
@@ -380,10 +364,8 @@ const char *completion_shell(int n)
 
 bool completion_write(FILE *out, const char *shell)
 {
-    for (int i = 0; completion_shell(i); i++)
-        if (strcmp(shells[i].name, shell) == 0) {
-            shells[i].write(out);
-            return true;
-        }
-    return false;
+    const int found = json_find_name(completion_shell, shell);
+    if (found >= 0)
+        put_script((script){.out = out, .shell = &shells[found]});
+    return found >= 0;
 }

@@ -93,15 +93,19 @@ static int report_unknown_word(const char *word, bool help)
                        hint_text(&h, "", meant), hint_program_name(), help ? "topics" : "commands");
 }
 
-/* Prints the manual of octreel, of a command or of a topic, for man(1). */
-static int print_manual(const char *name)
+/* Prints the help of a command or topic, or its manual for man(1). */
+static int print_help(const char *name, bool manual)
 {
     const help_topic *topic = find_help_topic(name);
-    const command *found = strcmp(name, command_octreel.name) == 0 ? &command_octreel : find_command(name);
-    if (topic)
+    const command *found = manual && strcmp(name, command_octreel.name) == 0 ? &command_octreel : find_command(name);
+    if (topic && manual)
         manual_write_topic(stdout, topic);
-    else if (found)
+    else if (topic)
+        prose_print(stdout, topic->text);
+    else if (found && manual)
         manual_write(stdout, found);
+    else if (found)
+        help_print(stdout, found);
     return topic || found ? EXIT_DONE : report_unknown_word(name, true);
 }
 
@@ -121,22 +125,14 @@ static int print_completions(const char *shell)
 static int help(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "--man") == 0)
-        return print_manual(argv[2]);
+        return print_help(argv[2], true);
     if (argc == 3 && strcmp(argv[1], "--complete") == 0)
         return print_completions(argv[2]);
     if (argc == 1)
         return help_print(stdout, &command_octreel);
     if (argc > 2)
         return print_error("help: unexpected argument \"%s\": it takes one command or topic", argv[2]);
-    const help_topic *topic = find_help_topic(argv[1]);
-    const command *found = find_command(argv[1]);
-    if (topic)
-        prose_print(stdout, topic->text);
-    else if (!found)
-        return report_unknown_word(argv[1], true);
-    else
-        help_print(stdout, found);
-    return EXIT_DONE;
+    return print_help(argv[1], false);
 }
 
 static int run(int argc, char **argv)

@@ -6,7 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
-enum { LINE = 78 };
+enum { LINE = 78 }; /* characters of a source line */
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
@@ -25,11 +25,6 @@ static literal escape_literal(char c)
     return found ? to[found - from] : (literal){{c}};
 }
 
-static void put_literal(FILE *out, char c)
-{
-    fputs(escape_literal(c).text, out);
-}
-
 /* Protects a line of text that begins like a macro. */
 static void begin_line(FILE *out, char first)
 {
@@ -40,7 +35,7 @@ static void begin_line(FILE *out, char first)
 static void put_code(FILE *out, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
-        put_literal(out, text[i]);
+        fputs(escape_literal(text[i]).text, out);
 }
 
 static void put_bold(FILE *out, const char *text, size_t length)
@@ -91,7 +86,7 @@ static void put_words(FILE *out, const char *text, size_t length)
     const char *at = text, *word;
     size_t size, column = 0;
     bool code = false;
-    while ((word = prose_word(&at, text + length, &size))) {
+    while ((word = prose_next_word(&at, text + length, &size))) {
         char set[WORD] = "";
         format_word(set, word, size, &code);
         const size_t width = strlen(set);
@@ -117,7 +112,7 @@ static void put_lines(FILE *out, const char *text, size_t length, int indent)
     const char *at = text, *line;
     size_t size;
     fputs(".EX\n", out);
-    while ((line = prose_line(&at, text + length, indent, &size))) {
+    while ((line = prose_next_line(&at, text + length, indent, &size))) {
         begin_line(out, *line);
         put_code(out, line, size);
         putc('\n', out);
@@ -125,32 +120,33 @@ static void put_lines(FILE *out, const char *text, size_t length, int indent)
     fputs(".EE\n", out);
 }
 
-static void put_section(FILE *out, const char *name, size_t length)
+/* The name ends at the end of its line. */
+static void put_section(FILE *out, const char *name)
 {
     fputs(".SH ", out);
-    put_code(out, name, length);
+    put_code(out, name, strcspn(name, "\n"));
     putc('\n', out);
 }
 
-static void put_item(FILE *out, const prose_block *block)
+static void put_term(FILE *out, const char *term, size_t length)
 {
     fputs(".TP\n", out);
-    put_bold(out, block->term, block->term_length);
+    put_bold(out, term, length);
     putc('\n', out);
-    put_words(out, block->text, block->length);
 }
 
 static void put_text(FILE *out, const char *text)
 {
     prose_block block;
     bool begins = true; /* true after .SH, which begins a paragraph itself */
-    for (const char *at = text; prose_next(&at, &block);) {
+    for (const char *at = text; prose_next_block(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
-            put_section(out, block.text, block.length - (block.text[block.length - 1] == '\n'));
+            put_section(out, block.text);
             break;
         case PROSE_ITEM:
-            put_item(out, &block);
+            put_term(out, block.term, block.term_length);
+            put_words(out, block.text, block.length);
             break;
         case PROSE_VERBATIM:
             fputs(begins ? ".RS 4\n" : ".PP\n.RS 4\n", out);
@@ -164,6 +160,14 @@ static void put_text(FILE *out, const char *text)
         }
         begins = block.kind == PROSE_HEADING;
     }
+}
+
+static void put_text_section(FILE *out, const char *name, const char *text)
+{
+    if (!text)
+        return;
+    put_section(out, name);
+    put_text(out, text);
 }
 
 /* ---- Sections ----------------------------------------------------------------------------------------------- */
@@ -198,7 +202,7 @@ static void put_usage(FILE *out, const char *usage)
         else if (name)
             fprintf(out, "\\fI%.*s\\fR", (int)name, at);
         else
-            put_literal(out, *at);
+            put_code(out, at, 1);
         at += option ? option : name ? name : 1;
     }
     putc('\n', out);
@@ -225,9 +229,7 @@ static void put_option(FILE *out, const command_option *o)
         return;
     fputs(".RS\n.PD 0\n", out); /* no empty lines between the values */
     for (int i = 0; o->names(i); i++) {
-        fputs(".TP\n", out);
-        put_bold(out, o->names(i), strlen(o->names(i)));
-        putc('\n', out);
+        put_term(out, o->names(i), strlen(o->names(i)));
         put_sentence(out, o->words(i));
     }
     fputs(".PD\n.RE\n", out);
@@ -250,7 +252,7 @@ static void put_statuses(FILE *out, const command *c)
 {
     for (int i = EXIT_DONE; i <= EXIT_TROUBLE; i++)
         if (command_status(c, i)) {
-            fprintf(out, ".TP\n\\fB%d\\fR\n", i);
+            put_term(out, &"012"[i], 1);
             put_sentence(out, command_status(c, i));
         }
 }
@@ -272,7 +274,7 @@ static bool mentions(const command *c, const char *words)
 /* Writes a reference to a page, unless it is the page `own` itself. */
 static void put_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
 {
-    if (own && strcmp(name, own) == 0)
+    if (strcmp(name, own) == 0)
         return;
     fputs(*begun ? ",\n.BR " : ".BR ", out);
     put_page_name(out, name);
@@ -280,19 +282,21 @@ static void put_reference(FILE *out, const char *name, int section, const char *
     *begun = true;
 }
 
-static void put_see_also(FILE *out, const command *c)
+/* References to the program, to the mentioned commands, and to all topics, for the page of a command or of a topic. */
+static void put_see_also(FILE *out, const command *c, const help_topic *topic)
 {
+    const char *own = c ? c->name : topic->name;
     char words[64];
     bool begun = false;
-    put_section(out, "SEE ALSO", 8);
-    put_reference(out, command_octreel.name, 1, c->name, &begun);
+    put_section(out, "SEE ALSO");
+    put_reference(out, command_octreel.name, 1, own, &begun);
     for (size_t i = 0; command_at(i); i++) {
         snprintf(words, sizeof words, "octreel %s", command_at(i)->name);
-        if (c == &command_octreel || mentions(c, words))
-            put_reference(out, command_at(i)->name, 1, c->name, &begun);
+        if (c == &command_octreel || (c ? mentions(c, words) : strstr(topic->text, words) != NULL))
+            put_reference(out, command_at(i)->name, 1, own, &begun);
     }
     for (size_t i = 0; help_topic_at(i); i++)
-        put_reference(out, help_topic_at(i)->name, 5, NULL, &begun);
+        put_reference(out, help_topic_at(i)->name, 5, own, &begun);
     putc('\n', out);
 }
 
@@ -300,7 +304,7 @@ static void put_see_also(FILE *out, const command *c)
 
 static void put_commands(FILE *out)
 {
-    put_section(out, "COMMANDS", 8);
+    put_section(out, "COMMANDS");
     for (size_t i = 0; command_at(i); i++) {
         fputs(".TP\n.BR ", out);
         put_page_name(out, command_at(i)->name);
@@ -315,45 +319,28 @@ void manual_write(FILE *out, const command *c)
         "  TERM      if empty or \"dumb\", no progress is shown\n"
         "  NO_COLOR  has no effect: the output never contains colours or escape sequences\n";
     put_title(out, c->name, 1, c->line);
-    put_section(out, "SYNOPSIS", 8);
+    put_section(out, "SYNOPSIS");
     fprintf(out, "\\fBoctreel%s%s\\fR ", c == &command_octreel ? "" : " ", c == &command_octreel ? "" : c->name);
     put_usage(out, c->usage);
-    put_section(out, "DESCRIPTION", 11);
-    put_text(out, c->about);
+    put_text_section(out, "DESCRIPTION", c->about);
     if (c == &command_octreel)
         put_commands(out);
-    put_section(out, "OPTIONS", 7);
+    put_section(out, "OPTIONS");
     put_options(out, c);
-    if (c->more) {
-        put_section(out, "NOTES", 5);
-        put_text(out, c->more);
-    }
-    put_section(out, "EXIT STATUS", 11);
+    put_text_section(out, "NOTES", c->more);
+    put_section(out, "EXIT STATUS");
     put_statuses(out, c);
-    put_section(out, "ENVIRONMENT", 11);
-    put_text(out, c->environment ? c->environment : "");
+    put_text_section(out, "ENVIRONMENT", c->environment ? c->environment : "");
     put_text(out, environment);
-    if (c->files) {
-        put_section(out, "FILES", 5);
-        put_text(out, c->files);
-    }
-    put_section(out, "EXAMPLES", 8);
+    put_text_section(out, "FILES", c->files);
+    put_section(out, "EXAMPLES");
     put_lines(out, c->examples, strlen(c->examples), 0);
-    put_see_also(out, c);
+    put_see_also(out, c, NULL);
 }
 
 void manual_write_topic(FILE *out, const help_topic *topic)
 {
-    bool begun = false;
     put_title(out, topic->name, 5, topic->line);
-    put_section(out, "DESCRIPTION", 11);
-    put_text(out, topic->text);
-    put_section(out, "SEE ALSO", 8);
-    put_reference(out, command_octreel.name, 1, NULL, &begun);
-    for (size_t i = 0; command_at(i); i++)
-        if (strstr(topic->text, command_at(i)->name))
-            put_reference(out, command_at(i)->name, 1, NULL, &begun);
-    for (size_t i = 0; help_topic_at(i); i++)
-        put_reference(out, help_topic_at(i)->name, 5, topic->name, &begun);
-    putc('\n', out);
+    put_text_section(out, "DESCRIPTION", topic->text);
+    put_see_also(out, NULL, topic);
 }

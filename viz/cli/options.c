@@ -62,12 +62,17 @@ bool refuse(const char *format, ...)
     return false;
 }
 
+bool refuse_value(const command_option *option, const char *takes, const char *text)
+{
+    return refuse("--%s takes %s, not \"%s\"", option->name, takes, text);
+}
+
 static bool check_name(const char *option, const char *name)
 {
     return *name || refuse("%s: the name is empty", option);
 }
 
-bool check_names(const char *command, char *const *names, int count)
+bool check_names_not_empty(const char *command, char *const *names, int count)
 {
     for (int i = 0; i < count; i++)
         if (!check_name(command, names[i]))
@@ -94,11 +99,12 @@ char option_letter(const char *name)
     return 0;
 }
 
-const char *option_as_typed(const command_option *option, char text[OPTION_TYPED])
+typed_option option_as_typed(const command_option *option)
 {
+    typed_option typed;
     const char letter = option_letter(option->name);
-    snprintf(text, OPTION_TYPED, "%s%s", letter ? "-" : "--", letter ? (char[]){letter, 0} : option->name);
-    return text;
+    snprintf(typed.text, sizeof typed.text, "%s%s", letter ? "-" : "--", letter ? (char[]){letter, 0} : option->name);
+    return typed;
 }
 
 bool read_flag(const command_option *option, const char *text, void *into)
@@ -137,11 +143,10 @@ bool read_text(const command_option *option, const char *text, void *into)
 
 bool read_name(const command_option *option, const char *text, void *into)
 {
-    char typed[OPTION_TYPED];
-    return read_text(option, text, into) && check_name(option_as_typed(option, typed), text);
+    return read_text(option, text, into) && check_name(option_as_typed(option).text, text);
 }
 
-static bool is_folder(const char *path)
+bool is_folder(const char *path)
 {
     struct stat status;
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
@@ -155,14 +160,13 @@ bool fits_output_option(command_option_reader *reader, const char *path)
 
 bool read_folder(const command_option *option, const char *text, void *into)
 {
-    char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
     if (file_is_standard(text))
         return refuse("%s needs a folder, but \"-\" is standard output; for a folder named -, write ./-",
-                      option_as_typed(option, typed));
+                      option_as_typed(option).text);
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
         return **(const char **)into != 0;
-    return refuse("%s needs a folder, but \"%s\" names a %s%s", option_as_typed(option, typed), text,
+    return refuse("%s needs a folder, but \"%s\" names a %s%s", option_as_typed(option).text, text,
                   kind == NAME_FILE   ? "file"
                   : kind == NAME_FILM ? "film"
                                       : "picture",
@@ -171,38 +175,34 @@ bool read_folder(const command_option *option, const char *text, void *into)
 
 static bool read_file_name(const command_option *option, const char *text, void *into)
 {
-    char typed[OPTION_TYPED];
     return read_name(option, text, into) &&
            (file_is_standard(text) || !is_folder(text) ||
-            refuse("%s needs a file, but \"%s\" is a folder", option_as_typed(option, typed), text));
+            refuse("%s needs a file, but \"%s\" is a folder", option_as_typed(option).text, text));
 }
 
 bool read_picture(const command_option *option, const char *text, void *into)
 {
-    char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
     if (file_is_standard(text) && isatty(STDOUT_FILENO))
         return refuse("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
-                      option_as_typed(option, typed));
+                      option_as_typed(option).text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_PNG ||
-            refuse("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option, typed), text));
+            refuse("%s needs the name of a PNG file, not \"%s\"", option_as_typed(option).text, text));
 }
 
 bool read_file(const command_option *option, const char *text, void *into)
 {
-    char typed[OPTION_TYPED];
     const name_kind kind = name_kind_of(text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_FILE ||
-            refuse("%s writes text, but \"%s\" names a picture", option_as_typed(option, typed), text));
+            refuse("%s writes text, but \"%s\" names a picture", option_as_typed(option).text, text));
 }
 
 bool read_whole(const command_option *option, const char *text, void *into)
 {
-    char typed[OPTION_TYPED];
     uint64_t value;
-    if (!read_count(option_as_typed(option, typed), text, option->min, option->max, &value))
+    if (!read_count(option_as_typed(option).text, text, option->min, option->max, &value))
         return false;
     if (option->size == sizeof value)
         memcpy(into, &value, sizeof value);
@@ -215,13 +215,13 @@ bool read_color(const command_option *option, const char *text, void *into)
 {
     const char *digits = text[0] == '#' ? text + 1 : text;
     if (strlen(digits) != 6 || strspn(digits, "0123456789abcdefABCDEF") != 6)
-        return refuse("--%s takes a colour such as ff8000, not \"%s\"", option->name, text);
+        return refuse_value(option, "a colour such as ff8000", text);
     const unsigned long value = strtoul(digits, NULL, 16);
     *(image_color *)into = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
     return true;
 }
 
-const char *draw_fill_at(int index)
+const char *draw_fill_name_at(int index)
 {
     return draw_fill_name((draw_fill)index);
 }
@@ -280,7 +280,7 @@ bool view_option_row(size_t n, command_option *option)
     return false;
 }
 
-const char *first_view_option(const view_options *given)
+const char *find_first_view_option(const view_options *given)
 {
     for (size_t i = 0; view_option_at(i); i++)
         if (given->values[i])

@@ -27,6 +27,9 @@ int print_error(const char *format, ...);
 /* The same for functions that return bool. Returns false. */
 bool refuse(const char *format, ...);
 
+/* Print that an option takes another value than `text`: `takes` is "a colour such as ff8000". Returns false. */
+bool refuse_value(const command_option *option, const char *takes, const char *text);
+
 /* True if --quiet was given: only results and errors are printed. */
 bool is_quiet(void);
 
@@ -56,9 +59,14 @@ struct command_option {
 /* The short form of an option, such as 'o' for "output"; 0: it has none. */
 char option_letter(const char *name);
 
-/* Write the option as the user types it, "--every" or "-o". Returns `text`. */
-#define OPTION_TYPED 32
-const char *option_as_typed(const command_option *option, char text[OPTION_TYPED]);
+/* An option as the user types it: "--every" or "-o". */
+typedef struct typed_option {
+    char text[32];
+} typed_option;
+
+typed_option option_as_typed(const command_option *option);
+
+bool is_folder(const char *path);
 
 command_option_reader read_flag;    /* bool: the option takes no value */
 command_option_reader read_text;    /* const char *: any text */
@@ -81,19 +89,19 @@ command_option_reader read_quiet;   /* sets is_quiet() */
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
         "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \
-            .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_at, .words = draw_fill_words_at        \
+            .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_name_at, .words = draw_fill_words_at   \
     }
 
-/* True if a path that was typed without an option fits -o, given the reader of the command's -o. */
+/* True if -o, whose value `reader` reads, would take this path: the user may have forgotten to type -o. */
 bool fits_output_option(command_option_reader *reader, const char *path);
 
 /* The keys of a game, which --keys takes. */
 #define KEYS_HELP "w s +-y, d a +-x, e f +-z, n nearest, . wait, q end"
 
-/* False, with an error printed, if one of the names is "". */
-bool check_names(const char *command, char *const *names, int count);
+/* False, with an error printed, if one of the names is empty. */
+bool check_names_not_empty(const char *command, char *const *names, int count);
 
-/* False, with an error printed, if more than one output goes to standard output. `json`: the report does, too. */
+/* False, with an error printed, if more than one output goes to standard output. `json`: a JSON report goes there. */
 bool check_standard_output(const output_file *outputs, size_t count, bool json);
 
 /* True if one of the outputs goes to standard output: reports then go to standard error or are left out. */
@@ -119,7 +127,7 @@ option_table_row view_option_row;
 bool has_view_option(const view_options *given, const char *name);
 
 /* The name of the first view option that was given, or null. */
-const char *first_view_option(const view_options *given);
+const char *find_first_view_option(const view_options *given);
 
 /* Apply the given options to a command's default view. False, with an error printed, if a value does not fit. */
 bool read_view(const view_options *given, view *v);
@@ -134,6 +142,6 @@ option_table_row renderer_option_row;
 /* Call after all options are read. False, with an error printed, if --any-renderer and --context contradict. */
 bool check_renderer(const renderer_choice *choice);
 
-json_name draw_fill_at, draw_fill_words_at;
+json_name draw_fill_name_at, draw_fill_words_at;
 
 #endif

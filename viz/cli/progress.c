@@ -4,6 +4,7 @@
 #include "options.h"
 
 #include <inttypes.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,12 +15,12 @@
 
 /* ---- The bar ------------------------------------------------------------------------------------------------ */
 
-#define BAR 32
-#define LEAST_BAR 8 /* a shorter bar is left out */
+#define MOST_BAR 32 /* characters */
+#define LEAST_BAR 8 /* a shorter bar is not drawn */
 #define LINE 512
-#define SECONDS_BETWEEN 0.1
+#define SECONDS_BETWEEN_UPDATES 0.1
 
-static double now(void)
+static double read_clock(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -33,8 +34,8 @@ static bool can_overwrite_line(void)
     return term && *term && strcmp(term, "dumb") != 0 && isatty(STDERR_FILENO);
 }
 
-/* Asked anew each time, because the window may be resized. */
-static int count_columns(void)
+/* Returns the current width of the terminal, which the user may resize at any time. */
+static int read_terminal_width(void)
 {
     struct winsize size;
     return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
@@ -42,28 +43,28 @@ static int count_columns(void)
 
 progress progress_start(const char *unit)
 {
-    return (progress){.unit = unit, .started = now(), .visible = !is_quiet() && can_overwrite_line()};
+    return (progress){.unit = unit, .started = read_clock(), .visible = !is_quiet() && can_overwrite_line()};
 }
 
 double progress_seconds(const progress *p)
 {
-    return now() - p->started;
+    return read_clock() - p->started;
 }
 
-/* Overwrites the rest of a longer previous line with spaces. */
-static void clear_rest(progress *p, int length, int columns)
+/* Overwrites with spaces where the last line is longer than the new one. */
+static void erase_longer_line(progress *p, int length, int columns)
 {
-    const int longer = p->length < columns ? p->length : columns;
-    fprintf(stderr, "%*s", longer > length ? longer - length : 0, "");
+    const int end = p->length < columns ? p->length : columns;
+    fprintf(stderr, "%*s", end > length ? end - length : 0, "");
     p->length = length;
 }
 
 /* Prints one line that fits the window: first the bar shrinks, then the text is cut. */
 static void print_line(progress *p, const char *text)
 {
-    char bar[BAR + 1];
-    const int columns = count_columns() - 1, room = columns - (int)strlen(text) - (int)strlen("[] ");
-    const int length = room < BAR ? room : BAR;
+    char bar[MOST_BAR + 1];
+    const int columns = read_terminal_width() - 1, room = columns - (int)strlen(text) - (int)strlen("[] ");
+    const int length = room < MOST_BAR ? room : MOST_BAR;
     int written = 0;
     fputc('\r', stderr);
     if (length >= LEAST_BAR && p->fraction >= 0) {
@@ -72,14 +73,15 @@ static void print_line(progress *p, const char *text)
         written = fprintf(stderr, "[%.*s] ", length, bar);
     }
     written += fprintf(stderr, "%.*s", columns, text);
-    clear_rest(p, written, columns);
+    erase_longer_line(p, written, columns);
     fflush(stderr);
 }
 
-void progress_show(progress *p, uint64_t done, uint64_t total)
+void progress_show(uint64_t done, uint64_t total, void *context)
 {
-    const double time = now();
-    if (!p->visible || ((total == 0 || done < total) && time - p->shown < SECONDS_BETWEEN))
+    progress *p = context;
+    const double time = read_clock();
+    if (!p->visible || ((total == 0 || done < total) && time - p->shown < SECONDS_BETWEEN_UPDATES))
         return;
     p->shown = time;
     p->fraction = total > 0 ? (double)done / (double)total : -1;
@@ -99,7 +101,7 @@ void progress_say(progress *p, const char *format, ...)
     va_list arguments;
     if (!p->visible)
         return;
-    p->shown = now();
+    p->shown = read_clock();
     char text[LINE];
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
@@ -112,52 +114,41 @@ void progress_end(progress *p)
     if (!p->visible || p->shown <= 0)
         return;
     fputc('\r', stderr);
-    clear_rest(p, 0, count_columns() - 1);
+    erase_longer_line(p, 0, read_terminal_width() - 1);
     fputc('\r', stderr);
 }
 
 /* ---- Signals ------------------------------------------------------------------------------------------------ */
 
-static const int signals[] = {SIGHUP, SIGINT, SIGTERM};
+static const int stop_signals[] = {SIGHUP, SIGINT, SIGTERM};
 
-#define SIGNALS (sizeof signals / sizeof signals[0])
+#define STOP_SIGNALS (sizeof stop_signals / sizeof stop_signals[0])
 
-static bool is_ignored(int number)
+static sigset_t blocked, mask_before; /* `blocked` has the signals that block_stop_signals() blocked */
+
+void block_stop_signals(void)
 {
     struct sigaction action;
-    return sigaction(number, NULL, &action) == 0 && action.sa_handler == SIG_IGN;
+    sigemptyset(&blocked);
+    for (size_t i = 0; i < STOP_SIGNALS; i++)
+        if (sigaction(stop_signals[i], NULL, &action) != 0 || action.sa_handler != SIG_IGN) /* nohup ignores SIGHUP */
+            sigaddset(&blocked, stop_signals[i]);
+    sigprocmask(SIG_BLOCK, &blocked, &mask_before);
 }
 
-watch watch_begin(const char *unit)
+bool has_no_stop_signal(void *context)
 {
-    watch w = {.progress = progress_start(unit)};
-    sigemptyset(&w.held);
-    for (size_t i = 0; i < SIGNALS; i++)
-        if (!is_ignored(signals[i])) /* nohup ignores SIGHUP, for example */
-            sigaddset(&w.held, signals[i]);
-    sigprocmask(SIG_BLOCK, &w.held, &w.before);
-    return w;
-}
-
-void watch_progress(uint64_t done, uint64_t total, void *context)
-{
-    watch *w = context;
-    progress_show(&w->progress, done, total);
-}
-
-bool watch_keep_going(void *context)
-{
-    const watch *w = context;
     sigset_t pending;
+    (void)context;
     if (sigpending(&pending) != 0)
         return true;
-    for (size_t i = 0; i < SIGNALS; i++)
-        if (sigismember(&w->held, signals[i]) == 1 && sigismember(&pending, signals[i]) == 1)
+    for (size_t i = 0; i < STOP_SIGNALS; i++)
+        if (sigismember(&blocked, stop_signals[i]) == 1 && sigismember(&pending, stop_signals[i]) == 1)
             return false;
     return true;
 }
 
-void watch_end(const watch *w)
+void unblock_stop_signals(void)
 {
-    sigprocmask(SIG_SETMASK, &w->before, NULL);
+    sigprocmask(SIG_SETMASK, &mask_before, NULL);
 }

@@ -18,14 +18,14 @@ static size_t line_length(const char *line)
     return strcspn(line, "\n");
 }
 
-static int indent_of(const char *line)
+static int count_indent(const char *line)
 {
     return (int)strspn(line, " ");
 }
 
 static bool is_empty(const char *line)
 {
-    return line_length(line) == (size_t)indent_of(line);
+    return line_length(line) == (size_t)count_indent(line);
 }
 
 static const char *next_line(const char *line)
@@ -43,22 +43,22 @@ static bool is_heading(const char *line)
 }
 
 /* Returns the start of an item's description; null: the line begins no item. */
-static const char *item_text(const char *line)
+static const char *find_item_text(const char *line)
 {
-    const char *term = line + indent_of(line), *gap = strstr(term, "  ");
-    return gap && gap < line + line_length(line) ? gap + indent_of(gap) : NULL;
+    const char *term = line + count_indent(line), *gap = strstr(term, "  ");
+    return gap && gap < line + line_length(line) ? gap + count_indent(gap) : NULL;
 }
 
-/* True if a line continues the block. */
-static bool continues(const prose_block *block, const char *line)
+/* True if a line continues_block the block. */
+static bool continues_block(const prose_block *block, const char *line)
 {
-    const int indent = indent_of(line);
+    const int indent = count_indent(line);
     if (!*line || is_empty(line))
         return false;
     if (block->kind == PROSE_ITEM)
         return indent > block->indent + 2;
     return block->kind == PROSE_VERBATIM ? indent >= block->indent
-                                         : indent == block->indent && (indent == 0 || !item_text(line));
+                                         : indent == block->indent && (indent == 0 || !find_item_text(line));
 }
 
 static const char *skip_empty(const char *at)
@@ -68,17 +68,17 @@ static const char *skip_empty(const char *at)
     return at;
 }
 
-bool prose_next(const char **at, prose_block *block)
+bool prose_next_block(const char **at, prose_block *block)
 {
     const char *line = skip_empty(*at), *end, *text;
     if (!*line)
         return false;
-    *block = (prose_block){PROSE_PARAGRAPH, indent_of(line), .text = line};
+    *block = (prose_block){PROSE_PARAGRAPH, count_indent(line), .text = line};
     if (block->indent == 0 && is_heading(line)) {
         block->kind = PROSE_HEADING;
     } else if (block->indent >= 4) {
         block->kind = PROSE_VERBATIM;
-    } else if (block->indent > 0 && (text = item_text(line))) {
+    } else if (block->indent > 0 && (text = find_item_text(line))) {
         block->kind = PROSE_ITEM;
         block->term = line + block->indent;
         block->term_length = (size_t)(strstr(block->term, "  ") - block->term);
@@ -86,7 +86,7 @@ bool prose_next(const char **at, prose_block *block)
     }
     for (end = next_line(line); block->kind != PROSE_HEADING; end = next_line(end)) {
         const char *more = block->kind == PROSE_VERBATIM ? skip_empty(end) : end;
-        if (!continues(block, more))
+        if (!continues_block(block, more))
             break;
         end = more;
     }
@@ -95,7 +95,7 @@ bool prose_next(const char **at, prose_block *block)
     return true;
 }
 
-const char *prose_word(const char **at, const char *end, size_t *length)
+const char *prose_next_word(const char **at, const char *end, size_t *length)
 {
     const char *word = *at;
     while (word < end && (*word == ' ' || *word == '\n'))
@@ -106,13 +106,13 @@ const char *prose_word(const char **at, const char *end, size_t *length)
     return *length ? word : NULL;
 }
 
-const char *prose_line(const char **at, const char *end, int indent, size_t *length)
+const char *prose_next_line(const char **at, const char *end, int indent, size_t *length)
 {
     const char *line = *at;
     if (line >= end)
         return NULL;
     *at = next_line(line);
-    line += indent_of(line) < indent ? indent_of(line) : indent;
+    line += count_indent(line) < indent ? count_indent(line) : indent;
     *length = line_length(line);
     return line;
 }
@@ -124,7 +124,7 @@ void prose_fill(FILE *out, const char *text, size_t length, int column, int inde
     const char *at = text, *word;
     size_t size;
     bool begins = true;
-    while ((word = prose_word(&at, text + length, &size))) {
+    while ((word = prose_next_word(&at, text + length, &size))) {
         if (!begins && column + 1 + (int)size > PROSE_WIDTH) {
             fprintf(out, "\n%*s", indent, "");
             column = indent;
@@ -159,7 +159,7 @@ static void print_lines(FILE *out, const prose_block *block)
 {
     const char *at = block->text, *line;
     size_t length;
-    while ((line = prose_line(&at, block->text + block->length, 0, &length)))
+    while ((line = prose_next_line(&at, block->text + block->length, 0, &length)))
         fprintf(out, "%.*s\n", (int)length, line);
 }
 
@@ -173,7 +173,7 @@ void prose_print(FILE *out, const char *text)
 {
     prose_block block;
     prose_kind before = PROSE_HEADING;
-    for (const char *at = text; prose_next(&at, &block); before = block.kind) {
+    for (const char *at = text; prose_next_block(&at, &block); before = block.kind) {
         if (needs_empty_line(before, block.kind))
             putc('\n', out);
         if (block.kind == PROSE_ITEM)

@@ -29,13 +29,13 @@ typedef struct prose_block {
 } prose_block;
 
 /* Read the next block at *at and move *at past it. False: end of the text. */
-bool prose_next(const char **at, prose_block *block);
+bool prose_next_block(const char **at, prose_block *block);
 
 /* Read the next word at *at and move *at past it. Null: `end` is reached. */
-const char *prose_word(const char **at, const char *end, size_t *length);
+const char *prose_next_word(const char **at, const char *end, size_t *length);
 
 /* Read the next line and strip up to `indent` spaces of indentation. Null: `end` is reached. */
-const char *prose_line(const char **at, const char *end, int indent, size_t *length);
+const char *prose_next_line(const char **at, const char *end, int indent, size_t *length);
 
 /* Write words, wrapped at PROSE_WIDTH. The output is at `column`; further lines are indented by `indent` spaces. */
 void prose_fill(FILE *out, const char *text, size_t length, int column, int indent);

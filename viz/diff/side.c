@@ -30,10 +30,7 @@ const char *diff_kind_name(diff_kind kind)
 /* The part of a path after the last slash; "stdin" for standard input. */
 static const char *base_name(const char *path)
 {
-    if (file_is_standard(path))
-        return "stdin";
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+    return file_is_standard(path) ? "stdin" : path_base_name(path);
 }
 
 bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error)

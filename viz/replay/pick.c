@@ -23,19 +23,6 @@
 
 /* ---- The frame and its recording ---------------------------------------------------------------------------- */
 
-/* Returns the folder of a file. The caller frees it. Null: out of memory. */
-static char *copy_folder_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    const size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : 1;
-    char *folder = malloc(length + 1);
-    if (folder) {
-        memcpy(folder, slash ? path : ".", length);
-        folder[length] = '\0';
-    }
-    return folder;
-}
-
 /* Read the frame and check that the pixel lies inside it. */
 static bool read_picture(pick *p, image *frame, octreel_error *error)
 {
@@ -174,7 +161,7 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
         .path = path, .asked = {options->x, options->y}, .pixel = {options->x, options->y}, .radius = options->radius};
     replay r = {.ticks = 0};
     image frame = {0};
-    char *folder = copy_folder_name(path);
+    char *folder = path_folder(path);
     const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
                     frame_read_tick(path, &found->tick, error) && check_beside(found, folder, error) &&
                     compose_scene_again(found, &r, folder, error) && pick_pixel(found, &r, options, error);

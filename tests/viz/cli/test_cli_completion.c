@@ -189,6 +189,19 @@ static void fish_completes(void **state)
     assert_all_completed(state, &fish, rows, COUNT(rows));
 }
 
+/* fish completes one ending for each declaration. */
+static void fish_completes_each_file_ending(void **state)
+{
+    static const char *const declared[] = {
+        "'__fish_seen_subcommand_from inspect' -k -a '(__fish_complete_suffix .ply)'",
+        "'__fish_seen_subcommand_from pick' -k -a '(__fish_complete_suffix .png)'"};
+    command_result completions = run_octreel(NULL, "help --complete fish");
+    (void)state;
+    for (size_t i = 0; i < sizeof declared / sizeof declared[0]; i++)
+        assert_non_null(strstr(completions.out, declared[i]));
+    command_release(&completions);
+}
+
 /* Of options that are the view's. */
 static void every_choice_is_completed(void **state)
 {
@@ -209,6 +222,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_option_is_completed),
         cmocka_unit_test(every_choice_is_completed),
+        cmocka_unit_test(fish_completes_each_file_ending),
         IN_FOLDER(bash_completes),
         IN_FOLDER(zsh_completes),
         IN_FOLDER(fish_completes),
