@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-# manuals.cmake - the manuals and the shells' completions, as the program that was just built writes them from the tables
-# that it reads its command line by. In a cross build CMAKE_CROSSCOMPILING_EMULATOR runs it.
-set(OCTREEL_WRITER "" CACHE FILEPATH "An octreel of this version that writes manuals and completions, where the one that \
-is built cannot run here: of a cross build without an emulator")
+# manuals.cmake - runs the octreel that was just built to write its manuals and shell completions, and installs them. A
+# cross build runs octreel with CMAKE_CROSSCOMPILING_EMULATOR, or another octreel, which OCTREEL_WRITER names.
+set(OCTREEL_WRITER "" CACHE FILEPATH "For cross builds without an emulator: an octreel of the same version that runs on \
+this machine; it writes the manuals and completions")
 set(writer octreel)
 if(OCTREEL_WRITER)
   set(writer ${OCTREEL_WRITER})
 elseif(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
-  message(STATUS "Manuals and completions are left out, for octreel cannot run here; -D OCTREEL_WRITER=FILE names one "
-                 "of the same version that can")
+  message(STATUS "Manuals and completions are left out: the octreel of this cross build cannot run here. Set "
+                 "OCTREEL_WRITER to an octreel of the same version that can")
   return()
 endif()
 
-# add_written(FILE FOLDER ARGUMENT...): what octreel prints, installed in a folder.
+# add_written(FILE FOLDER ARGUMENT...): write the output of octreel ARGUMENT... to FILE, and install it in FOLDER.
 set(written "")
 file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/written)
 function(add_written file folder)

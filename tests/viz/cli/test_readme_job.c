@@ -230,7 +230,7 @@ static void action_tells_trouble(void **state)
     assert_string_equal(output_of(j, "status"), "2");
     assert_says(output_of(j, "summary"), "no such file or folder");
     assert_says(j->run.out, "\n::error title=octreel diff::octreel: ");
-    assert_summary_says(j, "### octreel diff: trouble\n");
+    assert_summary_says(j, "### octreel diff: error\n");
     assert_int_equal(json_array_size(j->run.used), 0);
 }
 
