@@ -46,7 +46,7 @@ static void assert_figures(const char *line, const char *who, const char *const 
     json_decref(told);
 }
 
-static void json_tells_who_filmed_what_how_fast(void **state)
+static void json_names_renderer_scene_and_speed(void **state)
 {
     static const char *const who[] = {"naive", "octreel"};
     static const char *const positive[] = {"fps", "draw_ms", "encode_ms", "times_naive", "first_frame_ms", "mib"};
@@ -60,7 +60,7 @@ static void json_tells_who_filmed_what_how_fast(void **state)
     command_release(&run);
 }
 
-static void table_holds_every_figure_against_its_goal(void **state)
+static void table_compares_every_figure_with_its_goal(void **state)
 {
     (void)state;
     command_result run = film_without_browser("--folder .");
@@ -74,7 +74,7 @@ static void table_holds_every_figure_against_its_goal(void **state)
 }
 
 /* Of M alone, with what that adds to a frame. */
-static void queries_are_filmed_with_answers_and_without(void **state)
+static void queries_are_measured_with_and_without_answers(void **state)
 {
     static const char *const who[] = {"asked", "answered"};
     (void)state;
@@ -95,7 +95,7 @@ static void queries_are_filmed_with_answers_and_without(void **state)
 }
 
 /* In a folder whose name an address would have to encode; the browser's files go with the frames. */
-static void page_is_timed_beside_what_films(void **state)
+static void page_is_measured_beside_the_recorder(void **state)
 {
     static const char *const positive[] = {"fps", "draw_ms", "times_naive", "first_frame_ms",
                                            "mib", "page_kb", "scrub_ms"};
@@ -118,7 +118,7 @@ static void page_is_timed_beside_what_films(void **state)
     command_release(&run);
 }
 
-static void nothing_is_left_of_its_frames(void **state)
+static void bench_removes_its_frames(void **state)
 {
     temp_folder *folder = *state;
     char arguments[128];
@@ -128,7 +128,7 @@ static void nothing_is_left_of_its_frames(void **state)
     command_release(&run);
 }
 
-static void unknown_words_are_refused_with_a_sentence(void **state)
+static void unknown_arguments_are_refused_with_a_sentence(void **state)
 {
     static const char *const wrong[] = {"--json --scene XXL", "--json --frames 2", "--json --rounds 0",
                                         "--json --folder /no/such/folder", "--json word"};
@@ -146,12 +146,12 @@ static void unknown_words_are_refused_with_a_sentence(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_tells_who_filmed_what_how_fast),
-        cmocka_unit_test(table_holds_every_figure_against_its_goal),
-        cmocka_unit_test(queries_are_filmed_with_answers_and_without),
-        cmocka_unit_test_setup_teardown(page_is_timed_beside_what_films, temp_folder_make, nested_folder_remove),
-        cmocka_unit_test_setup_teardown(nothing_is_left_of_its_frames, temp_folder_make, temp_folder_remove),
-        cmocka_unit_test(unknown_words_are_refused_with_a_sentence),
+        cmocka_unit_test(json_names_renderer_scene_and_speed),
+        cmocka_unit_test(table_compares_every_figure_with_its_goal),
+        cmocka_unit_test(queries_are_measured_with_and_without_answers),
+        cmocka_unit_test_setup_teardown(page_is_measured_beside_the_recorder, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(bench_removes_its_frames, temp_folder_make, temp_folder_remove),
+        cmocka_unit_test(unknown_arguments_are_refused_with_a_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

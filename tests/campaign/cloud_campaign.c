@@ -156,7 +156,7 @@ static const char *judge(const command_result *run)
                : "is told in more than a line";
 }
 
-static void a_damaged_cloud_is_read_or_refused(void **state)
+static void damaged_cloud_is_read_or_refused(void **state)
 {
     const temp_folder *own = *state;
     listing seeds = folder_list(OCTREEL_CLOUD_CORPUS);
@@ -191,7 +191,7 @@ int main(int argc, char **argv)
 {
     read_options(argc, argv);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_damaged_cloud_is_read_or_refused, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(damaged_cloud_is_read_or_refused, temp_folder_make, nested_folder_remove),
     };
     finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
 }

@@ -407,7 +407,7 @@ static bool is_asked(size_t command, const struct family *family)
            (page_plays() || strncmp(commands[command].line, "play", 4) != 0);
 }
 
-static void a_failure_is_trouble_and_leaves_nothing_torn(void **state)
+static void failed_call_is_an_error_and_leaves_whole_files(void **state)
 {
     const temp_folder *own = *state;
     size_t findings = 0;
@@ -420,7 +420,7 @@ static void a_failure_is_trouble_and_leaves_nothing_torn(void **state)
 }
 
 /* llvmpipe would wait for ever for the first that is missing. */
-static void threads_that_cannot_be_started_are_done_without(void **state)
+static void work_is_done_if_threads_cannot_be_started(void **state)
 {
     static const char *const lines[] = {"verify film", "inspect points.xyz " SMALL " --fill gl -o tree.png",
                                         "diff film film"};
@@ -448,10 +448,9 @@ int main(int argc, char **argv)
 {
     read_options(argc, argv);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_failure_is_trouble_and_leaves_nothing_torn, make_folder,
+        cmocka_unit_test_setup_teardown(failed_call_is_an_error_and_leaves_whole_files, make_folder,
                                         nested_folder_remove),
-        cmocka_unit_test_setup_teardown(threads_that_cannot_be_started_are_done_without, make_folder,
-                                        nested_folder_remove),
+        cmocka_unit_test_setup_teardown(work_is_done_if_threads_cannot_be_started, make_folder, nested_folder_remove),
     };
     finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
 }

@@ -81,7 +81,7 @@ static uint64_t drive(const temp_folder *own, const place *page, uint64_t seed, 
     return done;
 }
 
-static void no_input_raises_an_error_or_shows_what_is_wrong(void **state)
+static void no_input_raises_an_error_or_shows_a_wrong_tick(void **state)
 {
     const place film = place_in(*state, "film"), page = place_below(film.path, "index.html");
     const octree_session session = octree_session_default();
@@ -110,7 +110,7 @@ int main(int argc, char **argv)
 {
     asked = read_options(argc, argv);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(no_input_raises_an_error_or_shows_what_is_wrong, make_folder,
+        cmocka_unit_test_setup_teardown(no_input_raises_an_error_or_shows_a_wrong_tick, make_folder,
                                         nested_folder_remove),
     };
     finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);

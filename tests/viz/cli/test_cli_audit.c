@@ -32,7 +32,7 @@ static place write_session_text(void **state, const char *text)
     return session;
 }
 
-static void right_answers_end_with_0(void **state)
+static void exit_status_is_0_if_all_answers_are_right(void **state)
 {
     const place session = write_session_text(state, right);
     command_result result = run_octreel(NULL, "audit %s", session.path);
@@ -44,7 +44,7 @@ static void right_answers_end_with_0(void **state)
     command_release(&result);
 }
 
-static void wrong_answers_are_told_with_their_numbers_and_end_with_1(void **state)
+static void wrong_answers_are_counted_and_exit_status_is_1(void **state)
 {
     const place session = write_session_text(state, wrong);
     command_result result = run_octreel(NULL, "audit %s", session.path);
@@ -66,7 +66,7 @@ static void wrong_answers_are_told_with_their_numbers_and_end_with_1(void **stat
     command_release(&result);
 }
 
-static void json_is_one_object(void **state)
+static void json_output_is_one_object(void **state)
 {
     const place session = write_session_text(state, wrong);
     command_result result = run_octreel(NULL, "audit %s --json", session.path);
@@ -85,7 +85,7 @@ static void json_is_one_object(void **state)
 /* ---- A gate --------------------------------------------------------------------------------------------------- */
 
 /* Of two nearest points and two balls one each is wrong: 3.6 times as far, and an id that no point has. */
-static void what_is_allowed_is_no_finding_and_is_said(void **state)
+static void errors_within_limits_pass_and_are_reported(void **state)
 {
     static const char farther[] = START FIRST SECOND("[3]", "[1,3]"), missing[] = START FIRST SECOND("[1]", "[1]"),
                       none[] = START FIRST SECOND("[]", "[1,3]");
@@ -118,7 +118,7 @@ static void what_is_allowed_is_no_finding_and_is_said(void **state)
     }
 }
 
-static void limits_that_make_no_sense_are_trouble(void **state)
+static void invalid_limits_are_refused(void **state)
 {
     static const char *const bad[] = {
         "ratio=0.9",       "recall=1.1",  "recall=-0.1",
@@ -135,7 +135,7 @@ static void limits_that_make_no_sense_are_trouble(void **state)
 
 /* ---- Files ----------------------------------------------------------------------------------------------------- */
 
-static void junit_has_a_case_for_each_kind(void **state)
+static void junit_has_a_case_for_each_query_kind(void **state)
 {
     const place session = write_session_text(state, wrong), xml = place_in(*state, "a.xml");
     command_result result = run_octreel(NULL, "audit %s --allow ratio=4 --junit %s", session.path, xml.path);
@@ -151,7 +151,7 @@ static void junit_has_a_case_for_each_kind(void **state)
 }
 
 /* The session that is read, a folder that is none, and two reports in one place. */
-static void reports_take_no_place_but_their_own(void **state)
+static void reports_overwrite_no_input_and_no_other_report(void **state)
 {
     const place session = write_session_text(state, right), file = place_in(*state, "a");
     command_result result = run_octreel(NULL, "audit %s --html %s", session.path, session.path);
@@ -169,7 +169,7 @@ static void reports_take_no_place_but_their_own(void **state)
 
 /* A name without the ending of a file is that of a folder, as for octreel diff -o: no browser shows a page without it.
  */
-static void the_folder_of_a_page_is_made(void **state)
+static void missing_folder_of_the_page_is_made(void **state)
 {
     static const char *const names[] = {"report", "new/deep/"};
     const place session = write_session_text(state, right), none = place_in(*state, "none");
@@ -188,7 +188,7 @@ static void the_folder_of_a_page_is_made(void **state)
 }
 
 /* Each point leads to its frame, from wherever the page lies; a tick without a frame to the recording's page. */
-static void points_of_the_page_lead_to_their_frames(void **state)
+static void ticks_on_the_page_link_to_their_frames(void **state)
 {
     const place session = write_session_text(state, wrong), film = place_in(*state, "a film"),
                 page = place_in(*state, "page.html");
@@ -213,7 +213,7 @@ static void points_of_the_page_lead_to_their_frames(void **state)
 }
 
 /* The way is that between the folders, however they are written. */
-static void a_page_elsewhere_leads_up_and_down_to_the_recording(void **state)
+static void page_in_another_folder_links_to_the_recording(void **state)
 {
     static const char *const pages[][2] = {
         {"pages/deep/a.html", "./../../x/film/"}, {"pages/../pages/.//deep/b.html", "./../../x/film/"},
@@ -247,7 +247,7 @@ static void a_page_elsewhere_leads_up_and_down_to_the_recording(void **state)
     free(page);
 }
 
-static void a_tick_without_frame_and_viewer_leads_nowhere(void **state)
+static void tick_without_frame_and_viewer_has_no_link(void **state)
 {
     const place session = write_session_text(state, wrong), film = place_in(*state, "film");
     command_result result = run_script(
@@ -261,7 +261,7 @@ static void a_tick_without_frame_and_viewer_leads_nowhere(void **state)
     command_release(&result);
 }
 
-static void a_page_of_a_session_leads_nowhere_and_says_so(void **state)
+static void page_of_a_session_has_no_links_and_says_so(void **state)
 {
     const place session = place_in(*state, "<b>&.json");
     file_write_text(session.path, wrong);
@@ -274,7 +274,7 @@ static void a_page_of_a_session_leads_nowhere_and_says_so(void **state)
 }
 
 /* A point stands for several ticks of a long session, by the worst of them. */
-static void a_chart_of_many_ticks_keeps_the_worst(void **state)
+static void chart_of_many_ticks_keeps_the_worst_tick(void **state)
 {
     const place session = place_in(*state, "session.json");
     FILE *out = fopen(session.path, "w");
@@ -297,7 +297,7 @@ static void a_chart_of_many_ticks_keeps_the_worst(void **state)
 }
 
 /* What is wrong about nodes is a finding too, whatever is allowed of answers. */
-static void faults_of_nodes_are_a_finding(void **state)
+static void wrong_nodes_are_a_finding(void **state)
 {
     const place session =
         write_session_text(state, START "{\"tick\":1,\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":"
@@ -316,7 +316,7 @@ static void faults_of_nodes_are_a_finding(void **state)
 }
 
 /* In JSON as in words, beside what is allowed; what is right about them is no finding. */
-static void nodes_are_counted_by_their_faults_in_json(void **state)
+static void json_counts_wrong_nodes_by_kind(void **state)
 {
 #define NODES(points)                                                                                                  \
     START "{\"tick\":1,\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[9,9,9]},\"points\":" points      \
@@ -353,7 +353,7 @@ static void nodes_are_counted_by_their_faults_in_json(void **state)
 }
 
 /* Of what is missed four are named. */
-static void many_points_that_are_missed_are_counted(void **state)
+static void long_lists_of_missing_points_are_counted(void **state)
 {
     const place session = write_session_text(
         state,
@@ -373,7 +373,7 @@ static void many_points_that_are_missed_are_counted(void **state)
 }
 
 /* The first fault of each kind leads to its tick; numbers are those that people write. */
-static void faults_of_nodes_lead_to_their_ticks(void **state)
+static void wrong_nodes_link_to_their_ticks(void **state)
 {
     const place session =
         write_session_text(state, START "{\"tick\":1,\"foreign_nodes\":[{\"id\":7,\"box\":{\"min\":[0,0,0],\"max\":"
@@ -392,7 +392,7 @@ static void faults_of_nodes_lead_to_their_ticks(void **state)
 }
 
 /* The answer has them all. */
-static void numbers_of_the_page_are_as_people_write_them(void **state)
+static void page_rounds_numbers_for_people(void **state)
 {
     static const char text[] = "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":"
                                "[[0.1234567890123456,0,0,1],[1,0,0,2]],\"queries\":"
@@ -405,7 +405,7 @@ static void numbers_of_the_page_are_as_people_write_them(void **state)
     command_release(&result);
 }
 
-static void sessions_without_answers_are_trouble(void **state)
+static void session_without_answers_is_refused(void **state)
 {
     const place session = write_session_text(state, START "{\"tick\":1,\"queries\":[{\"nearest\":[0,0,0]}]}");
     command_result result = run_octreel(NULL, "audit %s", session.path);
@@ -415,7 +415,7 @@ static void sessions_without_answers_are_trouble(void **state)
 }
 
 /* A recording keeps the answers, has the judgement in its ticks, verifies, and is audited as its session is. */
-static void recordings_keep_answers_and_judgements(void **state)
+static void recording_keeps_answers_and_their_judgements(void **state)
 {
     const place session = write_session_text(state, wrong), folder = place_in(*state, "film");
     command_result result = run_octreel(NULL, "record %s --size 64x48 -o %s", session.path, folder.path);
@@ -442,7 +442,7 @@ static void recordings_keep_answers_and_judgements(void **state)
 }
 
 /* A program that is mended: only its answers change, and with them the judgements. */
-static void diff_names_the_answers_that_became_wrong(void **state)
+static void diff_names_answers_that_became_wrong(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     const char *const texts[] = {START FIRST SECOND("[1]", "[1,3]"), START FIRST SECOND("[3]", "[1,3]")};
@@ -473,27 +473,27 @@ static void diff_names_the_answers_that_became_wrong(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(right_answers_end_with_0),
-        IN_FOLDER(wrong_answers_are_told_with_their_numbers_and_end_with_1),
-        IN_FOLDER(json_is_one_object),
-        IN_FOLDER(what_is_allowed_is_no_finding_and_is_said),
-        IN_FOLDER(limits_that_make_no_sense_are_trouble),
-        IN_FOLDER(junit_has_a_case_for_each_kind),
-        IN_FOLDER(reports_take_no_place_but_their_own),
-        IN_FOLDER(the_folder_of_a_page_is_made),
-        IN_FOLDER(points_of_the_page_lead_to_their_frames),
-        IN_FOLDER(a_page_elsewhere_leads_up_and_down_to_the_recording),
-        IN_FOLDER(a_tick_without_frame_and_viewer_leads_nowhere),
-        IN_FOLDER(a_page_of_a_session_leads_nowhere_and_says_so),
-        IN_FOLDER(a_chart_of_many_ticks_keeps_the_worst),
-        IN_FOLDER(faults_of_nodes_are_a_finding),
-        IN_FOLDER(nodes_are_counted_by_their_faults_in_json),
-        IN_FOLDER(many_points_that_are_missed_are_counted),
-        IN_FOLDER(faults_of_nodes_lead_to_their_ticks),
-        IN_FOLDER(numbers_of_the_page_are_as_people_write_them),
-        IN_FOLDER(sessions_without_answers_are_trouble),
-        IN_FOLDER(recordings_keep_answers_and_judgements),
-        IN_FOLDER(diff_names_the_answers_that_became_wrong),
+        IN_FOLDER(exit_status_is_0_if_all_answers_are_right),
+        IN_FOLDER(wrong_answers_are_counted_and_exit_status_is_1),
+        IN_FOLDER(json_output_is_one_object),
+        IN_FOLDER(errors_within_limits_pass_and_are_reported),
+        IN_FOLDER(invalid_limits_are_refused),
+        IN_FOLDER(junit_has_a_case_for_each_query_kind),
+        IN_FOLDER(reports_overwrite_no_input_and_no_other_report),
+        IN_FOLDER(missing_folder_of_the_page_is_made),
+        IN_FOLDER(ticks_on_the_page_link_to_their_frames),
+        IN_FOLDER(page_in_another_folder_links_to_the_recording),
+        IN_FOLDER(tick_without_frame_and_viewer_has_no_link),
+        IN_FOLDER(page_of_a_session_has_no_links_and_says_so),
+        IN_FOLDER(chart_of_many_ticks_keeps_the_worst_tick),
+        IN_FOLDER(wrong_nodes_are_a_finding),
+        IN_FOLDER(json_counts_wrong_nodes_by_kind),
+        IN_FOLDER(long_lists_of_missing_points_are_counted),
+        IN_FOLDER(wrong_nodes_link_to_their_ticks),
+        IN_FOLDER(page_rounds_numbers_for_people),
+        IN_FOLDER(session_without_answers_is_refused),
+        IN_FOLDER(recording_keeps_answers_and_their_judgements),
+        IN_FOLDER(diff_names_answers_that_became_wrong),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include "recordings.h"
 
 /* Balls around point 1 with 2 beside it: four answers that a recall allows, then one of each kind that nothing does. */
-static void what_nothing_allows_is_told_before_what_is_allowed(void **state)
+static void errors_that_no_limit_allows_come_first(void **state)
 {
 #define BALL(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"radius\":1,\"at\":[1,0,0],\"answer\":" answer "}]}\n"
     static const char many[] = "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":[[1,0,0,1],[2,0,0,"
@@ -30,7 +30,7 @@ static void what_nothing_allows_is_told_before_what_is_allowed(void **state)
 
 /* Three times two neighbours that are twice as far, which a ratio of 2 allows; then one instead of two, which a recall
  * alone would. */
-static void what_the_limits_do_not_allow_is_told_before_what_they_do(void **state)
+static void errors_beyond_the_limits_come_before_errors_within(void **state)
 {
 #define PAIR(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]}\n"
     static const char many[] =
@@ -49,7 +49,7 @@ static void what_the_limits_do_not_allow_is_told_before_what_they_do(void **stat
 }
 
 /* Every report says what was allowed, if anything was: of answers and of nodes that are wrong, and of right ones. */
-static void every_report_says_what_is_allowed(void **state)
+static void every_report_names_the_limits(void **state)
 {
 #define WRONG "\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"points\":[1,9]}]"
 #define ASKED(answer) "\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]"
@@ -82,9 +82,9 @@ static void every_report_says_what_is_allowed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(what_nothing_allows_is_told_before_what_is_allowed),
-        IN_FOLDER(what_the_limits_do_not_allow_is_told_before_what_they_do),
-        IN_FOLDER(every_report_says_what_is_allowed),
+        IN_FOLDER(errors_that_no_limit_allows_come_first),
+        IN_FOLDER(errors_beyond_the_limits_come_before_errors_within),
+        IN_FOLDER(every_report_names_the_limits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

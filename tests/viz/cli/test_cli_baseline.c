@@ -72,7 +72,7 @@ static shell_word accepted_by(const char *date, const char *reason)
     return line;
 }
 
-static void what_is_accepted_replaces_what_was_and_stays_beside_it_as_a_variant(void **state)
+static void accept_replaces_digests_and_variant_keeps_them(void **state)
 {
     const states s = make_states(state);
     accept_into(&s, &s.before, BY("the first", "2026-11-22"));
@@ -94,7 +94,7 @@ static void what_is_accepted_replaces_what_was_and_stays_beside_it_as_a_variant(
 }
 
 /* What stays keeps its lines, so that git shows what changed. */
-static void frames_that_are_the_same_keep_their_lines(void **state)
+static void unchanged_frames_keep_their_lines(void **state)
 {
     const states s = make_states(state);
     accept_into(&s, &s.before, BY("the first", "2026-11-22"));
@@ -106,7 +106,7 @@ static void frames_that_are_the_same_keep_their_lines(void **state)
     free(after);
 }
 
-static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
+static void reason_is_required_for_baselines_and_refused_elsewhere(void **state)
 {
     const states s = make_states(state);
     command_result result = run_octreel(NULL, "accept %s %s", s.file.path, s.before.path);
@@ -142,7 +142,7 @@ static void a_baseline_wants_a_reason_and_nothing_else_takes_one(void **state)
 
 /* ---- What a person ticked ------------------------------------------------------------------------------------ */
 
-static void a_list_of_frames_is_taken_over_and_no_more(void **state)
+static void only_the_listed_frames_are_accepted(void **state)
 {
     const states s = make_states(state);
     const place list = place_in(*state, "accept.txt");
@@ -181,7 +181,7 @@ static place only_picture(const states *s)
     return found;
 }
 
-static void pictures_of_the_store_show_what_was_expected(void **state)
+static void evidence_shows_expected_pictures_from_the_store(void **state)
 {
     const states s = make_states(state);
     const place out = place_in(*state, "out");
@@ -194,7 +194,7 @@ static void pictures_of_the_store_show_what_was_expected(void **state)
     assert_true(file_exists(place_below(out.path, "2.difference.png").path));
 }
 
-static void a_lost_damaged_or_swapped_picture_changes_no_verdict_and_is_said(void **state)
+static void bad_picture_in_the_store_is_reported_without_changing_the_verdict(void **state)
 {
     const states s = make_states(state);
     const place out = place_in(*state, "out");
@@ -221,7 +221,7 @@ static void a_lost_damaged_or_swapped_picture_changes_no_verdict_and_is_said(voi
 }
 
 /* A damaged one is replaced by what is accepted. */
-static void a_damaged_picture_is_put_anew(void **state)
+static void accept_replaces_a_damaged_picture_in_the_store(void **state)
 {
     const states s = make_states(state);
     char more[4096];
@@ -235,7 +235,7 @@ static void a_damaged_picture_is_put_anew(void **state)
 
 /* ---- Who else writes, and disks that are full ---------------------------------------------------------------- */
 
-static void of_many_who_accept_at_once_nothing_is_lost(void **state)
+static void concurrent_accepts_lose_nothing(void **state)
 {
     const states s = make_states(state);
     const place many = gallery_make(*state, "many", "1.png 2.png 3.png 4.png 5.png 6.png 7.png 8.png");
@@ -252,7 +252,7 @@ static void of_many_who_accept_at_once_nothing_is_lost(void **state)
 }
 
 /* The limits stop a picture of the store, and then the baseline itself: both are those of before. */
-static void a_full_disk_accepts_nothing(void **state)
+static void full_disk_accepts_nothing(void **state)
 {
     const states s = make_states(state);
     static const size_t limits[] = {1, 20, 150};
@@ -284,15 +284,15 @@ static void a_full_disk_accepts_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(what_is_accepted_replaces_what_was_and_stays_beside_it_as_a_variant),
-        WITH_FOLDER(frames_that_are_the_same_keep_their_lines),
-        WITH_FOLDER(a_baseline_wants_a_reason_and_nothing_else_takes_one),
-        WITH_FOLDER(a_list_of_frames_is_taken_over_and_no_more),
-        WITH_FOLDER(pictures_of_the_store_show_what_was_expected),
-        WITH_FOLDER(a_lost_damaged_or_swapped_picture_changes_no_verdict_and_is_said),
-        WITH_FOLDER(a_damaged_picture_is_put_anew),
-        WITH_FOLDER(of_many_who_accept_at_once_nothing_is_lost),
-        WITH_FOLDER(a_full_disk_accepts_nothing),
+        WITH_FOLDER(accept_replaces_digests_and_variant_keeps_them),
+        WITH_FOLDER(unchanged_frames_keep_their_lines),
+        WITH_FOLDER(reason_is_required_for_baselines_and_refused_elsewhere),
+        WITH_FOLDER(only_the_listed_frames_are_accepted),
+        WITH_FOLDER(evidence_shows_expected_pictures_from_the_store),
+        WITH_FOLDER(bad_picture_in_the_store_is_reported_without_changing_the_verdict),
+        WITH_FOLDER(accept_replaces_a_damaged_picture_in_the_store),
+        WITH_FOLDER(concurrent_accepts_lose_nothing),
+        WITH_FOLDER(full_disk_accepts_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,7 +33,7 @@ static void assert_says(const command_result *result, const char *part)
         fail_msg("\"%s\" does not say \"%s\"", result->out, part);
 }
 
-static void the_headline_comes_second_and_causes_below_their_frames(void **state)
+static void headline_is_the_second_line_and_causes_follow_their_frames(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     command_result result = run_octreel(NULL, "diff %s %s --each --causes 2", p.a.path, p.b.path);
@@ -62,7 +62,7 @@ static void write_and_film(const temp_folder *own, const char *player, const cha
 }
 
 /* Numbers, words, rules that are on or off, lists, objects, and null where there is nothing. */
-static void json_has_each_value_as_the_files_have_it(void **state)
+static void json_copies_values_from_the_files(void **state)
 {
     static const char *const parts[] = {
         "{\"where\": \"leaves\", \"change\": \"other\", \"count\": 1, \"facts\": [{\"reference\": false, \"frames\": "
@@ -89,7 +89,7 @@ static void json_has_each_value_as_the_files_have_it(void **state)
     command_release(&result);
 }
 
-static void all_or_no_frames_are_explained_where_that_is_asked_for(void **state)
+static void causes_option_explains_all_or_no_frames(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     command_result result = run_octreel(NULL, "diff %s %s --each --causes all", p.a.path, p.b.path);
@@ -105,7 +105,7 @@ static void all_or_no_frames_are_explained_where_that_is_asked_for(void **state)
     assert_trouble(&result, "--causes takes a whole number");
 }
 
-static void json_has_the_facts(void **state)
+static void json_lists_the_facts(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     command_result result = run_octreel(NULL, "diff %s %s --json --causes 3", p.a.path, p.b.path);
@@ -142,7 +142,7 @@ static void assert_place(const json_t *value, double x, double y, double z)
         assert_true(json_number_value(json_array_get(value, i)) == place[i]);
 }
 
-static void shapes_are_told_in_words_and_json(void **state)
+static void different_shapes_are_described_in_text_and_json(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     octree_shape shape = {.tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_SEGMENT, .at = {1, 2, 3}, .to = {700, 8, 9}};
@@ -176,7 +176,7 @@ static void shapes_are_told_in_words_and_json(void **state)
     command_release(&result);
 }
 
-static void damage_is_trouble_behind_the_report(void **state)
+static void damaged_recording_is_an_error_after_the_report(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     cut_file(p.b.path, "session.json", 30);
@@ -199,7 +199,7 @@ static void damage_is_trouble_behind_the_report(void **state)
     command_release(&result);
 }
 
-static void the_same_frames_of_unlike_sessions_are_the_same(void **state)
+static void equal_frames_of_different_sessions_are_equal(void **state)
 {
     const recorded_pair p = film_pair(*state, 2);
     command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
@@ -215,7 +215,7 @@ static void the_same_frames_of_unlike_sessions_are_the_same(void **state)
 
 /* What refuses to draw is no reason not to say what is known. */
 /* The integer rasterizer draws the elements, so a driver that octreel refuses makes no difference. */
-static void pixels_are_traced_without_gl(void **state)
+static void pixels_are_traced_to_elements_without_gl(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
     const command_setting other = {.environment = {"GALLIUM_DRIVER=softpipe"}};
@@ -234,14 +234,14 @@ static void pixels_are_traced_without_gl(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_headline_comes_second_and_causes_below_their_frames),
-        TEST(json_has_each_value_as_the_files_have_it),
-        TEST(all_or_no_frames_are_explained_where_that_is_asked_for),
-        TEST(json_has_the_facts),
-        TEST(shapes_are_told_in_words_and_json),
-        TEST(damage_is_trouble_behind_the_report),
-        TEST(pixels_are_traced_without_gl),
-        TEST(the_same_frames_of_unlike_sessions_are_the_same),
+        TEST(headline_is_the_second_line_and_causes_follow_their_frames),
+        TEST(json_copies_values_from_the_files),
+        TEST(causes_option_explains_all_or_no_frames),
+        TEST(json_lists_the_facts),
+        TEST(different_shapes_are_described_in_text_and_json),
+        TEST(damaged_recording_is_an_error_after_the_report),
+        TEST(pixels_are_traced_to_elements_without_gl),
+        TEST(equal_frames_of_different_sessions_are_equal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

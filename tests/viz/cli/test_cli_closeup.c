@@ -38,7 +38,7 @@ static void write_lattice(const char *path)
 }
 
 /* What is asked and appears small has one, unless it is not wanted, and nothing else has one. */
-static void pictures_of_clouds_have_one_of_what_is_asked(void **state)
+static void close_up_of_a_cloud_shows_the_queries(void **state)
 {
     static const struct {
         const char *asked;
@@ -84,7 +84,7 @@ static place record(const temp_folder *own, const char *name, const char *argume
     return folder;
 }
 
-static void pick_names_what_it_shows_where_nobody_is(void **state)
+static void pick_names_elements_of_a_close_up_without_a_player(void **state)
 {
     const place folder = record(*state, "film", "");
     const place frame = frame_place(folder.path, 2);
@@ -110,7 +110,7 @@ static void pick_names_what_it_shows_where_nobody_is(void **state)
     command_release(&result);
 }
 
-static void diff_names_it_as_a_cause_where_nobody_is(void **state)
+static void diff_names_the_close_up_as_cause_without_a_player(void **state)
 {
     const place a = record(*state, "a", ""), b = record(*state, "b", "--no-closeup");
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
@@ -121,7 +121,7 @@ static void diff_names_it_as_a_cause_where_nobody_is(void **state)
 }
 
 /* Several processes film what one does, and so does a chunk that begins after what is asked. */
-static void jobs_and_chunks_film_the_same(void **state)
+static void jobs_and_chunks_film_the_same_close_up(void **state)
 {
     const place a = record(*state, "a", ""), b = record(*state, "b", "--jobs 3");
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
@@ -138,10 +138,10 @@ static void jobs_and_chunks_film_the_same(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(pictures_of_clouds_have_one_of_what_is_asked),
-        IN_FOLDER(pick_names_what_it_shows_where_nobody_is),
-        IN_FOLDER(diff_names_it_as_a_cause_where_nobody_is),
-        IN_FOLDER(jobs_and_chunks_film_the_same),
+        IN_FOLDER(close_up_of_a_cloud_shows_the_queries),
+        IN_FOLDER(pick_names_elements_of_a_close_up_without_a_player),
+        IN_FOLDER(diff_names_the_close_up_as_cause_without_a_player),
+        IN_FOLDER(jobs_and_chunks_film_the_same_close_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

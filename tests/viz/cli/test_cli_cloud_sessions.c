@@ -67,7 +67,7 @@ static void assert_same_world(const octree_box *world, const json_t *told)
     }
 }
 
-static void a_session_without_a_world_has_that_of_its_file_of_points(void **state)
+static void default_world_encloses_the_points_of_the_file(void **state)
 {
     const temp_folder *folder = *state;
     const place survey = write_survey(folder, "utm.txt"), film = place_in(folder, "film");
@@ -91,7 +91,7 @@ static void a_session_without_a_world_has_that_of_its_file_of_points(void **stat
 }
 
 /* What is written holds the world: the cloud is not needed again. Chunks and resumption agree on it. */
-static void its_recording_is_one_however_it_is_made(void **state)
+static void every_way_of_recording_a_cloud_gives_the_same_files(void **state)
 {
     const temp_folder *folder = *state;
     const place survey = write_survey(folder, "utm.txt"), film = place_in(folder, "film"),
@@ -125,7 +125,7 @@ static char *copy_world(const char *sentence)
     return strndup(begin, (size_t)(end + 1 - begin));
 }
 
-static void points_outside_their_world_are_told_with_one_that_holds_them(void **state)
+static void warning_about_points_outside_names_a_world_that_fits(void **state)
 {
     static const char *const points[] = {"\"points\": {\"file\": \"utm.txt\"}",
                                          "\"points\": [[5000, 0, 0], [6000, 0, 0], [1, 2, 3]]"};
@@ -156,7 +156,7 @@ static void points_outside_their_world_are_told_with_one_that_holds_them(void **
     }
 }
 
-static void points_that_full_leaves_refuse_are_told_with_the_way_out(void **state)
+static void warning_about_full_leaves_names_the_remedy(void **state)
 {
     const temp_folder *folder = *state;
     const place film = place_in(folder, "film"), survey = write_survey(folder, "utm.txt");
@@ -170,7 +170,7 @@ static void points_that_full_leaves_refuse_are_told_with_the_way_out(void **stat
 }
 
 /* Half of them and less are the session's own affair: its ticks tell. But they are counted. */
-static void refused_points_are_counted_as_points(void **state)
+static void refused_points_are_counted(void **state)
 {
     const temp_folder *folder = *state;
     const place film = place_in(folder, "film");
@@ -187,7 +187,7 @@ static void refused_points_are_counted_as_points(void **state)
 #define PCD "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 3\nDATA ascii\n1 2 3\nnan nan nan\n4 5 6\n7 8 9\n"
 
 /* Rows without a position count, so that an id leads back to its row; and what follows the last is noted. */
-static void ids_are_rows_of_the_cloud(void **state)
+static void ids_are_row_numbers_of_the_cloud(void **state)
 {
     const temp_folder *folder = *state;
     static const char note[] = "more lines follow than the header announces; the points before it were read\n";
@@ -220,12 +220,12 @@ static void ids_are_rows_of_the_cloud(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(a_session_without_a_world_has_that_of_its_file_of_points),
-        IN_FOLDER(its_recording_is_one_however_it_is_made),
-        IN_FOLDER(points_outside_their_world_are_told_with_one_that_holds_them),
-        IN_FOLDER(points_that_full_leaves_refuse_are_told_with_the_way_out),
-        IN_FOLDER(refused_points_are_counted_as_points),
-        IN_FOLDER(ids_are_rows_of_the_cloud),
+        IN_FOLDER(default_world_encloses_the_points_of_the_file),
+        IN_FOLDER(every_way_of_recording_a_cloud_gives_the_same_files),
+        IN_FOLDER(warning_about_points_outside_names_a_world_that_fits),
+        IN_FOLDER(warning_about_full_leaves_names_the_remedy),
+        IN_FOLDER(refused_points_are_counted),
+        IN_FOLDER(ids_are_row_numbers_of_the_cloud),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,7 +44,7 @@ static void bad_clouds_are_refused_with_file_and_reason(void **state)
     }
 }
 
-static void clouds_and_places_that_are_none_are_refused_in_one_sentence(void **state)
+static void missing_clouds_and_bad_output_paths_are_refused_in_one_sentence(void **state)
 {
     const temp_folder *own = *state;
     const place points = place_in(own, "points.txt"), absent = place_in(own, "absent");
@@ -65,7 +65,7 @@ static void clouds_and_places_that_are_none_are_refused_in_one_sentence(void **s
 }
 
 /* Of many classes the lowest are named, and the others counted. */
-static void classes_are_named_as_long_as_they_are_few(void **state)
+static void statistics_list_classes_if_they_are_few(void **state)
 {
     static const struct {
         int classes;
@@ -100,7 +100,7 @@ static void mask_memory(char *report)
             *c = '0';
 }
 
-static void progress_is_shown_on_a_terminal_alone(void **state)
+static void progress_is_shown_only_on_a_terminal(void **state)
 {
     static const command_setting terminal = {.terminal = true};
     const place a = write_cloud(state, "a.txt", 140000);
@@ -131,9 +131,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(bad_clouds_are_refused_with_file_and_reason),
-        IN_FOLDER(clouds_and_places_that_are_none_are_refused_in_one_sentence),
-        IN_FOLDER(classes_are_named_as_long_as_they_are_few),
-        IN_FOLDER(progress_is_shown_on_a_terminal_alone),
+        IN_FOLDER(missing_clouds_and_bad_output_paths_are_refused_in_one_sentence),
+        IN_FOLDER(statistics_list_classes_if_they_are_few),
+        IN_FOLDER(progress_is_shown_only_on_a_terminal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

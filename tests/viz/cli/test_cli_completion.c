@@ -139,7 +139,7 @@ static void assert_all_completed(void **state, const shell *s, const completed *
 
 #define COUNT(rows) (sizeof(rows) / sizeof((rows)[0]))
 
-static void bash_completes(void **state)
+static void bash_completes_commands_options_and_files(void **state)
 {
     static const completed rows[] = {
         EVERYWHERE,
@@ -164,7 +164,7 @@ static void skip_without_terminals(void)
     close(one);
 }
 
-static void zsh_completes(void **state)
+static void zsh_completes_commands_options_and_files(void **state)
 {
     static const completed rows[] = {
         EVERYWHERE,
@@ -177,7 +177,7 @@ static void zsh_completes(void **state)
     assert_all_completed(state, &zsh, rows, COUNT(rows));
 }
 
-static void fish_completes(void **state)
+static void fish_completes_commands_options_and_files(void **state)
 {
     static const completed rows[] = {
         EVERYWHERE,
@@ -203,7 +203,7 @@ static void fish_completes_each_file_ending(void **state)
 }
 
 /* Of options that are the view's. */
-static void every_choice_is_completed(void **state)
+static void every_value_of_a_view_option_is_completed(void **state)
 {
     (void)state;
     for (const shell *const *s = (const shell *const[]){&bash, &zsh, &fish, NULL}; *s; s++) {
@@ -221,11 +221,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_option_is_completed),
-        cmocka_unit_test(every_choice_is_completed),
+        cmocka_unit_test(every_value_of_a_view_option_is_completed),
         cmocka_unit_test(fish_completes_each_file_ending),
-        IN_FOLDER(bash_completes),
-        IN_FOLDER(zsh_completes),
-        IN_FOLDER(fish_completes),
+        IN_FOLDER(bash_completes_commands_options_and_files),
+        IN_FOLDER(zsh_completes_commands_options_and_files),
+        IN_FOLDER(fish_completes_commands_options_and_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

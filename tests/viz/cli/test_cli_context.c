@@ -50,7 +50,7 @@ static void assert_not_drawn(const command_setting *setting, const char *options
     assert_false(file_exists(folder->path));
 }
 
-static void each_context_films_and_is_named(void **state)
+static void every_context_records_and_is_named_in_the_recording(void **state)
 {
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
         const char *name = draw_context_name((draw_context)kind);
@@ -64,7 +64,7 @@ static void each_context_films_and_is_named(void **state)
     }
 }
 
-static void version_names_each_context(void **state)
+static void version_names_every_context(void **state)
 {
     (void)state;
     command_result result = run_octreel(NULL, "--version");
@@ -77,7 +77,7 @@ static void version_names_each_context(void **state)
     command_release(&result);
 }
 
-static void inspect_takes_a_context_too(void **state)
+static void inspect_draws_with_every_context(void **state)
 {
     need_contexts(false, true);
     const place cloud = place_in(*state, "points.txt"), a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
@@ -93,7 +93,7 @@ static void inspect_takes_a_context_too(void **state)
     assert_trouble(&result, "auto, osmesa, egl");
 }
 
-static void choices_that_do_not_fit_are_refused(void **state)
+static void invalid_and_contradicting_renderer_options_are_refused(void **state)
 {
     const place folder = place_in(*state, "film");
     assert_not_drawn(NULL, "--context glx", &folder, "--context: unknown value \"glx\"; choose from auto, osmesa, egl");
@@ -111,7 +111,7 @@ static const char *hide_libraries(const temp_folder *own, const char *const *nam
     return setting;
 }
 
-static void egl_draws_where_osmesa_cannot_be_loaded(void **state)
+static void egl_draws_if_osmesa_cannot_be_loaded(void **state)
 {
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so", NULL};
     need_contexts(true, true);
@@ -147,7 +147,7 @@ static void assert_unchecked(const command_setting *setting, const char *options
     assert_same_folders(plain.path, folder.path, "renderer.json");
 }
 
-static void machine_with_neither_is_told_what_to_install(void **state)
+static void error_without_gl_libraries_names_the_packages(void **state)
 {
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so", "libEGL.so.1", "libEGL.so", NULL};
     char path[96];
@@ -166,7 +166,7 @@ static void machine_with_neither_is_told_what_to_install(void **state)
     command_release(&result);
 }
 
-static void egl_that_knows_no_driver_is_trouble(void **state)
+static void egl_without_a_driver_is_an_error(void **state)
 {
     need_contexts(false, true);
     const temp_folder *own = *state;
@@ -179,7 +179,7 @@ static void egl_that_knows_no_driver_is_trouble(void **state)
 
 static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
 
-static void renderer_that_is_not_llvmpipe_is_refused(void **state)
+static void renderer_other_than_llvmpipe_is_refused(void **state)
 {
     const place folder = place_in(*state, "film");
     assert_not_drawn(&softpipe, "--fill gl", &folder, "softpipe");
@@ -192,7 +192,7 @@ static void renderer_that_is_not_llvmpipe_is_refused(void **state)
     }
 }
 
-static void any_renderer_draws_where_it_is_asked_for(void **state)
+static void any_renderer_option_allows_other_renderers(void **state)
 {
     need_contexts(false, true);
     const place folder = place_in(*state, "film");
@@ -202,7 +202,7 @@ static void any_renderer_draws_where_it_is_asked_for(void **state)
     free(text);
 }
 
-static void integers_and_gl_film_the_same_bytes(void **state)
+static void integers_and_gl_record_the_same_bytes(void **state)
 {
     const place plain = place_in(*state, "plain"), integers = place_in(*state, "integers"), gl = place_in(*state, "gl");
     assert_drawn_by(NULL, "", &plain, "fill", "integers");
@@ -212,7 +212,7 @@ static void integers_and_gl_film_the_same_bytes(void **state)
     assert_same_folders(plain.path, gl.path, "renderer.json"); /* recording.json too */
 }
 
-static void inspect_fills_either_way(void **state)
+static void inspect_draws_with_both_rasterizers(void **state)
 {
     const place cloud = place_in(*state, "c.txt"), one = place_in(*state, "one.png"), two = place_in(*state, "two.png");
     file_write_text(cloud.path, "1 2 3\n4 5 6\n7 8 1\n");
@@ -240,17 +240,17 @@ static void unknown_fill_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(each_context_films_and_is_named),
-        cmocka_unit_test(version_names_each_context),
-        IN_FOLDER(inspect_takes_a_context_too),
-        IN_FOLDER(choices_that_do_not_fit_are_refused),
-        IN_FOLDER(egl_draws_where_osmesa_cannot_be_loaded),
-        IN_FOLDER(machine_with_neither_is_told_what_to_install),
-        IN_FOLDER(egl_that_knows_no_driver_is_trouble),
-        IN_FOLDER(renderer_that_is_not_llvmpipe_is_refused),
-        IN_FOLDER(any_renderer_draws_where_it_is_asked_for),
-        IN_FOLDER(integers_and_gl_film_the_same_bytes),
-        IN_FOLDER(inspect_fills_either_way),
+        IN_FOLDER(every_context_records_and_is_named_in_the_recording),
+        cmocka_unit_test(version_names_every_context),
+        IN_FOLDER(inspect_draws_with_every_context),
+        IN_FOLDER(invalid_and_contradicting_renderer_options_are_refused),
+        IN_FOLDER(egl_draws_if_osmesa_cannot_be_loaded),
+        IN_FOLDER(error_without_gl_libraries_names_the_packages),
+        IN_FOLDER(egl_without_a_driver_is_an_error),
+        IN_FOLDER(renderer_other_than_llvmpipe_is_refused),
+        IN_FOLDER(any_renderer_option_allows_other_renderers),
+        IN_FOLDER(integers_and_gl_record_the_same_bytes),
+        IN_FOLDER(inspect_draws_with_both_rasterizers),
         IN_FOLDER(unknown_fill_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -32,7 +32,7 @@ static twins make_pair(void **state)
     return made;
 }
 
-static void status_and_words_tell_the_verdict(void **state)
+static void status_and_text_agree_on_the_verdict(void **state)
 {
     const twins p = make_pair(state);
     command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.a.path);
@@ -44,7 +44,7 @@ static void status_and_words_tell_the_verdict(void **state)
 }
 
 /* With every verdict: what was forgiven, and what the worst of it is. */
-static void tolerance_is_printed_with_every_verdict(void **state)
+static void every_verdict_names_the_tolerances(void **state)
 {
     const twins p = make_pair(state);
     static const struct {
@@ -72,7 +72,7 @@ static void tolerance_is_printed_with_every_verdict(void **state)
     }
 }
 
-static void trouble_is_said_and_is_status_2(void **state)
+static void errors_are_printed_with_status_2(void **state)
 {
     const twins p = make_pair(state);
     const place folder = gallery_make(*state, "folder", "1.png"), text = place_in(*state, "text");
@@ -108,7 +108,7 @@ static void trouble_is_said_and_is_status_2(void **state)
 }
 
 /* What can be read is compared all the same. */
-static void one_unreadable_frame_leaves_the_others_compared(void **state)
+static void other_frames_are_compared_beside_an_unreadable_one(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
     assert_int_equal(truncate(place_below(b.path, "2.png").path, 120), 0);
@@ -123,7 +123,7 @@ static void one_unreadable_frame_leaves_the_others_compared(void **state)
 }
 
 /* Standard error names the first of them. */
-static void frames_none_of_which_can_be_read_are_listed(void **state)
+static void unreadable_frames_are_listed(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
     assert_int_equal(truncate(place_below(b.path, "1.png").path, 120), 0);
@@ -149,7 +149,7 @@ static void assert_tally(const json_t *tally, double pixels)
     assert_true(number(tally, "largest_channel") == 1);
 }
 
-static void json_tells_all_of_it(void **state)
+static void json_contains_the_whole_result(void **state)
 {
     const twins p = make_pair(state);
     command_result result = run_octreel(NULL, "diff %s %s --json --ignore 0,0,1,4 --max-pixels 1", p.a.path, p.b.path);
@@ -176,7 +176,7 @@ static void json_tells_all_of_it(void **state)
     command_release(&result);
 }
 
-static void json_is_said_in_trouble_too(void **state)
+static void json_is_printed_for_errors_too(void **state)
 {
     const twins p = make_pair(state);
     assert_int_equal(truncate(p.a.path, 77), 0);
@@ -190,7 +190,7 @@ static void json_is_said_in_trouble_too(void **state)
     command_release(&result);
 }
 
-static void long_lists_are_cut_for_people_and_not_for_programs(void **state)
+static void text_lists_are_cut_but_json_lists_are_whole(void **state)
 {
     const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
     for (int i = 0; i < 60; i++) {
@@ -217,7 +217,7 @@ static void long_lists_are_cut_for_people_and_not_for_programs(void **state)
     command_release(&result);
 }
 
-static void digest_names_the_command_that_replaced_it(void **state)
+static void removed_command_digest_names_its_replacement(void **state)
 {
     (void)state;
     command_result result = run_octreel(NULL, "digest frames -o frames.digests");
@@ -225,7 +225,7 @@ static void digest_names_the_command_that_replaced_it(void **state)
 }
 
 /* A baseline of one picture is compared with one picture, whatever their names. */
-static void a_baseline_of_a_picture_is_compared_with_a_picture(void **state)
+static void baseline_of_one_picture_is_compared_with_a_picture(void **state)
 {
     const twins p = make_pair(state);
     const place one = place_in(*state, "one.txt"), two = place_in(*state, "two.txt");
@@ -247,7 +247,7 @@ static void a_baseline_of_a_picture_is_compared_with_a_picture(void **state)
     assert_trouble(&result, "cannot compare a picture with a baseline");
 }
 
-static void help_teaches(void **state)
+static void help_describes_the_command(void **state)
 {
     (void)state;
     static const char *const commands[][2] = {{"diff", "Exit status:\n  0  the same"}, {"accept", "CI"}};
@@ -278,17 +278,17 @@ static void imagemagick_counts_the_same_pixels(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(status_and_words_tell_the_verdict),
-        WITH_FOLDER(tolerance_is_printed_with_every_verdict),
-        WITH_FOLDER(trouble_is_said_and_is_status_2),
-        WITH_FOLDER(one_unreadable_frame_leaves_the_others_compared),
-        WITH_FOLDER(frames_none_of_which_can_be_read_are_listed),
-        WITH_FOLDER(json_tells_all_of_it),
-        WITH_FOLDER(json_is_said_in_trouble_too),
-        WITH_FOLDER(long_lists_are_cut_for_people_and_not_for_programs),
-        cmocka_unit_test(digest_names_the_command_that_replaced_it),
-        WITH_FOLDER(a_baseline_of_a_picture_is_compared_with_a_picture),
-        cmocka_unit_test(help_teaches),
+        WITH_FOLDER(status_and_text_agree_on_the_verdict),
+        WITH_FOLDER(every_verdict_names_the_tolerances),
+        WITH_FOLDER(errors_are_printed_with_status_2),
+        WITH_FOLDER(other_frames_are_compared_beside_an_unreadable_one),
+        WITH_FOLDER(unreadable_frames_are_listed),
+        WITH_FOLDER(json_contains_the_whole_result),
+        WITH_FOLDER(json_is_printed_for_errors_too),
+        WITH_FOLDER(text_lists_are_cut_but_json_lists_are_whole),
+        cmocka_unit_test(removed_command_digest_names_its_replacement),
+        WITH_FOLDER(baseline_of_one_picture_is_compared_with_a_picture),
+        cmocka_unit_test(help_describes_the_command),
         WITH_FOLDER(imagemagick_counts_the_same_pixels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

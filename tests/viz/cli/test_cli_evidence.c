@@ -39,7 +39,7 @@ static void assert_file_says(const char *path, const char *part)
     free(text);
 }
 
-static void evidence_and_reports_are_written_beside_the_verdict(void **state)
+static void diff_writes_evidence_and_reports(void **state)
 {
     const twins t = make_twins_of(state);
     char part[2048];
@@ -60,7 +60,7 @@ static void evidence_and_reports_are_written_beside_the_verdict(void **state)
     assert_int_equal(temp_folder_count(*state), 5);
 }
 
-static void all_is_written_where_nothing_differs(void **state)
+static void reports_are_written_if_nothing_differs(void **state)
 {
     const twins t = make_twins_of(state);
     command_result result = run_octreel(NULL, "diff %s %s -o %s --junit %s --markdown %s", t.a.path, t.a.path,
@@ -76,7 +76,7 @@ static void all_is_written_where_nothing_differs(void **state)
 }
 
 /* What cannot be read is a finding among others: the evidence of these is there, and the status is 2. */
-static void all_is_written_where_a_frame_cannot_be_read(void **state)
+static void reports_are_written_if_a_frame_is_unreadable(void **state)
 {
     const twins t = make_twins_of(state);
     assert_int_equal(truncate(place_below(t.b.path, "1.png").path, 99), 0);
@@ -93,7 +93,7 @@ static void all_is_written_where_a_frame_cannot_be_read(void **state)
     assert_true(file_exists(place_below(t.out.path, "1.expected.png").path));
 }
 
-static void json_names_the_pictures(void **state)
+static void json_names_the_pictures_of_the_evidence(void **state)
 {
     static const char *const words[] = {"expected", "actual", "difference"};
     const twins t = make_twins_of(state);
@@ -114,7 +114,7 @@ static void json_names_the_pictures(void **state)
 }
 
 /* As long as the name of a file may be, and alike up to their last letter. */
-static void overlong_names_have_evidence_too(void **state)
+static void frames_with_overlong_names_have_evidence(void **state)
 {
     const place a = gallery_make(*state, "a", "0.png 1.png"), b = gallery_make(*state, "b", "0.png 1.png");
     const place out = place_in(*state, "out");
@@ -147,7 +147,7 @@ static void overlong_names_have_evidence_too(void **state)
 }
 
 /* One report on standard output in place of the words, whole and alone. */
-static void dash_is_standard_output(void **state)
+static void dash_writes_a_report_to_standard_output(void **state)
 {
     const twins t = make_twins_of(state);
     command_result result = run_octreel(NULL, "diff %s %s --markdown -", t.a.path, t.b.path);
@@ -166,7 +166,7 @@ static void dash_is_standard_output(void **state)
     }
 }
 
-static void places_that_cannot_be_written_are_trouble(void **state)
+static void unwritable_output_paths_are_errors(void **state)
 {
     const twins t = make_twins_of(state);
     static const char *const options[][2] = {
@@ -186,7 +186,7 @@ static void places_that_cannot_be_written_are_trouble(void **state)
 
 /* From a limit that stops the first picture to one that stops the page, the largest file: the one that is named was not
  * written, no part of any is left, and with room again the same words do it. */
-static void full_disk_is_trouble_and_leaves_only_whole_files(void **state)
+static void full_disk_is_an_error_and_leaves_only_whole_files(void **state)
 {
     static const size_t limits[] = {1, 100, 300, 1000, 1300, 2500, 4000, 20000};
     const twins t = make_twins_of(state);
@@ -208,7 +208,7 @@ static void full_disk_is_trouble_and_leaves_only_whole_files(void **state)
     command_release(&result);
 }
 
-static void full_standard_output_is_trouble(void **state)
+static void full_standard_output_is_an_error(void **state)
 {
     static const command_setting full = {.output = "/dev/full"};
     const twins t = make_twins_of(state);
@@ -221,15 +221,15 @@ static void full_standard_output_is_trouble(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(evidence_and_reports_are_written_beside_the_verdict),
-        WITH_FOLDER(all_is_written_where_nothing_differs),
-        WITH_FOLDER(all_is_written_where_a_frame_cannot_be_read),
-        WITH_FOLDER(json_names_the_pictures),
-        WITH_FOLDER(overlong_names_have_evidence_too),
-        WITH_FOLDER(dash_is_standard_output),
-        WITH_FOLDER(places_that_cannot_be_written_are_trouble),
-        WITH_FOLDER(full_disk_is_trouble_and_leaves_only_whole_files),
-        WITH_FOLDER(full_standard_output_is_trouble),
+        WITH_FOLDER(diff_writes_evidence_and_reports),
+        WITH_FOLDER(reports_are_written_if_nothing_differs),
+        WITH_FOLDER(reports_are_written_if_a_frame_is_unreadable),
+        WITH_FOLDER(json_names_the_pictures_of_the_evidence),
+        WITH_FOLDER(frames_with_overlong_names_have_evidence),
+        WITH_FOLDER(dash_writes_a_report_to_standard_output),
+        WITH_FOLDER(unwritable_output_paths_are_errors),
+        WITH_FOLDER(full_disk_is_an_error_and_leaves_only_whole_files),
+        WITH_FOLDER(full_standard_output_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

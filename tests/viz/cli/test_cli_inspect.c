@@ -128,7 +128,7 @@ static void statistics_add_up(void **state)
 }
 
 /* Of the points that are in the tree, and not of its world. */
-static void the_bounds_are_those_of_the_points(void **state)
+static void bounds_enclose_the_points(void **state)
 {
     const place points = place_in(*state, "points.txt");
     file_write_text(points.path, "1 2 3\n-4 5 6.5\n7 -8 9\n100 100 100\n");
@@ -145,7 +145,7 @@ static void the_bounds_are_those_of_the_points(void **state)
     json_decref(object);
 }
 
-static void statistics_for_people_have_the_same_numbers(void **state)
+static void text_and_json_have_the_same_statistics(void **state)
 {
     const place points = write_points(state, "points.txt", "");
     char line[64];
@@ -225,7 +225,7 @@ static void nodes_lie_within_their_parents_and_hold_all_points(void **state)
     command_release(&result);
 }
 
-static void one_node_has_its_box_and_its_points(void **state)
+static void node_option_prints_box_and_points(void **state)
 {
     const place points = place_in(*state, "points.txt");
     file_write_text(points.path, "0 0 0\n8 8 8\n1 1 1\n7 0.5 0.25\n");
@@ -250,7 +250,7 @@ static void one_node_has_its_box_and_its_points(void **state)
     command_release(&result);
 }
 
-static void node_that_is_not_there_is_refused_and_nothing_is_made(void **state)
+static void missing_node_is_refused_and_nothing_is_written(void **state)
 {
     static const char *const addresses[] = {
         "nonsense", "8",         "0/8",    "0//3", "0/3/",
@@ -267,7 +267,7 @@ static void node_that_is_not_there_is_refused_and_nothing_is_made(void **state)
     }
 }
 
-static void formats_of_the_same_points_say_the_same(void **state)
+static void same_points_in_every_format_give_the_same_output(void **state)
 {
     static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 500\nproperty double x\nproperty double y\n"
                               "property double z\nend_header\n";
@@ -286,7 +286,7 @@ static void formats_of_the_same_points_say_the_same(void **state)
     json_decref(first);
 }
 
-static void a_million_equal_points_are_refused_or_one_leaf(void **state)
+static void million_equal_points_are_refused_or_fill_one_leaf(void **state)
 {
     enum { COUNT = 1000000, SIZE = 6 };
     const place points = place_in(*state, "points.txt");
@@ -308,7 +308,7 @@ static void a_million_equal_points_are_refused_or_one_leaf(void **state)
     json_decref(grown);
 }
 
-static void picture_is_whole_and_traced(void **state)
+static void picture_is_whole_and_carries_its_digests(void **state)
 {
     const place points = write_points(state, "points.txt", ""), picture = place_in(*state, "tree.png");
     char text[64], digest[IMAGE_DIGEST_TEXT];
@@ -328,7 +328,7 @@ static void picture_is_whole_and_traced(void **state)
 /* What is chosen is said, and what is asked for is done. The 500 points are far apart in the largest picture, close
  * surfaces in a smaller one, and outnumber the pixels of the smallest, where leaves are
  * shown if they are not too small themselves. */
-static void the_picture_says_what_it_chose_for_the_points(void **state)
+static void output_names_the_view_options_that_inspect_chose(void **state)
 {
     static const struct {
         const char *options, *said;
@@ -357,7 +357,7 @@ static void the_picture_says_what_it_chose_for_the_points(void **state)
     }
 }
 
-static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
+static void invalid_options_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
         {"--capacity 0", "--capacity"},
@@ -397,7 +397,7 @@ static void options_that_do_not_fit_are_refused_in_one_sentence(void **state)
     assert_trouble(&result, "needs one point cloud");
 }
 
-static void what_is_said_of_a_picture_is_refused_without_one(void **state)
+static void picture_options_without_a_picture_are_refused(void **state)
 {
     static const char *const rows[][2] = {
         {"--size 64x64", "--size changes the picture, but no picture is drawn: add -o"},
@@ -420,7 +420,7 @@ static void what_is_said_of_a_picture_is_refused_without_one(void **state)
 }
 
 /* What has no extent is seen all the same. */
-static void clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures(void **state)
+static void degenerate_clouds_are_drawn(void **state)
 {
     static const char *const clouds[] = {"1 2 3\n", "5 5 5\n5 5 5\n5 5 5\n5 5 5\n5 5 5\n",
                                          "0 7 7\n1 7 7\n2 7 7\n9 7 7\n"};
@@ -447,7 +447,7 @@ static void clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures(void
 }
 
 /* A rename would put a picture in the place of a pipe, or of a device. */
-static void what_is_no_file_is_not_replaced_by_a_picture(void **state)
+static void picture_replaces_only_regular_files(void **state)
 {
     const place points = place_in(*state, "points.txt"), pipe = place_in(*state, "pipe");
     struct stat status;
@@ -483,19 +483,19 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(statistics_add_up),
-        IN_FOLDER(statistics_for_people_have_the_same_numbers),
-        IN_FOLDER(the_bounds_are_those_of_the_points),
+        IN_FOLDER(text_and_json_have_the_same_statistics),
+        IN_FOLDER(bounds_enclose_the_points),
         IN_FOLDER(nodes_lie_within_their_parents_and_hold_all_points),
-        IN_FOLDER(one_node_has_its_box_and_its_points),
-        IN_FOLDER(node_that_is_not_there_is_refused_and_nothing_is_made),
-        IN_FOLDER(formats_of_the_same_points_say_the_same),
-        IN_FOLDER(a_million_equal_points_are_refused_or_one_leaf),
-        IN_FOLDER(picture_is_whole_and_traced),
-        IN_FOLDER(the_picture_says_what_it_chose_for_the_points),
-        IN_FOLDER(options_that_do_not_fit_are_refused_in_one_sentence),
-        IN_FOLDER(what_is_said_of_a_picture_is_refused_without_one),
-        IN_FOLDER(clouds_of_one_point_of_equal_points_and_of_a_line_have_pictures),
-        IN_FOLDER(what_is_no_file_is_not_replaced_by_a_picture),
+        IN_FOLDER(node_option_prints_box_and_points),
+        IN_FOLDER(missing_node_is_refused_and_nothing_is_written),
+        IN_FOLDER(same_points_in_every_format_give_the_same_output),
+        IN_FOLDER(million_equal_points_are_refused_or_fill_one_leaf),
+        IN_FOLDER(picture_is_whole_and_carries_its_digests),
+        IN_FOLDER(output_names_the_view_options_that_inspect_chose),
+        IN_FOLDER(invalid_options_are_refused_in_one_sentence),
+        IN_FOLDER(picture_options_without_a_picture_are_refused),
+        IN_FOLDER(degenerate_clouds_are_drawn),
+        IN_FOLDER(picture_replaces_only_regular_files),
         IN_FOLDER(statistics_need_no_renderer),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -87,7 +87,7 @@ static void every_manual_has_its_sections(void **state)
 }
 
 /* What it names, besides kinds of files: all commands in that of octreel. */
-static void a_manual_refers_to_the_commands_that_it_names(void **state)
+static void manual_refers_to_the_commands_it_mentions(void **state)
 {
     static const struct {
         const char *page, *commands;
@@ -125,18 +125,18 @@ static void assert_content(void **state, const char *program, const char *comman
 }
 
 /* As lintian does. */
-static void man_has_no_warning(void **state)
+static void man_prints_no_warnings(void **state)
 {
     assert_content(state, "groff", "LC_ALL=C.UTF-8 groff -man -ww -Tutf8 -rLL=80n");
 }
 
-static void mandoc_has_no_warning(void **state)
+static void mandoc_prints_no_warnings(void **state)
 {
     assert_content(state, "mandoc", "mandoc -Tlint -Wwarning");
 }
 
 /* Each name that is declared at the beginning of a line. */
-static void manual_of_the_library_has_every_function(void **state)
+static void library_manual_has_every_function(void **state)
 {
     (void)state;
     char *header = file_read(OCTREE_HEADER, NULL), *manual = file_read(OCTREE_MANUAL, NULL);
@@ -172,7 +172,7 @@ static void assert_names_are_told(const char *json, const char *text)
 }
 
 /* A game with all that a tick can have: queries, answers that are wrong, nodes of a program's own tree, and a gap. */
-static void every_member_of_a_recording_is_told(void **state)
+static void manual_describes_every_member_of_a_recording(void **state)
 {
     static const char session[] =
         "{\"octreel\":\"session\",\"version\":2,\"keys\":\"wd\",\"ticks\":3,\"points\":[[1,1,1],[2,2,2],[3,3,3]],"
@@ -203,7 +203,7 @@ static void every_member_of_a_recording_is_told(void **state)
 }
 
 /* Of a recording that fits and one that does not, so that there is a finding with a fact. */
-static void every_member_of_a_summary_is_told(void **state)
+static void manual_describes_every_member_of_a_summary(void **state)
 {
     static const char *const commands[][2] = {{"record", "record -q --keys wd --size 32x32 --ticks 0: -o film --json"},
                                               {"join", "join film --json"},
@@ -225,7 +225,7 @@ static void every_member_of_a_summary_is_told(void **state)
     }
 }
 
-static void every_kind_of_finding_of_verify_is_told(void **state)
+static void manual_describes_every_kind_of_finding(void **state)
 {
     static const char *const kinds[] = {
 #define KIND(name, word, words) "\"" word "\"",
@@ -247,13 +247,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_option_is_in_the_manual),
         cmocka_unit_test(every_manual_has_its_sections),
-        cmocka_unit_test(a_manual_refers_to_the_commands_that_it_names),
-        IN_FOLDER(man_has_no_warning),
-        IN_FOLDER(mandoc_has_no_warning),
-        cmocka_unit_test(manual_of_the_library_has_every_function),
-        IN_FOLDER(every_member_of_a_recording_is_told),
-        IN_FOLDER(every_member_of_a_summary_is_told),
-        cmocka_unit_test(every_kind_of_finding_of_verify_is_told),
+        cmocka_unit_test(manual_refers_to_the_commands_it_mentions),
+        IN_FOLDER(man_prints_no_warnings),
+        IN_FOLDER(mandoc_prints_no_warnings),
+        cmocka_unit_test(library_manual_has_every_function),
+        IN_FOLDER(manual_describes_every_member_of_a_recording),
+        IN_FOLDER(manual_describes_every_member_of_a_summary),
+        cmocka_unit_test(manual_describes_every_kind_of_finding),
     };
     return cmocka_run_group_tests(tests, list_pages, NULL);
 }

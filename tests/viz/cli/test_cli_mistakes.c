@@ -55,7 +55,7 @@ static void assert_mistakes(void **state, const mistake *rows, size_t count)
 
 #define ASSERT_MISTAKES(state, rows) assert_mistakes(state, rows, sizeof rows / sizeof rows[0])
 
-static void the_nearest_name_is_asked_for(void **state)
+static void misspelled_words_get_the_nearest_name_as_hint(void **state)
 {
     static const mistake rows[] = {
         {"recrod -o x", "unknown command \"recrod\", did you mean record? "},
@@ -82,7 +82,7 @@ static void the_nearest_name_is_asked_for(void **state)
     ASSERT_MISTAKES(state, rows);
 }
 
-static void a_value_that_is_missing_or_too_much_is_named(void **state)
+static void missing_or_surplus_values_are_reported(void **state)
 {
     static const mistake rows[] = {
         {"record -o", "-o needs a value; see "},
@@ -95,7 +95,7 @@ static void a_value_that_is_missing_or_too_much_is_named(void **state)
     ASSERT_MISTAKES(state, rows);
 }
 
-static void a_file_of_another_kind_names_the_command_for_it(void **state)
+static void file_of_another_kind_gets_a_hint_at_its_command(void **state)
 {
     static const mistake rows[] = {
         {"record cloud.txt -o x", "cloud.txt is a point cloud, but record takes one session; "},
@@ -134,7 +134,7 @@ static void a_file_of_another_kind_names_the_command_for_it(void **state)
     ASSERT_MISTAKES(state, rows);
 }
 
-static void a_number_or_colour_that_is_none_is_refused(void **state)
+static void invalid_numbers_and_colours_are_refused(void **state)
 {
     static const mistake rows[] = {
         {"diff rec rec --background ff80", "--background takes a colour such as ff8000, not \"ff80\""},
@@ -151,7 +151,7 @@ static void a_number_or_colour_that_is_none_is_refused(void **state)
 }
 
 /* As style sheets have it. */
-static void a_colour_may_begin_with_a_hash(void **state)
+static void colour_may_begin_with_a_hash(void **state)
 {
     const char *picture = place_in(*state, "a.png").path;
     command_result with = run_octreel(NULL, "diff %s %s --json --background #aBcdef", picture, picture);
@@ -163,7 +163,7 @@ static void a_colour_may_begin_with_a_hash(void **state)
     command_release(&without);
 }
 
-static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
+static void errors_about_outputs_name_option_and_kind_of_file(void **state)
 {
     static const mistake rows[] = {
         {"record my.json x", "unexpected argument \"x\", did you mean -o x?"},
@@ -201,7 +201,7 @@ static void an_output_is_named_by_its_option_and_as_what_it_is(void **state)
 
 /* These folders lie outside the test's own. Where one of them holds a recording, which may be resumed there, its rows
  * say nothing and are left out. */
-static void a_folder_that_holds_the_current_one_is_refused(void **state)
+static void output_folder_above_the_current_folder_is_refused(void **state)
 {
     static const mistake root[] = {
         {"record my.json -o /", "-o needs a folder of its own, but \"/\" is or contains the current folder"},
@@ -219,7 +219,7 @@ static void a_folder_that_holds_the_current_one_is_refused(void **state)
 }
 
 /* A folder that is there may be called what it is called, and the current one may be gone on with. */
-static void a_recording_that_is_there_is_resumed_whatever_its_name(void **state)
+static void existing_recording_of_any_name_is_resumed(void **state)
 {
     const temp_folder *own = *state;
     command_result result = run_script("cd %s && mv rec rec.png && ./octreel record --resume -o rec.png >/dev/null && "
@@ -231,7 +231,7 @@ static void a_recording_that_is_there_is_resumed_whatever_its_name(void **state)
     command_release(&result);
 }
 
-static void hints_name_the_program_as_it_was_called(void **state)
+static void hints_name_the_program_as_the_user_called_it(void **state)
 {
     const temp_folder *own = *state;
     static const char *const arguments[] = {"banana", "record --banana", "record cloud.txt -o x", "help record"};
@@ -245,7 +245,7 @@ static void hints_name_the_program_as_it_was_called(void **state)
     }
 }
 
-static void help_is_on_commands_and_sessions(void **state)
+static void help_is_available_for_commands_and_sessions(void **state)
 {
     (void)state;
     command_result help = run_octreel(NULL, "help"), option = run_octreel(NULL, "--help");
@@ -289,7 +289,7 @@ static void assert_explains(const char *help, const char *name, const char *word
         fail_msg("nothing says%s", line);
 }
 
-static void help_explains_every_choice_and_key(void **state)
+static void help_explains_every_value_and_key(void **state)
 {
     static const char *const commands[] = {"record", "inspect"};
     (void)state;
@@ -312,17 +312,17 @@ static void help_explains_every_choice_and_key(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(the_nearest_name_is_asked_for),
-        IN_FOLDER(a_value_that_is_missing_or_too_much_is_named),
-        IN_FOLDER(a_file_of_another_kind_names_the_command_for_it),
-        IN_FOLDER(a_number_or_colour_that_is_none_is_refused),
-        IN_FOLDER(a_colour_may_begin_with_a_hash),
-        IN_FOLDER(an_output_is_named_by_its_option_and_as_what_it_is),
-        IN_FOLDER(a_folder_that_holds_the_current_one_is_refused),
-        IN_FOLDER(a_recording_that_is_there_is_resumed_whatever_its_name),
-        IN_FOLDER(hints_name_the_program_as_it_was_called),
-        cmocka_unit_test(help_is_on_commands_and_sessions),
-        cmocka_unit_test(help_explains_every_choice_and_key),
+        IN_FOLDER(misspelled_words_get_the_nearest_name_as_hint),
+        IN_FOLDER(missing_or_surplus_values_are_reported),
+        IN_FOLDER(file_of_another_kind_gets_a_hint_at_its_command),
+        IN_FOLDER(invalid_numbers_and_colours_are_refused),
+        IN_FOLDER(colour_may_begin_with_a_hash),
+        IN_FOLDER(errors_about_outputs_name_option_and_kind_of_file),
+        IN_FOLDER(output_folder_above_the_current_folder_is_refused),
+        IN_FOLDER(existing_recording_of_any_name_is_resumed),
+        IN_FOLDER(hints_name_the_program_as_the_user_called_it),
+        cmocka_unit_test(help_is_available_for_commands_and_sessions),
+        cmocka_unit_test(help_explains_every_value_and_key),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

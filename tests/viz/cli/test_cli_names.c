@@ -7,7 +7,7 @@
 #include "fixture.h"
 #include "galleries.h"
 
-static void an_empty_name_is_refused_in_one_sentence(void **state)
+static void empty_names_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
         {"diff '' a.png", "diff: the name is empty"},
@@ -45,7 +45,7 @@ static void assert_plain(const command_result *result, int status)
     assert_null(strstr(result->err, "\ny.png"));
 }
 
-static void control_characters_do_not_reach_the_terminal(void **state)
+static void errors_contain_no_control_characters(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "1.png");
     gallery_write(place_below(a.path, HOSTILE).path, 3, 0);
@@ -63,7 +63,7 @@ static void control_characters_do_not_reach_the_terminal(void **state)
 }
 
 /* What is read and what is made have such a name. */
-static void commands_that_succeed_do_not_print_them_either(void **state)
+static void reports_contain_no_control_characters(void **state)
 {
     static const char *const lines[] = {
         "inspect %s --nodes %s.csv",  "inspect %s --node root", "inspect %s --nearest 1,2,3",
@@ -83,7 +83,7 @@ static void commands_that_succeed_do_not_print_them_either(void **state)
 }
 
 /* What is no UTF-8, a mark that turns the direction, and what some terminals take for an escape. */
-static void what_is_no_text_is_not_printed(void **state)
+static void invalid_utf8_is_not_printed(void **state)
 {
     static const char *const hostile[] = {"x\xff.png", "x\xe2\x80\xae.png", "x\xc2\x9b.png", "x\xe2\x81\xa7.png"};
     for (size_t i = 0; i < sizeof hostile / sizeof hostile[0]; i++) {
@@ -106,10 +106,10 @@ static void what_is_no_text_is_not_printed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(an_empty_name_is_refused_in_one_sentence),
-        IN_FOLDER(control_characters_do_not_reach_the_terminal),
-        IN_FOLDER(commands_that_succeed_do_not_print_them_either),
-        IN_FOLDER(what_is_no_text_is_not_printed),
+        IN_FOLDER(empty_names_are_refused_in_one_sentence),
+        IN_FOLDER(errors_contain_no_control_characters),
+        IN_FOLDER(reports_contain_no_control_characters),
+        IN_FOLDER(invalid_utf8_is_not_printed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

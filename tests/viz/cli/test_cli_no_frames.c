@@ -43,13 +43,13 @@ static void assert_says(const temp_folder *folder, const char *arguments, int st
     command_release(&result);
 }
 
-static void verify_says_by_what_it_is_identical(void **state)
+static void verify_says_that_it_compared_ticks(void **state)
 {
     assert_says(*state, "verify a", 0, "a: identical: 4 ticks, by what happened in them alone: it has no frames\n");
     assert_says(*state, "verify a --json", 0, "\"drawn_by\": null, \"drawn_now\": null, \"fill\": null}\n");
 }
 
-static void diff_compares_their_ticks(void **state)
+static void diff_compares_ticks_of_recordings_without_frames(void **state)
 {
     assert_says(*state, "diff a same", 0,
                 "same: compared by ticks, because neither recording has frames\ncompared exactly\n");
@@ -62,7 +62,7 @@ static void diff_compares_their_ticks(void **state)
 }
 
 /* There is no frame to show beside the change. */
-static void annotations_tell_of_the_ticks(void **state)
+static void annotations_name_the_different_ticks(void **state)
 {
     command_result result = run_in(*state, "diff a b --annotate");
     assert_int_equal(result.status, 1);
@@ -75,13 +75,13 @@ static void annotations_tell_of_the_ticks(void **state)
     assert_says(*state, "diff a same --annotate", 0, "same: compared by ticks");
 }
 
-static void a_file_that_was_changed_is_a_difference(void **state)
+static void edited_tick_is_a_difference(void **state)
 {
     edit_file(place_in(*state, "same").path, "ticks.jsonl", "\"key\": \"d\"", "\"key\": \"a\"");
     assert_says(*state, "diff a same", 1, "same/ticks.jsonl at tick 3 is not what its session gives");
 }
 
-static void junit_has_a_case_of_the_ticks(void **state)
+static void junit_has_a_case_for_the_ticks(void **state)
 {
     assert_says(*state, "diff a same --junit -", 0,
                 "tests=\"1\" failures=\"0\" errors=\"0\" skipped=\"0\" time=\"0\">\n"
@@ -92,7 +92,7 @@ static void junit_has_a_case_of_the_ticks(void **state)
                 "      <failure type=\"ticks\" message=\"different: another key");
 }
 
-static void what_has_frames_is_not_compared_with_what_has_none(void **state)
+static void recordings_with_and_without_frames_are_not_compared(void **state)
 {
     static const char *const rows[][2] = {
         {"diff a film", "without frames, which film is not"},
@@ -110,7 +110,7 @@ static void what_has_frames_is_not_compared_with_what_has_none(void **state)
     }
 }
 
-static void accept_takes_the_ticks_over(void **state)
+static void accept_copies_the_ticks(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b"), new = place_in(*state, "new");
     assert_says(*state, "accept a same", 0, "a: the ticks are unchanged\n");
@@ -126,13 +126,13 @@ static void accept_takes_the_ticks_over(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        OF_RECORDINGS(verify_says_by_what_it_is_identical),
-        OF_RECORDINGS(diff_compares_their_ticks),
-        OF_RECORDINGS(annotations_tell_of_the_ticks),
-        OF_RECORDINGS(a_file_that_was_changed_is_a_difference),
-        OF_RECORDINGS(junit_has_a_case_of_the_ticks),
-        OF_RECORDINGS(what_has_frames_is_not_compared_with_what_has_none),
-        OF_RECORDINGS(accept_takes_the_ticks_over),
+        OF_RECORDINGS(verify_says_that_it_compared_ticks),
+        OF_RECORDINGS(diff_compares_ticks_of_recordings_without_frames),
+        OF_RECORDINGS(annotations_name_the_different_ticks),
+        OF_RECORDINGS(edited_tick_is_a_difference),
+        OF_RECORDINGS(junit_has_a_case_for_the_ticks),
+        OF_RECORDINGS(recordings_with_and_without_frames_are_not_compared),
+        OF_RECORDINGS(accept_copies_the_ticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

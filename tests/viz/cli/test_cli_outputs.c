@@ -50,7 +50,7 @@ static void assert_has_text(void **state, const char *name, const char *part, bo
     free(text);
 }
 
-static void cloud_is_not_replaced(void **state)
+static void cloud_is_not_overwritten(void **state)
 {
     file_write_text(place_in(*state, "p").path, points);
     assert_int_equal(link(place_in(*state, "p").path, place_in(*state, "linked").path), 0);
@@ -61,7 +61,7 @@ static void cloud_is_not_replaced(void **state)
     assert_text(state, "p", points);
 }
 
-static void two_outputs_of_inspect_are_two_files(void **state)
+static void two_outputs_of_inspect_must_be_different_files(void **state)
 {
     file_write_text(place_in(*state, "p.xyz").path, points);
     assert_refused(state, "inspect p.xyz -o n --nodes n", "--nodes n is the same file as -o n");
@@ -80,14 +80,14 @@ static void link_both(void **state)
     }
 }
 
-static void files_of_a_recording_are_not_replaced(void **state)
+static void recording_files_are_not_overwritten(void **state)
 {
     do_in(state, "record --size 16x16 --keys w -o r");
     assert_refused(state, "diff r r --markdown r/ticks.jsonl", "is the same file as r/ticks.jsonl, which is read");
     assert_refused(state, "diff r r --junit r/session.json", "is the same file as r/session.json, which is read");
 }
 
-static void reports_do_not_replace_what_is_compared(void **state)
+static void reports_overwrite_no_compared_file(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
     gallery_make(*state, "b", "1.png 2.png");
@@ -102,7 +102,7 @@ static void reports_do_not_replace_what_is_compared(void **state)
     free(before);
 }
 
-static void two_reports_are_two_files(void **state)
+static void two_reports_must_be_different_files(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
     assert_refused(state, "diff a a --junit x --markdown x", "--markdown x is the same file as --junit x");
@@ -111,7 +111,7 @@ static void two_reports_are_two_files(void **state)
     do_in(state, "diff a a --junit /dev/null --markdown /dev/null");
 }
 
-static void refused_comparison_leaves_no_evidence(void **state)
+static void refused_comparison_writes_no_evidence(void **state)
 {
     gallery_make(*state, "a", "1.png 2.png");
     do_in(state, "accept a.dig a --reason x && mkdir none nil");
@@ -121,7 +121,7 @@ static void refused_comparison_leaves_no_evidence(void **state)
 }
 
 /* Without the layer of text nothing in a frame says so. */
-static void what_lod_leaves_out_is_told_beside_the_frames(void **state)
+static void record_reports_elements_left_out_by_lod(void **state)
 {
     static const char sentence[] = "\n2 frames leave out nodes smaller than --lod\n";
     static const char session[] = "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 1, \"points\": {\"sample\": "
@@ -135,7 +135,7 @@ static void what_lod_leaves_out_is_told_beside_the_frames(void **state)
     assert_has_text(state, "said", "\"below_lod\": 2", true);
 }
 
-static void what_lod_leaves_out_of_a_picture_is_told_unless_it_says_so(void **state)
+static void inspect_reports_elements_left_out_by_lod_once(void **state)
 {
     FILE *out = fopen(place_in(*state, "p").path, "w");
     assert_non_null(out);
@@ -161,14 +161,14 @@ int main(void)
 {
     unsetenv("CI"); /* accept refuses to run where CI is set */
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(cloud_is_not_replaced),
-        IN_FOLDER(two_outputs_of_inspect_are_two_files),
-        IN_FOLDER(files_of_a_recording_are_not_replaced),
-        IN_FOLDER(reports_do_not_replace_what_is_compared),
-        IN_FOLDER(two_reports_are_two_files),
-        IN_FOLDER(refused_comparison_leaves_no_evidence),
-        IN_FOLDER(what_lod_leaves_out_is_told_beside_the_frames),
-        IN_FOLDER(what_lod_leaves_out_of_a_picture_is_told_unless_it_says_so),
+        IN_FOLDER(cloud_is_not_overwritten),
+        IN_FOLDER(two_outputs_of_inspect_must_be_different_files),
+        IN_FOLDER(recording_files_are_not_overwritten),
+        IN_FOLDER(reports_overwrite_no_compared_file),
+        IN_FOLDER(two_reports_must_be_different_files),
+        IN_FOLDER(refused_comparison_writes_no_evidence),
+        IN_FOLDER(record_reports_elements_left_out_by_lod),
+        IN_FOLDER(inspect_reports_elements_left_out_by_lod_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,7 +117,7 @@ static void nodes_are_named_at_their_edges(void **state)
     replay_close(&what.replay);
 }
 
-static void the_panel_is_beneath_its_text(void **state)
+static void panel_is_listed_below_its_text(void **state)
 {
     shown what;
     show(&what, *state, "", 4);
@@ -169,7 +169,7 @@ static int nearest_other(const image *frame, int x, int y)
     return best;
 }
 
-static void the_nearest_is_told_where_nothing_is(void **state)
+static void nearest_drawn_pixel_is_used_if_nothing_is_drawn(void **state)
 {
     shown what;
     show(&what, *state, "--camera iso --layers nodes,points", 4);
@@ -209,7 +209,7 @@ static void assert_refused(const char *path, const char *rest, const char *part)
     assert_trouble(&result, part);
 }
 
-static void what_is_no_pixel_of_the_frame_is_refused(void **state)
+static void pixel_outside_the_frame_is_refused(void **state)
 {
     const place folder = film_short(*state), frame = frame_place(folder.path, 3);
     assert_refused(frame.path, "160 10", "160 x 90 pixels");
@@ -222,7 +222,7 @@ static void what_is_no_pixel_of_the_frame_is_refused(void **state)
     assert_refused(frame.path, "1 2 --radius -3", "--radius");
 }
 
-static void what_is_no_frame_is_refused(void **state)
+static void file_that_is_not_a_frame_is_refused(void **state)
 {
     const place folder = film_short(*state), points = place_in(*state, "points.xyz"), tree = place_in(*state, "t.png");
     const place text = place_in(*state, "text.png"), bare = place_in(*state, "bare.png");
@@ -243,7 +243,7 @@ static void what_is_no_frame_is_refused(void **state)
     assert_refused(folder.path, "1 1", "film");
 }
 
-static void a_frame_without_its_recording_is_refused(void **state)
+static void frame_without_its_recording_is_refused(void **state)
 {
     const place folder = film_short(*state), alone = place_in(*state, "alone.png");
     size_t size;
@@ -253,7 +253,7 @@ static void a_frame_without_its_recording_is_refused(void **state)
     free(bytes);
 }
 
-static void a_frame_of_another_recording_is_refused(void **state)
+static void frame_of_another_recording_is_refused(void **state)
 {
     const place folder = film_short(*state), frame = frame_place(folder.path, 3);
     edit_file(folder.path, "recording.json", "\"camera\": \"iso\"", "\"camera\": \"top\"");
@@ -267,7 +267,7 @@ static void a_frame_of_another_recording_is_refused(void **state)
 }
 
 /* The pixels of another frame under the texts of this one. */
-static void a_frame_that_was_edited_is_refused(void **state)
+static void edited_frame_is_refused(void **state)
 {
     const place folder = film_short(*state), frame = frame_place(folder.path, 3);
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
@@ -293,7 +293,7 @@ static void a_frame_that_was_edited_is_refused(void **state)
     image_release(&picture);
 }
 
-static void help_teaches(void **state)
+static void help_describes_the_command(void **state)
 {
     (void)state;
     command_result result = run_octreel(NULL, "pick --help");
@@ -307,7 +307,7 @@ static void help_teaches(void **state)
 }
 
 /* A session with a tree of its own: the leaf leaves its parent's box, and lists a point that is not there. */
-static void nodes_of_a_program_are_named_with_what_is_wrong(void **state)
+static void foreign_nodes_are_named_with_their_errors(void **state)
 {
     const place session = place_in(*state, "s.json"), film = place_in(*state, "film");
     file_write_text(
@@ -343,7 +343,7 @@ static void nodes_of_a_program_are_named_with_what_is_wrong(void **state)
 }
 
 /* Beside the frame no folder need be named. On an edge of two nodes both are told, one of them as what is beneath. */
-static void samples_and_shared_edges_are_told_from_the_folder_itself(void **state)
+static void pick_works_inside_the_recording_folder(void **state)
 {
     shown what;
     show(&what, *state, "--aa 2 --camera top --layers nodes", 4);
@@ -385,7 +385,7 @@ static void elements_of_the_close_up_are_named(void **state)
 }
 
 /* A recording made with --no-closeup has none, and verifies. */
-static void a_recording_without_close_up_has_none(void **state)
+static void recording_without_close_up_has_no_close_up_elements(void **state)
 {
     shown what;
     show(&what, *state, "--size 640x360 --no-closeup", 0);
@@ -403,19 +403,19 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(every_point_is_named_at_its_pixel),
         IN_FOLDER(nodes_are_named_at_their_edges),
-        IN_FOLDER(nodes_of_a_program_are_named_with_what_is_wrong),
-        IN_FOLDER(samples_and_shared_edges_are_told_from_the_folder_itself),
+        IN_FOLDER(foreign_nodes_are_named_with_their_errors),
+        IN_FOLDER(pick_works_inside_the_recording_folder),
         IN_FOLDER(elements_of_the_close_up_are_named),
-        IN_FOLDER(a_recording_without_close_up_has_none),
-        IN_FOLDER(the_panel_is_beneath_its_text),
+        IN_FOLDER(recording_without_close_up_has_no_close_up_elements),
+        IN_FOLDER(panel_is_listed_below_its_text),
         IN_FOLDER(samples_of_a_pixel_add_up),
-        IN_FOLDER(the_nearest_is_told_where_nothing_is),
-        IN_FOLDER(what_is_no_pixel_of_the_frame_is_refused),
-        IN_FOLDER(what_is_no_frame_is_refused),
-        IN_FOLDER(a_frame_without_its_recording_is_refused),
-        IN_FOLDER(a_frame_of_another_recording_is_refused),
-        IN_FOLDER(a_frame_that_was_edited_is_refused),
-        cmocka_unit_test(help_teaches),
+        IN_FOLDER(nearest_drawn_pixel_is_used_if_nothing_is_drawn),
+        IN_FOLDER(pixel_outside_the_frame_is_refused),
+        IN_FOLDER(file_that_is_not_a_frame_is_refused),
+        IN_FOLDER(frame_without_its_recording_is_refused),
+        IN_FOLDER(frame_of_another_recording_is_refused),
+        IN_FOLDER(edited_frame_is_refused),
+        cmocka_unit_test(help_describes_the_command),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static command_result play_in(const temp_folder *folder, const char *arguments)
     return run_script("cd %s && %s play %s", folder->name, octreel_program(), arguments);
 }
 
-static void a_program_without_webassembly_says_so(void **state)
+static void build_without_webassembly_says_so(void **state)
 {
     if (page_plays())
         return;
@@ -60,7 +60,7 @@ static void assert_names_address(const char *said, const char *name)
     assert_true(said[strlen(encoded)] == '/' && strstr(said, name));
 }
 
-static void the_default_session_becomes_a_page(void **state)
+static void default_session_becomes_a_page(void **state)
 {
     need_pages_that_play();
     command_result result = play_in(*state, "");
@@ -73,7 +73,7 @@ static void the_default_session_becomes_a_page(void **state)
 }
 
 /* The page of play is that of a recording without frames. */
-static void it_is_the_page_of_a_recording_without_frames(void **state)
+static void page_equals_that_of_a_recording_without_frames(void **state)
 {
     need_pages_that_play();
     const place page = place_in(*state, "p.html"), film = place_in(*state, "film");
@@ -91,7 +91,7 @@ static void it_is_the_page_of_a_recording_without_frames(void **state)
     free(b);
 }
 
-static void the_name_is_that_of_the_session(void **state)
+static void default_page_name_comes_from_the_session(void **state)
 {
     need_pages_that_play();
     assert_int_equal(mkdir(place_in(*state, "in").path, 0777), 0);
@@ -108,7 +108,7 @@ static void the_name_is_that_of_the_session(void **state)
 }
 
 /* A name that begins with its only dot has no ending, nor has one without; an empty file holds nothing to be lost. */
-static void any_name_and_an_empty_file_will_do(void **state)
+static void page_may_have_any_name_and_replace_an_empty_file(void **state)
 {
     need_pages_that_play();
     static const char session[] = HEADER "\"keys\": \"w\"}\n";
@@ -130,7 +130,7 @@ static void any_name_and_an_empty_file_will_do(void **state)
     free(assert_holds(page.path, "\"keys\": \"w\""));
 }
 
-static void points_without_room_are_told(void **state)
+static void points_that_full_leaves_refuse_are_reported(void **state)
 {
     need_pages_that_play();
     file_write_text(place_in(*state, "s.json").path,
@@ -141,7 +141,7 @@ static void points_without_room_are_told(void **state)
     command_release(&result);
 }
 
-static void what_is_no_page_of_play_stays(void **state)
+static void only_pages_of_play_are_overwritten(void **state)
 {
     need_pages_that_play();
     static const char *const rows[][2] = {
@@ -176,7 +176,7 @@ static void what_is_no_page_of_play_stays(void **state)
     free(assert_holds(place_in(*state, "film/index.html").path, "{\"tick\":1,"));
 }
 
-static void frames_and_none_are_asked_for_alone(void **state)
+static void every_and_no_frames_contradict_each_other(void **state)
 {
     command_result result = run_octreel(NULL, "record --no-frames --every 2 -o %s", place_in(*state, "film").path);
     assert_trouble(&result, "--no-frames and --every contradict each other");
@@ -188,14 +188,14 @@ static void frames_and_none_are_asked_for_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(a_program_without_webassembly_says_so),
-        IN_FOLDER(the_default_session_becomes_a_page),
-        IN_FOLDER(it_is_the_page_of_a_recording_without_frames),
-        IN_FOLDER(the_name_is_that_of_the_session),
-        IN_FOLDER(any_name_and_an_empty_file_will_do),
-        IN_FOLDER(points_without_room_are_told),
-        IN_FOLDER(what_is_no_page_of_play_stays),
-        IN_FOLDER(frames_and_none_are_asked_for_alone),
+        IN_FOLDER(build_without_webassembly_says_so),
+        IN_FOLDER(default_session_becomes_a_page),
+        IN_FOLDER(page_equals_that_of_a_recording_without_frames),
+        IN_FOLDER(default_page_name_comes_from_the_session),
+        IN_FOLDER(page_may_have_any_name_and_replace_an_empty_file),
+        IN_FOLDER(points_that_full_leaves_refuse_are_reported),
+        IN_FOLDER(only_pages_of_play_are_overwritten),
+        IN_FOLDER(every_and_no_frames_contradict_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

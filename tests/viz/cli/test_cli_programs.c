@@ -60,7 +60,7 @@ static void answers_of_a_python_program_are_right(void **state)
     assert_right(state, &python);
 }
 
-static void a_stale_index_in_python_is_found(void **state)
+static void stale_index_of_a_python_program_is_found(void **state)
 {
     assert_fault_found(state, &python);
 }
@@ -70,7 +70,7 @@ static void answers_of_a_javascript_program_are_right(void **state)
     assert_right(state, &javascript);
 }
 
-static void a_stale_index_in_javascript_is_found(void **state)
+static void stale_index_of_a_javascript_program_is_found(void **state)
 {
     assert_fault_found(state, &javascript);
 }
@@ -90,7 +90,7 @@ static void both_programs_print_the_same_session(void **state)
 
 /* The session that viz/demo films: the same from every awk, and nodes split and merge in nearly all of its 240 ticks.
  */
-static void the_hunt_is_the_same_from_every_awk(void **state)
+static void every_awk_prints_the_same_hunt(void **state)
 {
     const shell_word path = shell_quote(OCTREEL_EXAMPLES);
     const place film = place_in(*state, "film");
@@ -106,9 +106,9 @@ static void the_hunt_is_the_same_from_every_awk(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(answers_of_a_python_program_are_right),     IN_FOLDER(a_stale_index_in_python_is_found),
-        IN_FOLDER(answers_of_a_javascript_program_are_right), IN_FOLDER(a_stale_index_in_javascript_is_found),
-        IN_FOLDER(both_programs_print_the_same_session),      IN_FOLDER(the_hunt_is_the_same_from_every_awk),
+        IN_FOLDER(answers_of_a_python_program_are_right),     IN_FOLDER(stale_index_of_a_python_program_is_found),
+        IN_FOLDER(answers_of_a_javascript_program_are_right), IN_FOLDER(stale_index_of_a_javascript_program_is_found),
+        IN_FOLDER(both_programs_print_the_same_session),      IN_FOLDER(every_awk_prints_the_same_hunt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

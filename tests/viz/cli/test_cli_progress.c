@@ -37,7 +37,7 @@ static size_t measure(const char *text)
     return longest;
 }
 
-static void the_line_is_narrower_than_the_terminal(void **state)
+static void line_is_narrower_than_the_terminal(void **state)
 {
     static const unsigned widths[] = {200, 80, 45, 30, 10, 2, 1};
     for (size_t i = 0; i < sizeof widths / sizeof widths[0]; i++) {
@@ -51,14 +51,14 @@ static void the_line_is_narrower_than_the_terminal(void **state)
     }
 }
 
-static void a_terminal_that_does_not_say_its_width_has_80_columns(void **state)
+static void terminal_of_unknown_width_has_80_columns(void **state)
 {
     command_result result = film_on(state, &(command_setting){.terminal = true});
     assert_in_range(measure(result.err), 40, 79);
     command_release(&result);
 }
 
-static void a_dumb_terminal_shows_nothing(void **state)
+static void dumb_terminal_shows_no_progress(void **state)
 {
     static const char *const terms[] = {"TERM=dumb", "TERM="};
     for (size_t i = 0; i < 2; i++) {
@@ -69,7 +69,7 @@ static void a_dumb_terminal_shows_nothing(void **state)
 }
 
 /* Blocks are large: all of a small text is one. */
-static void a_pipe_is_counted_by_large_blocks(void **state)
+static void input_from_a_pipe_is_counted_by_large_blocks(void **state)
 {
     const place fifo = place_in(*state, "fifo"), cloud = place_in(*state, "cloud");
     if (!command_has_terminals())
@@ -89,7 +89,7 @@ static void a_pipe_is_counted_by_large_blocks(void **state)
 }
 
 /* Of what comes from standard input nobody knows how much it is. */
-static void a_stream_is_counted(void **state)
+static void ticks_of_a_stream_are_counted(void **state)
 {
     const place session = place_in(*state, "session"), film = place_in(*state, "film");
     if (!command_has_terminals())
@@ -104,7 +104,7 @@ static void a_stream_is_counted(void **state)
     command_release(&result);
 }
 
-static void reading_and_building_a_cloud_are_shown(void **state)
+static void reading_and_building_a_cloud_show_progress(void **state)
 {
     const place cloud = place_in(*state, "cloud");
     char text[4001] = "";
@@ -126,7 +126,7 @@ static void reading_and_building_a_cloud_are_shown(void **state)
 }
 
 /* What takes long without filming has its bar too. */
-static void an_audit_shows_its_ticks(void **state)
+static void audit_counts_ticks(void **state)
 {
     const place session = place_in(*state, "session.json");
     if (!command_has_terminals())
@@ -144,13 +144,13 @@ static void an_audit_shows_its_ticks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(the_line_is_narrower_than_the_terminal),
-        IN_FOLDER(a_terminal_that_does_not_say_its_width_has_80_columns),
-        IN_FOLDER(a_dumb_terminal_shows_nothing),
-        IN_FOLDER(a_pipe_is_counted_by_large_blocks),
-        IN_FOLDER(a_stream_is_counted),
-        IN_FOLDER(reading_and_building_a_cloud_are_shown),
-        IN_FOLDER(an_audit_shows_its_ticks),
+        IN_FOLDER(line_is_narrower_than_the_terminal),
+        IN_FOLDER(terminal_of_unknown_width_has_80_columns),
+        IN_FOLDER(dumb_terminal_shows_no_progress),
+        IN_FOLDER(input_from_a_pipe_is_counted_by_large_blocks),
+        IN_FOLDER(ticks_of_a_stream_are_counted),
+        IN_FOLDER(reading_and_building_a_cloud_show_progress),
+        IN_FOLDER(audit_counts_ticks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -153,7 +153,7 @@ static void ask_all_kinds(const place *file, const brute *all, uint64_t *random)
     command_release(&result);
 }
 
-static void answers_are_those_of_a_scan(void **state)
+static void answers_equal_those_of_a_scan(void **state)
 {
     uint64_t random = 17;
     brute all = make_points(4);
@@ -173,7 +173,7 @@ static size_t count_lines(const char *text)
 }
 
 /* JSON has all of it. */
-static void long_answers_end_after_ten_lines_for_people(void **state)
+static void text_shows_at_most_ten_lines_of_an_answer(void **state)
 {
     brute all = make_points(3);
     const place points = write_points(state, "points.txt", &all), picture = place_in(*state, "q.png"),
@@ -200,7 +200,7 @@ static void long_answers_end_after_ten_lines_for_people(void **state)
     brute_free(&all);
 }
 
-static void answers_for_people_name_what_was_found(void **state)
+static void text_names_the_points_that_were_found(void **state)
 {
     static const char *const rows[][2] = {
         {"--nearest 7.5,8,8", "nearest to 7.5 8 8: 1 found\n  1: 8 8 8  at 0.5\n  cost: "},
@@ -228,7 +228,7 @@ static void answers_for_people_name_what_was_found(void **state)
     }
 }
 
-static void notes_are_in_json_too(void **state)
+static void json_contains_notes_about_answers(void **state)
 {
     const place file = place_in(*state, "points.txt");
     file_write_text(file.path, "0 0 0\n8 8 8\n");
@@ -242,7 +242,7 @@ static void notes_are_in_json_too(void **state)
     command_release(&result);
 }
 
-static void queries_that_do_not_fit_are_refused_in_one_sentence(void **state)
+static void invalid_queries_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
         {"--nearest 1,2", "--nearest takes a place"},
@@ -308,11 +308,11 @@ static void queries_are_drawn_in_their_layers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(answers_are_those_of_a_scan),
-        IN_FOLDER(long_answers_end_after_ten_lines_for_people),
-        IN_FOLDER(answers_for_people_name_what_was_found),
-        IN_FOLDER(notes_are_in_json_too),
-        IN_FOLDER(queries_that_do_not_fit_are_refused_in_one_sentence),
+        IN_FOLDER(answers_equal_those_of_a_scan),
+        IN_FOLDER(text_shows_at_most_ten_lines_of_an_answer),
+        IN_FOLDER(text_names_the_points_that_were_found),
+        IN_FOLDER(json_contains_notes_about_answers),
+        IN_FOLDER(invalid_queries_are_refused_in_one_sentence),
         IN_FOLDER(queries_are_drawn_in_their_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,7 +26,7 @@ static void assert_silent(command_result result)
     command_release(&result);
 }
 
-static void what_makes_files_says_nothing(void **state)
+static void commands_that_write_files_print_nothing(void **state)
 {
     const temp_folder *own = *state;
     assert_silent(run_quiet("record " SMALL " --quiet -o %s/film", own->name));
@@ -41,7 +41,7 @@ static void what_makes_files_says_nothing(void **state)
 }
 
 /* Most of its points are refused, of which a sentence would say so. */
-static void notes_are_left_out_and_errors_are_not(void **state)
+static void notes_are_omitted_and_errors_are_printed(void **state)
 {
     const temp_folder *own = *state;
     file_write_text(place_in(*state, "s.json").path,
@@ -56,7 +56,7 @@ static void notes_are_left_out_and_errors_are_not(void **state)
     assert_trouble(&result, "--replace");
 }
 
-static void what_is_asked_for_is_said(void **state)
+static void results_are_printed(void **state)
 {
     const temp_folder *own = *state;
     static const char *const asked[][2] = {
@@ -78,7 +78,7 @@ static void what_is_asked_for_is_said(void **state)
     }
 }
 
-static void every_command_tells_the_version(void **state)
+static void every_command_prints_the_version(void **state)
 {
     (void)state;
     command_result whole = run_octreel(NULL, "--version"), of_command = run_octreel(NULL, "pick --version");
@@ -94,10 +94,10 @@ static void every_command_tells_the_version(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(what_makes_files_says_nothing),
-        IN_FOLDER(notes_are_left_out_and_errors_are_not),
-        IN_FOLDER(what_is_asked_for_is_said),
-        cmocka_unit_test(every_command_tells_the_version),
+        IN_FOLDER(commands_that_write_files_print_nothing),
+        IN_FOLDER(notes_are_omitted_and_errors_are_printed),
+        IN_FOLDER(results_are_printed),
+        cmocka_unit_test(every_command_prints_the_version),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

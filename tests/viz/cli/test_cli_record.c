@@ -42,7 +42,7 @@ static void version_names_the_renderer(void **state)
     assert_says("--version", "llvmpipe");
 }
 
-static void no_command_is_help_on_stderr(void **state)
+static void missing_command_prints_help_on_stderr(void **state)
 {
     (void)state;
     command_result result = run_octreel(NULL, "%s", "");
@@ -52,7 +52,7 @@ static void no_command_is_help_on_stderr(void **state)
     command_release(&result);
 }
 
-static void unknown_and_unfinished_options_are_refused(void **state)
+static void unknown_and_incomplete_options_are_refused(void **state)
 {
     static const char *const arguments[] = {"record --bogus -o", "record -x -o", "inspect --bogus -o"};
     const place folder = place_in(*state, "film");
@@ -68,7 +68,7 @@ static void unknown_and_unfinished_options_are_refused(void **state)
     assert_int_equal(temp_folder_count(*state), 0);
 }
 
-static void values_that_do_not_fit_are_refused_in_one_sentence(void **state)
+static void invalid_values_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
         {"--size 0x0", "1 to 16384"},
@@ -124,7 +124,7 @@ static void values_that_do_not_fit_are_refused_in_one_sentence(void **state)
     }
 }
 
-static void command_lines_that_make_no_sense_are_refused_in_one_sentence(void **state)
+static void contradicting_arguments_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {{"bogus", "\"bogus\""},
                                           {"rec", "\"rec\""},
@@ -177,7 +177,7 @@ static void bad_sessions_are_refused_with_file_line_and_reason(void **state)
     }
 }
 
-static void what_is_no_file_is_no_session(void **state)
+static void session_must_be_a_regular_file(void **state)
 {
     const temp_folder *own = *state;
     const place folder = place_in(own, "film");
@@ -188,7 +188,7 @@ static void what_is_no_file_is_no_session(void **state)
     assert_int_equal(temp_folder_count(own), 0);
 }
 
-static void folder_that_holds_a_recording_is_refused_untouched(void **state)
+static void folder_with_a_recording_is_refused_and_unchanged(void **state)
 {
     const place folder = place_in(*state, "film"), copy = place_in(*state, "copy");
     const char *const folders[] = {folder.path, copy.path};
@@ -208,7 +208,7 @@ static void folder_that_holds_a_recording_is_refused_untouched(void **state)
 }
 
 /* A session that lies where its recording is to go is not written over. */
-static void session_in_the_folder_is_left_alone(void **state)
+static void session_in_the_output_folder_is_unchanged(void **state)
 {
     const place folder = place_in(*state, "film"), session = place_in(*state, "film/session.json");
     static const char text[] = HEADER "\"points\": {\"sample\": \"uniform\", \"count\": 5}, \"keys\": \"w\"}\n";
@@ -221,7 +221,7 @@ static void session_in_the_folder_is_left_alone(void **state)
     assert_trouble(&result, "session.json");
 }
 
-static void places_that_take_no_folder_are_refused_in_one_sentence(void **state)
+static void unusable_output_folders_are_refused_in_one_sentence(void **state)
 {
     const place file = place_in(*state, "file");
     file_write_text(file.path, "mine");
@@ -255,7 +255,7 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
 }
 
 /* Where there is no text in the frame to say so, too. */
-static void a_budget_that_bites_is_told(void **state)
+static void frames_over_budget_are_reported(void **state)
 {
     const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
                 picture = place_in(*state, "p.png"), session = place_in(*state, "s.json"),
@@ -281,7 +281,7 @@ static void a_budget_that_bites_is_told(void **state)
 }
 
 /* On stderr, beside the data that stdout may be. */
-static void what_the_view_asks_for_in_vain_is_told(void **state)
+static void view_options_without_effect_are_reported(void **state)
 {
     const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
                 picture = place_in(*state, "p.png");
@@ -303,7 +303,7 @@ static void what_the_view_asks_for_in_vain_is_told(void **state)
     command_release(&result);
 }
 
-static void keys_replace_those_of_the_session(void **state)
+static void keys_option_replaces_the_keys_of_the_session(void **state)
 {
     const place folder = place_in(*state, "film");
     session_file played;
@@ -350,7 +350,7 @@ static void progress_is_shown_on_a_terminal(void **state)
 }
 
 /* Refused bodies are events of tick 0, and no error. */
-static void points_without_room_are_refusals_of_tick_0(void **state)
+static void points_that_full_leaves_refuse_are_refusals_of_tick_0(void **state)
 {
     enum { COUNT = 20000 };
     const place session = place_in(*state, "s.json"), points = place_in(*state, "p.txt"), film = place_in(*state, "f");
@@ -384,22 +384,22 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_is_printed_on_stdout),
         cmocka_unit_test(version_names_the_renderer),
-        cmocka_unit_test(no_command_is_help_on_stderr),
-        IN_FOLDER(unknown_and_unfinished_options_are_refused),
-        IN_FOLDER(values_that_do_not_fit_are_refused_in_one_sentence),
-        cmocka_unit_test(command_lines_that_make_no_sense_are_refused_in_one_sentence),
+        cmocka_unit_test(missing_command_prints_help_on_stderr),
+        IN_FOLDER(unknown_and_incomplete_options_are_refused),
+        IN_FOLDER(invalid_values_are_refused_in_one_sentence),
+        cmocka_unit_test(contradicting_arguments_are_refused_in_one_sentence),
         IN_FOLDER(bad_sessions_are_refused_with_file_line_and_reason),
-        IN_FOLDER(what_is_no_file_is_no_session),
-        IN_FOLDER(folder_that_holds_a_recording_is_refused_untouched),
-        IN_FOLDER(session_in_the_folder_is_left_alone),
-        IN_FOLDER(places_that_take_no_folder_are_refused_in_one_sentence),
+        IN_FOLDER(session_must_be_a_regular_file),
+        IN_FOLDER(folder_with_a_recording_is_refused_and_unchanged),
+        IN_FOLDER(session_in_the_output_folder_is_unchanged),
+        IN_FOLDER(unusable_output_folders_are_refused_in_one_sentence),
         IN_FOLDER(json_summary_is_one_object_that_agrees_with_the_recording),
-        IN_FOLDER(a_budget_that_bites_is_told),
-        IN_FOLDER(what_the_view_asks_for_in_vain_is_told),
-        IN_FOLDER(keys_replace_those_of_the_session),
+        IN_FOLDER(frames_over_budget_are_reported),
+        IN_FOLDER(view_options_without_effect_are_reported),
+        IN_FOLDER(keys_option_replaces_the_keys_of_the_session),
         IN_FOLDER(progress_is_silent_without_a_terminal),
         IN_FOLDER(progress_is_shown_on_a_terminal),
-        IN_FOLDER(points_without_room_are_refusals_of_tick_0),
+        IN_FOLDER(points_that_full_leaves_refuse_are_refusals_of_tick_0),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

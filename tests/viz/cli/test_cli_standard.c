@@ -33,7 +33,7 @@ static void assert_lines_done(void **state, const char *lines)
     command_release(&result);
 }
 
-static void a_cloud_is_told_by_what_it_holds(void **state)
+static void cloud_format_is_found_from_the_content(void **state)
 {
     file_write_text(place_in(*state, "standard input").path, points); /* whose name is in what is said */
     assert_lines_done(state, "\"$octreel\" inspect 'standard input' --nodes nodes --nearest 1,2,2 >a && "
@@ -43,7 +43,7 @@ static void a_cloud_is_told_by_what_it_holds(void **state)
                              "grep -q 'wrote standard output: all nodes' d");
 }
 
-static void clouds_of_each_format_come_through_a_pipe(void **state)
+static void clouds_of_each_format_are_read_from_a_pipe(void **state)
 {
     static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
                               "property double z\nend_header\n1 2 3\n4 5 6\n",
@@ -62,7 +62,7 @@ static void clouds_of_each_format_come_through_a_pipe(void **state)
     }
 }
 
-static void a_picture_goes_to_standard_output_alone(void **state)
+static void picture_is_the_only_standard_output(void **state)
 {
     file_write_text(place_in(*state, "standard input").path, points);
     assert_lines_done(state, "\"$octreel\" inspect 'standard input' -o a.png --size 64x36 >a && "
@@ -70,7 +70,7 @@ static void a_picture_goes_to_standard_output_alone(void **state)
                              "sed 's/wrote a.png/wrote standard output/' a | cmp - b");
 }
 
-static void a_terminal_is_sent_no_picture(void **state)
+static void picture_is_not_written_to_a_terminal(void **state)
 {
     const place file = place_in(*state, "cloud");
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
@@ -84,7 +84,7 @@ static void a_terminal_is_sent_no_picture(void **state)
     close(terminal);
 }
 
-static void sessions_to_play_come_from_standard_input(void **state)
+static void record_reads_sessions_from_standard_input(void **state)
 {
     if (!page_plays())
         skip();
@@ -94,7 +94,7 @@ static void sessions_to_play_come_from_standard_input(void **state)
                              "\"$octreel\" play - <octreel.json >b && cmp a.html octreel.html");
 }
 
-static void sessions_to_audit_come_from_standard_input(void **state)
+static void audit_reads_sessions_from_standard_input(void **state)
 {
     file_write_text(place_in(*state, "octreel.json").path, session);
     command_result result =
@@ -104,7 +104,7 @@ static void sessions_to_audit_come_from_standard_input(void **state)
     command_release(&result);
 }
 
-static void pictures_and_baselines_come_from_standard_input(void **state)
+static void diff_reads_pictures_and_baselines_from_standard_input(void **state)
 {
     file_write_text(place_in(*state, "s.json").path, session);
     assert_lines_done(state, "unset CI && \"$octreel\" record s.json --size 32x18 -o r >b && "
@@ -114,7 +114,7 @@ static void pictures_and_baselines_come_from_standard_input(void **state)
                              "\"$octreel\" accept new.png - <r/frame_000001.png >b && cmp new.png r/frame_000001.png");
 }
 
-static void evidence_holds_the_picture_from_standard_input(void **state)
+static void evidence_contains_the_picture_from_standard_input(void **state)
 {
     file_write_text(place_in(*state, "s.json").path, session);
     assert_lines_done(state,
@@ -123,7 +123,7 @@ static void evidence_holds_the_picture_from_standard_input(void **state)
                       "cmp e/*.actual.png r/frame_000001.png && cmp e/*.expected.png r/frame_000000.png");
 }
 
-static void what_is_neither_is_told_by_a_sentence(void **state)
+static void errors_about_standard_input_name_it(void **state)
 {
     static const char *const rows[][2] = {
         {"\"$octreel\" inspect - </dev/null", "standard input: holds no points"},
@@ -141,7 +141,7 @@ static void what_is_neither_is_told_by_a_sentence(void **state)
 }
 
 /* ./- has a name that is short for it where a session has no folder. */
-static void a_file_of_that_name_stays_a_file(void **state)
+static void file_named_dash_is_read_by_its_path(void **state)
 {
     file_write_text(place_in(*state, "-").path, points);
     file_write_text(place_in(*state, "s.json").path,
@@ -155,16 +155,16 @@ static void a_file_of_that_name_stays_a_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(a_cloud_is_told_by_what_it_holds),
-        IN_FOLDER(clouds_of_each_format_come_through_a_pipe),
-        IN_FOLDER(a_picture_goes_to_standard_output_alone),
-        IN_FOLDER(a_terminal_is_sent_no_picture),
-        IN_FOLDER(sessions_to_play_come_from_standard_input),
-        IN_FOLDER(sessions_to_audit_come_from_standard_input),
-        IN_FOLDER(pictures_and_baselines_come_from_standard_input),
-        IN_FOLDER(evidence_holds_the_picture_from_standard_input),
-        IN_FOLDER(what_is_neither_is_told_by_a_sentence),
-        IN_FOLDER(a_file_of_that_name_stays_a_file),
+        IN_FOLDER(cloud_format_is_found_from_the_content),
+        IN_FOLDER(clouds_of_each_format_are_read_from_a_pipe),
+        IN_FOLDER(picture_is_the_only_standard_output),
+        IN_FOLDER(picture_is_not_written_to_a_terminal),
+        IN_FOLDER(record_reads_sessions_from_standard_input),
+        IN_FOLDER(audit_reads_sessions_from_standard_input),
+        IN_FOLDER(diff_reads_pictures_and_baselines_from_standard_input),
+        IN_FOLDER(evidence_contains_the_picture_from_standard_input),
+        IN_FOLDER(errors_about_standard_input_name_it),
+        IN_FOLDER(file_named_dash_is_read_by_its_path),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

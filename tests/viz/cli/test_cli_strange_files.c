@@ -54,13 +54,13 @@ static int remove_all(void **state)
     return temp_folder_remove(state);
 }
 
-static void nobody_waits_for_a_pipe(void **state)
+static void no_command_waits_for_a_pipe_in_a_folder(void **state)
 {
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         assert_nothing_leaves(*state, "mkfifo \"$1\"", names[i]);
 }
 
-static void nothing_is_written_where_a_link_leads(void **state)
+static void no_command_writes_through_a_link(void **state)
 {
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         assert_nothing_leaves(*state, "ln -s ../kept \"$1\"", names[i]);
@@ -71,8 +71,8 @@ static void nothing_is_written_where_a_link_leads(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nobody_waits_for_a_pipe),
-        cmocka_unit_test(nothing_is_written_where_a_link_leads),
+        cmocka_unit_test(no_command_waits_for_a_pipe_in_a_folder),
+        cmocka_unit_test(no_command_writes_through_a_link),
     };
     return cmocka_run_group_tests(tests, film, remove_all);
 }

@@ -46,7 +46,7 @@ static void assert_same_recording(void **state, const char *text, const char *op
 }
 
 /* The end of a session is told by its keys, by its header, by its last object, or by none. */
-static void a_stream_is_filmed_as_its_file(void **state)
+static void stream_is_recorded_as_the_same_session_file(void **state)
 {
     static const char *const ends[] = {"",
                                        "\"keys\":\"wdsaenwd\",",
@@ -65,7 +65,7 @@ static void a_stream_is_filmed_as_its_file(void **state)
     }
 }
 
-static void options_are_those_of_a_file(void **state)
+static void options_work_as_for_a_file(void **state)
 {
     char text[1024];
     snprintf(text, sizeof text, MANY TICKS, "");
@@ -76,7 +76,7 @@ static void options_are_those_of_a_file(void **state)
 }
 
 /* Neither the panel nor the legend can know what comes later. */
-static void frames_show_nothing_that_comes_later(void **state)
+static void frames_do_not_depend_on_later_ticks(void **state)
 {
     static const char later[] =
         "{\"tick\":2,\"queries\":[{\"radius\":9,\"at\":[0,0,0]}]}{\"tick\":3,\"queries\":[{\"range\":{\"min\":[0,0,0],"
@@ -88,7 +88,7 @@ static void frames_show_nothing_that_comes_later(void **state)
     assert_same_recording(state, text, "--size 640x720");
 }
 
-static void what_does_not_go_with_a_stream_is_refused(void **state)
+static void options_that_need_a_whole_session_are_refused(void **state)
 {
     static const char *const refused[][2] = {
         {"--resume", "--resume uses the session stored in DIR"},
@@ -133,7 +133,7 @@ static void assert_broken(void **state, const char *text, size_t good, const cha
 
 #define BROKEN(good, bad, sentence) assert_broken(state, good bad, sizeof(good) - 1, sentence)
 
-static void what_came_before_broken_text_is_whole(void **state)
+static void ticks_before_malformed_text_are_a_whole_recording(void **state)
 {
     BROKEN("", "", "standard input:1: holds no session");
     BROKEN("", "\nhello\n" MOVE(1), "standard input:2: '{' expected near 'hello'");
@@ -151,7 +151,7 @@ static void what_came_before_broken_text_is_whole(void **state)
 }
 
 /* Ticks that were announced and did not come are not made up. Their keys are seen in frames. */
-static void a_session_that_breaks_off_ends_with_its_last_tick(void **state)
+static void truncated_session_ends_with_its_last_tick(void **state)
 {
     const place folder = place_in(*state, "film");
     command_result result = run_script("printf '{\"octreel\":\"session\",\"version\":2,\"ticks\":50,\"keys\":"
@@ -169,7 +169,7 @@ static void a_session_that_breaks_off_ends_with_its_last_tick(void **state)
     command_release(&result);
 }
 
-static void what_came_before_a_crash_is_whole(void **state)
+static void ticks_before_a_crash_are_a_whole_recording(void **state)
 {
     const place folder = place_in(*state, "film");
     command_result result = run_script(
@@ -218,7 +218,7 @@ static void assert_verified(const stream *s, const char *sentence)
 }
 
 /* Each is there before anything more is written. */
-static void frames_appear_as_ticks_come(void **state)
+static void frames_are_written_as_ticks_arrive(void **state)
 {
     stream s = open_stream(state);
     put(&s, HEADER MOVE(1));
@@ -236,7 +236,7 @@ static void frames_appear_as_ticks_come(void **state)
     assert_verified(&s, "identical: 6 ticks, 6 frames");
 }
 
-static void a_signal_ends_a_wait_with_a_whole_recording(void **state)
+static void signal_while_waiting_leaves_a_whole_recording(void **state)
 {
     stream s = open_stream(state);
     put(&s, HEADER MOVE(1) "{\"tick\":2,");
@@ -250,7 +250,7 @@ static void a_signal_ends_a_wait_with_a_whole_recording(void **state)
     assert_verified(&s, "identical: 2 ticks, 2 frames");
 }
 
-static void what_a_kill_leaves_is_resumed(void **state)
+static void killed_stream_is_resumed(void **state)
 {
     stream s = open_stream(state);
     put(&s, HEADER MOVE(1) MOVE(2));
@@ -272,16 +272,16 @@ static void what_a_kill_leaves_is_resumed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(a_stream_is_filmed_as_its_file),
-        IN_FOLDER(options_are_those_of_a_file),
-        IN_FOLDER(frames_show_nothing_that_comes_later),
-        IN_FOLDER(what_does_not_go_with_a_stream_is_refused),
-        IN_FOLDER(what_came_before_broken_text_is_whole),
-        IN_FOLDER(a_session_that_breaks_off_ends_with_its_last_tick),
-        IN_FOLDER(what_came_before_a_crash_is_whole),
-        IN_FOLDER(frames_appear_as_ticks_come),
-        IN_FOLDER(a_signal_ends_a_wait_with_a_whole_recording),
-        IN_FOLDER(what_a_kill_leaves_is_resumed),
+        IN_FOLDER(stream_is_recorded_as_the_same_session_file),
+        IN_FOLDER(options_work_as_for_a_file),
+        IN_FOLDER(frames_do_not_depend_on_later_ticks),
+        IN_FOLDER(options_that_need_a_whole_session_are_refused),
+        IN_FOLDER(ticks_before_malformed_text_are_a_whole_recording),
+        IN_FOLDER(truncated_session_ends_with_its_last_tick),
+        IN_FOLDER(ticks_before_a_crash_are_a_whole_recording),
+        IN_FOLDER(frames_are_written_as_ticks_arrive),
+        IN_FOLDER(signal_while_waiting_leaves_a_whole_recording),
+        IN_FOLDER(killed_stream_is_resumed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static void assert_says(const char *text, const char *part)
         fail_msg("\"%s\" does not say \"%s\"", text, part);
 }
 
-static void one_cause_is_one_finding_with_one_picture(void **state)
+static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)
 {
     const twins t = film_twins(state);
     command_result result = run_octreel(NULL, "diff %s %s -o %s --markdown %s", t.a.path, t.b.path, t.out.path,
@@ -60,7 +60,7 @@ static void one_cause_is_one_finding_with_one_picture(void **state)
     free(text);
 }
 
-static void each_frame_is_told_where_that_is_asked_for(void **state)
+static void each_option_reports_every_frame(void **state)
 {
     const twins t = film_twins(state);
     command_result result = run_octreel(NULL, "diff %s %s --each -o %s", t.a.path, t.b.path, t.out.path);
@@ -71,7 +71,7 @@ static void each_frame_is_told_where_that_is_asked_for(void **state)
 }
 
 /* A frame that was changed afterwards has a cause of its own, beyond those that are explained, too. */
-static void a_frame_of_another_cause_is_not_hidden(void **state)
+static void frame_with_another_cause_is_a_finding_of_its_own(void **state)
 {
     const twins t = film_twins(state);
     const place frame = place_below(t.b.path, "frame_000007.png");
@@ -83,7 +83,7 @@ static void a_frame_of_another_cause_is_not_hidden(void **state)
     command_release(&result);
 }
 
-static void junit_has_each_frame_and_names_the_first(void **state)
+static void junit_lists_each_frame_and_names_the_first_of_a_finding(void **state)
 {
     const twins t = film_twins(state);
     command_result result = run_octreel(NULL, "diff %s %s --junit -", t.a.path, t.b.path);
@@ -96,7 +96,7 @@ static void junit_has_each_frame_and_names_the_first(void **state)
 
 /* ---- GitHub -------------------------------------------------------------------------------------------------- */
 
-static void github_is_told_once_beside_the_change(void **state)
+static void github_gets_one_annotation_at_the_changed_file(void **state)
 {
     const twins t = film_twins(state);
     const command_setting actions = {.environment = {"GITHUB_ACTIONS=true"}};
@@ -118,7 +118,7 @@ static void github_is_told_once_beside_the_change(void **state)
 }
 
 /* A name can neither end the command nor its property. */
-static void github_is_told_any_name(void **state)
+static void github_annotations_escape_any_name(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "1.png");
     gallery_write(place_below(b.path, "x,y:z%::\n::warning::\r\x1b[m.png").path, 1, 0);
@@ -129,7 +129,7 @@ static void github_is_told_any_name(void **state)
     command_release(&result);
 }
 
-static void github_is_told_of_the_first_ten(void **state)
+static void github_gets_annotations_for_the_first_ten(void **state)
 {
     const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
     size_t lines = 0;
@@ -179,7 +179,7 @@ static void assert_json_fits(void **state, const char *a, const char *b, const c
     command_release(&result);
 }
 
-static void json_is_as_its_schema_says(void **state)
+static void json_conforms_to_its_schema(void **state)
 {
     if (!have_python_validator()) {
         puts("skipped: Python's jsonschema is missing (Debian: python3-jsonschema)");
@@ -224,10 +224,14 @@ static void json_lists_each_frame_and_each_group(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(one_cause_is_one_finding_with_one_picture), WITH_FOLDER(each_frame_is_told_where_that_is_asked_for),
-        WITH_FOLDER(a_frame_of_another_cause_is_not_hidden),    WITH_FOLDER(junit_has_each_frame_and_names_the_first),
-        WITH_FOLDER(github_is_told_once_beside_the_change),     WITH_FOLDER(github_is_told_any_name),
-        WITH_FOLDER(github_is_told_of_the_first_ten),           WITH_FOLDER(json_is_as_its_schema_says),
+        WITH_FOLDER(frames_with_one_cause_are_one_finding_with_one_picture),
+        WITH_FOLDER(each_option_reports_every_frame),
+        WITH_FOLDER(frame_with_another_cause_is_a_finding_of_its_own),
+        WITH_FOLDER(junit_lists_each_frame_and_names_the_first_of_a_finding),
+        WITH_FOLDER(github_gets_one_annotation_at_the_changed_file),
+        WITH_FOLDER(github_annotations_escape_any_name),
+        WITH_FOLDER(github_gets_annotations_for_the_first_ten),
+        WITH_FOLDER(json_conforms_to_its_schema),
         WITH_FOLDER(json_lists_each_frame_and_each_group),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

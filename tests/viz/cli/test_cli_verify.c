@@ -9,7 +9,7 @@
 #include "tick_lines.h"
 #include "verified.h"
 
-static void identical_recording_is_said_in_one_line(void **state)
+static void identical_recording_prints_one_line(void **state)
 {
     const place folder = film_short(*state);
     char line[2048];
@@ -20,7 +20,7 @@ static void identical_recording_is_said_in_one_line(void **state)
     command_release(&result);
 }
 
-static void recording_of_the_program_is_identical_by_every_context(void **state)
+static void recording_is_identical_with_every_context(void **state)
 {
     const place folder = place_in(*state, "film");
     command_result result =
@@ -40,7 +40,7 @@ static void recording_of_the_program_is_identical_by_every_context(void **state)
     }
 }
 
-static void one_tick_is_one_and_not_several(void **state)
+static void one_tick_is_reported_in_the_singular(void **state)
 {
     const place folder = place_in(*state, "film"), session = place_in(*state, "one.json");
     file_write_text(session.path, "{\"octreel\": \"session\", \"version\": 2}");
@@ -54,7 +54,7 @@ static void one_tick_is_one_and_not_several(void **state)
     command_release(&result);
 }
 
-static void finding_is_a_line_and_ends_with_1(void **state)
+static void finding_is_one_line_and_exit_status_is_1(void **state)
 {
     const place folder = film_short(*state);
     char line[2048];
@@ -71,7 +71,7 @@ static void finding_is_a_line_and_ends_with_1(void **state)
 }
 
 /* softpipe rounds a little otherwise than llvmpipe, on some lines. */
-static void another_renderer_can_differ_in_pixels_alone(void **state)
+static void other_renderer_can_differ_only_in_pixels(void **state)
 {
     static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
     if (!draw_context_built(DRAW_EGL)) {
@@ -89,7 +89,7 @@ static void another_renderer_can_differ_in_pixels_alone(void **state)
     command_release(&result);
 }
 
-static void json_is_one_object(void **state)
+static void json_output_is_one_object(void **state)
 {
     const place folder = film_short(*state);
     command_result result = run_octreel(NULL, "verify %s --json", folder.path);
@@ -122,7 +122,7 @@ static void json_is_one_object(void **state)
     command_release(&result);
 }
 
-static void what_is_of_no_tick_is_told_without_one(void **state)
+static void finding_without_a_tick_prints_no_tick(void **state)
 {
     const place folder = film_short(*state);
     file_copy(folder.path, "frame_000003.png", "frame_last.png");
@@ -137,7 +137,7 @@ static void what_is_of_no_tick_is_told_without_one(void **state)
     command_release(&result);
 }
 
-static void what_cannot_be_verified_is_trouble(void **state)
+static void unverifiable_recording_is_an_error(void **state)
 {
     static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
     const place folder = film_short(*state);
@@ -168,7 +168,7 @@ static void what_cannot_be_verified_is_trouble(void **state)
     assert_trouble(&result, "session.json:1");
 }
 
-static void help_teaches(void **state)
+static void help_describes_the_command(void **state)
 {
     (void)state;
     command_result result = run_octreel(NULL, "verify --help");
@@ -183,7 +183,7 @@ static void help_teaches(void **state)
     command_release(&result);
 }
 
-static void progress_is_shown_on_a_terminal_alone(void **state)
+static void progress_is_shown_only_on_a_terminal(void **state)
 {
     static const command_setting terminal = {.terminal = true};
     if (!command_has_terminals()) {
@@ -204,16 +204,11 @@ static void progress_is_shown_on_a_terminal_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(identical_recording_is_said_in_one_line),
-        IN_FOLDER(recording_of_the_program_is_identical_by_every_context),
-        IN_FOLDER(one_tick_is_one_and_not_several),
-        IN_FOLDER(finding_is_a_line_and_ends_with_1),
-        IN_FOLDER(another_renderer_can_differ_in_pixels_alone),
-        IN_FOLDER(json_is_one_object),
-        IN_FOLDER(what_is_of_no_tick_is_told_without_one),
-        IN_FOLDER(what_cannot_be_verified_is_trouble),
-        cmocka_unit_test(help_teaches),
-        IN_FOLDER(progress_is_shown_on_a_terminal_alone),
+        IN_FOLDER(identical_recording_prints_one_line),      IN_FOLDER(recording_is_identical_with_every_context),
+        IN_FOLDER(one_tick_is_reported_in_the_singular),     IN_FOLDER(finding_is_one_line_and_exit_status_is_1),
+        IN_FOLDER(other_renderer_can_differ_only_in_pixels), IN_FOLDER(json_output_is_one_object),
+        IN_FOLDER(finding_without_a_tick_prints_no_tick),    IN_FOLDER(unverifiable_recording_is_an_error),
+        cmocka_unit_test(help_describes_the_command),        IN_FOLDER(progress_is_shown_only_on_a_terminal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

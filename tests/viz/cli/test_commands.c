@@ -10,7 +10,7 @@
 #include "files.h"
 #include "fixture.h"
 
-static void quoted_words_are_read_as_they_are(void **state)
+static void quoted_words_reach_the_program_unchanged(void **state)
 {
     static const char *const texts[] = {"plain", "",    "a (b) 'c' d", "'", "''", "$HOME `x` \\ \" * ~ # & ;",
                                         "-n",    "a\nb"};
@@ -25,7 +25,7 @@ static void quoted_words_are_read_as_they_are(void **state)
     }
 }
 
-static void program_in_a_folder_of_an_odd_name_is_run(void **state)
+static void program_in_a_folder_with_an_odd_name_is_run(void **state)
 {
     const place odd = place_in(*state, "a (b) 'c' d");
     const shell_word folder = shell_quote(odd.path), link = shell_quote(place_below(odd.path, "octreel").path);
@@ -35,7 +35,7 @@ static void program_in_a_folder_of_an_odd_name_is_run(void **state)
     command_release(&result);
 }
 
-static void program_that_has_ended_is_not_waited_for(void **state)
+static void waiting_ends_when_the_program_ends(void **state)
 {
     struct timespec started, now;
     const place never = place_in(*state, "never");
@@ -54,9 +54,9 @@ static void program_that_has_ended_is_not_waited_for(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quoted_words_are_read_as_they_are),
-        IN_FOLDER(program_in_a_folder_of_an_odd_name_is_run),
-        IN_FOLDER(program_that_has_ended_is_not_waited_for),
+        cmocka_unit_test(quoted_words_reach_the_program_unchanged),
+        IN_FOLDER(program_in_a_folder_with_an_odd_name_is_run),
+        IN_FOLDER(waiting_ends_when_the_program_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

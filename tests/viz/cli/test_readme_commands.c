@@ -87,7 +87,7 @@ static void lay_out_clone(const temp_folder *folder)
     command_release(&made);
 }
 
-static void every_line_of_shell_does_what_it_says(void **state)
+static void every_command_of_the_readme_works(void **state)
 {
     const temp_folder *folder = *state;
     char *readme = file_read(OCTREEL_ROOT "/README.md", NULL), *block;
@@ -122,7 +122,7 @@ static void every_line_of_shell_does_what_it_says(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(every_line_of_shell_does_what_it_says, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(every_command_of_the_readme_works, temp_folder_make, nested_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,7 +117,7 @@ static void assert_uploads(const job *j, const char *file)
 
 /* ---- The job -------------------------------------------------------------------------------------------------- */
 
-static void job_passes_where_nothing_differs(void **state)
+static void job_passes_if_nothing_differs(void **state)
 {
     job *j = *state;
     assert_int_equal(run_job(j), 0);
@@ -127,7 +127,7 @@ static void job_passes_where_nothing_differs(void **state)
 }
 
 /* What is kept is what was left, and the summary is added to what there is already. */
-static void job_fails_where_a_frame_differs_and_keeps_the_evidence(void **state)
+static void job_fails_and_uploads_evidence_if_a_frame_differs(void **state)
 {
     job *j = *state;
     change_game(j);
@@ -176,7 +176,7 @@ static const char *output_of(const job *j, const char *name)
     return json_string_value(json_object_get(j->run.values, expression));
 }
 
-static void action_takes_any_name_of_a_folder(void **state)
+static void action_accepts_any_folder_name(void **state)
 {
     job *j = *state;
     char line[4096], evidence[64];
@@ -198,7 +198,7 @@ static void action_takes_any_name_of_a_folder(void **state)
 
 /* Nothing in them is run or stands for names of files, octreel says what is wrong with them, and what does not compare
  * does not pass. */
-static void action_reads_options_as_words(void **state)
+static void action_splits_options_into_words(void **state)
 {
     job *j = *state;
     in_folder(j, "cp -R golden frames && : >--help");
@@ -211,7 +211,7 @@ static void action_reads_options_as_words(void **state)
                      0);
 }
 
-static void action_says_what_is_forgiven(void **state)
+static void action_summary_counts_tolerated_frames(void **state)
 {
     job *j = *state;
     change_game(j);
@@ -223,7 +223,7 @@ static void action_says_what_is_forgiven(void **state)
     assert_int_not_equal(output_of(j, "summary")[strlen(output_of(j, "summary")) - 1], ' ');
 }
 
-static void action_tells_trouble(void **state)
+static void action_reports_errors(void **state)
 {
     job *j = *state;
     assert_int_equal(run_action(j, action_inputs("golden", "no\nframes", "why", "")), 2);
@@ -235,7 +235,7 @@ static void action_tells_trouble(void **state)
 }
 
 /* A frame's name that looks like one of the runner's commands is said while those are off. */
-static void action_keeps_names_from_being_commands(void **state)
+static void action_does_not_execute_file_names_as_commands(void **state)
 {
     job *j = *state;
     in_folder(j, "rm golden/*.json* && cp -R golden frames && cp golden/frame_000005.png \"$(printf "
@@ -249,7 +249,7 @@ static void action_keeps_names_from_being_commands(void **state)
 }
 
 /* Where there is no octreel, what the action came with builds one: here a setup that takes one from beside it. */
-static void action_builds_its_own_program(void **state)
+static void action_builds_octreel_if_it_is_not_installed(void **state)
 {
     job *j = *state;
     static const char setup[] = "#!/bin/sh\nmkdir -p \"$2/bin\" && mv octreel \"$2/bin\"\n";
@@ -276,10 +276,14 @@ int main(void)
 {
     skip_without_yaml();
     const struct CMUnitTest tests[] = {
-        JOB(job_passes_where_nothing_differs),       JOB(job_fails_where_a_frame_differs_and_keeps_the_evidence),
-        JOB(action_takes_any_name_of_a_folder),      JOB(action_reads_options_as_words),
-        JOB(action_says_what_is_forgiven),           JOB(action_tells_trouble),
-        JOB(action_keeps_names_from_being_commands), JOB(action_builds_its_own_program),
+        JOB(job_passes_if_nothing_differs),
+        JOB(job_fails_and_uploads_evidence_if_a_frame_differs),
+        JOB(action_accepts_any_folder_name),
+        JOB(action_splits_options_into_words),
+        JOB(action_summary_counts_tolerated_frames),
+        JOB(action_reports_errors),
+        JOB(action_does_not_execute_file_names_as_commands),
+        JOB(action_builds_octreel_if_it_is_not_installed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

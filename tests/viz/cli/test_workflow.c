@@ -96,7 +96,7 @@ static void assert_called(const machine *m, const char *part)
         fail_msg("not called: %s\n%s", part, m->done);
 }
 
-static void tests_are_built_and_run(void **state)
+static void job_tests_builds_and_runs_tests(void **state)
 {
     machine *m = *state;
     fake_setup(m);
@@ -106,7 +106,7 @@ static void tests_are_built_and_run(void **state)
 }
 
 /* A job a part, and together they are all that the README's command does. */
-static void each_part_of_all_tests_is_a_job(void **state)
+static void job_all_runs_each_build(void **state)
 {
     static const struct {
         const char *part, *argument;
@@ -138,7 +138,7 @@ static void each_part_of_all_tests_is_a_job(void **state)
     command_release(&all);
 }
 
-static void page_is_filmed_and_compared(void **state)
+static void job_page_records_and_compares_the_demo(void **state)
 {
     machine *m = *state;
     fake_setup(m);
@@ -147,7 +147,7 @@ static void page_is_filmed_and_compared(void **state)
     assert_called(m, "octreel diff --annotate --output=octreel-evidence ");
 }
 
-static void packages_are_made_and_judged_and_installed(void **state)
+static void job_packages_builds_checks_and_installs_packages(void **state)
 {
     machine *m = *state;
     run_job(m, "packages", "image", "debian:12");
@@ -158,7 +158,7 @@ static void packages_are_made_and_judged_and_installed(void **state)
 }
 
 /* Each fuzzer has a job. */
-static void each_fuzzer_hunts_and_each_failure_is_tried(void **state)
+static void hunt_runs_each_fuzzer_and_the_failure_campaign(void **state)
 {
     machine *m = *state;
     char all[512] = "", line[128];
@@ -184,7 +184,7 @@ static void each_fuzzer_hunts_and_each_failure_is_tried(void **state)
 }
 
 /* What somebody names comes to a shell in variables, and no job may do more than read. */
-static void steps_hold_no_expressions_in_their_lines(void **state)
+static void workflow_commands_contain_no_expressions(void **state)
 {
     const machine *m = *state;
     const char *name;
@@ -216,12 +216,12 @@ int main(void)
 {
     skip_without_yaml();
     const struct CMUnitTest tests[] = {
-        ON_MACHINE(tests_are_built_and_run),
-        ON_MACHINE(each_part_of_all_tests_is_a_job),
-        ON_MACHINE(page_is_filmed_and_compared),
-        ON_MACHINE(packages_are_made_and_judged_and_installed),
-        ON_MACHINE(each_fuzzer_hunts_and_each_failure_is_tried),
-        ON_MACHINE(steps_hold_no_expressions_in_their_lines),
+        ON_MACHINE(job_tests_builds_and_runs_tests),
+        ON_MACHINE(job_all_runs_each_build),
+        ON_MACHINE(job_page_records_and_compares_the_demo),
+        ON_MACHINE(job_packages_builds_checks_and_installs_packages),
+        ON_MACHINE(hunt_runs_each_fuzzer_and_the_failure_campaign),
+        ON_MACHINE(workflow_commands_contain_no_expressions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,7 +63,7 @@ static void all_new_frames_become_the_reference(void **state)
     command_release(&result);
 }
 
-static void json_lists_what_was_done(void **state)
+static void json_lists_the_changes(void **state)
 {
     const change c = make_change(state);
     char expected[3000];
@@ -78,7 +78,7 @@ static void json_lists_what_was_done(void **state)
     command_release(&result);
 }
 
-static void named_frames_alone_are_taken_over(void **state)
+static void only_named_frames_are_accepted(void **state)
 {
     const change c = make_change(state);
     command_result result = run_octreel(NULL, "accept %s %s 4.png", c.before.path, c.after.path);
@@ -96,7 +96,7 @@ static void named_frames_alone_are_taken_over(void **state)
     assert_same_folders(c.before.path, c.after.path, NULL);
 }
 
-static void nothing_is_accepted_where_ci_is_set(void **state)
+static void nothing_is_accepted_if_ci_is_set(void **state)
 {
     const change c = make_change(state);
     const place untouched = gallery_make(*state, "untouched", "1.png 2.png 3.png");
@@ -110,7 +110,7 @@ static void nothing_is_accepted_where_ci_is_set(void **state)
 }
 
 /* A reference with the same pixels keeps its bytes, so that what is committed is what changed. */
-static void same_pixels_leave_a_reference_alone(void **state)
+static void reference_with_equal_pixels_is_unchanged(void **state)
 {
     const place before = gallery_make(*state, "golden", "1.png"), after = gallery_make(*state, "new", "");
     static const image_text texts[] = {{"Comment", "new"}};
@@ -126,7 +126,7 @@ static void same_pixels_leave_a_reference_alone(void **state)
     comparison_release(&made);
 }
 
-static void before_anything_is_written_all_is_checked(void **state)
+static void everything_is_checked_before_the_first_write(void **state)
 {
     const change c = make_change(state);
     const place untouched = gallery_make(*state, "untouched", "1.png 2.png 3.png"),
@@ -143,7 +143,7 @@ static void before_anything_is_written_all_is_checked(void **state)
     assert_trouble(&result, "accept needs a reference and new frames; ");
 }
 
-static void a_folder_of_other_pictures_is_left_alone(void **state)
+static void accept_refuses_to_remove_all_references(void **state)
 {
     const place pictures = gallery_make(*state, "pictures", "cat.png dog.png"),
                 untouched = gallery_make(*state, "untouched", "cat.png dog.png"),
@@ -153,7 +153,7 @@ static void a_folder_of_other_pictures_is_left_alone(void **state)
     assert_same_folders(pictures.path, untouched.path, NULL);
 }
 
-static void a_reference_that_cannot_be_read_is_replaced(void **state)
+static void unreadable_reference_is_replaced(void **state)
 {
     const change c = make_change(state);
     assert_int_equal(truncate(place_below(c.before.path, "1.png").path, 100), 0);
@@ -163,7 +163,7 @@ static void a_reference_that_cannot_be_read_is_replaced(void **state)
     assert_same_folders(c.before.path, c.after.path, NULL);
 }
 
-static void a_reference_is_made_where_there_is_none(void **state)
+static void missing_reference_is_created(void **state)
 {
     const place frames = gallery_make(*state, "new", "1.png 2.png"), folder = place_in(*state, "made/golden"),
                 one = place_below(frames.path, "2.png"), picture = place_in(*state, "one.png");
@@ -183,7 +183,7 @@ static void a_reference_is_made_where_there_is_none(void **state)
 }
 
 /* What would be made is not what its name says it is. */
-static void a_name_of_a_file_becomes_no_folder_and_no_other_picture(void **state)
+static void name_of_a_file_becomes_no_folder_and_no_picture_in_another_format(void **state)
 {
     const place frames = gallery_make(*state, "new", "1.png 2.png"), one = place_below(frames.path, "2.png");
     static const char *const names[] = {"golden.digests", "golden.png", "golden.json"};
@@ -200,7 +200,7 @@ static void a_name_of_a_file_becomes_no_folder_and_no_other_picture(void **state
 }
 
 /* Only what is not there is new: a link to itself is there. */
-static void a_reference_that_cannot_be_looked_up_is_trouble(void **state)
+static void inaccessible_reference_is_an_error(void **state)
 {
     const place frames = gallery_make(*state, "new", "1.png"), loop = place_in(*state, "golden.digests");
     struct stat status;
@@ -213,7 +213,7 @@ static void a_reference_that_cannot_be_looked_up_is_trouble(void **state)
 
 #define BECAUSE " --reason why --date 2026-11-22"
 
-static void a_baseline_is_accepted_line_by_line(void **state)
+static void accept_updates_a_baseline_line_by_line(void **state)
 {
     const change c = make_change(state);
     const place digests = place_in(*state, "golden.digests"), fresh = place_in(*state, "fresh.digests");
@@ -247,7 +247,7 @@ static void film(const place *folder, const char *keys)
     assert_filmed(&session, &options);
 }
 
-static void a_recording_is_taken_over_with_its_ticks(void **state)
+static void recording_is_accepted_with_its_ticks(void **state)
 {
     const place before = place_in(*state, "golden"), after = place_in(*state, "new"), made = place_in(*state, "made");
     film(&before, "wwd");
@@ -265,7 +265,7 @@ static void a_recording_is_taken_over_with_its_ticks(void **state)
 }
 
 /* Where nothing has changed nothing is said of ticks; and other files may lie there. */
-static void an_empty_folder_becomes_a_recording(void **state)
+static void empty_folder_becomes_a_recording(void **state)
 {
     const place empty = place_in(*state, "golden"), after = place_in(*state, "new");
     film(&after, "ds");
@@ -283,7 +283,7 @@ static void an_empty_folder_becomes_a_recording(void **state)
     command_release(&result);
 }
 
-static void many_frames_are_listed_in_part(void **state)
+static void long_list_of_frames_is_cut(void **state)
 {
     const place golden = place_in(*state, "golden"),
                 after = gallery_make(*state, "new",
@@ -296,7 +296,7 @@ static void many_frames_are_listed_in_part(void **state)
     assert_same_folders(golden.path, after.path, NULL);
 }
 
-static void a_baseline_is_no_picture_to_accept(void **state)
+static void baseline_cannot_be_accepted(void **state)
 {
     const place golden = gallery_make(*state, "golden", "1.png"), digests = place_in(*state, "new.digests");
     command_result result = run_octreel(NULL, "accept %s %s" BECAUSE, digests.path, golden.path);
@@ -306,7 +306,7 @@ static void a_baseline_is_no_picture_to_accept(void **state)
     assert_trouble(&result, "cannot accept a baseline; give the pictures themselves");
 }
 
-static void a_recording_is_no_reference_for_plain_pictures(void **state)
+static void plain_pictures_cannot_replace_a_recording(void **state)
 {
     const place before = place_in(*state, "golden"), after = gallery_make(*state, "new", "frame_000000.png");
     film(&before, "w");
@@ -314,7 +314,7 @@ static void a_recording_is_no_reference_for_plain_pictures(void **state)
     assert_trouble(&result, "is a recording");
 }
 
-static void an_unwritable_reference_is_trouble(void **state)
+static void unwritable_reference_is_an_error(void **state)
 {
     const change c = make_change(state);
     const command_setting full = {.file_limit = 16};
@@ -325,7 +325,7 @@ static void an_unwritable_reference_is_trouble(void **state)
 }
 
 /* Whoever films has the log locked. */
-static void recording_that_is_still_filmed_is_refused(void **state)
+static void recording_in_progress_is_refused(void **state)
 {
     const place film = place_in(*state, "film"), golden = place_in(*state, "golden");
     command_result result = run_octreel(NULL, "record --keys wd --size 64x36 -o %s", film.path);
@@ -346,25 +346,25 @@ static void recording_that_is_still_filmed_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(recording_that_is_still_filmed_is_refused),
+        WITH_FOLDER(recording_in_progress_is_refused),
         WITH_FOLDER(all_new_frames_become_the_reference),
-        WITH_FOLDER(json_lists_what_was_done),
-        WITH_FOLDER(named_frames_alone_are_taken_over),
-        WITH_FOLDER(nothing_is_accepted_where_ci_is_set),
-        WITH_FOLDER(same_pixels_leave_a_reference_alone),
-        WITH_FOLDER(before_anything_is_written_all_is_checked),
-        WITH_FOLDER(a_folder_of_other_pictures_is_left_alone),
-        WITH_FOLDER(a_reference_that_cannot_be_read_is_replaced),
-        WITH_FOLDER(a_reference_is_made_where_there_is_none),
-        WITH_FOLDER(a_name_of_a_file_becomes_no_folder_and_no_other_picture),
-        WITH_FOLDER(a_reference_that_cannot_be_looked_up_is_trouble),
-        WITH_FOLDER(a_baseline_is_accepted_line_by_line),
-        WITH_FOLDER(a_recording_is_taken_over_with_its_ticks),
-        WITH_FOLDER(an_empty_folder_becomes_a_recording),
-        WITH_FOLDER(many_frames_are_listed_in_part),
-        WITH_FOLDER(a_baseline_is_no_picture_to_accept),
-        WITH_FOLDER(a_recording_is_no_reference_for_plain_pictures),
-        WITH_FOLDER(an_unwritable_reference_is_trouble),
+        WITH_FOLDER(json_lists_the_changes),
+        WITH_FOLDER(only_named_frames_are_accepted),
+        WITH_FOLDER(nothing_is_accepted_if_ci_is_set),
+        WITH_FOLDER(reference_with_equal_pixels_is_unchanged),
+        WITH_FOLDER(everything_is_checked_before_the_first_write),
+        WITH_FOLDER(accept_refuses_to_remove_all_references),
+        WITH_FOLDER(unreadable_reference_is_replaced),
+        WITH_FOLDER(missing_reference_is_created),
+        WITH_FOLDER(name_of_a_file_becomes_no_folder_and_no_picture_in_another_format),
+        WITH_FOLDER(inaccessible_reference_is_an_error),
+        WITH_FOLDER(accept_updates_a_baseline_line_by_line),
+        WITH_FOLDER(recording_is_accepted_with_its_ticks),
+        WITH_FOLDER(empty_folder_becomes_a_recording),
+        WITH_FOLDER(long_list_of_frames_is_cut),
+        WITH_FOLDER(baseline_cannot_be_accepted),
+        WITH_FOLDER(plain_pictures_cannot_replace_a_recording),
+        WITH_FOLDER(unwritable_reference_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

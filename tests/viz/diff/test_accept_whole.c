@@ -63,7 +63,7 @@ static void assert_no_room(const char *reference, const char *frames, size_t roo
     assert_trouble(&result, sentence);
 }
 
-static void no_picture_is_replaced_where_one_has_no_room(void **state)
+static void full_disk_replaces_no_picture(void **state)
 {
     const place frames = changed_pictures(state), golden = gallery_make(*state, "golden", "1.png 2.png 3.png 4.png"),
                 before = copy_of(state, golden.path, "before");
@@ -75,7 +75,7 @@ static void no_picture_is_replaced_where_one_has_no_room(void **state)
     assert_same_folders(frames.path, golden.path, NULL);
 }
 
-static void no_folder_is_made_where_a_picture_has_no_room(void **state)
+static void full_disk_makes_no_folder(void **state)
 {
     const place frames = changed_pictures(state), golden = place_in(*state, "golden");
     assert_no_room(golden.path, frames.path, ROOM, "golden/2.png: cannot be written: File too large");
@@ -83,7 +83,7 @@ static void no_folder_is_made_where_a_picture_has_no_room(void **state)
 }
 
 /* Its frames would fit. */
-static void no_recording_is_replaced_where_its_page_has_no_room(void **state)
+static void full_disk_replaces_no_recording(void **state)
 {
     const place golden = film_in(state, "golden", "wwd"), frames = film_in(state, "new", "dss"),
                 before = copy_of(state, golden.path, "before");
@@ -92,7 +92,7 @@ static void no_recording_is_replaced_where_its_page_has_no_room(void **state)
 }
 
 /* A frame in whose place there is a folder. */
-static void what_has_not_taken_its_place_is_removed(void **state)
+static void temporary_files_are_removed_after_a_failure(void **state)
 {
     const place frames = changed_pictures(state), golden = gallery_make(*state, "golden", "1.png 3.png");
     command_result result = run_script("mkdir %s", place_below(golden.path, "2.png").path);
@@ -106,7 +106,7 @@ static void what_has_not_taken_its_place_is_removed(void **state)
     assert_same_files(place_below(golden.path, "1.png").path, place_below(frames.path, "1.png").path);
 }
 
-static void of_many_who_accept_into_a_folder_at_once_nothing_is_half_written(void **state)
+static void concurrent_accepts_write_whole_files(void **state)
 {
     const place frames = changed_pictures(state), golden = place_in(*state, "golden");
     command_result result = run_script("for i in 1 2 3 4 5 6 7 8; do %s accept -q %s %s & done; wait",
@@ -134,7 +134,7 @@ static void assert_not_accepted(void **state, const char *frames, const char *la
     assert_false(file_exists(baseline.path));
 }
 
-static void a_recording_that_lacks_a_file_is_not_accepted(void **state)
+static void recording_with_a_missing_file_is_refused(void **state)
 {
     static const char *const names[] = {"frame_000003.png", "frame_000011.png", "session.json", "ticks.jsonl"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -150,7 +150,7 @@ static void a_recording_that_lacks_a_file_is_not_accepted(void **state)
     }
 }
 
-static void a_recording_that_was_stopped_is_accepted_once_it_is_resumed(void **state)
+static void stopped_recording_is_accepted_after_resume(void **state)
 {
     const place film = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
@@ -167,7 +167,7 @@ static void a_recording_that_was_stopped_is_accepted_once_it_is_resumed(void **s
 }
 
 /* Of one without frames its lines alone tell. */
-static void a_recording_with_too_few_or_too_many_lines_is_not_accepted(void **state)
+static void recording_with_missing_or_surplus_lines_is_refused(void **state)
 {
     static const char *const edits[] = {"$d", "$p"}, *const lacks[] = {"has 11 lines for 12", "has 13 lines for 12"};
     for (size_t i = 0; i < 2; i++) {
@@ -185,7 +185,7 @@ static void a_recording_with_too_few_or_too_many_lines_is_not_accepted(void **st
     }
 }
 
-static void a_recording_of_some_ticks_or_with_gaps_is_whole(void **state)
+static void recording_of_some_ticks_or_with_gaps_is_accepted(void **state)
 {
     const place film = place_in(*state, "film"), session = place_in(*state, "session.json");
     command_result result = run_octreel(NULL, "record --keys wwddeennwwd --every 4 --size 64x48 -o %s", film.path);
@@ -211,15 +211,15 @@ static void a_recording_of_some_ticks_or_with_gaps_is_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(no_picture_is_replaced_where_one_has_no_room),
-        WITH_FOLDER(no_folder_is_made_where_a_picture_has_no_room),
-        WITH_FOLDER(no_recording_is_replaced_where_its_page_has_no_room),
-        WITH_FOLDER(what_has_not_taken_its_place_is_removed),
-        WITH_FOLDER(of_many_who_accept_into_a_folder_at_once_nothing_is_half_written),
-        WITH_FOLDER(a_recording_that_lacks_a_file_is_not_accepted),
-        WITH_FOLDER(a_recording_that_was_stopped_is_accepted_once_it_is_resumed),
-        WITH_FOLDER(a_recording_with_too_few_or_too_many_lines_is_not_accepted),
-        WITH_FOLDER(a_recording_of_some_ticks_or_with_gaps_is_whole),
+        WITH_FOLDER(full_disk_replaces_no_picture),
+        WITH_FOLDER(full_disk_makes_no_folder),
+        WITH_FOLDER(full_disk_replaces_no_recording),
+        WITH_FOLDER(temporary_files_are_removed_after_a_failure),
+        WITH_FOLDER(concurrent_accepts_write_whole_files),
+        WITH_FOLDER(recording_with_a_missing_file_is_refused),
+        WITH_FOLDER(stopped_recording_is_accepted_after_resume),
+        WITH_FOLDER(recording_with_missing_or_surplus_lines_is_refused),
+        WITH_FOLDER(recording_of_some_ticks_or_with_gaps_is_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

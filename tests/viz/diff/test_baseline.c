@@ -65,7 +65,7 @@ static void lines_are_read_in_any_order_and_written_in_one(void **state)
     assert_written(HEAD, HEAD);
 }
 
-static void a_frame_has_all_its_variants_and_the_newest_stands_for_them(void **state)
+static void frame_has_all_variants_and_is_represented_by_the_newest(void **state)
 {
     (void)state;
     diff_side side = assert_parsed(HEAD SECOND FIRST AK A7 BK);
@@ -81,7 +81,7 @@ static void a_frame_has_all_its_variants_and_the_newest_stands_for_them(void **s
 }
 
 /* Endings other than ".png" are said, and what one line would leave in doubt. */
-static void each_name_is_read_back_as_it_was(void **state)
+static void every_frame_name_survives_the_round_trip(void **state)
 {
     (void)state;
     static const char *const names[] = {"a.png", "a.PNG", "a.png.png", "a.Png.png", "a .png", " .png", "7f.png", "p"};
@@ -108,7 +108,7 @@ static void each_name_is_read_back_as_it_was(void **state)
     }
 }
 
-static void what_is_malformed_is_refused_with_its_line(void **state)
+static void malformed_line_is_refused_with_its_number(void **state)
 {
     (void)state;
     static const struct {
@@ -179,7 +179,7 @@ static void what_is_malformed_is_refused_with_its_line(void **state)
     }
 }
 
-static void a_zero_byte_is_refused(void **state)
+static void zero_byte_is_refused(void **state)
 {
     (void)state;
     char text[] = HEAD "\0" FIRST;
@@ -190,7 +190,7 @@ static void a_zero_byte_is_refused(void **state)
     diff_side_release(&side);
 }
 
-static void dates_are_those_of_the_calendar(void **state)
+static void only_dates_of_the_calendar_are_accepted(void **state)
 {
     (void)state;
     static const char *const right[] = {"2026-11-22", "2024-02-29", "2000-02-29", "2026-02-28", "2026-12-31"};
@@ -214,7 +214,7 @@ static void dates_are_those_of_the_calendar(void **state)
 }
 
 /* As two branches leave them that were merged; the smaller first. */
-static void two_digests_of_one_reason_are_both_written(void **state)
+static void two_digests_with_one_reason_are_both_written(void **state)
 {
     (void)state;
 #define BEFORE_A7 "7f 0000000000000007 a\n"
@@ -223,7 +223,7 @@ static void two_digests_of_one_reason_are_both_written(void **state)
 }
 
 /* What two branches accept for the same reason has one name in both; other reasons have others. */
-static void a_reason_is_named_by_what_it_says(void **state)
+static void acceptance_name_is_derived_from_its_text(void **state)
 {
     (void)state;
     static const char *const reasons[] = {"one", "two", "one"};
@@ -243,7 +243,7 @@ static void a_reason_is_named_by_what_it_says(void **state)
     diff_side_release(&side);
 }
 
-static void a_thousand_reasons_have_names_and_too_many_are_refused(void **state)
+static void thousand_acceptances_have_names_and_too_many_are_refused(void **state)
 {
     (void)state;
     diff_side side = {.path = "file", .kind = DIFF_BASELINE};
@@ -260,7 +260,7 @@ static void a_thousand_reasons_have_names_and_too_many_are_refused(void **state)
 }
 
 /* 1,000 frames with 3 variants: under 100 KB. */
-static void a_large_baseline_is_small(void **state)
+static void large_baseline_takes_few_bytes(void **state)
 {
     (void)state;
     static const char *const reasons[] = {"as recorded first, with Mesa 25", "Mesa 26", "without SIMD"};
@@ -309,7 +309,7 @@ static void write_by_kinds(const char *folder, const char *path, int shift)
 }
 
 /* What was accepted by an old kind of digest stays accepted by it. Files without a kind in common tell nothing. */
-static void each_digest_is_judged_by_its_own_kind(void **state)
+static void each_digest_is_compared_by_its_own_kind(void **state)
 {
     const place folder = gallery_make(*state, "a", "1.png 2.png 3.png"), file = place_in(*state, "a.txt"),
                 other = place_in(*state, "b.txt");
@@ -331,7 +331,7 @@ static void each_digest_is_judged_by_its_own_kind(void **state)
 }
 
 /* The same picture is among the variants of both sides, wherever it stands there. */
-static void two_files_agree_in_any_of_their_variants(void **state)
+static void two_baselines_agree_if_any_variants_are_equal(void **state)
 {
     static const char *const variants[] = {"k3 0000000000000001 a\n", "k3 0000000000000002 a\n",
                                            "k3 0000000000000003 a\n"};
@@ -359,7 +359,7 @@ static void two_files_agree_in_any_of_their_variants(void **state)
     comparison_release(&made);
 }
 
-static void a_baseline_stands_for_pictures_on_either_side(void **state)
+static void baseline_may_be_either_side(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 4.png"),
                 file = place_in(*state, "a.txt");
@@ -380,7 +380,7 @@ static void a_baseline_stands_for_pictures_on_either_side(void **state)
     comparison_release(&made);
 }
 
-static void an_unreadable_picture_is_trouble_beside_a_baseline_too(void **state)
+static void unreadable_picture_is_an_error_with_a_baseline_too(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "a.txt");
     write_by_kinds(a.path, file.path, 0);
@@ -390,7 +390,7 @@ static void an_unreadable_picture_is_trouble_beside_a_baseline_too(void **state)
     comparison_release(&made);
 }
 
-static void a_baseline_allows_no_tolerance(void **state)
+static void baseline_allows_no_tolerance(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "a.txt");
     static const image_rectangle corner = {0, 0, 1, 1};
@@ -408,7 +408,7 @@ static void a_baseline_allows_no_tolerance(void **state)
     assert_not_compared(a.path, file.path, &black, "--background ffffff");
 }
 
-static void a_name_that_no_line_holds_is_refused(void **state)
+static void name_that_cannot_be_written_is_refused(void **state)
 {
     (void)state;
     diff_side side = {.path = "file", .kind = DIFF_BASELINE};
@@ -425,24 +425,24 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_are_read_in_any_order_and_written_in_one),
-        cmocka_unit_test(a_frame_has_all_its_variants_and_the_newest_stands_for_them),
-        cmocka_unit_test(each_name_is_read_back_as_it_was),
-        cmocka_unit_test(what_is_malformed_is_refused_with_its_line),
-        cmocka_unit_test(a_zero_byte_is_refused),
-        cmocka_unit_test(dates_are_those_of_the_calendar),
-        cmocka_unit_test(two_digests_of_one_reason_are_both_written),
-        cmocka_unit_test(a_reason_is_named_by_what_it_says),
-        cmocka_unit_test(a_thousand_reasons_have_names_and_too_many_are_refused),
-        cmocka_unit_test(a_large_baseline_is_small),
-        cmocka_unit_test_setup_teardown(a_baseline_stands_for_pictures_on_either_side, temp_folder_make,
+        cmocka_unit_test(frame_has_all_variants_and_is_represented_by_the_newest),
+        cmocka_unit_test(every_frame_name_survives_the_round_trip),
+        cmocka_unit_test(malformed_line_is_refused_with_its_number),
+        cmocka_unit_test(zero_byte_is_refused),
+        cmocka_unit_test(only_dates_of_the_calendar_are_accepted),
+        cmocka_unit_test(two_digests_with_one_reason_are_both_written),
+        cmocka_unit_test(acceptance_name_is_derived_from_its_text),
+        cmocka_unit_test(thousand_acceptances_have_names_and_too_many_are_refused),
+        cmocka_unit_test(large_baseline_takes_few_bytes),
+        cmocka_unit_test_setup_teardown(baseline_may_be_either_side, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(unreadable_picture_is_an_error_with_a_baseline_too, temp_folder_make,
                                         nested_folder_remove),
-        cmocka_unit_test_setup_teardown(an_unreadable_picture_is_trouble_beside_a_baseline_too, temp_folder_make,
+        cmocka_unit_test_setup_teardown(baseline_allows_no_tolerance, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(each_digest_is_compared_by_its_own_kind, temp_folder_make,
                                         nested_folder_remove),
-        cmocka_unit_test_setup_teardown(a_baseline_allows_no_tolerance, temp_folder_make, nested_folder_remove),
-        cmocka_unit_test_setup_teardown(each_digest_is_judged_by_its_own_kind, temp_folder_make, nested_folder_remove),
-        cmocka_unit_test_setup_teardown(two_files_agree_in_any_of_their_variants, temp_folder_make,
+        cmocka_unit_test_setup_teardown(two_baselines_agree_if_any_variants_are_equal, temp_folder_make,
                                         nested_folder_remove),
-        cmocka_unit_test(a_name_that_no_line_holds_is_refused),
+        cmocka_unit_test(name_that_cannot_be_written_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,7 +35,7 @@ static const text_bomb files[] = {
     {"reasons", HEAD "2" GROUND "accepted 7f 2026-11-22 8x8 runs ", "a", "\n"},
 };
 
-static void a_baseline_takes_16_bytes_a_byte(void **state)
+static void baseline_takes_at_most_16_bytes_of_memory_per_byte(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
@@ -47,6 +47,6 @@ static void a_baseline_takes_16_bytes_a_byte(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_baseline_takes_16_bytes_a_byte)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(baseline_takes_at_most_16_bytes_of_memory_per_byte)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@
 
 /* ---- Sides -------------------------------------------------------------------------------------------------- */
 
-static void a_folder_stands_for_its_pictures_in_order(void **state)
+static void folder_contains_its_pictures_in_order(void **state)
 {
     const place folder = gallery_make(*state, "a", "b.png a.png B.PNG c.PNG frame.png");
     file_write_text(place_below(folder.path, "notes.txt").path, "no picture");
@@ -29,7 +29,7 @@ static void a_folder_stands_for_its_pictures_in_order(void **state)
     diff_side_release(&side);
 }
 
-static void a_recording_stands_for_its_frames_alone(void **state)
+static void recording_contains_only_its_frames(void **state)
 {
     const place folder = gallery_make(*state, "a", "frame_000000.png frame_000001.png film_sheet.png");
     file_write_text(place_below(folder.path, "recording.json").path, "{}");
@@ -48,7 +48,7 @@ static void assert_no_side(const char *path, const char *part)
     assert_null(side.frames);
 }
 
-static void what_is_no_side_is_refused(void **state)
+static void invalid_sides_are_refused(void **state)
 {
     const place text = place_in(*state, "text.png"), fifo = place_in(*state, "pipe");
     file_write_text(text.path, "no picture, whatever its name");
@@ -60,7 +60,7 @@ static void what_is_no_side_is_refused(void **state)
 
 /* ---- Pairs -------------------------------------------------------------------------------------------------- */
 
-static void frames_belong_together_by_their_names(void **state)
+static void frames_are_paired_by_name(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 4.png 5.png"),
                 b = gallery_make(*state, "b", "1.png 2.png 3.png 5.png 6.png");
@@ -81,7 +81,7 @@ static void frames_belong_together_by_their_names(void **state)
     comparison_release(&made);
 }
 
-static void recordings_of_unlike_length_differ(void **state)
+static void recordings_of_different_length_differ(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     octree_session session = octree_session_default();
@@ -99,7 +99,7 @@ static void recordings_of_unlike_length_differ(void **state)
     comparison_release(&made);
 }
 
-static void two_pictures_are_a_pair_whatever_their_names(void **state)
+static void two_pictures_are_a_pair_with_any_names(void **state)
 {
     const place a = place_in(*state, "old.png"), b = place_in(*state, "a_new.png");
     gallery_write(a.path, 5, 0);
@@ -110,7 +110,7 @@ static void two_pictures_are_a_pair_whatever_their_names(void **state)
     comparison_release(&made);
 }
 
-static void what_cannot_be_compared_is_refused(void **state)
+static void incomparable_sides_are_refused(void **state)
 {
     const place folder = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
     const place picture = place_below(folder.path, "1.png");
@@ -137,7 +137,7 @@ static void write_otherwise(const char *path, uint64_t seed)
     image_release(&picture);
 }
 
-static void same_pixels_in_other_bytes_are_the_same(void **state)
+static void equal_pixels_in_different_bytes_are_equal(void **state)
 {
     const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
     gallery_write(a.path, 9, 0);
@@ -148,7 +148,7 @@ static void same_pixels_in_other_bytes_are_the_same(void **state)
     comparison_release(&made);
 }
 
-static void unlike_sizes_are_a_finding_of_their_own(void **state)
+static void different_sizes_are_a_finding_of_their_own(void **state)
 {
     const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
     image wide, tall;
@@ -172,7 +172,7 @@ static void cut_short(const char *path, size_t size)
 }
 
 /* Though two halves of a picture are equal byte by byte. */
-static void what_cannot_be_read_is_trouble(void **state)
+static void unreadable_frame_is_an_error(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
     cut_short(place_below(a.path, "1.png").path, 300);
@@ -187,7 +187,7 @@ static void what_cannot_be_read_is_trouble(void **state)
     comparison_release(&made);
 }
 
-static void bytes_behind_the_end_of_equal_files_do_no_harm(void **state)
+static void bytes_after_the_end_of_equal_files_are_ignored(void **state)
 {
     const place a = place_in(*state, "a.png");
     size_t size;
@@ -200,7 +200,7 @@ static void bytes_behind_the_end_of_equal_files_do_no_harm(void **state)
     comparison_release(&made);
 }
 
-static void tolerance_forgives_what_was_asked_for(void **state)
+static void tolerance_forgives_only_what_it_allows(void **state)
 {
     const place a = place_in(*state, "a.png"), b = place_in(*state, "b.png");
     gallery_write(a.path, 2, 0);
@@ -228,7 +228,7 @@ static void tolerance_forgives_what_was_asked_for(void **state)
 }
 
 /* More pairs than cores and threads, most of them different: each gets its own finding. */
-static void many_pairs_at_once_keep_apart(void **state)
+static void pairs_compared_in_parallel_are_independent(void **state)
 {
     enum { PAIRS = 150 };
     const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
@@ -252,19 +252,19 @@ static void many_pairs_at_once_keep_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(a_folder_stands_for_its_pictures_in_order),
-        WITH_FOLDER(a_recording_stands_for_its_frames_alone),
-        WITH_FOLDER(what_is_no_side_is_refused),
-        WITH_FOLDER(frames_belong_together_by_their_names),
-        WITH_FOLDER(recordings_of_unlike_length_differ),
-        WITH_FOLDER(two_pictures_are_a_pair_whatever_their_names),
-        WITH_FOLDER(what_cannot_be_compared_is_refused),
-        WITH_FOLDER(same_pixels_in_other_bytes_are_the_same),
-        WITH_FOLDER(unlike_sizes_are_a_finding_of_their_own),
-        WITH_FOLDER(what_cannot_be_read_is_trouble),
-        WITH_FOLDER(bytes_behind_the_end_of_equal_files_do_no_harm),
-        WITH_FOLDER(tolerance_forgives_what_was_asked_for),
-        WITH_FOLDER(many_pairs_at_once_keep_apart),
+        WITH_FOLDER(folder_contains_its_pictures_in_order),
+        WITH_FOLDER(recording_contains_only_its_frames),
+        WITH_FOLDER(invalid_sides_are_refused),
+        WITH_FOLDER(frames_are_paired_by_name),
+        WITH_FOLDER(recordings_of_different_length_differ),
+        WITH_FOLDER(two_pictures_are_a_pair_with_any_names),
+        WITH_FOLDER(incomparable_sides_are_refused),
+        WITH_FOLDER(equal_pixels_in_different_bytes_are_equal),
+        WITH_FOLDER(different_sizes_are_a_finding_of_their_own),
+        WITH_FOLDER(unreadable_frame_is_an_error),
+        WITH_FOLDER(bytes_after_the_end_of_equal_files_are_ignored),
+        WITH_FOLDER(tolerance_forgives_only_what_it_allows),
+        WITH_FOLDER(pairs_compared_in_parallel_are_independent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,7 +128,7 @@ static stored_png random_picture(uint64_t *random, int storage)
                         .spoiled = within(random, 0, 50)};
 }
 
-static void rows_are_those_of_the_whole_picture(void **state)
+static void rows_equal_those_of_the_whole_picture(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     uint64_t random = 1;
@@ -140,7 +140,7 @@ static void rows_are_those_of_the_whole_picture(void **state)
     }
 }
 
-static void damaged_files_fail_with_the_same_sentence(void **state)
+static void damaged_files_fail_with_the_same_error(void **state)
 {
     const char *path = temp_file(*state, "a.png");
     uint64_t random = 2;
@@ -238,7 +238,7 @@ static void save_pair(uint64_t *random, int i, char *paths[2])
         stored_png_save(&pictures[side], paths[side]);
 }
 
-static void findings_are_those_of_whole_pictures(void **state)
+static void findings_equal_those_of_whole_pictures(void **state)
 {
     char *paths[2] = {strdup(temp_file(*state, "a.png")), strdup(temp_file(*state, "b.png"))};
     uint64_t random = 3;
@@ -251,7 +251,7 @@ static void findings_are_those_of_whole_pictures(void **state)
     free(paths[1]);
 }
 
-static void the_first_of_two_damaged_files_is_told(void **state)
+static void first_of_two_damaged_files_is_reported(void **state)
 {
     char *paths[2] = {strdup(temp_file(*state, "a.png")), strdup(temp_file(*state, "b.png"))};
     uint64_t random = 4;
@@ -283,7 +283,7 @@ static const uint8_t *draw_row(int y, void *context)
 }
 
 /* 18 MB each. This comes first: what a process had at most only grows. */
-static void neither_of_two_large_pictures_is_held(void **state)
+static void large_pictures_are_not_held_in_memory(void **state)
 {
     char *paths[2] = {strdup(temp_file(*state, "a.png")), strdup(temp_file(*state, "b.png"))};
     const diff_frame frames[2] = {{.path = paths[0]}, {.path = paths[1]}};
@@ -309,9 +309,9 @@ static void neither_of_two_large_pictures_is_held(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(neither_of_two_large_pictures_is_held),     WITH_FOLDER(rows_are_those_of_the_whole_picture),
-        WITH_FOLDER(damaged_files_fail_with_the_same_sentence), WITH_FOLDER(findings_are_those_of_whole_pictures),
-        WITH_FOLDER(the_first_of_two_damaged_files_is_told),
+        WITH_FOLDER(large_pictures_are_not_held_in_memory),  WITH_FOLDER(rows_equal_those_of_the_whole_picture),
+        WITH_FOLDER(damaged_files_fail_with_the_same_error), WITH_FOLDER(findings_equal_those_of_whole_pictures),
+        WITH_FOLDER(first_of_two_damaged_files_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

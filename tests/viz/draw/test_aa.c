@@ -59,7 +59,7 @@ static void each_pixel_is_the_mean_of_its_samples_rounded_to_the_nearest(void **
     }
 }
 
-static void images_that_do_not_fit_together_are_left_alone(void **state)
+static void images_of_unfitting_sizes_are_not_reduced(void **state)
 {
     (void)state;
     static const struct {
@@ -110,7 +110,7 @@ static image picture_of(const scene *s)
 
 /* The samples of lines and letters are the pixels of a picture that is so many times larger; of letters where both have
  * the same face. */
-static void samples_are_the_pixels_of_a_larger_picture(void **state)
+static void samples_equal_the_pixels_of_a_larger_picture(void **state)
 {
     (void)state;
     enum { LINES = 1 << LAYER_NODES | 1 << LAYER_RANGE };
@@ -136,7 +136,7 @@ static void samples_are_the_pixels_of_a_larger_picture(void **state)
     }
 }
 
-static void letters_and_panels_are_as_crisp_as_without(void **state)
+static void anti_aliasing_leaves_letters_and_panels_crisp(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{640, 360}, {1280, 720}, {320, 180}};
@@ -168,7 +168,7 @@ static double light_of(const image *drawn)
     return sum;
 }
 
-static void lines_and_marks_are_as_large_as_without(void **state)
+static void anti_aliasing_keeps_the_size_of_lines_and_markers(void **state)
 {
     (void)state;
     static const unsigned layers[] = {LAYER_NODES, LAYER_POINTS, LAYER_PLAYER, LAYER_BOX};
@@ -189,7 +189,7 @@ static void lines_and_marks_are_as_large_as_without(void **state)
 }
 
 /* The scene is the same: how it is sampled is a matter of its picture. */
-static void the_scene_does_not_depend_on_it(void **state)
+static void anti_aliasing_does_not_change_the_scene(void **state)
 {
     (void)state;
     scene plain = tick_scene_of(640, 360, 1, VIEW_ALL_LAYERS), fine = tick_scene_of(640, 360, 4, VIEW_ALL_LAYERS);
@@ -198,7 +198,7 @@ static void the_scene_does_not_depend_on_it(void **state)
     scene_release(&fine);
 }
 
-static void pictures_with_too_many_samples_are_refused_with_a_sentence(void **state)
+static void pictures_with_too_many_samples_are_refused(void **state)
 {
     (void)state;
     enum { LINES = 1 << LAYER_NODES | 1 << LAYER_RANGE };
@@ -245,7 +245,7 @@ static void largest_picture_with_samples_is_drawn_to_its_edges(void **state)
 
 /* ---- The program -------------------------------------------------------------------------------------------- */
 
-static void its_frames_are_rgb_and_traced(void **state)
+static void anti_aliased_frames_are_rgb_and_carry_their_digests(void **state)
 {
     const place film = place_in(*state, "film"), frame = place_below(film.path, "frame_000000.png");
     command_result result = run_octreel(NULL, "record --keys w --size 160x90 --aa 2 -o %s", film.path);
@@ -262,7 +262,7 @@ static void its_frames_are_rgb_and_traced(void **state)
     free(bytes);
 }
 
-static void what_does_not_fit_is_refused_in_one_sentence(void **state)
+static void invalid_aa_options_are_refused_in_one_sentence(void **state)
 {
     static const char *const rows[][2] = {
         {"--aa 3", "1, 2 or 4"},
@@ -279,7 +279,7 @@ static void what_does_not_fit_is_refused_in_one_sentence(void **state)
     }
 }
 
-static void a_poor_processor_makes_the_same_bytes(void **state)
+static void processor_without_vector_instructions_draws_the_same_bytes(void **state)
 {
     static const command_setting poor = {.environment = {"GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=0"}};
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
@@ -298,16 +298,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_pixel_is_the_mean_of_its_samples_rounded_to_the_nearest),
-        cmocka_unit_test(images_that_do_not_fit_together_are_left_alone),
-        cmocka_unit_test(samples_are_the_pixels_of_a_larger_picture),
-        cmocka_unit_test(letters_and_panels_are_as_crisp_as_without),
-        cmocka_unit_test(lines_and_marks_are_as_large_as_without),
-        cmocka_unit_test(the_scene_does_not_depend_on_it),
-        cmocka_unit_test(pictures_with_too_many_samples_are_refused_with_a_sentence),
+        cmocka_unit_test(images_of_unfitting_sizes_are_not_reduced),
+        cmocka_unit_test(samples_equal_the_pixels_of_a_larger_picture),
+        cmocka_unit_test(anti_aliasing_leaves_letters_and_panels_crisp),
+        cmocka_unit_test(anti_aliasing_keeps_the_size_of_lines_and_markers),
+        cmocka_unit_test(anti_aliasing_does_not_change_the_scene),
+        cmocka_unit_test(pictures_with_too_many_samples_are_refused),
         cmocka_unit_test(largest_picture_with_samples_is_drawn_to_its_edges),
-        IN_FOLDER(its_frames_are_rgb_and_traced),
-        IN_FOLDER(what_does_not_fit_is_refused_in_one_sentence),
-        IN_FOLDER(a_poor_processor_makes_the_same_bytes),
+        IN_FOLDER(anti_aliased_frames_are_rgb_and_carry_their_digests),
+        IN_FOLDER(invalid_aa_options_are_refused_in_one_sentence),
+        IN_FOLDER(processor_without_vector_instructions_draws_the_same_bytes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

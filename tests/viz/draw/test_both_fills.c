@@ -128,7 +128,7 @@ static view some_view(uint64_t *random)
     return v;
 }
 
-static void random_scenes_are_drawn_alike(void **state)
+static void both_rasterizers_draw_random_scenes_alike(void **state)
 {
     (void)state;
     const octree_box world = cube(-1, 1);
@@ -151,7 +151,7 @@ static void random_scenes_are_drawn_alike(void **state)
 }
 
 /* Lines that leave the picture by one border or two, at all angles, of all widths: what GL would have to clip. */
-static void lines_across_each_border_are_drawn_alike(void **state)
+static void both_rasterizers_draw_lines_across_borders_alike(void **state)
 {
     (void)state;
     const octree_box world = cube(-1, 1);
@@ -197,7 +197,7 @@ static void check_session(const octree_session *session, view v, uint64_t step)
     octree_game_destroy(game);
 }
 
-static void sessions_with_all_layers_are_drawn_alike(void **state)
+static void both_rasterizers_draw_all_layers_alike(void **state)
 {
     (void)state;
     static random_session made;
@@ -217,7 +217,7 @@ static void sessions_with_all_layers_are_drawn_alike(void **state)
 }
 
 /* GL draws none wider than this without a border of its own to spare. */
-static void the_widest_picture_is_drawn_alike(void **state)
+static void both_rasterizers_draw_the_widest_picture_alike(void **state)
 {
     (void)state;
     const octree_box world = cube(-1, 1);
@@ -234,7 +234,7 @@ static void the_widest_picture_is_drawn_alike(void **state)
 
 /* ---- Without GL --------------------------------------------------------------------------------------------- */
 
-static void a_renderer_in_memory_draws_the_same(void **state)
+static void renderer_without_gl_draws_the_same(void **state)
 {
     (void)state;
     octreel_error error = {""};
@@ -254,7 +254,7 @@ static void a_renderer_in_memory_draws_the_same(void **state)
 }
 
 /* Which element is on top at each sample is told alike, too. */
-static void elements_are_told_alike(void **state)
+static void both_rasterizers_find_the_same_elements(void **state)
 {
     (void)state;
     octreel_error error = {""};
@@ -284,12 +284,12 @@ static void elements_are_told_alike(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_scenes_are_drawn_alike),
-        cmocka_unit_test(lines_across_each_border_are_drawn_alike),
-        cmocka_unit_test(sessions_with_all_layers_are_drawn_alike),
-        cmocka_unit_test(the_widest_picture_is_drawn_alike),
-        cmocka_unit_test(a_renderer_in_memory_draws_the_same),
-        cmocka_unit_test(elements_are_told_alike),
+        cmocka_unit_test(both_rasterizers_draw_random_scenes_alike),
+        cmocka_unit_test(both_rasterizers_draw_lines_across_borders_alike),
+        cmocka_unit_test(both_rasterizers_draw_all_layers_alike),
+        cmocka_unit_test(both_rasterizers_draw_the_widest_picture_alike),
+        cmocka_unit_test(renderer_without_gl_draws_the_same),
+        cmocka_unit_test(both_rasterizers_find_the_same_elements),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

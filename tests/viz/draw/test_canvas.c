@@ -33,7 +33,7 @@ static void check_flight(view_camera camera)
     octree_game_destroy(game);
 }
 
-static void a_renderer_draws_the_same_whatever_it_drew_before(void **state)
+static void frame_does_not_depend_on_earlier_frames(void **state)
 {
     (void)state;
     check_flight(CAMERA_ISO);
@@ -64,7 +64,7 @@ static void assert_fills(canvas *c, const quad_list *list, size_t filled)
         assert_int_equal(indices[i], i < list->count ? list->items[i].color : 0);
 }
 
-static void what_frames_begin_with_alike_is_filled_twice_and_then_no_more(void **state)
+static void common_beginning_of_frames_is_drawn_only_twice(void **state)
 {
     (void)state;
     canvas c = {.width = SIDE, .height = SIDE};
@@ -95,8 +95,8 @@ static void what_frames_begin_with_alike_is_filled_twice_and_then_no_more(void *
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_renderer_draws_the_same_whatever_it_drew_before),
-        cmocka_unit_test(what_frames_begin_with_alike_is_filled_twice_and_then_no_more),
+        cmocka_unit_test(frame_does_not_depend_on_earlier_frames),
+        cmocka_unit_test(common_beginning_of_frames_is_drawn_only_twice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,7 +65,7 @@ static void assert_inside(const quad *q)
         assert_true(q->x[i] >= 0 && q->y[i] >= 0 && q->x[i] <= LIMIT && q->y[i] <= LIMIT);
 }
 
-static void quads_that_cross_a_border_keep_their_pixels(void **state)
+static void clipping_keeps_the_visible_pixels_of_a_quad(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -82,7 +82,7 @@ static void quads_that_cross_a_border_keep_their_pixels(void **state)
     }
 }
 
-static void a_quad_in_the_square_is_itself(void **state)
+static void quad_inside_the_square_is_unchanged(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -108,7 +108,7 @@ static void fill_clipped(const quad *q, uint8_t *bytes)
 }
 
 /* Neighbours that share an edge, in whichever direction, still share it: no pixel is in both or in neither. */
-static void an_edge_is_cut_at_the_same_place_both_ways(void **state)
+static void edge_is_cut_at_the_same_place_in_both_directions(void **state)
 {
     (void)state;
     uint64_t random = 1;
@@ -128,7 +128,7 @@ static void an_edge_is_cut_at_the_same_place_both_ways(void **state)
     }
 }
 
-static void rectangles_of_any_size_are_cut(void **state)
+static void rectangles_of_any_size_are_clipped(void **state)
 {
     (void)state;
     const int32_t far = INT32_MAX;
@@ -143,7 +143,7 @@ static void rectangles_of_any_size_are_cut(void **state)
     assert_int_equal(clip_quad(&outside, limits, pieces), 0);
 }
 
-static void the_square_is_a_power_of_two_that_holds_the_picture(void **state)
+static void clip_square_is_a_power_of_two_around_the_picture(void **state)
 {
     (void)state;
     assert_int_equal(clip_square(1, 1), 1);
@@ -155,11 +155,11 @@ static void the_square_is_a_power_of_two_that_holds_the_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quads_that_cross_a_border_keep_their_pixels),
-        cmocka_unit_test(a_quad_in_the_square_is_itself),
-        cmocka_unit_test(an_edge_is_cut_at_the_same_place_both_ways),
-        cmocka_unit_test(rectangles_of_any_size_are_cut),
-        cmocka_unit_test(the_square_is_a_power_of_two_that_holds_the_picture),
+        cmocka_unit_test(clipping_keeps_the_visible_pixels_of_a_quad),
+        cmocka_unit_test(quad_inside_the_square_is_unchanged),
+        cmocka_unit_test(edge_is_cut_at_the_same_place_in_both_directions),
+        cmocka_unit_test(rectangles_of_any_size_are_clipped),
+        cmocka_unit_test(clip_square_is_a_power_of_two_around_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ static uint8_t *drawn_by(const scene *s, draw_fill fill)
     return indices;
 }
 
-static void its_pixels_are_those_of_its_scene_and_no_others_change(void **state)
+static void close_up_draws_its_scene_and_changes_no_other_pixel(void **state)
 {
     (void)state;
     for (int i = 0; i < 8; i++) {
@@ -69,7 +69,7 @@ static void its_pixels_are_those_of_its_scene_and_no_others_change(void **state)
 }
 
 /* The element on top at each sample, all over the picture, is what is told of the pixel. */
-static void its_elements_are_told(void **state)
+static void elements_of_the_close_up_are_picked(void **state)
 {
     (void)state;
     octreel_error error = {""};
@@ -102,7 +102,7 @@ static void its_elements_are_told(void **state)
 }
 
 /* The mask of a layer has its elements in the close-up, and that of the close-up is all of it. */
-static void a_mask_has_the_layer_in_the_close_up_too(void **state)
+static void layer_mask_includes_the_close_up(void **state)
 {
     (void)state;
     octreel_error error = {""};
@@ -125,9 +125,9 @@ static void a_mask_has_the_layer_in_the_close_up_too(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(its_pixels_are_those_of_its_scene_and_no_others_change),
-        cmocka_unit_test(its_elements_are_told),
-        cmocka_unit_test(a_mask_has_the_layer_in_the_close_up_too),
+        cmocka_unit_test(close_up_draws_its_scene_and_changes_no_other_pixel),
+        cmocka_unit_test(elements_of_the_close_up_are_picked),
+        cmocka_unit_test(layer_mask_includes_the_close_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static int open_under_softpipe(const renderer_choice *choice)
 }
 
 /* A Mesa may have no softpipe: then llvmpipe draws all the same. */
-static void a_driver_that_is_not_llvmpipe_is_refused_by_name(void **state)
+static void driver_other_than_llvmpipe_is_refused_by_name(void **state)
 {
     (void)state;
     for (int kind = DRAW_AUTO; kind < DRAW_CONTEXTS; kind++) {
@@ -52,7 +52,7 @@ static void a_driver_that_is_not_llvmpipe_is_refused_by_name(void **state)
     }
 }
 
-static void a_driver_that_is_not_llvmpipe_draws_where_any_will_do(void **state)
+static void driver_other_than_llvmpipe_draws_with_any_renderer(void **state)
 {
     (void)state;
     if (!draw_context_built(DRAW_EGL))
@@ -64,7 +64,7 @@ static void a_driver_that_is_not_llvmpipe_draws_where_any_will_do(void **state)
         assert_int_equal(said, DRAWN_BY_ANOTHER);
 }
 
-static void names_are_read_as_they_are_written(void **state)
+static void context_names_survive_the_round_trip(void **state)
 {
     (void)state;
     static const char *const names[DRAW_CONTEXTS] = {"auto", "osmesa", "egl"};
@@ -79,7 +79,7 @@ static void names_are_read_as_they_are_written(void **state)
     assert_false(draw_context_parse("", &found));
 }
 
-static void a_context_that_is_not_built_is_refused_by_name(void **state)
+static void missing_context_is_refused_by_name(void **state)
 {
     (void)state;
     assert_true(draw_context_built(DRAW_AUTO));
@@ -96,7 +96,7 @@ static void a_context_that_is_not_built_is_refused_by_name(void **state)
     }
 }
 
-static void the_first_kind_that_is_built_draws_when_none_is_asked_for(void **state)
+static void auto_uses_the_first_available_context(void **state)
 {
     (void)state;
     int kind = FIRST_KIND;
@@ -107,7 +107,7 @@ static void the_first_kind_that_is_built_draws_when_none_is_asked_for(void **sta
     renderer_close(r);
 }
 
-static void kinds_draw_the_same_bytes(void **state)
+static void contexts_draw_the_same_bytes(void **state)
 {
     (void)state;
     need_both_kinds();
@@ -127,7 +127,7 @@ static void kinds_draw_the_same_bytes(void **state)
 }
 
 /* EGL's own choice of a device is the processor too, where there is no graphics card. */
-static void egl_draws_the_same_bytes_with_and_without_naming_its_device(void **state)
+static void egl_draws_the_same_bytes_with_and_without_a_named_device(void **state)
 {
     (void)state;
     const renderer_choice any = {.context = DRAW_EGL, .fill = DRAW_FILL_GL, .any_renderer = true};
@@ -149,7 +149,7 @@ static void egl_draws_the_same_bytes_with_and_without_naming_its_device(void **s
 }
 
 /* Mesa holds one thing to be current where two libraries each have their own word for it. */
-static void contexts_of_two_kinds_do_not_disturb_each_other(void **state)
+static void two_contexts_at_once_do_not_disturb_each_other(void **state)
 {
     (void)state;
     need_both_kinds();
@@ -178,14 +178,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         /* Those with child processes come first: Mesa's threads do not survive a fork. */
-        cmocka_unit_test(a_driver_that_is_not_llvmpipe_is_refused_by_name),
-        cmocka_unit_test(a_driver_that_is_not_llvmpipe_draws_where_any_will_do),
-        cmocka_unit_test(names_are_read_as_they_are_written),
-        cmocka_unit_test(a_context_that_is_not_built_is_refused_by_name),
-        cmocka_unit_test(the_first_kind_that_is_built_draws_when_none_is_asked_for),
-        cmocka_unit_test(kinds_draw_the_same_bytes),
-        cmocka_unit_test(egl_draws_the_same_bytes_with_and_without_naming_its_device),
-        cmocka_unit_test(contexts_of_two_kinds_do_not_disturb_each_other),
+        cmocka_unit_test(driver_other_than_llvmpipe_is_refused_by_name),
+        cmocka_unit_test(driver_other_than_llvmpipe_draws_with_any_renderer),
+        cmocka_unit_test(context_names_survive_the_round_trip),
+        cmocka_unit_test(missing_context_is_refused_by_name),
+        cmocka_unit_test(auto_uses_the_first_available_context),
+        cmocka_unit_test(contexts_draw_the_same_bytes),
+        cmocka_unit_test(egl_draws_the_same_bytes_with_and_without_a_named_device),
+        cmocka_unit_test(two_contexts_at_once_do_not_disturb_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,7 +102,7 @@ static void assert_refused(const char *why)
     memset(&fault, 0, sizeof fault);
 }
 
-static void each_function_that_gl_lacks_is_named(void **state)
+static void error_names_the_missing_gl_function(void **state)
 {
     (void)state;
     name_count = 0;
@@ -115,7 +115,7 @@ static void each_function_that_gl_lacks_is_named(void **state)
     }
 }
 
-static void a_driver_without_a_name_draws_nothing(void **state)
+static void driver_without_a_name_is_refused(void **state)
 {
     (void)state;
     fault.no_driver = true;
@@ -124,7 +124,7 @@ static void a_driver_without_a_name_draws_nothing(void **state)
     assert_refused("draws with \"softpipe\"");
 }
 
-static void a_framebuffer_that_is_not_given_is_missed(void **state)
+static void incomplete_framebuffer_is_an_error(void **state)
 {
     static const char why[] = "gives no framebuffer of 16 x 16 pixels";
     (void)state;
@@ -138,7 +138,7 @@ static void a_framebuffer_that_is_not_given_is_missed(void **state)
     assert_refused(why);
 }
 
-static void a_context_that_fails_later_draws_nothing(void **state)
+static void context_that_fails_while_drawing_is_an_error(void **state)
 {
     uint8_t indices[SIDE * SIDE];
     octreel_error error = {""};
@@ -189,7 +189,7 @@ static void need(draw_context kind)
         skip();
 }
 
-static void osmesa_without_one_of_its_functions_is_none(void **state)
+static void osmesa_without_one_of_its_functions_is_refused(void **state)
 {
     static const char *const functions[] = {"OSMesaCreateContextAttribs", "OSMesaMakeCurrent", "OSMesaDestroyContext",
                                             "OSMesaGetProcAddress"};
@@ -202,7 +202,7 @@ static void osmesa_without_one_of_its_functions_is_none(void **state)
     unknown = NULL;
 }
 
-static void egl_without_one_of_its_functions_is_none(void **state)
+static void egl_without_one_of_its_functions_is_refused(void **state)
 {
     static const char *const functions[] = {"eglGetProcAddress", "eglQueryString", "eglGetError",
                                             "eglInitialize",     "eglBindAPI",     "eglCreateContext",
@@ -249,7 +249,7 @@ static unsigned refuse_current(void *display, void *to, void *from, void *c)
     return 0;
 }
 
-static void an_egl_that_refuses_gives_no_context(void **state)
+static void egl_failure_at_any_call_is_an_error(void **state)
 {
     static const struct {
         const char *name;
@@ -277,7 +277,7 @@ static const char *know_nothing(void *display, int name)
 }
 
 /* The display without a window system is left. */
-static void an_egl_that_lists_no_devices_draws_all_the_same(void **state)
+static void egl_without_a_device_list_draws(void **state)
 {
     octreel_error error = {""};
     (void)state;
@@ -292,7 +292,7 @@ static void an_egl_that_lists_no_devices_draws_all_the_same(void **state)
     renderer_close(r);
 }
 
-static void libraries_that_are_not_there_are_named_with_their_packages(void **state)
+static void missing_libraries_are_named_with_their_packages(void **state)
 {
     (void)state;
     nothing_loads = true;
@@ -307,15 +307,15 @@ static void libraries_that_are_not_there_are_named_with_their_packages(void **st
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_function_that_gl_lacks_is_named),
-        cmocka_unit_test(a_driver_without_a_name_draws_nothing),
-        cmocka_unit_test(a_framebuffer_that_is_not_given_is_missed),
-        cmocka_unit_test(a_context_that_fails_later_draws_nothing),
-        cmocka_unit_test(osmesa_without_one_of_its_functions_is_none),
-        cmocka_unit_test(egl_without_one_of_its_functions_is_none),
-        cmocka_unit_test(an_egl_that_refuses_gives_no_context),
-        cmocka_unit_test(an_egl_that_lists_no_devices_draws_all_the_same),
-        cmocka_unit_test(libraries_that_are_not_there_are_named_with_their_packages),
+        cmocka_unit_test(error_names_the_missing_gl_function),
+        cmocka_unit_test(driver_without_a_name_is_refused),
+        cmocka_unit_test(incomplete_framebuffer_is_an_error),
+        cmocka_unit_test(context_that_fails_while_drawing_is_an_error),
+        cmocka_unit_test(osmesa_without_one_of_its_functions_is_refused),
+        cmocka_unit_test(egl_without_one_of_its_functions_is_refused),
+        cmocka_unit_test(egl_failure_at_any_call_is_an_error),
+        cmocka_unit_test(egl_without_a_device_list_draws),
+        cmocka_unit_test(missing_libraries_are_named_with_their_packages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

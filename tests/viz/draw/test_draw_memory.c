@@ -78,7 +78,7 @@ static void assert_all_or_nothing(work *w, const scene *s)
     free(whole);
 }
 
-static void a_picture_is_whole_or_there_is_none(void **state)
+static void picture_is_whole_or_missing_if_an_allocation_fails(void **state)
 {
     static const char *const names[] = {"default",        "closeup", "aa",       "painted",
                                         "painted_leaves", "diagram", "clustered"};
@@ -96,7 +96,7 @@ static void a_picture_is_whole_or_there_is_none(void **state)
             }
 }
 
-static void a_renderer_is_opened_or_the_reason_is_told(void **state)
+static void renderer_opens_or_reports_the_reason_if_an_allocation_fails(void **state)
 {
     static const renderer_choice choices[] = {{.fill = DRAW_FILL_INTEGERS}, {.fill = DRAW_FILL_GL}};
     (void)state;
@@ -117,8 +117,8 @@ static void a_renderer_is_opened_or_the_reason_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_picture_is_whole_or_there_is_none),
-        cmocka_unit_test(a_renderer_is_opened_or_the_reason_is_told),
+        cmocka_unit_test(picture_is_whole_or_missing_if_an_allocation_fails),
+        cmocka_unit_test(renderer_opens_or_reports_the_reason_if_an_allocation_fails),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     memory_fails_alone();

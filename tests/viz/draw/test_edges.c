@@ -101,7 +101,7 @@ static void check_stretch(const edge_list *list, const scene *s, scene_style kin
     assert_int_equal(found, expected >= 0);
 }
 
-static void every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box(void **state)
+static void every_edge_is_drawn_once_in_the_colour_of_the_shallowest_box(void **state)
 {
     (void)state;
     edge_list list = {0};
@@ -132,7 +132,7 @@ static void assert_maximal(const edge_list *list)
             assert_false(i != j && go_on(&list->now.items[i], &list->now.items[j]));
 }
 
-static void no_two_edges_of_one_look_and_depth_meet_end_to_end(void **state)
+static void adjacent_edges_of_one_look_and_depth_are_merged(void **state)
 {
     (void)state;
     edge_list list = {0};
@@ -166,7 +166,7 @@ static void shuffle(scene *s, uint64_t *random)
     }
 }
 
-static void the_order_of_the_boxes_does_not_matter(void **state)
+static void edges_do_not_depend_on_the_order_of_boxes(void **state)
 {
     (void)state;
     edge_list first = {0}, other = {0};
@@ -187,7 +187,7 @@ static void the_order_of_the_boxes_does_not_matter(void **state)
 }
 
 /* A row of boxes of three colours, in an order that is nowhere near that of the row. */
-static void a_long_line_is_merged_whatever_the_order(void **state)
+static void long_line_is_merged_in_any_order(void **state)
 {
     (void)state;
     enum { ROW = 300 };
@@ -238,7 +238,7 @@ static void change_boxes(scene *s, uint64_t *random)
     }
 }
 
-static void what_was_merged_before_leaves_no_trace(void **state)
+static void merging_does_not_depend_on_earlier_frames(void **state)
 {
     (void)state;
     uint64_t random = 7;
@@ -259,7 +259,7 @@ static void what_was_merged_before_leaves_no_trace(void **state)
 }
 
 /* As under a view's lod: of one list of boxes some are shown, now these and now those. */
-static void boxes_that_come_and_go_leave_no_trace(void **state)
+static void boxes_that_come_and_go_leave_no_edges(void **state)
 {
     (void)state;
     uint64_t random = 11;
@@ -289,7 +289,7 @@ static void boxes_that_come_and_go_leave_no_trace(void **state)
     edges_release(&used);
 }
 
-static void layers_one_by_one_have_the_edges_of_all_together(void **state)
+static void edges_layer_by_layer_equal_the_edges_of_all_layers(void **state)
 {
     (void)state;
     edge_list all = {0}, low = {0}, high = {0};
@@ -320,7 +320,7 @@ static void add_nodes(scene *s, const octree_box *world, octree_address address,
 }
 
 /* All stretches of one line of the grid are as deep as the line: 3 (2^d + 1)^2 edges, however many boxes share them. */
-static void a_full_subdivision_has_one_edge_a_line_of_its_grid(void **state)
+static void full_subdivision_has_one_edge_for_each_grid_line(void **state)
 {
     (void)state;
     static const octree_box worlds[] = {{{-1000, -1000, -1000}, {1000, 1000, 1000}},
@@ -345,7 +345,7 @@ static void a_full_subdivision_has_one_edge_a_line_of_its_grid(void **state)
     edges_release(&list);
 }
 
-static void a_gap_between_two_boxes_stays_a_gap(void **state)
+static void gap_between_boxes_stays_a_gap(void **state)
 {
     (void)state;
     scene s = {.view = view_default()};
@@ -369,7 +369,7 @@ static void no_boxes_have_no_edges(void **state)
 }
 
 /* A box of no extent is a point, and a point that is asked for is to be seen. */
-static void a_box_without_extent_keeps_an_edge(void **state)
+static void box_without_extent_keeps_an_edge(void **state)
 {
     (void)state;
     edge_list list = {0};
@@ -389,17 +389,17 @@ static void a_box_without_extent_keeps_an_edge(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_stretch_is_covered_once_in_the_colour_of_the_shallowest_box),
-        cmocka_unit_test(no_two_edges_of_one_look_and_depth_meet_end_to_end),
-        cmocka_unit_test(the_order_of_the_boxes_does_not_matter),
-        cmocka_unit_test(a_long_line_is_merged_whatever_the_order),
-        cmocka_unit_test(what_was_merged_before_leaves_no_trace),
-        cmocka_unit_test(boxes_that_come_and_go_leave_no_trace),
-        cmocka_unit_test(layers_one_by_one_have_the_edges_of_all_together),
-        cmocka_unit_test(a_full_subdivision_has_one_edge_a_line_of_its_grid),
-        cmocka_unit_test(a_gap_between_two_boxes_stays_a_gap),
+        cmocka_unit_test(every_edge_is_drawn_once_in_the_colour_of_the_shallowest_box),
+        cmocka_unit_test(adjacent_edges_of_one_look_and_depth_are_merged),
+        cmocka_unit_test(edges_do_not_depend_on_the_order_of_boxes),
+        cmocka_unit_test(long_line_is_merged_in_any_order),
+        cmocka_unit_test(merging_does_not_depend_on_earlier_frames),
+        cmocka_unit_test(boxes_that_come_and_go_leave_no_edges),
+        cmocka_unit_test(edges_layer_by_layer_equal_the_edges_of_all_layers),
+        cmocka_unit_test(full_subdivision_has_one_edge_for_each_grid_line),
+        cmocka_unit_test(gap_between_boxes_stays_a_gap),
         cmocka_unit_test(no_boxes_have_no_edges),
-        cmocka_unit_test(a_box_without_extent_keeps_an_edge),
+        cmocka_unit_test(box_without_extent_keeps_an_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,7 +66,7 @@ static void assert_converted(const temp_folder *own, const font *f, const char *
     free(text);
 }
 
-static void letters_become_the_largest_rectangles_first(void **state)
+static void letters_are_split_into_the_largest_rectangles_first(void **state)
 {
     const font first = make_first(), second = make_second();
     assert_converted(*state, &first, "parts_0[] = {\n{0, 0, 4, 2},\n{7, 3, 1, 1},\n};\n", "{8, 4, parts_0, {0, 2, 2,");
@@ -82,7 +82,7 @@ static void assert_refused(const temp_folder *own, const font *f, const char *wh
     command_release(&made);
 }
 
-static void files_that_are_no_fonts_are_refused(void **state)
+static void files_that_are_not_fonts_are_refused(void **state)
 {
     static const struct {
         size_t at, size; /* 0: as it is */
@@ -127,7 +127,7 @@ static void assert_fails(const char *arguments, const char *why)
     command_release(&made);
 }
 
-static void files_that_cannot_be_read_or_written_are_named(void **state)
+static void unreadable_and_unwritable_files_are_named(void **state)
 {
     const font f = make_first();
     const place in = place_in(*state, "font.psf"), out = place_in(*state, "glyphs.c");
@@ -148,10 +148,10 @@ static void files_that_cannot_be_read_or_written_are_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(letters_become_the_largest_rectangles_first),
-        TEST(files_that_are_no_fonts_are_refused),
+        TEST(letters_are_split_into_the_largest_rectangles_first),
+        TEST(files_that_are_not_fonts_are_refused),
         TEST(letters_without_pixels_are_refused),
-        TEST(files_that_cannot_be_read_or_written_are_named),
+        TEST(unreadable_and_unwritable_files_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,38 +142,38 @@ static void check_quads(int first, int end, int rounds)
     renderer_close(r);
 }
 
-static void any_four_corners(void **state)
+static void quads_with_any_corners_are_filled_as_by_gl(void **state)
 {
     (void)state;
     check_quads(0, 1, 500);
 }
 
-static void small_quads(void **state)
+static void small_quads_are_filled_as_by_gl(void **state)
 {
     (void)state;
     check_quads(1, 2, 1000);
 }
 
-static void slivers(void **state)
+static void slivers_are_filled_as_by_gl(void **state)
 {
     (void)state;
     check_quads(2, 3, 500);
 }
 
-static void degenerate_quads(void **state)
+static void degenerate_quads_are_filled_as_by_gl(void **state)
 {
     (void)state;
     check_quads(3, 4, 500);
 }
 
-static void strokes(void **state)
+static void strokes_are_filled_as_by_gl(void **state)
 {
     (void)state;
     check_quads(4, 5, 500);
 }
 
 /* What leaves a part of a picture is cut off exactly at its edges. (GL cuts before it rounds.) */
-static void a_part_has_the_pixels_of_the_whole(void **state)
+static void part_of_a_picture_has_the_pixels_of_the_whole(void **state)
 {
     (void)state;
     static uint8_t whole[SIDE * SIDE], bytes[SIDE * SIDE];
@@ -197,9 +197,12 @@ static void a_part_has_the_pixels_of_the_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(any_four_corners), cmocka_unit_test(small_quads),
-        cmocka_unit_test(slivers),          cmocka_unit_test(degenerate_quads),
-        cmocka_unit_test(strokes),          cmocka_unit_test(a_part_has_the_pixels_of_the_whole),
+        cmocka_unit_test(quads_with_any_corners_are_filled_as_by_gl),
+        cmocka_unit_test(small_quads_are_filled_as_by_gl),
+        cmocka_unit_test(slivers_are_filled_as_by_gl),
+        cmocka_unit_test(degenerate_quads_are_filled_as_by_gl),
+        cmocka_unit_test(strokes_are_filled_as_by_gl),
+        cmocka_unit_test(part_of_a_picture_has_the_pixels_of_the_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,7 +57,7 @@ static void every_face_has_the_letters_of_spleen(void **state)
 static const char every_letter[] = "The quick brown fox, 0123456789! (#~)";
 
 /* Drawn into a scene, each pixel of a letter is a square of whole pixels, with anti-aliasing as without. */
-static void letters_are_drawn_as_they_are_in_whole_pixels(void **state)
+static void letters_are_drawn_in_whole_pixels(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{320, 180}, {640, 360}, {1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}};
@@ -95,7 +95,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_face_has_the_letters_of_spleen),
-        cmocka_unit_test(letters_are_drawn_as_they_are_in_whole_pixels),
+        cmocka_unit_test(letters_are_drawn_in_whole_pixels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

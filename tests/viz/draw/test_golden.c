@@ -137,7 +137,7 @@ static void fail_pair(const gallery *g, const diff_pair *pair)
         sentence, before, g->renderer);
 }
 
-static void frame_is_its_reference(void **state)
+static void frame_equals_its_reference(void **state)
 {
     const exhibit *e = *state;
     const diff_options exact = diff_options_default();
@@ -153,7 +153,7 @@ static void frame_is_its_reference(void **state)
     fail_pair(e->gallery, pair);
 }
 
-static void integers_fill_it_as_gl_does(void **state)
+static void integers_draw_the_frame_as_gl_does(void **state)
 {
     const exhibit *e = *state;
     char name[NAME_SIZE], path[2 * NAME_SIZE], renderer[TEXT_SIZE];
@@ -168,7 +168,7 @@ static void integers_fill_it_as_gl_does(void **state)
     image_release(&by_integers);
 }
 
-static void every_reference_has_its_frame(void **state)
+static void every_reference_has_a_frame(void **state)
 {
     const exhibit *e = *state;
     for (size_t i = 0; i < e->gallery->result.count; i++)
@@ -182,13 +182,14 @@ static int run_exhibits(gallery *g, struct CMUnitTest *tests, exhibit *exhibits)
     for (size_t i = 0; i < count; i++) {
         exhibits[i] = (exhibit){g, &golden_frames[i]};
         tests[2 * i] = (struct CMUnitTest){
-            .name = golden_frames[i].name, .test_func = frame_is_its_reference, .initial_state = &exhibits[i]};
-        tests[2 * i + 1] = (struct CMUnitTest){
-            .name = golden_frames[i].name, .test_func = integers_fill_it_as_gl_does, .initial_state = &exhibits[i]};
+            .name = golden_frames[i].name, .test_func = frame_equals_its_reference, .initial_state = &exhibits[i]};
+        tests[2 * i + 1] = (struct CMUnitTest){.name = golden_frames[i].name,
+                                               .test_func = integers_draw_the_frame_as_gl_does,
+                                               .initial_state = &exhibits[i]};
     }
     exhibits[count] = (exhibit){g, NULL};
-    tests[2 * count] = (struct CMUnitTest){.name = "every_reference_has_its_frame",
-                                           .test_func = every_reference_has_its_frame,
+    tests[2 * count] = (struct CMUnitTest){.name = "every_reference_has_a_frame",
+                                           .test_func = every_reference_has_a_frame,
                                            .initial_state = &exhibits[count]};
     return _cmocka_run_group_tests("golden", tests, 2 * count + 1, NULL, NULL);
 }

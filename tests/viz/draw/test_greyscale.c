@@ -105,7 +105,7 @@ static size_t check_collisions(const octree_session *session, int width, int hei
     return collisions;
 }
 
-static void a_step_that_collides_is_told_without_colour(void **state)
+static void collided_step_is_recognizable_without_colour(void **state)
 {
     (void)state;
     const octree_session session = octree_session_default();
@@ -114,7 +114,7 @@ static void a_step_that_collides_is_told_without_colour(void **state)
 }
 
 /* Nothing is taken back: the box that collides is the player's own, in its place. */
-static void a_player_who_is_run_into_is_told_without_colour(void **state)
+static void collision_with_a_waiting_player_is_recognizable_without_colour(void **state)
 {
     (void)state;
     static const octree_body body[] = {{.id = 1, .position = {3, 0, 0}, .velocity = {-1, 0, 0}}};
@@ -124,7 +124,7 @@ static void a_player_who_is_run_into_is_told_without_colour(void **state)
 }
 
 /* The word of the panel and the mark of the legend stand out from their ground. */
-static void the_colour_of_collision_is_lit_on_panel_and_ground(void **state)
+static void collision_colour_is_bright_on_panel_and_ground(void **state)
 {
     (void)state;
     for (unsigned shade = 0; shade < 3; shade++) { /* as far as the box fades */
@@ -137,9 +137,9 @@ static void the_colour_of_collision_is_lit_on_panel_and_ground(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_that_collides_is_told_without_colour),
-        cmocka_unit_test(a_player_who_is_run_into_is_told_without_colour),
-        cmocka_unit_test(the_colour_of_collision_is_lit_on_panel_and_ground),
+        cmocka_unit_test(collided_step_is_recognizable_without_colour),
+        cmocka_unit_test(collision_with_a_waiting_player_is_recognizable_without_colour),
+        cmocka_unit_test(collision_colour_is_bright_on_panel_and_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

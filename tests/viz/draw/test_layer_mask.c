@@ -57,7 +57,7 @@ static void check_against_elements(const scene *s, const uint32_t *numbers, unsi
     free(expected);
 }
 
-static void a_mask_is_where_elements_of_its_layers_are_seen(void **state)
+static void mask_covers_visible_elements_of_its_layers(void **state)
 {
     (void)state;
     for (int camera = 0; camera < CAMERA_COUNT; camera++) {
@@ -116,7 +116,7 @@ static size_t check_layer(renderer *r, unsigned layer, int aa)
     return changed;
 }
 
-static void a_frame_without_a_layer_differs_inside_its_mask_alone(void **state)
+static void frame_without_a_layer_differs_only_inside_the_mask(void **state)
 {
     (void)state;
     for (int aa = 1; aa <= 4; aa *= 2) {
@@ -129,7 +129,7 @@ static void a_frame_without_a_layer_differs_inside_its_mask_alone(void **state)
     }
 }
 
-static void a_scene_of_another_size_is_refused(void **state)
+static void scene_of_another_size_is_refused(void **state)
 {
     (void)state;
     scene s = layered_scene(CAMERA_TOP, 2);
@@ -145,9 +145,9 @@ static void a_scene_of_another_size_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mask_is_where_elements_of_its_layers_are_seen),
-        cmocka_unit_test(a_frame_without_a_layer_differs_inside_its_mask_alone),
-        cmocka_unit_test(a_scene_of_another_size_is_refused),
+        cmocka_unit_test(mask_covers_visible_elements_of_its_layers),
+        cmocka_unit_test(frame_without_a_layer_differs_only_inside_the_mask),
+        cmocka_unit_test(scene_of_another_size_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,7 +21,7 @@ static scene_segment line_of(double x0, double y0, double z0, double x1, double 
 }
 
 /* Where a cut line lies on another, its dashes are seen and between them the ground, and nothing of the other. */
-static void a_cut_line_leaves_nothing_of_the_one_beneath(void **state)
+static void cut_line_hides_the_line_below(void **state)
 {
     (void)state;
     renderer *r = open_renderer(WIDTH, HEIGHT);
@@ -48,7 +48,7 @@ static void a_cut_line_leaves_nothing_of_the_one_beneath(void **state)
     renderer_close(r);
 }
 
-static void a_bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
+static void bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_TOP);
@@ -80,7 +80,7 @@ static size_t lit_in_column(const uint8_t *frame, int x)
 }
 
 /* Wider before its second end, and nowhere else; one that is too short for a head is a line. */
-static void an_arrow_has_its_head_at_its_second_end(void **state)
+static void arrow_has_its_head_at_its_second_end(void **state)
 {
     (void)state;
     for (int length = 1; length < 120; length += 7) {
@@ -113,7 +113,7 @@ static bool is_lit(const uint8_t *frame, const double middle[2], double right, d
 }
 
 /* A ring and a triangle on its side are hollow, a wedge on its corner is not; each is as large as its style says. */
-static void marks_of_wrong_answers_have_their_forms(void **state)
+static void markers_of_wrong_answers_have_different_shapes(void **state)
 {
     (void)state;
     for (unsigned shape = SHAPE_RING; shape <= SHAPE_WEDGE; shape++) {
@@ -137,7 +137,7 @@ static void marks_of_wrong_answers_have_their_forms(void **state)
 
 /* A point of the finest width is a pixel up to 1280 x 720, and as large a part of a larger picture; the other widths
  * are as large as ever. */
-static void a_point_is_not_dust_in_a_large_picture(void **state)
+static void points_grow_with_the_picture(void **state)
 {
     (void)state;
     static const struct {
@@ -164,11 +164,11 @@ static void a_point_is_not_dust_in_a_large_picture(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cut_line_leaves_nothing_of_the_one_beneath),
-        cmocka_unit_test(an_arrow_has_its_head_at_its_second_end),
-        cmocka_unit_test(marks_of_wrong_answers_have_their_forms),
-        cmocka_unit_test(a_bold_line_is_two_pixels_wide_in_a_small_picture),
-        cmocka_unit_test(a_point_is_not_dust_in_a_large_picture),
+        cmocka_unit_test(cut_line_hides_the_line_below),
+        cmocka_unit_test(arrow_has_its_head_at_its_second_end),
+        cmocka_unit_test(markers_of_wrong_answers_have_different_shapes),
+        cmocka_unit_test(bold_line_is_two_pixels_wide_in_a_small_picture),
+        cmocka_unit_test(points_grow_with_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,7 +64,7 @@ static void check_pixel(renderer *r, const scene *s, const uint32_t *numbers, in
     draw_touches_release(&list);
 }
 
-static void what_is_seen_at_a_pixel_is_what_the_whole_picture_says(void **state)
+static void element_at_a_pixel_equals_that_of_the_whole_picture(void **state)
 {
     uint64_t seed = 11;
     (void)state;
@@ -94,7 +94,7 @@ static void what_is_seen_at_a_pixel_is_what_the_whole_picture_says(void **state)
 
 /* ---- Covered ------------------------------------------------------------------------------------------------ */
 
-static void what_is_covered_comes_behind_what_covers_it(void **state)
+static void covered_elements_follow_the_elements_that_cover_them(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_TOP, 1);
@@ -119,7 +119,7 @@ static void what_is_covered_comes_behind_what_covers_it(void **state)
 }
 
 /* Half of a pixel's samples are of one panel, a quarter of another. */
-static void samples_of_a_pixel_are_shared(void **state)
+static void samples_of_a_pixel_are_shared_among_elements(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_TOP, 4);
@@ -148,7 +148,7 @@ static scene_marker point_at(uint64_t id, double x, double y)
         .id = id, .at = {x, y, 0}, .style = {.layer = LAYER_POINTS, .role = ROLE_POINT}, .shape = SHAPE_SQUARE};
 }
 
-static void all_points_of_a_pixel_are_named(void **state)
+static void all_points_of_a_pixel_are_listed(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_TOP, 1);
@@ -171,7 +171,7 @@ static void all_points_of_a_pixel_are_named(void **state)
 }
 
 /* Seen from above, discs of 9 pixels around x 40 to 44, the nearest last; and one of 90 that is apart. */
-static void painted_points_that_others_hide_are_named_the_nearest_first(void **state)
+static void hidden_points_are_listed_nearest_first(void **state)
 {
     (void)state;
     for (int aa = 1; aa <= 4; aa *= 2) {
@@ -213,7 +213,7 @@ static scene_box cell(uint64_t id, double x0, double x1, uint8_t depth)
 }
 
 /* Seen from the front: its top edges at z = 40 lie on one line of the picture. */
-static void all_boxes_of_an_edge_are_named(void **state)
+static void all_boxes_of_an_edge_are_listed(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_FRONT, 1);
@@ -246,7 +246,7 @@ static void all_boxes_of_an_edge_are_named(void **state)
     scene_release(&s);
 }
 
-static void a_gap_of_a_cut_line_is_the_lines_own_and_one_of_a_dashed_line_is_not(void **state)
+static void gap_of_a_cut_line_belongs_to_it_and_of_a_dashed_line_does_not(void **state)
 {
     (void)state;
     for (int style = STROKE_DASHED; style <= STROKE_CUT; style++) {
@@ -280,7 +280,7 @@ static void a_gap_of_a_cut_line_is_the_lines_own_and_one_of_a_dashed_line_is_not
     }
 }
 
-static void a_pixel_outside_the_picture_is_refused(void **state)
+static void pixel_outside_the_picture_is_refused(void **state)
 {
     static const int outside[][2] = {{-1, 0}, {0, -1}, {WIDTH, 0}, {0, HEIGHT}};
     (void)state;
@@ -300,14 +300,14 @@ static void a_pixel_outside_the_picture_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_seen_at_a_pixel_is_what_the_whole_picture_says),
-        cmocka_unit_test(what_is_covered_comes_behind_what_covers_it),
-        cmocka_unit_test(samples_of_a_pixel_are_shared),
-        cmocka_unit_test(all_points_of_a_pixel_are_named),
-        cmocka_unit_test(painted_points_that_others_hide_are_named_the_nearest_first),
-        cmocka_unit_test(all_boxes_of_an_edge_are_named),
-        cmocka_unit_test(a_gap_of_a_cut_line_is_the_lines_own_and_one_of_a_dashed_line_is_not),
-        cmocka_unit_test(a_pixel_outside_the_picture_is_refused),
+        cmocka_unit_test(element_at_a_pixel_equals_that_of_the_whole_picture),
+        cmocka_unit_test(covered_elements_follow_the_elements_that_cover_them),
+        cmocka_unit_test(samples_of_a_pixel_are_shared_among_elements),
+        cmocka_unit_test(all_points_of_a_pixel_are_listed),
+        cmocka_unit_test(hidden_points_are_listed_nearest_first),
+        cmocka_unit_test(all_boxes_of_an_edge_are_listed),
+        cmocka_unit_test(gap_of_a_cut_line_belongs_to_it_and_of_a_dashed_line_does_not),
+        cmocka_unit_test(pixel_outside_the_picture_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

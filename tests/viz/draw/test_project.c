@@ -154,7 +154,7 @@ static void random_position(uint64_t *random, double reach, double position[3])
         position[axis] = random_below(random, 8) ? random_between(random, -reach, reach) : 0;
 }
 
-static void segments_are_seen_as_long_double_sees_them(void **state)
+static void segments_are_projected_as_in_long_double(void **state)
 {
     (void)state;
     uint64_t random = 4;
@@ -175,7 +175,7 @@ static void segments_are_seen_as_long_double_sees_them(void **state)
     }
 }
 
-static void a_segment_and_its_reverse_are_the_same_pieces_backwards(void **state)
+static void reversed_segment_has_the_same_pieces_backwards(void **state)
 {
     (void)state;
     uint64_t random = 6;
@@ -205,7 +205,7 @@ static void from_eye(const camera *c, double right, double up, double forward, d
         position[axis] = c->eye[axis] + right * c->right[axis] + up * c->up[axis] + forward * c->forward[axis];
 }
 
-static void what_is_behind_the_eye_is_not_seen(void **state)
+static void segments_behind_the_eye_are_invisible(void **state)
 {
     (void)state;
     static const view_camera kinds[] = {CAMERA_FOLLOW, CAMERA_ORBIT};
@@ -226,7 +226,7 @@ static void what_is_behind_the_eye_is_not_seen(void **state)
 }
 
 /* Straight ahead from behind the eye through it: a single pixel, the middle, from the nearest band to the farthest. */
-static void a_segment_through_the_eye_is_cut_at_the_near_plane(void **state)
+static void segment_through_the_eye_is_cut_at_the_near_plane(void **state)
 {
     (void)state;
     static const view_camera kinds[] = {CAMERA_FOLLOW, CAMERA_ORBIT};
@@ -247,7 +247,7 @@ static void a_segment_through_the_eye_is_cut_at_the_near_plane(void **state)
 }
 
 /* Far ends of every size, with everything that can be before, behind and beside them. */
-static void no_segment_gives_anything_but_pieces_near_the_picture(void **state)
+static void every_segment_gives_only_pieces_near_the_picture(void **state)
 {
     (void)state;
     static const double sizes[] = {0, 1e-320, 1e-9, 1, 1e8, 1e16, 1e100, 1e290, 1e300, 1e304, 1e306, DBL_MAX};
@@ -300,7 +300,7 @@ static void assert_ray_is_seen(const scene *s, const double start[3], const doub
     }
 }
 
-static void a_segment_to_far_off_keeps_its_direction(void **state)
+static void segment_to_a_far_point_keeps_its_direction(void **state)
 {
     (void)state;
     const double start[3] = {0.25, 0.125, -0.125};
@@ -314,7 +314,7 @@ static void a_segment_to_far_off_keeps_its_direction(void **state)
     }
 }
 
-static void a_segment_across_the_picture_crosses_all_of_it(void **state)
+static void segment_across_the_picture_crosses_all_of_it(void **state)
 {
     (void)state;
     const scene s = scene_of(CAMERA_FRONT);
@@ -333,7 +333,7 @@ static void a_segment_across_the_picture_crosses_all_of_it(void **state)
 }
 
 /* Along the view of an orthographic camera: a point on the picture, in every band. */
-static void a_segment_along_the_view_passes_every_band(void **state)
+static void segment_along_the_view_passes_every_depth_band(void **state)
 {
     (void)state;
     const scene s = scene_of(CAMERA_FRONT);
@@ -348,7 +348,7 @@ static void a_segment_along_the_view_passes_every_band(void **state)
     }
 }
 
-static void segments_of_the_picture_are_clipped_and_need_no_camera(void **state)
+static void segments_in_pixels_are_clipped_without_a_camera(void **state)
 {
     (void)state;
     static const double ends[][2][3] = {
@@ -392,15 +392,15 @@ static void points_have_the_band_of_their_depth(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(segments_are_seen_as_long_double_sees_them),
-        cmocka_unit_test(a_segment_and_its_reverse_are_the_same_pieces_backwards),
-        cmocka_unit_test(what_is_behind_the_eye_is_not_seen),
-        cmocka_unit_test(a_segment_through_the_eye_is_cut_at_the_near_plane),
-        cmocka_unit_test(no_segment_gives_anything_but_pieces_near_the_picture),
-        cmocka_unit_test(a_segment_to_far_off_keeps_its_direction),
-        cmocka_unit_test(a_segment_across_the_picture_crosses_all_of_it),
-        cmocka_unit_test(a_segment_along_the_view_passes_every_band),
-        cmocka_unit_test(segments_of_the_picture_are_clipped_and_need_no_camera),
+        cmocka_unit_test(segments_are_projected_as_in_long_double),
+        cmocka_unit_test(reversed_segment_has_the_same_pieces_backwards),
+        cmocka_unit_test(segments_behind_the_eye_are_invisible),
+        cmocka_unit_test(segment_through_the_eye_is_cut_at_the_near_plane),
+        cmocka_unit_test(every_segment_gives_only_pieces_near_the_picture),
+        cmocka_unit_test(segment_to_a_far_point_keeps_its_direction),
+        cmocka_unit_test(segment_across_the_picture_crosses_all_of_it),
+        cmocka_unit_test(segment_along_the_view_passes_every_depth_band),
+        cmocka_unit_test(segments_in_pixels_are_clipped_without_a_camera),
         cmocka_unit_test(points_have_the_band_of_their_depth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

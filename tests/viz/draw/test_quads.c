@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void layers_go_first_then_bands_then_depth(void **state)
+static void quads_are_sorted_by_layer_then_band_then_depth(void **state)
 {
     (void)state;
     int last = -1;
@@ -68,7 +68,7 @@ static void assert_drawable(const quad_list *quads)
     }
 }
 
-static void every_tick_is_in_painters_order_and_within_23_bits(void **state)
+static void quads_of_every_tick_are_in_painters_order_within_23_bits(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1280, 720}, {320, 180}, {16384, 16}, {1, 1}};
@@ -104,7 +104,7 @@ static void add_point(scene *s, uint64_t id, double x, double y, double z)
     scene_add_marker(s, (scene_marker){.id = id, .at = {x, y, z}, .style = style});
 }
 
-static void points_on_one_pixel_are_one_quad_of_the_nearest_band(void **state)
+static void points_on_one_pixel_are_one_quad_in_the_nearest_band(void **state)
 {
     (void)state;
     painter p = {0};
@@ -124,7 +124,7 @@ static void points_on_one_pixel_are_one_quad_of_the_nearest_band(void **state)
 }
 
 /* The same points in another order are the same picture: which of them is painted cannot be told. */
-static void the_order_of_points_does_not_change_the_quads(void **state)
+static void quads_do_not_depend_on_the_order_of_points(void **state)
 {
     (void)state;
     painter forth = {0}, back = {0};
@@ -158,7 +158,7 @@ static void the_order_of_points_does_not_change_the_quads(void **state)
     painter_release(&back);
 }
 
-static void what_overflows_a_double_is_counted_and_not_drawn(void **state)
+static void elements_that_overflow_a_double_are_counted_and_not_drawn(void **state)
 {
     (void)state;
     const octree_box tiny = cube(-1e-300, 1e-300);
@@ -176,12 +176,12 @@ static void what_overflows_a_double_is_counted_and_not_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_go_first_then_bands_then_depth),
+        cmocka_unit_test(quads_are_sorted_by_layer_then_band_then_depth),
         cmocka_unit_test(sorting_keeps_every_quad_and_the_order_of_equals),
-        cmocka_unit_test(every_tick_is_in_painters_order_and_within_23_bits),
-        cmocka_unit_test(points_on_one_pixel_are_one_quad_of_the_nearest_band),
-        cmocka_unit_test(the_order_of_points_does_not_change_the_quads),
-        cmocka_unit_test(what_overflows_a_double_is_counted_and_not_drawn),
+        cmocka_unit_test(quads_of_every_tick_are_in_painters_order_within_23_bits),
+        cmocka_unit_test(points_on_one_pixel_are_one_quad_in_the_nearest_band),
+        cmocka_unit_test(quads_do_not_depend_on_the_order_of_points),
+        cmocka_unit_test(elements_that_overflow_a_double_are_counted_and_not_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,13 +37,13 @@ static int ask_for_a_size_too_large(void)
     return strstr(error.text, "16385 x 1") ? REFUSED_WITH_REASON : REFUSED_WITHOUT;
 }
 
-static void a_size_is_refused_before_a_context_is_opened(void **state)
+static void invalid_size_is_refused_before_a_context_is_opened(void **state)
 {
     (void)state;
     assert_int_equal(run_child(ask_for_a_size_too_large), REFUSED_WITH_REASON);
 }
 
-static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void **state)
+static void error_names_a_size_out_of_range(void **state)
 {
     (void)state;
     static const struct {
@@ -63,7 +63,7 @@ static void sizes_out_of_range_are_refused_with_a_sentence_that_names_them(void 
     }
 }
 
-static void the_renderer_says_who_draws(void **state)
+static void renderer_names_its_libraries(void **state)
 {
     (void)state;
     renderer *r = open_gl_renderer(16, 16);
@@ -139,7 +139,7 @@ static void check_largest_picture(renderer *(*open)(int width, int height))
     renderer_close(r);
 }
 
-static void the_largest_picture_is_drawn_to_its_corners(void **state)
+static void largest_picture_is_drawn_to_its_corners(void **state)
 {
     (void)state;
     check_largest_picture(open_either[0]);
@@ -147,7 +147,7 @@ static void the_largest_picture_is_drawn_to_its_corners(void **state)
 }
 
 /* Infinite and too far for doubles; NaN cannot be in a scene, since it is refused when it is added. */
-static void what_is_not_finite_changes_no_pixel_and_is_counted(void **state)
+static void elements_that_are_not_finite_are_counted_and_change_no_pixel(void **state)
 {
     (void)state;
     static const double wrong[] = {NAN, INFINITY, -INFINITY};
@@ -179,7 +179,7 @@ static void what_is_not_finite_changes_no_pixel_and_is_counted(void **state)
     renderer_close(r);
 }
 
-static void a_scene_of_another_size_is_refused(void **state)
+static void scene_of_another_size_is_refused(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{32, 31}, {31, 32}, {33, 32}, {32, 33}, {16, 64}, {64, 16}};
@@ -197,7 +197,7 @@ static void a_scene_of_another_size_is_refused(void **state)
     renderer_close(r);
 }
 
-static void a_frame_is_the_same_again_after_others_and_by_another_renderer(void **state)
+static void frame_is_the_same_after_others_and_by_another_renderer(void **state)
 {
     (void)state;
     for (int kind = 0; kind < CAMERA_COUNT; kind++) {
@@ -274,7 +274,7 @@ static void assert_same_frames_elsewhere(renderer *r, view_camera camera, double
     scene_release(&b);
 }
 
-static void neither_place_nor_scale_changes_a_byte_of_a_frame(void **state)
+static void frame_does_not_depend_on_place_and_scale_of_the_world(void **state)
 {
     (void)state;
     renderer *r = open_renderer(320, 180);
@@ -287,7 +287,7 @@ static void neither_place_nor_scale_changes_a_byte_of_a_frame(void **state)
 }
 
 /* Far ends, ends behind the eye, everything at once: the frame is made, of colours of the theme. */
-static void segments_to_far_off_are_drawn_without_harm(void **state)
+static void segments_to_far_points_are_drawn(void **state)
 {
     (void)state;
     static const double sizes[] = {0, 1, 1e16, 1e100, 1e300, 1.7e308};
@@ -316,17 +316,17 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         /* The one with a child process comes first: Mesa's threads do not survive a fork. */
-        cmocka_unit_test(a_size_is_refused_before_a_context_is_opened),
-        cmocka_unit_test(sizes_out_of_range_are_refused_with_a_sentence_that_names_them),
-        cmocka_unit_test(the_renderer_says_who_draws),
+        cmocka_unit_test(invalid_size_is_refused_before_a_context_is_opened),
+        cmocka_unit_test(error_names_a_size_out_of_range),
+        cmocka_unit_test(renderer_names_its_libraries),
         cmocka_unit_test(extreme_sizes_are_drawn_to_their_edges),
-        cmocka_unit_test(the_largest_picture_is_drawn_to_its_corners),
-        cmocka_unit_test(what_is_not_finite_changes_no_pixel_and_is_counted),
-        cmocka_unit_test(a_scene_of_another_size_is_refused),
-        cmocka_unit_test(a_frame_is_the_same_again_after_others_and_by_another_renderer),
+        cmocka_unit_test(largest_picture_is_drawn_to_its_corners),
+        cmocka_unit_test(elements_that_are_not_finite_are_counted_and_change_no_pixel),
+        cmocka_unit_test(scene_of_another_size_is_refused),
+        cmocka_unit_test(frame_is_the_same_after_others_and_by_another_renderer),
         cmocka_unit_test(two_renderers_at_once_do_not_disturb_each_other),
-        cmocka_unit_test(neither_place_nor_scale_changes_a_byte_of_a_frame),
-        cmocka_unit_test(segments_to_far_off_are_drawn_without_harm),
+        cmocka_unit_test(frame_does_not_depend_on_place_and_scale_of_the_world),
+        cmocka_unit_test(segments_to_far_points_are_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,7 +24,7 @@ static void assert_filmed_by_program(const command_setting *setting, const char 
     command_release(&result);
 }
 
-static void two_films_are_the_same_bytes(void **state)
+static void two_recordings_have_the_same_bytes(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     const octree_session session = octree_session_default();
@@ -34,7 +34,7 @@ static void two_films_are_the_same_bytes(void **state)
     assert_same_folders(a.path, b.path, NULL);
 }
 
-static void program_and_library_film_the_same_bytes(void **state)
+static void program_and_library_record_the_same_bytes(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     const octree_session session = octree_session_default();
@@ -151,7 +151,7 @@ static void crowd_in_motion_is_the_same_on_every_machine(void **state)
     assert_same_on_every_machine(*state, session.path, "--size 320x180 --every 2 --camera follow --color-by occupancy");
 }
 
-static void session_that_asks_for_everything_is_the_same_on_every_machine(void **state)
+static void session_with_all_features_is_the_same_on_every_machine(void **state)
 {
     static random_session made;
     const place session = place_in(*state, "s.json");
@@ -164,7 +164,7 @@ static void session_that_asks_for_everything_is_the_same_on_every_machine(void *
 }
 
 /* Otherwise the tests above would compare a renderer with itself. */
-static void what_a_machine_has_does_reach_each_context(void **state)
+static void environment_of_a_poor_processor_reaches_each_context(void **state)
 {
     static const struct {
         const char *set, *said;
@@ -221,13 +221,13 @@ static void assert_plays_again(void **state, const octree_session *session)
     assert_same_folders(a.path, b.path, NULL);
 }
 
-static void default_session_plays_again_from_its_recording(void **state)
+static void default_session_replays_from_its_recording(void **state)
 {
     const octree_session session = octree_session_default();
     assert_plays_again(state, &session);
 }
 
-static void session_with_edits_motion_and_queries_plays_again_from_its_recording(void **state)
+static void session_with_edits_motion_and_queries_replays_from_its_recording(void **state)
 {
     static random_session made;
     random_session_full(&made, 11);
@@ -235,7 +235,7 @@ static void session_with_edits_motion_and_queries_plays_again_from_its_recording
     assert_plays_again(state, &made.session);
 }
 
-static void session_with_awkward_numbers_plays_again_from_its_recording(void **state)
+static void session_with_awkward_numbers_replays_from_its_recording(void **state)
 {
     static const octree_body bodies[] = {
         {1, {1e15 + 0.125, -0.0, 5e-324}, {0.1, -1.0 / 3, 1e-17}},
@@ -253,7 +253,7 @@ static void session_with_awkward_numbers_plays_again_from_its_recording(void **s
 }
 
 /* The points come from a file beside the session, and the recording has them inline. */
-static void recording_of_a_file_of_points_plays_anywhere(void **state)
+static void recording_of_a_file_of_points_replays_in_any_folder(void **state)
 {
     const place session = place_in(*state, "s.json"), points = place_in(*state, "points.txt");
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
@@ -274,18 +274,18 @@ static void recording_of_a_file_of_points_plays_anywhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(two_films_are_the_same_bytes),
-        IN_FOLDER(program_and_library_film_the_same_bytes),
+        IN_FOLDER(two_recordings_have_the_same_bytes),
+        IN_FOLDER(program_and_library_record_the_same_bytes),
         IN_FOLDER(default_session_is_the_same_on_every_machine),
         IN_FOLDER(anti_aliased_frames_with_labels_are_the_same_on_every_machine),
         IN_FOLDER(crowd_in_motion_is_the_same_on_every_machine),
-        IN_FOLDER(session_that_asks_for_everything_is_the_same_on_every_machine),
-        IN_FOLDER(what_a_machine_has_does_reach_each_context),
+        IN_FOLDER(session_with_all_features_is_the_same_on_every_machine),
+        IN_FOLDER(environment_of_a_poor_processor_reaches_each_context),
         IN_FOLDER(every_camera_is_the_same_on_a_poor_processor),
-        IN_FOLDER(default_session_plays_again_from_its_recording),
-        IN_FOLDER(session_with_edits_motion_and_queries_plays_again_from_its_recording),
-        IN_FOLDER(session_with_awkward_numbers_plays_again_from_its_recording),
-        IN_FOLDER(recording_of_a_file_of_points_plays_anywhere),
+        IN_FOLDER(default_session_replays_from_its_recording),
+        IN_FOLDER(session_with_edits_motion_and_queries_replays_from_its_recording),
+        IN_FOLDER(session_with_awkward_numbers_replays_from_its_recording),
+        IN_FOLDER(recording_of_a_file_of_points_replays_in_any_folder),
     };
     return cmocka_run_group_tests(tests, find_crashes, NULL);
 }

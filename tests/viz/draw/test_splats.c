@@ -70,7 +70,7 @@ static theme_color color_in_the_middle(const lit *l, const scene *s)
     return color_at(l, s, (int)pixel[0], (int)pixel[1]);
 }
 
-static void the_nearest_point_wins_in_any_order_and_of_equal_ones_the_lowest_id(void **state)
+static void nearest_point_wins_in_any_order_and_lowest_id_breaks_ties(void **state)
 {
     (void)state;
     static const struct {
@@ -90,7 +90,7 @@ static void the_nearest_point_wins_in_any_order_and_of_equal_ones_the_lowest_id(
 }
 
 /* No size is dust. */
-static void a_surface_has_no_holes_at_any_size_of_the_picture(void **state)
+static void surface_has_no_holes_at_any_picture_size(void **state)
 {
     (void)state;
     static const int heights[] = {90, 360, 720, 2160};
@@ -111,7 +111,7 @@ static void a_surface_has_no_holes_at_any_size_of_the_picture(void **state)
 }
 
 /* Points at random places of a plane, of which the budget leaves one in eight. */
-static void a_surface_that_is_thinned_has_next_to_no_holes(void **state)
+static void thinned_surface_has_almost_no_holes(void **state)
 {
     (void)state;
     uint64_t random = 3;
@@ -161,7 +161,7 @@ static size_t colors_of_column(const lit *l, const scene *s)
 }
 
 /* The ground falls away from the eye through all bands. */
-static void sloping_ground_is_lit_evenly_and_not_in_bands(void **state)
+static void sloping_ground_is_shaded_evenly_without_bands(void **state)
 {
     (void)state;
     size_t colors[SHADE_COUNT];
@@ -177,7 +177,7 @@ static void sloping_ground_is_lit_evenly_and_not_in_bands(void **state)
     assert_int_equal(colors[SHADE_NONE], 1);
 }
 
-static void what_lies_behind_something_near_is_darker_beside_it(void **state)
+static void points_behind_a_near_edge_are_darker_beside_it(void **state)
 {
     (void)state;
     scene s = painted_scene(CAMERA_TOP, SHADE_EDL, 360);
@@ -214,7 +214,7 @@ static void density_is_the_number_of_points_of_a_pixel(void **state)
 }
 
 /* What pick says is at a sample is whose colour it has. */
-static void each_sample_has_the_colour_of_the_point_that_is_picked_there(void **state)
+static void each_sample_has_the_colour_of_the_picked_point(void **state)
 {
     (void)state;
     scene s = painted_scene(CAMERA_ORBIT, SHADE_NONE, 180);
@@ -245,13 +245,13 @@ static void each_sample_has_the_colour_of_the_point_that_is_picked_there(void **
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_nearest_point_wins_in_any_order_and_of_equal_ones_the_lowest_id),
-        cmocka_unit_test(a_surface_has_no_holes_at_any_size_of_the_picture),
-        cmocka_unit_test(a_surface_that_is_thinned_has_next_to_no_holes),
-        cmocka_unit_test(sloping_ground_is_lit_evenly_and_not_in_bands),
-        cmocka_unit_test(what_lies_behind_something_near_is_darker_beside_it),
+        cmocka_unit_test(nearest_point_wins_in_any_order_and_lowest_id_breaks_ties),
+        cmocka_unit_test(surface_has_no_holes_at_any_picture_size),
+        cmocka_unit_test(thinned_surface_has_almost_no_holes),
+        cmocka_unit_test(sloping_ground_is_shaded_evenly_without_bands),
+        cmocka_unit_test(points_behind_a_near_edge_are_darker_beside_it),
         cmocka_unit_test(density_is_the_number_of_points_of_a_pixel),
-        cmocka_unit_test(each_sample_has_the_colour_of_the_point_that_is_picked_there),
+        cmocka_unit_test(each_sample_has_the_colour_of_the_picked_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

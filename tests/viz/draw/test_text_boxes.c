@@ -81,7 +81,7 @@ static void keep_box(const draw_box *box, void *context)
 }
 
 /* The same words with a rim have a box that is larger on all sides, and the quads of both. */
-static void a_rim_lies_about_the_letters(void **state)
+static void letters_have_a_rim(void **state)
 {
     (void)state;
     scene s = {.refused = 0};
@@ -109,7 +109,7 @@ static void a_rim_lies_about_the_letters(void **state)
 }
 
 /* As the ranks of neighbours in a close-up. */
-static void words_beside_a_place_in_the_picture_are_not_cut_at_its_edge(void **state)
+static void labels_at_the_border_are_not_cut(void **state)
 {
     (void)state;
     static const octree_box world = {{-1, -1, -1}, {1, 1, 1}};
@@ -136,7 +136,7 @@ static void words_beside_a_place_in_the_picture_are_not_cut_at_its_edge(void **s
     scene_release(&s);
 }
 
-static void a_scene_without_text_has_no_boxes(void **state)
+static void scene_without_text_has_no_boxes(void **state)
 {
     (void)state;
     const octree_box world = cube(-1, 1);
@@ -151,10 +151,10 @@ static void a_scene_without_text_has_no_boxes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rim_lies_about_the_letters),
-        cmocka_unit_test(words_beside_a_place_in_the_picture_are_not_cut_at_its_edge),
+        cmocka_unit_test(letters_have_a_rim),
+        cmocka_unit_test(labels_at_the_border_are_not_cut),
         cmocka_unit_test(text_stays_within_its_boxes),
-        cmocka_unit_test(a_scene_without_text_has_no_boxes),
+        cmocka_unit_test(scene_without_text_has_no_boxes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,7 +33,7 @@ static void record_and_compare(void **state, const octreel_recorder_def *def, mo
     assert_films_again(&folder, &again, TICKS);
 }
 
-static void what_is_recorded_is_what_the_tree_was_and_films_again_to_the_same_bytes(void **state)
+static void recording_has_the_tree_of_every_tick_and_replays_to_the_same_bytes(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -44,7 +44,7 @@ static void what_is_recorded_is_what_the_tree_was_and_films_again_to_the_same_by
 }
 
 /* Leaves hold one point and do not split far: most moves meet a full one, and points change places. */
-static void what_full_leaves_refuse_is_recorded_in_an_order_that_they_take(void **state)
+static void points_near_full_leaves_are_recorded_in_an_order_that_is_accepted(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -54,7 +54,7 @@ static void what_full_leaves_refuse_is_recorded_in_an_order_that_they_take(void 
     moving_tree_release(&m);
 }
 
-static void views_and_frames_are_those_that_were_asked_for(void **state)
+static void views_and_frame_intervals_of_the_definition_are_used(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -74,7 +74,7 @@ static void views_and_frames_are_those_that_were_asked_for(void **state)
     moving_tree_release(&m);
 }
 
-static void without_frames_there_are_the_ticks_and_nothing_is_drawn(void **state)
+static void recorder_without_frames_writes_ticks_and_draws_nothing(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -97,7 +97,7 @@ static size_t count_in_lines(const char *folder, const char *text)
 }
 
 /* The player is one of the points, whenever it is there; the others are what it may collide with. */
-static void a_player_is_the_point_with_its_id_while_there_is_one(void **state)
+static void player_is_the_point_with_its_id_while_that_exists(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     octree *tree = make_tree(cube(-8, 8), 1, 4, OCTREE_GROW);
@@ -129,7 +129,7 @@ static void a_player_is_the_point_with_its_id_while_there_is_one(void **state)
 }
 
 /* Without a player: what the program asked for one of its points, leaving it out. */
-static void a_query_leaves_out_who_asks(void **state)
+static void query_at_a_point_leaves_out_that_point(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     octree *tree = make_tree(cube(-8, 8), 1, 4, OCTREE_GROW);
@@ -156,7 +156,7 @@ static void a_query_leaves_out_who_asks(void **state)
 }
 
 /* Somebody else's tree: nothing but boxes. */
-static void shapes_alone_are_recorded_without_a_tree(void **state)
+static void shapes_are_recorded_without_a_tree(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     const octree_shape shapes[] = {{0, OCTREE_SHAPE_BOX, {-8, -8, -8}, {0, 0, 0}, ""},
@@ -174,7 +174,7 @@ static void shapes_alone_are_recorded_without_a_tree(void **state)
     assert_films_again(&folder, &again, 3);
 }
 
-static void a_recorder_that_is_off_does_nothing(void **state)
+static void disabled_recorder_does_nothing(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 4, OCTREE_GROW);
@@ -187,7 +187,7 @@ static void a_recorder_that_is_off_does_nothing(void **state)
 }
 
 /* The program comes faster than its frames are drawn: what is refused is a gap, and nothing after it is lost. */
-static void a_full_queue_is_told_where_nobody_waits(void **state)
+static void full_queue_is_reported_if_the_caller_never_waits(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     static uint64_t expected[2000], told[2000];
@@ -216,7 +216,7 @@ static void a_full_queue_is_told_where_nobody_waits(void **state)
     assert_films_again(&folder, &again, ticks);
 }
 
-static void a_recorder_leaves_the_programs_signals_alone(void **state)
+static void recorder_does_not_change_signal_handling(void **state)
 {
     const place folder = place_in(*state, "film");
     sigset_t before, after;
@@ -240,16 +240,16 @@ static void a_recorder_leaves_the_programs_signals_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(what_is_recorded_is_what_the_tree_was_and_films_again_to_the_same_bytes),
-        TEST(what_full_leaves_refuse_is_recorded_in_an_order_that_they_take),
-        TEST(views_and_frames_are_those_that_were_asked_for),
-        TEST(without_frames_there_are_the_ticks_and_nothing_is_drawn),
-        TEST(a_player_is_the_point_with_its_id_while_there_is_one),
-        TEST(a_query_leaves_out_who_asks),
-        TEST(shapes_alone_are_recorded_without_a_tree),
-        cmocka_unit_test(a_recorder_that_is_off_does_nothing),
-        TEST(a_full_queue_is_told_where_nobody_waits),
-        TEST(a_recorder_leaves_the_programs_signals_alone),
+        TEST(recording_has_the_tree_of_every_tick_and_replays_to_the_same_bytes),
+        TEST(points_near_full_leaves_are_recorded_in_an_order_that_is_accepted),
+        TEST(views_and_frame_intervals_of_the_definition_are_used),
+        TEST(recorder_without_frames_writes_ticks_and_draws_nothing),
+        TEST(player_is_the_point_with_its_id_while_that_exists),
+        TEST(query_at_a_point_leaves_out_that_point),
+        TEST(shapes_are_recorded_without_a_tree),
+        cmocka_unit_test(disabled_recorder_does_nothing),
+        TEST(full_queue_is_reported_if_the_caller_never_waits),
+        TEST(recorder_does_not_change_signal_handling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

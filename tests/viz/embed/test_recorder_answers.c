@@ -66,7 +66,7 @@ static void assert_judged(const place *folder, const char *expected)
     command_release(&result);
 }
 
-static void answers_travel_with_queries_and_are_judged(void **state)
+static void answers_are_recorded_with_queries_and_judged(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     octreel_recorder *recorder = open_small(folder.path, 0);
@@ -79,7 +79,7 @@ static void answers_travel_with_queries_and_are_judged(void **state)
     assert_films_again(&folder, &again, 4);
 }
 
-static void a_ring_keeps_them(void **state)
+static void ring_keeps_answers(void **state)
 {
     const place folder = place_in(*state, "film");
     octreel_recorder *recorder = open_small(NULL, 2);
@@ -90,7 +90,7 @@ static void a_ring_keeps_them(void **state)
     assert_judged(&folder, "W.");
 }
 
-static void answers_that_files_cannot_have_are_refused(void **state)
+static void answers_that_a_session_file_cannot_hold_are_refused(void **state)
 {
     const place folder = place_in(*state, "film");
     octreel_recorder *recorder = open_small(folder.path, 0);
@@ -113,9 +113,9 @@ static void answers_that_files_cannot_have_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(answers_travel_with_queries_and_are_judged),
-        TEST(a_ring_keeps_them),
-        TEST(answers_that_files_cannot_have_are_refused),
+        TEST(answers_are_recorded_with_queries_and_judged),
+        TEST(ring_keeps_answers),
+        TEST(answers_that_a_session_file_cannot_hold_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,7 +31,7 @@ static void record_and_die(const place *folder)
 }
 
 /* What was handed over, but for what was in the queue. The last line may be torn, where the disk was full, say. */
-static void what_a_crash_leaves_is_resumed(void **state)
+static void recording_of_a_crashed_program_is_resumed(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     const place live = place_below(folder.path, "session.json.live");
@@ -52,7 +52,8 @@ static void what_a_crash_leaves_is_resumed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(what_a_crash_leaves_is_resumed, temp_folder_make, nested_folder_remove),
+        cmocka_unit_test_setup_teardown(recording_of_a_crashed_program_is_resumed, temp_folder_make,
+                                        nested_folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static void assert_not_opened(const octreel_recorder_def *def, octreel_status wh
     assert_int_equal(octreel_recorder_open(def, &recorder, NULL), why);
 }
 
-static void every_status_has_a_sentence_of_its_own(void **state)
+static void every_status_has_its_own_sentence(void **state)
 {
     (void)state;
     for (int i = 0; i < OCTREEL_STATUS_COUNT; i++)
@@ -37,7 +37,7 @@ static void every_status_has_a_sentence_of_its_own(void **state)
     assert_non_null(octreel_status_text(OCTREEL_STATUS_COUNT));
 }
 
-static void definitions_that_cannot_be_used_are_refused(void **state)
+static void invalid_definitions_are_refused(void **state)
 {
     const place folder = place_in(*state, "film");
     octreel_recorder *recorder;
@@ -95,7 +95,7 @@ static void definitions_that_cannot_be_used_are_refused(void **state)
     moving_tree_release(&m);
 }
 
-static void a_folder_of_another_recording_is_left_as_it_is(void **state)
+static void folder_of_another_recording_is_unchanged(void **state)
 {
     const place folder = place_in(*state, "film"), file = place_in(*state, "file");
     moving_tree m;
@@ -116,7 +116,7 @@ static void a_folder_of_another_recording_is_left_as_it_is(void **state)
     moving_tree_release(&m);
 }
 
-static void a_recording_is_replaced_where_that_is_asked_for(void **state)
+static void recording_is_replaced_on_request(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     moving_tree m;
@@ -144,7 +144,7 @@ static void a_recording_is_replaced_where_that_is_asked_for(void **state)
 }
 
 /* By the same process, too. */
-static void a_recording_that_is_being_made_is_not_replaced(void **state)
+static void recording_in_progress_is_not_replaced(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     moving_tree m;
@@ -245,7 +245,7 @@ static void refuse_modes(octreel_recorder *recorder, const octree *tree)
 }
 
 /* Between two ticks of a program everything is tried: all of it is gaps, and what the program did is between them. */
-static void what_is_refused_is_a_gap_and_nothing_else_is_lost(void **state)
+static void refused_tick_is_a_gap_and_nothing_else_is_lost(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     enum { TICKS = 6, REFUSED = 28, ALL = TICKS * (REFUSED + 1) };
@@ -274,7 +274,7 @@ static void what_is_refused_is_a_gap_and_nothing_else_is_lost(void **state)
     assert_films_again(&folder, &again, ALL);
 }
 
-static void a_recorder_that_is_closed_says_so(void **state)
+static void closed_recorder_reports_its_state(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -290,7 +290,7 @@ static void a_recorder_that_is_closed_says_so(void **state)
     moving_tree_release(&m);
 }
 
-static void a_recorder_without_a_tick_says_so_and_leaves_no_recording(void **state)
+static void recorder_without_a_tick_reports_it_and_leaves_no_recording(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -342,7 +342,7 @@ static uint64_t ticks_of(const place *folder)
     return for_each_line(folder->path, NULL, NULL);
 }
 
-static void a_frame_that_cannot_be_written_ends_the_recording_and_resume_completes_it(void **state)
+static void unwritable_frame_ends_the_recording_and_resume_completes_it(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     moving_tree m;
@@ -361,7 +361,7 @@ static void a_frame_that_cannot_be_written_ends_the_recording_and_resume_complet
 }
 
 /* The disk is full when ticks.jsonl has some forty lines: its worker has the signal of it blocked. */
-static void a_full_disk_ends_the_recording_and_resume_completes_it(void **state)
+static void full_disk_ends_the_recording_and_resume_completes_it(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     struct rlimit limit, none;
@@ -384,7 +384,7 @@ static void a_full_disk_ends_the_recording_and_resume_completes_it(void **state)
     assert_films_again(&folder, &again, ticks + 1); /* the tick in hand is not lost */
 }
 
-static void a_folder_that_vanishes_ends_the_recording(void **state)
+static void vanished_folder_ends_the_recording(void **state)
 {
     const place folder = place_in(*state, "film"), gone = place_in(*state, "gone");
     moving_tree m;
@@ -398,7 +398,7 @@ static void a_folder_that_vanishes_ends_the_recording(void **state)
 }
 
 /* Between opening and tick 0 somebody else has taken the folder. */
-static void a_first_tick_that_cannot_be_filmed_leaves_no_recording(void **state)
+static void failed_first_tick_leaves_no_recording(void **state)
 {
     const place folder = place_in(*state, "film");
     const place mine = place_below(folder.path, "renderer.json.part");
@@ -422,18 +422,18 @@ static void a_first_tick_that_cannot_be_filmed_leaves_no_recording(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_status_has_a_sentence_of_its_own),
-        TEST(definitions_that_cannot_be_used_are_refused),
-        TEST(a_folder_of_another_recording_is_left_as_it_is),
-        TEST(a_recording_is_replaced_where_that_is_asked_for),
-        TEST(a_recording_that_is_being_made_is_not_replaced),
-        TEST(what_is_refused_is_a_gap_and_nothing_else_is_lost),
-        TEST(a_recorder_that_is_closed_says_so),
-        TEST(a_recorder_without_a_tick_says_so_and_leaves_no_recording),
-        TEST(a_frame_that_cannot_be_written_ends_the_recording_and_resume_completes_it),
-        TEST(a_full_disk_ends_the_recording_and_resume_completes_it),
-        TEST(a_folder_that_vanishes_ends_the_recording),
-        TEST(a_first_tick_that_cannot_be_filmed_leaves_no_recording),
+        cmocka_unit_test(every_status_has_its_own_sentence),
+        TEST(invalid_definitions_are_refused),
+        TEST(folder_of_another_recording_is_unchanged),
+        TEST(recording_is_replaced_on_request),
+        TEST(recording_in_progress_is_not_replaced),
+        TEST(refused_tick_is_a_gap_and_nothing_else_is_lost),
+        TEST(closed_recorder_reports_its_state),
+        TEST(recorder_without_a_tick_reports_it_and_leaves_no_recording),
+        TEST(unwritable_frame_ends_the_recording_and_resume_completes_it),
+        TEST(full_disk_ends_the_recording_and_resume_completes_it),
+        TEST(vanished_folder_ends_the_recording),
+        TEST(failed_first_tick_leaves_no_recording),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

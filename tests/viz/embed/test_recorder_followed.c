@@ -208,17 +208,17 @@ static void check(void **state, octree_full_leaf full_leaf, size_t ring)
     }
 }
 
-static void a_tree_that_tells_makes_the_recording_of_one_that_is_looked_at(void **state)
+static void followed_changes_give_the_recording_of_compared_trees(void **state)
 {
     check(state, OCTREE_GROW, 0);
 }
 
-static void so_it_does_where_leaves_refuse(void **state)
+static void followed_changes_give_the_same_recording_if_leaves_refuse(void **state)
 {
     check(state, OCTREE_REFUSE, 0);
 }
 
-static void so_it_does_from_a_ring(void **state)
+static void followed_changes_give_the_same_recording_from_a_ring(void **state)
 {
     check(state, OCTREE_GROW, 5);
 }
@@ -233,7 +233,7 @@ static size_t memory_of(const octree *tree)
 }
 
 /* Two trees in turn are two logs, and neither tells what happened to the other. */
-static void trees_in_turn_are_not_confused(void **state)
+static void alternating_trees_are_not_confused(void **state)
 {
     const octree_def def = define(world, 4, 6, OCTREE_GROW);
     octree *trees[2];
@@ -264,7 +264,7 @@ static void trees_in_turn_are_not_confused(void **state)
 
 /* It keeps its changes while few of them are recorded, and not where all points move. One leaf holds all: no move takes
  * memory but to be kept. */
-static void a_tree_keeps_its_changes_while_they_are_few(void **state)
+static void tree_keeps_its_changes_while_they_are_few(void **state)
 {
     enum { COUNT = 4000, FEW = 6, CALM = 14, ALL = 20 };
     const octree_def def = define(world, COUNT, 6, OCTREE_GROW);
@@ -298,11 +298,11 @@ static void a_tree_keeps_its_changes_while_they_are_few(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_tree_that_tells_makes_the_recording_of_one_that_is_looked_at),
-        TEST(so_it_does_where_leaves_refuse),
-        TEST(so_it_does_from_a_ring),
-        TEST(trees_in_turn_are_not_confused),
-        TEST(a_tree_keeps_its_changes_while_they_are_few),
+        TEST(followed_changes_give_the_recording_of_compared_trees),
+        TEST(followed_changes_give_the_same_recording_if_leaves_refuse),
+        TEST(followed_changes_give_the_same_recording_from_a_ring),
+        TEST(alternating_trees_are_not_confused),
+        TEST(tree_keeps_its_changes_while_they_are_few),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,30 +84,30 @@ static void check_pattern(void **state, const char *pattern, const char *sentenc
     assert_films_again(&folder, &again, strlen(pattern));
 }
 
-static void a_refused_tick_is_a_gap_and_the_next_has_its_own_number(void **state)
+static void refused_tick_is_a_gap_and_the_next_tick_keeps_its_number(void **state)
 {
     check_pattern(state, "..i.qq.i",
                   "4 of 8 ticks were refused and are gaps in the recording; the first is tick 2: two "
                   "points of the tree have one id: 0");
 }
 
-static void gaps_at_the_beginning_are_told_too(void **state)
+static void gaps_at_the_beginning_are_recorded(void **state)
 {
     check_pattern(state, "qi..",
                   "2 of 4 ticks were refused and are gaps in the recording; the first is tick 0: queries");
 }
 
-static void gaps_at_the_end_are_told_too(void **state)
+static void gaps_at_the_end_are_recorded(void **state)
 {
     check_pattern(state, ".i", "1 of 2 ticks was refused and is a gap in the recording; the first is tick 1: two");
 }
 
-static void reasons_in_turn_are_kept_apart(void **state)
+static void gaps_with_different_reasons_are_separate(void **state)
 {
     check_pattern(state, ".iqiqiqiqiqiqiqiqiqiqiqiqiqiqiqi.", "31 of 33 ticks");
 }
 
-static void of_refused_ticks_alone_there_is_no_recording(void **state)
+static void refused_ticks_alone_make_no_recording(void **state)
 {
     const place folder = place_in(*state, "film");
     octree *tree = make_tree(cube(-100, 100), 4, 8, OCTREE_GROW);
@@ -120,7 +120,7 @@ static void of_refused_ticks_alone_there_is_no_recording(void **state)
 }
 
 /* Tick 0 of the recording is one that is known, and no other. */
-static void a_ring_has_its_gaps(void **state)
+static void ring_keeps_gaps(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again"), more = place_in(*state, "more");
     uint64_t first;
@@ -142,7 +142,7 @@ static void a_ring_has_its_gaps(void **state)
     octree_destroy(tree);
 }
 
-static void verifying_and_recording_tell_of_gaps(void **state)
+static void verify_and_record_report_gaps(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     octree *tree = make_tree(cube(-100, 100), 4, 8, OCTREE_GROW);
@@ -166,7 +166,7 @@ static void verifying_and_recording_tell_of_gaps(void **state)
 }
 
 /* A frame that somebody put into a gap is not the recording's. */
-static void a_frame_in_a_gap_is_found(void **state)
+static void frame_in_a_gap_is_found(void **state)
 {
     const place folder = place_in(*state, "film"), gap = frame_place(folder.path, 2);
     octree *tree = make_tree(cube(-100, 100), 4, 8, OCTREE_GROW);
@@ -182,7 +182,7 @@ static void a_frame_in_a_gap_is_found(void **state)
 }
 
 /* The tree chooses its capacity anew when it grows. */
-static void a_capacity_that_changed_is_named(void **state)
+static void change_of_the_capacity_is_named(void **state)
 {
     const place folder = place_in(*state, "film");
     octree_def def = octree_def_default();
@@ -205,15 +205,15 @@ static void a_capacity_that_changed_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_refused_tick_is_a_gap_and_the_next_has_its_own_number),
-        TEST(gaps_at_the_beginning_are_told_too),
-        TEST(gaps_at_the_end_are_told_too),
-        TEST(reasons_in_turn_are_kept_apart),
-        TEST(of_refused_ticks_alone_there_is_no_recording),
-        TEST(a_ring_has_its_gaps),
-        TEST(verifying_and_recording_tell_of_gaps),
-        TEST(a_frame_in_a_gap_is_found),
-        TEST(a_capacity_that_changed_is_named),
+        TEST(refused_tick_is_a_gap_and_the_next_tick_keeps_its_number),
+        TEST(gaps_at_the_beginning_are_recorded),
+        TEST(gaps_at_the_end_are_recorded),
+        TEST(gaps_with_different_reasons_are_separate),
+        TEST(refused_ticks_alone_make_no_recording),
+        TEST(ring_keeps_gaps),
+        TEST(verify_and_record_report_gaps),
+        TEST(frame_in_a_gap_is_found),
+        TEST(change_of_the_capacity_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

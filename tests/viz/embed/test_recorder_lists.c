@@ -50,12 +50,12 @@ static void check_sources(void **state, size_t ring)
     }
 }
 
-static void lists_and_changes_make_the_recording_that_the_tree_makes(void **state)
+static void lists_and_changes_give_the_recording_of_the_tree(void **state)
 {
     check_sources(state, 0);
 }
 
-static void so_they_do_from_a_ring(void **state)
+static void lists_and_changes_give_the_same_recording_from_a_ring(void **state)
 {
     check_sources(state, 4);
 }
@@ -119,7 +119,7 @@ static void assert_told(film *f, octreel_status closes, const char *expected)
 static const octree_point three[] = {{{1, 1, 1}, 7}, {{1, 1, 1}, 3}, {{1, 1, 1}, 5}};
 
 /* Of a vector that is empty the data are null. */
-static void what_is_left_out_is_an_empty_list_or_no_change(void **state)
+static void omitted_list_is_empty_and_omitted_changes_are_none(void **state)
 {
     film f = open_film(state, 0);
     assert_int_equal(octreel_recorder_tick(f.recorder, NULL, NULL), OCTREEL_OK);
@@ -135,7 +135,7 @@ static void what_is_left_out_is_an_empty_list_or_no_change(void **state)
     assert_told(&g, OCTREEL_OK, "3 0");
 }
 
-static void leaves_of_lists_grow_and_changes_go_on_from_them(void **state)
+static void leaves_of_lists_grow_and_changes_continue_from_lists(void **state)
 {
     film f = open_film(state, 0);
     assert_int_equal(list_tick(&f, three, 3), OCTREEL_OK);
@@ -147,7 +147,7 @@ static void leaves_of_lists_grow_and_changes_go_on_from_them(void **state)
     assert_told(&f, OCTREEL_OK, "3 4 4 3 0 1");
 }
 
-static void a_point_outside_the_world_is_a_refusal_until_it_is_back(void **state)
+static void point_outside_the_world_is_refused_until_it_returns(void **state)
 {
     film f = open_film(state, 0);
     const octree_point out[] = {{{1, 1, 1}, 7}, {{9, 1, 1}, 3}};
@@ -163,7 +163,7 @@ static void a_point_outside_the_world_is_a_refusal_until_it_is_back(void **state
 }
 
 /* Tick 0 of a ring has those that are outside by then. */
-static void a_ring_knows_what_is_outside(void **state)
+static void ring_remembers_points_outside_the_world(void **state)
 {
     film f = open_film(state, 3);
     const octree_point out[] = {{{1, 1, 1}, 7}, {{9, 1, 1}, 3}};
@@ -178,7 +178,7 @@ static void a_ring_knows_what_is_outside(void **state)
 /* ---- Refused ticks ------------------------------------------------------------------------------------------ */
 
 /* The other changes are made, and come with the next tick. */
-static void changes_of_a_tick_that_is_refused_are_not_lost(void **state)
+static void changes_of_a_refused_tick_are_not_lost(void **state)
 {
     film f = open_film(state, 0);
     const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
@@ -204,7 +204,7 @@ static void assert_refused(film *f, const octreel_tick_info *about, octreel_stat
     assert_string_equal(octreel_recorder_error(f->recorder), sentence);
 }
 
-static void what_lists_and_changes_cannot_be_is_told(void **state)
+static void invalid_lists_and_changes_are_refused_with_the_reason(void **state)
 {
     film f = open_film(state, 0);
     const octree_point twice[] = {{{1, 1, 1}, 7}, {{2, 1, 1}, 3}, {{3, 1, 1}, 7}}, infinite = {{0, 0, INFINITY}, 1},
@@ -233,7 +233,7 @@ static void what_lists_and_changes_cannot_be_is_told(void **state)
     assert_told(&f, OCTREEL_GAPS, "- - - - 3 - - - - -");
 }
 
-static void points_have_one_source(void **state)
+static void points_from_two_sources_are_refused(void **state)
 {
     film f = open_film(state, 0);
     octree *tree = make_tree(cube(-8, 8), 1, 3, OCTREE_REFUSE);
@@ -256,7 +256,7 @@ static void points_have_one_source(void **state)
 }
 
 /* While a queue is full, point 3 goes to and fro: what comes of it is one change. */
-static void changes_that_wait_are_settled(void **state)
+static void waiting_changes_are_combined(void **state)
 {
     film f = open_film(state, 0);
     const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
@@ -281,16 +281,16 @@ static void changes_that_wait_are_settled(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(lists_and_changes_make_the_recording_that_the_tree_makes),
-        TEST(so_they_do_from_a_ring),
-        TEST(what_is_left_out_is_an_empty_list_or_no_change),
-        TEST(leaves_of_lists_grow_and_changes_go_on_from_them),
-        TEST(a_point_outside_the_world_is_a_refusal_until_it_is_back),
-        TEST(a_ring_knows_what_is_outside),
-        TEST(changes_of_a_tick_that_is_refused_are_not_lost),
-        TEST(what_lists_and_changes_cannot_be_is_told),
-        TEST(points_have_one_source),
-        TEST(changes_that_wait_are_settled),
+        TEST(lists_and_changes_give_the_recording_of_the_tree),
+        TEST(lists_and_changes_give_the_same_recording_from_a_ring),
+        TEST(omitted_list_is_empty_and_omitted_changes_are_none),
+        TEST(leaves_of_lists_grow_and_changes_continue_from_lists),
+        TEST(point_outside_the_world_is_refused_until_it_returns),
+        TEST(ring_remembers_points_outside_the_world),
+        TEST(changes_of_a_refused_tick_are_not_lost),
+        TEST(invalid_lists_and_changes_are_refused_with_the_reason),
+        TEST(points_from_two_sources_are_refused),
+        TEST(waiting_changes_are_combined),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

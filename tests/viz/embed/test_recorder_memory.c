@@ -87,20 +87,20 @@ static void check_ticks(void **state, moving_tree_source source, size_t ring)
     assert_true(count > 3 && ever);
 }
 
-static void a_tick_without_memory_is_a_gap_and_can_be_handed_over_again(void **state)
+static void tick_without_memory_is_a_gap_and_can_be_repeated(void **state)
 {
     check_ticks(state, MOVING_TREE, 0);
     check_ticks(state, MOVING_LIST, 0);
     check_ticks(state, MOVING_CHANGES, 0);
 }
 
-static void a_ring_without_memory_stays_as_it_was(void **state)
+static void ring_without_memory_is_unchanged(void **state)
 {
     check_ticks(state, MOVING_TREE, 3);
     check_ticks(state, MOVING_CHANGES, 3);
 }
 
-static void opening_without_memory_leaves_no_recorder(void **state)
+static void opening_without_memory_returns_no_recorder(void **state)
 {
     const place folder = place_in(*state, "film");
     const octreel_recorder_def def = definition(folder.path, MOVING_TREE, 0);
@@ -160,7 +160,7 @@ static bool film_with_failure(const place *folder, moving_tree_source source, si
     return met;
 }
 
-static void what_cannot_be_filmed_for_lack_of_memory_is_said(void **state)
+static void lack_of_memory_while_recording_is_reported(void **state)
 {
     static const struct {
         moving_tree_source source;
@@ -184,10 +184,10 @@ static void what_cannot_be_filmed_for_lack_of_memory_is_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(what_cannot_be_filmed_for_lack_of_memory_is_said),
-        TEST(a_tick_without_memory_is_a_gap_and_can_be_handed_over_again),
-        TEST(a_ring_without_memory_stays_as_it_was),
-        TEST(opening_without_memory_leaves_no_recorder),
+        TEST(lack_of_memory_while_recording_is_reported),
+        TEST(tick_without_memory_is_a_gap_and_can_be_repeated),
+        TEST(ring_without_memory_is_unchanged),
+        TEST(opening_without_memory_returns_no_recorder),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     memory_fails_alone();

@@ -66,7 +66,7 @@ static void assert_nodes(const place *folder, const char *expected)
     assert_string_equal(told, expected);
 }
 
-static void nodes_travel_with_ticks_and_are_judged(void **state)
+static void nodes_are_recorded_with_ticks_and_checked(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     octreel_recorder *recorder = open_small(folder.path, 0);
@@ -93,7 +93,7 @@ static void nodes_of_tick_0_are_recorded(void **state)
 }
 
 /* What was said before the first tick of the ring holds there. */
-static void a_ring_knows_the_nodes_in_force(void **state)
+static void ring_remembers_the_current_nodes(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     octreel_recorder *recorder = open_small(NULL, 2);
@@ -106,7 +106,7 @@ static void a_ring_knows_the_nodes_in_force(void **state)
     assert_films_again(&folder, &again, 2);
 }
 
-static void nodes_of_a_tick_that_is_refused_come_with_the_next(void **state)
+static void nodes_of_a_refused_tick_are_recorded_with_the_next(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
     const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
@@ -131,7 +131,7 @@ static void assert_bad(octreel_recorder *recorder, octree_foreign_node node, con
         fail_msg("%s", octreel_recorder_error(recorder));
 }
 
-static void nodes_that_cannot_be_are_refused_with_their_place(void **state)
+static void invalid_nodes_are_refused_with_their_index(void **state)
 {
     const place folder = place_in(*state, "film");
     uint64_t large = UINT64_C(1) << 53;
@@ -149,11 +149,9 @@ static void nodes_that_cannot_be_are_refused_with_their_place(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(nodes_travel_with_ticks_and_are_judged),
-        TEST(nodes_of_tick_0_are_recorded),
-        TEST(a_ring_knows_the_nodes_in_force),
-        TEST(nodes_of_a_tick_that_is_refused_come_with_the_next),
-        TEST(nodes_that_cannot_be_are_refused_with_their_place),
+        TEST(nodes_are_recorded_with_ticks_and_checked),  TEST(nodes_of_tick_0_are_recorded),
+        TEST(ring_remembers_the_current_nodes),           TEST(nodes_of_a_refused_tick_are_recorded_with_the_next),
+        TEST(invalid_nodes_are_refused_with_their_index),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -53,28 +53,28 @@ static void check_ring(void **state, octree_full_leaf full_leaf, size_t size)
     assert_films_again(&folder, &again, count);
 }
 
-static void a_ring_has_the_last_ticks_and_films_again_to_the_same_bytes(void **state)
+static void ring_has_the_last_ticks_and_replays_to_the_same_bytes(void **state)
 {
     check_ring(state, OCTREE_GROW, 13);
 }
 
-static void a_ring_of_trees_that_refuse_does_too(void **state)
+static void ring_of_trees_that_refuse_points_replays_to_the_same_bytes(void **state)
 {
     check_ring(state, OCTREE_REFUSE, 20);
 }
 
-static void a_ring_of_one_tick_has_the_last(void **state)
+static void ring_of_one_tick_has_the_last_tick(void **state)
 {
     check_ring(state, OCTREE_GROW, 1);
 }
 
-static void a_ring_that_is_not_full_has_all_ticks(void **state)
+static void ring_that_is_not_full_has_all_ticks(void **state)
 {
     check_ring(state, OCTREE_REFUSE, TICKS + 1);
 }
 
 /* A ring of all ticks is what would have been filmed at once. */
-static void a_ring_films_what_a_recorder_without_one_films(void **state)
+static void ring_records_the_same_as_a_recorder_without_a_ring(void **state)
 {
     const place ring = place_in(*state, "ring"), live = place_in(*state, "live");
     uint64_t digests[TICKS];
@@ -95,7 +95,7 @@ static void a_ring_films_what_a_recorder_without_one_films(void **state)
 }
 
 /* An assertion may fire more than once; and the program may round as it likes when it does. */
-static void a_ring_goes_on_after_it_was_written(void **state)
+static void ring_continues_after_it_was_written(void **state)
 {
     const place first = place_in(*state, "first"), second = place_in(*state, "second");
     const place again = place_in(*state, "again");
@@ -124,7 +124,7 @@ static void a_ring_goes_on_after_it_was_written(void **state)
     assert_films_again(&second, &again, 10);
 }
 
-static void a_ring_without_a_tick_or_a_folder_says_so(void **state)
+static void ring_without_a_tick_or_a_folder_is_an_error(void **state)
 {
     const place folder = place_in(*state, "film");
     moving_tree m;
@@ -145,13 +145,13 @@ static void a_ring_without_a_tick_or_a_folder_says_so(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_ring_has_the_last_ticks_and_films_again_to_the_same_bytes),
-        TEST(a_ring_of_trees_that_refuse_does_too),
-        TEST(a_ring_of_one_tick_has_the_last),
-        TEST(a_ring_that_is_not_full_has_all_ticks),
-        TEST(a_ring_films_what_a_recorder_without_one_films),
-        TEST(a_ring_goes_on_after_it_was_written),
-        TEST(a_ring_without_a_tick_or_a_folder_says_so),
+        TEST(ring_has_the_last_ticks_and_replays_to_the_same_bytes),
+        TEST(ring_of_trees_that_refuse_points_replays_to_the_same_bytes),
+        TEST(ring_of_one_tick_has_the_last_tick),
+        TEST(ring_that_is_not_full_has_all_ticks),
+        TEST(ring_records_the_same_as_a_recorder_without_a_ring),
+        TEST(ring_continues_after_it_was_written),
+        TEST(ring_without_a_tick_or_a_folder_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -311,49 +311,49 @@ static void try_seeds(uint64_t first, session_change *change)
         }
 }
 
-static void a_point_moved_by_one_step_is_the_cause(void **state)
+static void moved_point_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(1, move_by_one_step);
 }
 
-static void one_more_point_by_an_edit_is_the_cause(void **state)
+static void point_inserted_by_an_edit_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(10001, add_one_point);
 }
 
-static void another_capacity_is_the_cause(void **state)
+static void different_capacity_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(20001, change_capacity);
 }
 
-static void another_step_size_is_the_cause(void **state)
+static void different_step_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(30001, change_step);
 }
 
-static void another_velocity_is_the_cause(void **state)
+static void different_velocity_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(40001, change_velocity);
 }
 
-static void another_kind_of_player_is_the_cause(void **state)
+static void different_kind_of_player_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(50001, change_kind);
 }
 
-static void a_shape_more_or_fewer_is_the_cause(void **state)
+static void added_or_removed_shape_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(60001, change_number_of_shapes);
 }
 
-static void another_shape_is_the_cause(void **state)
+static void different_shape_is_the_cause(void **state)
 {
     (void)state;
     try_seeds(70001, change_shape);
@@ -364,14 +364,14 @@ int main(int argc, char **argv)
     if (argc > 1)
         seeds = strtoull(argv[1], NULL, 10);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_point_moved_by_one_step_is_the_cause),
-        cmocka_unit_test(one_more_point_by_an_edit_is_the_cause),
-        cmocka_unit_test(another_capacity_is_the_cause),
-        cmocka_unit_test(another_step_size_is_the_cause),
-        cmocka_unit_test(another_velocity_is_the_cause),
-        cmocka_unit_test(another_kind_of_player_is_the_cause),
-        cmocka_unit_test(a_shape_more_or_fewer_is_the_cause),
-        cmocka_unit_test(another_shape_is_the_cause),
+        cmocka_unit_test(moved_point_is_the_cause),
+        cmocka_unit_test(point_inserted_by_an_edit_is_the_cause),
+        cmocka_unit_test(different_capacity_is_the_cause),
+        cmocka_unit_test(different_step_is_the_cause),
+        cmocka_unit_test(different_velocity_is_the_cause),
+        cmocka_unit_test(different_kind_of_player_is_the_cause),
+        cmocka_unit_test(added_or_removed_shape_is_the_cause),
+        cmocka_unit_test(different_shape_is_the_cause),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,14 +95,14 @@ static void more_and_fewer_wrong_answers_are_counted_from_their_first_tick(void 
     assert_headline("1-----", "122---", "2 more wrong answers from tick 1 on; ");
 }
 
-static void as_many_wrong_answers_with_other_faults_are_told(void **state)
+static void equally_many_wrong_answers_with_other_errors_are_reported(void **state)
 {
     (void)state;
     assert_headline("112111", "119111", "other wrong answers at tick 2; ");
     assert_headline("182182", "192122", "other wrong answers in 2 ticks from tick 1 on; ");
 }
 
-static void answers_that_stay_as_right_as_they_were_are_not_told_as_wrong(void **state)
+static void answers_with_unchanged_judgement_are_not_reported_as_wrong(void **state)
 {
     (void)state;
     cause c;
@@ -133,7 +133,7 @@ static size_t view_groups(const char *answers)
     return groups;
 }
 
-static void a_layer_that_is_empty_in_both_sessions_is_no_other_view(void **state)
+static void layer_that_is_empty_in_both_sessions_is_no_difference_of_the_view(void **state)
 {
     (void)state;
     assert_int_equal(view_groups("------"), 0);
@@ -144,9 +144,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(more_and_fewer_wrong_answers_are_counted_from_their_first_tick),
-        cmocka_unit_test(as_many_wrong_answers_with_other_faults_are_told),
-        cmocka_unit_test(answers_that_stay_as_right_as_they_were_are_not_told_as_wrong),
-        cmocka_unit_test(a_layer_that_is_empty_in_both_sessions_is_no_other_view),
+        cmocka_unit_test(equally_many_wrong_answers_with_other_errors_are_reported),
+        cmocka_unit_test(answers_with_unchanged_judgement_are_not_reported_as_wrong),
+        cmocka_unit_test(layer_that_is_empty_in_both_sessions_is_no_difference_of_the_view),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

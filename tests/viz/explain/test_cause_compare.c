@@ -37,7 +37,7 @@ static void assert_told(const char *a, const char *b, const char *expected)
     json_decref(objects[1]);
 }
 
-static void a_member_without_words_is_told_by_its_path(void **state)
+static void member_without_a_description_is_named_by_its_path(void **state)
 {
     (void)state;
     assert_told("{\"a\": {\"b\": 1, \"c\": 2}}", "{\"a\": {\"b\": 1, \"c\": 3}}", "another a.c (3, was 2)");
@@ -50,7 +50,7 @@ static void a_member_without_words_is_told_by_its_path(void **state)
     assert_told("{\"a\": 1}", "{\"a\": 1}", "");
 }
 
-static void elements_with_keys_are_compared_by_them(void **state)
+static void elements_with_keys_are_paired_by_key(void **state)
 {
     (void)state;
     assert_told("{\"a\": [\"x\", \"y\"]}", "{\"a\": [\"y\", \"z\"]}", "one a fewer (x), one more a (z)");
@@ -62,7 +62,7 @@ static void elements_with_keys_are_compared_by_them(void **state)
 }
 
 /* The same point is inserted twice. */
-static void edits_of_one_point_are_compared_in_their_order(void **state)
+static void edits_of_one_point_are_compared_in_order(void **state)
 {
     static const char base[] = "{\"edits\": [{\"insert\": {\"id\": 1, \"position\": [0, 0, 0]}}, {\"remove\": 1},"
                                " {\"insert\": {\"id\": 1, \"position\": [1, 0, 0]}}]}";
@@ -75,7 +75,7 @@ static void edits_of_one_point_are_compared_in_their_order(void **state)
                 "2 fewer edits (points 1 and 1)");
 }
 
-static void elements_without_keys_are_paired_by_what_they_have_in_common(void **state)
+static void elements_without_keys_are_paired_by_equal_members(void **state)
 {
     (void)state;
     assert_told("{\"queries\": [{\"nearest\": \"player\"}, {\"radius\": 1, \"at\": \"player\"}]}",
@@ -87,7 +87,7 @@ static void elements_without_keys_are_paired_by_what_they_have_in_common(void **
 }
 
 /* The first answer is to a key; what is asked at every tick keeps its place at the end. */
-static void answers_are_about_their_queries(void **state)
+static void answers_are_compared_by_query(void **state)
 {
     (void)state;
     assert_told(
@@ -103,7 +103,7 @@ static void answers_are_about_their_queries(void **state)
 #define RADIUS(r, x) "{\"radius\": " #r ", \"at\": [" #x ", 0, 0]}"
 #define FOUR RADIUS(1, 1) ", " RADIUS(2, 2) ", " RADIUS(3, 3) ", " RADIUS(4, 4)
 
-static void each_query_is_told_by_what_it_asks(void **state)
+static void each_query_is_described(void **state)
 {
     (void)state;
     assert_told(
@@ -127,7 +127,7 @@ static void each_query_is_told_by_what_it_asks(void **state)
 #define BALL(r, x, ids) "{\"radius\": {\"center\": [" #x ", 0, 0], \"radius\": " #r ", \"ids\": [" ids "]}}"
 
 /* Whatever they found, and wherever they stand. */
-static void each_answer_is_told_by_what_was_asked(void **state)
+static void each_answer_is_named_by_its_query(void **state)
 {
     (void)state;
     assert_told("{\"answers\": [" BALL(1, 1, "1") ", " BALL(2, 2, "2") ", " BALL(3, 3, "3") "]}",
@@ -146,13 +146,13 @@ static void each_answer_is_told_by_what_was_asked(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_member_without_words_is_told_by_its_path),
-        cmocka_unit_test(elements_with_keys_are_compared_by_them),
-        cmocka_unit_test(edits_of_one_point_are_compared_in_their_order),
-        cmocka_unit_test(elements_without_keys_are_paired_by_what_they_have_in_common),
-        cmocka_unit_test(answers_are_about_their_queries),
-        cmocka_unit_test(each_query_is_told_by_what_it_asks),
-        cmocka_unit_test(each_answer_is_told_by_what_was_asked),
+        cmocka_unit_test(member_without_a_description_is_named_by_its_path),
+        cmocka_unit_test(elements_with_keys_are_paired_by_key),
+        cmocka_unit_test(edits_of_one_point_are_compared_in_order),
+        cmocka_unit_test(elements_without_keys_are_paired_by_equal_members),
+        cmocka_unit_test(answers_are_compared_by_query),
+        cmocka_unit_test(each_query_is_described),
+        cmocka_unit_test(each_answer_is_named_by_its_query),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

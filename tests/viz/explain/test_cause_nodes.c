@@ -36,7 +36,7 @@ static void give_wrong(variant *v)
     give(v, &wrong);
 }
 
-static void a_node_more_is_told(void **state)
+static void added_node_is_reported(void **state)
 {
     (void)state;
     assert_says_of(give_small, give_right,
@@ -97,7 +97,7 @@ static void meet_many_elsewhere(variant *v)
 }
 
 /* The query is the same. */
-static void other_nodes_met_are_told_by_their_number(void **state)
+static void different_visited_nodes_are_counted(void **state)
 {
     (void)state;
     assert_says_of(meet_one, meet_two,
@@ -110,7 +110,7 @@ static void other_nodes_met_are_told_by_their_number(void **state)
         "nodes visited (2, was 1)");
 }
 
-static void long_lists_are_not_told_whole(void **state)
+static void long_lists_are_cut(void **state)
 {
     (void)state;
     assert_says_of(
@@ -120,7 +120,7 @@ static void long_lists_are_not_told_whole(void **state)
         "foreign nodes visited (2, was 1)");
 }
 
-static void a_wrong_node_more_is_named_with_its_tick(void **state)
+static void added_wrong_node_is_named_with_its_tick(void **state)
 {
     (void)state;
     assert_says_of(give_right, give_wrong,
@@ -132,10 +132,10 @@ static void a_wrong_node_more_is_named_with_its_tick(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_node_more_is_told),
-        cmocka_unit_test(a_wrong_node_more_is_named_with_its_tick),
-        cmocka_unit_test(other_nodes_met_are_told_by_their_number),
-        cmocka_unit_test(long_lists_are_not_told_whole),
+        cmocka_unit_test(added_node_is_reported),
+        cmocka_unit_test(added_wrong_node_is_named_with_its_tick),
+        cmocka_unit_test(different_visited_nodes_are_counted),
+        cmocka_unit_test(long_lists_are_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,7 +77,7 @@ static void each_option_is_named_with_both_values(void **state)
     assert_says(set_sweep, "another swept collision test (on, was off): every tick from 0 differs");
 }
 
-static void options_come_before_what_follows_from_them(void **state)
+static void options_come_before_their_consequences(void **state)
 {
     (void)state;
     assert_says(set_two,
@@ -124,7 +124,7 @@ static void move_body_of_no_player(variant *v)
     v->session.player.id = 3;
 }
 
-static void another_kind_of_player_is_named(void **state)
+static void different_kind_of_player_is_named(void **state)
 {
     (void)state;
     assert_says(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
@@ -136,7 +136,7 @@ static void another_kind_of_player_is_named(void **state)
 }
 
 /* Nobody has no step, and a body none that is read. */
-static void what_a_kind_of_player_does_not_read_is_not_named(void **state)
+static void members_that_a_kind_of_player_ignores_are_not_named(void **state)
 {
     (void)state;
     assert_says(set_nobody_with_all, "another kind of player (none, was keys): every tick from 0 differs");
@@ -183,7 +183,7 @@ static void move_all(variant *v)
 }
 
 /* Nobody has an id, and so it is nobody's. */
-static void points_are_named_where_nobody_plays(void **state)
+static void points_are_named_without_a_player(void **state)
 {
     (void)state;
     assert_says_of(move_body_of_no_player, move_body,
@@ -264,7 +264,7 @@ static void values_of_points_are_named(void **state)
     assert_says(give_classes, "4 other classes of points (points 1, 2, 3 and 4); " SAME_TICKS);
 }
 
-static void values_of_a_point_that_one_side_lacks_are_not_named(void **state)
+static void values_of_a_point_on_one_side_are_not_named(void **state)
 {
     (void)state;
     assert_says(add_body_with_class,
@@ -449,13 +449,13 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_option_is_named_with_both_values),
-        cmocka_unit_test(options_come_before_what_follows_from_them),
-        cmocka_unit_test(another_kind_of_player_is_named),
-        cmocka_unit_test(what_a_kind_of_player_does_not_read_is_not_named),
+        cmocka_unit_test(options_come_before_their_consequences),
+        cmocka_unit_test(different_kind_of_player_is_named),
+        cmocka_unit_test(members_that_a_kind_of_player_ignores_are_not_named),
         cmocka_unit_test(points_at_the_start_are_named),
-        cmocka_unit_test(points_are_named_where_nobody_plays),
+        cmocka_unit_test(points_are_named_without_a_player),
         cmocka_unit_test(values_of_points_are_named),
-        cmocka_unit_test(values_of_a_point_that_one_side_lacks_are_not_named),
+        cmocka_unit_test(values_of_a_point_on_one_side_are_not_named),
         cmocka_unit_test(keys_are_named_by_their_ticks),
         cmocka_unit_test(the_first_tick_comes_first),
         cmocka_unit_test(edits_are_named_by_tick_and_point),

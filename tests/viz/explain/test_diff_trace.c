@@ -82,7 +82,7 @@ static octree_session moved_session(octree_edit *edit)
     return session;
 }
 
-static void a_moved_point_has_all_pixels_of_its_layer(void **state)
+static void moved_point_has_all_pixels_of_its_layer(void **state)
 {
     const octree_session session = short_session("wd");
     octree_edit edit;
@@ -104,7 +104,7 @@ static void a_moved_point_has_all_pixels_of_its_layer(void **state)
 }
 
 /* One point more in a leaf that is full: its children are drawn, and belong to the node that split. */
-static void what_a_split_draws_belongs_to_the_node_that_split(void **state)
+static void pixels_of_a_split_belong_to_the_node_that_split(void **state)
 {
     octree_session session = short_session("wd");
     const octree_edit edits[] = {{1, OCTREE_EDIT_INSERT, {.id = 50, .position = {-400, -300, -900}}},
@@ -128,7 +128,7 @@ static void what_a_split_draws_belongs_to_the_node_that_split(void **state)
     comparison_release(&made);
 }
 
-static void all_layers_together_add_up(void **state)
+static void pixels_of_all_layers_add_up(void **state)
 {
     octree_session session = short_session("wdnwd.");
     const place a = film_layers(*state, "a", &session, VIEW_ALL_LAYERS, 2);
@@ -141,7 +141,7 @@ static void all_layers_together_add_up(void **state)
     comparison_release(&made);
 }
 
-static void what_is_ignored_is_not_traced(void **state)
+static void ignored_pixels_are_not_traced(void **state)
 {
     octree_session session = short_session("wd");
     const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1);
@@ -172,7 +172,7 @@ static char *words_of(const trace_part *part)
     return text;
 }
 
-static void every_layer_has_words(void **state)
+static void every_layer_has_a_description(void **state)
 {
     (void)state;
     for (int layer = 0; layer <= TRACE_BACKGROUND; layer++) {
@@ -198,7 +198,7 @@ static void assert_told(const comparison_of *made, uint64_t tick, int layer, con
 }
 
 /* Two sessions of one point that moves. */
-static void other_velocities_are_told(void **state)
+static void different_velocities_are_reported(void **state)
 {
     const octree_body bodies[2] = {{1, {100, 100, 100}, {1, 0, 0}}, {1, {100, 100, 100}, {0, 1, 0}}};
     octree_session session = short_session("wd");
@@ -213,7 +213,7 @@ static void other_velocities_are_told(void **state)
     comparison_release(&made);
 }
 
-static void other_shapes_are_told(void **state)
+static void different_shapes_are_reported(void **state)
 {
     octree_shape shape = {
         .tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_LABEL, .at = {-500, 500, 0}, .text = "a goal"};
@@ -231,7 +231,7 @@ static void other_shapes_are_told(void **state)
 }
 
 /* A close-up at a tick that asks nothing is where an earlier tick has left it. */
-static void what_a_close_up_shows_is_traced_where_it_stays(void **state)
+static void elements_of_an_unmoved_close_up_are_traced(void **state)
 {
     const octree_query query = {.tick = 1, .kind = OCTREE_QUERY_RADIUS, .target = {500, 500, 500}, .radius = 20};
     const octree_shape shape = {.tick = 3, .kind = OCTREE_SHAPE_POINT, .at = {500, 500, 500}};
@@ -256,7 +256,7 @@ static void what_a_close_up_shows_is_traced_where_it_stays(void **state)
 
 /* ---- What is not traced -------------------------------------------------------------------------------------- */
 
-static void frames_of_unlike_sizes_are_not_traced(void **state)
+static void frames_of_different_sizes_are_not_traced(void **state)
 {
     const octree_session session = short_session("wd");
     const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1),
@@ -271,15 +271,15 @@ static void frames_of_unlike_sizes_are_not_traced(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_moved_point_has_all_pixels_of_its_layer),
-        TEST(what_a_split_draws_belongs_to_the_node_that_split),
-        TEST(all_layers_together_add_up),
-        TEST(what_is_ignored_is_not_traced),
-        TEST(every_layer_has_words),
-        TEST(other_velocities_are_told),
-        TEST(other_shapes_are_told),
-        TEST(what_a_close_up_shows_is_traced_where_it_stays),
-        TEST(frames_of_unlike_sizes_are_not_traced),
+        TEST(moved_point_has_all_pixels_of_its_layer),
+        TEST(pixels_of_a_split_belong_to_the_node_that_split),
+        TEST(pixels_of_all_layers_add_up),
+        TEST(ignored_pixels_are_not_traced),
+        TEST(every_layer_has_a_description),
+        TEST(different_velocities_are_reported),
+        TEST(different_shapes_are_reported),
+        TEST(elements_of_an_unmoved_close_up_are_traced),
+        TEST(frames_of_different_sizes_are_not_traced),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

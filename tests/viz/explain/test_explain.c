@@ -24,7 +24,7 @@ static size_t count_causes(const comparison_of *made)
 
 /* ---- What differs in sessions and views ---------------------------------------------------------------------- */
 
-static void the_same_recording_has_nothing_to_explain(void **state)
+static void equal_recordings_have_no_explanation(void **state)
 {
     const octree_session session = short_session(KEYS);
     const place a = film_in(*state, "a", &session, NULL), b = film_in(*state, "b", &session, NULL);
@@ -35,7 +35,7 @@ static void the_same_recording_has_nothing_to_explain(void **state)
     comparison_release(&made);
 }
 
-static void another_capacity_is_the_headline_and_its_nodes_the_causes(void **state)
+static void different_capacity_is_the_headline_and_its_nodes_are_the_causes(void **state)
 {
     octree_session session = short_session(KEYS);
     const place a = film_in(*state, "a", &session, NULL);
@@ -50,7 +50,7 @@ static void another_capacity_is_the_headline_and_its_nodes_the_causes(void **sta
     comparison_release(&made);
 }
 
-static void no_more_frames_are_explained_than_are_asked_for(void **state)
+static void only_the_requested_number_of_frames_is_explained(void **state)
 {
     octree_session session = short_session(KEYS);
     const place a = film_in(*state, "a", &session, NULL);
@@ -64,7 +64,7 @@ static void no_more_frames_are_explained_than_are_asked_for(void **state)
     }
 }
 
-static void an_edit_is_the_headline_and_its_point_the_cause(void **state)
+static void edit_is_the_headline_and_its_point_is_the_cause(void **state)
 {
     octree_session session = short_session(KEYS);
     const octree_edit edit = {2, OCTREE_EDIT_MOVE, {.id = 3, .position = {300, 300, 300}}};
@@ -79,7 +79,7 @@ static void an_edit_is_the_headline_and_its_point_the_cause(void **state)
     comparison_release(&made);
 }
 
-static void another_view_is_no_difference_of_ticks(void **state)
+static void different_view_is_no_difference_of_ticks(void **state)
 {
     const octree_session session = short_session(KEYS);
     film_options options = small_film("");
@@ -98,7 +98,7 @@ static void another_view_is_no_difference_of_ticks(void **state)
 }
 
 /* Its eleven numbers are in JSON alone. */
-static void another_scale_of_points_is_told_without_its_numbers(void **state)
+static void different_point_scale_is_named_without_numbers(void **state)
 {
     const octree_session session = short_session(KEYS);
     film_options options = small_film("");
@@ -111,7 +111,7 @@ static void another_scale_of_points_is_told_without_its_numbers(void **state)
     comparison_release(&made);
 }
 
-static void a_switch_that_is_off_is_told_as_off(void **state)
+static void disabled_option_is_reported_as_off(void **state)
 {
     const octree_session session = short_session(KEYS);
     film_options options = small_film("");
@@ -125,7 +125,7 @@ static void a_switch_that_is_off_is_told_as_off(void **state)
 }
 
 /* A larger collision box is drawn in every frame. */
-static void frames_that_differ_before_ticks_do_are_told(void **state)
+static void frames_that_differ_before_the_ticks_are_reported(void **state)
 {
     octree_session session = short_session(KEYS);
     const place a = film_in(*state, "a", &session, NULL);
@@ -164,7 +164,7 @@ static void assert_headline(const place *a, const place *b, const char *expected
 }
 
 /* A long list is counted, with one of its ids to look for. */
-static void many_are_counted_and_few_are_named(void **state)
+static void long_lists_are_counted_and_short_lists_are_named(void **state)
 {
     const place a = film_sample(*state, "a", 1, 1), b = film_sample(*state, "b", 2, 1);
     comparison_of made = assert_explained(&a, &b, 10);
@@ -172,7 +172,7 @@ static void many_are_counted_and_few_are_named(void **state)
     comparison_release(&made);
 }
 
-static void another_seed_is_the_cause_and_not_its_points(void **state)
+static void different_seed_is_the_cause_instead_of_its_points(void **state)
 {
     const place a = film_sample(*state, "a", 1, 1), b = film_sample(*state, "b", 2, 1);
     const place c = film_sample(*state, "c", 1, 7), d = place_in(*state, "d");
@@ -209,7 +209,7 @@ static void heat_of_earlier_ticks_is_a_cause(void **state)
     comparison_release(&made);
 }
 
-static void recordings_of_unlike_length_say_where_each_ends(void **state)
+static void lengths_of_recordings_are_reported(void **state)
 {
     octree_session session = short_session(KEYS);
     film_options options = small_film("");
@@ -231,7 +231,7 @@ static void recordings_of_unlike_length_say_where_each_ends(void **state)
 
 /* ---- What files do not agree on ------------------------------------------------------------------------------- */
 
-static void a_line_edited_by_hand_is_not_believed(void **state)
+static void edited_line_is_detected(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -246,7 +246,7 @@ static void a_line_edited_by_hand_is_not_believed(void **state)
     comparison_release(&made);
 }
 
-static void a_scene_digest_edited_by_hand_is_not_believed(void **state)
+static void edited_scene_digest_is_detected(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -256,7 +256,7 @@ static void a_scene_digest_edited_by_hand_is_not_believed(void **state)
     comparison_release(&made);
 }
 
-static void a_session_edited_after_filming_is_not_believed(void **state)
+static void edited_session_is_detected(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -266,7 +266,7 @@ static void a_session_edited_after_filming_is_not_believed(void **state)
     comparison_release(&made);
 }
 
-static void lines_that_are_missing_or_torn_are_told(void **state)
+static void missing_and_torn_lines_are_reported(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -292,7 +292,7 @@ static void assert_trouble_of(const place *a, const place *b, const char *part)
     comparison_release(&made);
 }
 
-static void a_damaged_recording_is_trouble(void **state)
+static void damaged_recording_is_an_error(void **state)
 {
     static const char *const names[] = {"session.json", "recording.json", "ticks.jsonl"};
     place b;
@@ -318,23 +318,23 @@ static void a_damaged_recording_is_trouble(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_same_recording_has_nothing_to_explain),
-        TEST(another_capacity_is_the_headline_and_its_nodes_the_causes),
-        TEST(no_more_frames_are_explained_than_are_asked_for),
-        TEST(an_edit_is_the_headline_and_its_point_the_cause),
-        TEST(another_view_is_no_difference_of_ticks),
-        TEST(another_scale_of_points_is_told_without_its_numbers),
-        TEST(a_switch_that_is_off_is_told_as_off),
-        TEST(frames_that_differ_before_ticks_do_are_told),
-        TEST(many_are_counted_and_few_are_named),
-        TEST(another_seed_is_the_cause_and_not_its_points),
+        TEST(equal_recordings_have_no_explanation),
+        TEST(different_capacity_is_the_headline_and_its_nodes_are_the_causes),
+        TEST(only_the_requested_number_of_frames_is_explained),
+        TEST(edit_is_the_headline_and_its_point_is_the_cause),
+        TEST(different_view_is_no_difference_of_ticks),
+        TEST(different_point_scale_is_named_without_numbers),
+        TEST(disabled_option_is_reported_as_off),
+        TEST(frames_that_differ_before_the_ticks_are_reported),
+        TEST(long_lists_are_counted_and_short_lists_are_named),
+        TEST(different_seed_is_the_cause_instead_of_its_points),
         TEST(heat_of_earlier_ticks_is_a_cause),
-        TEST(recordings_of_unlike_length_say_where_each_ends),
-        TEST(a_line_edited_by_hand_is_not_believed),
-        TEST(a_scene_digest_edited_by_hand_is_not_believed),
-        TEST(a_session_edited_after_filming_is_not_believed),
-        TEST(lines_that_are_missing_or_torn_are_told),
-        TEST(a_damaged_recording_is_trouble),
+        TEST(lengths_of_recordings_are_reported),
+        TEST(edited_line_is_detected),
+        TEST(edited_scene_digest_is_detected),
+        TEST(edited_session_is_detected),
+        TEST(missing_and_torn_lines_are_reported),
+        TEST(damaged_recording_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@
 
 /* ---- What only the drawing makes ------------------------------------------------------------------------------ */
 
-static void the_same_scene_drawn_otherwise_is_a_difference_of_rendering(void **state)
+static void different_pixels_of_an_equal_scene_are_a_difference_of_rendering(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -35,7 +35,7 @@ static void the_same_scene_drawn_otherwise_is_a_difference_of_rendering(void **s
     comparison_release(&made);
 }
 
-static void another_renderer_alone_is_no_difference(void **state)
+static void different_renderer_with_equal_pixels_is_no_difference(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -46,7 +46,7 @@ static void another_renderer_alone_is_no_difference(void **state)
     comparison_release(&made);
 }
 
-static void a_frame_changed_after_it_was_drawn_is_told(void **state)
+static void frame_edited_after_recording_is_reported(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -56,7 +56,7 @@ static void a_frame_changed_after_it_was_drawn_is_told(void **state)
     comparison_release(&made);
 }
 
-static void a_frame_in_the_place_of_another_is_told_by_its_own_tick(void **state)
+static void frame_with_the_name_of_another_is_reported_with_its_tick(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -71,7 +71,7 @@ static void a_frame_in_the_place_of_another_is_told_by_its_own_tick(void **state
     comparison_release(&made);
 }
 
-static void a_frame_of_another_session_is_told(void **state)
+static void frame_of_another_session_is_reported(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -83,7 +83,7 @@ static void a_frame_of_another_session_is_told(void **state)
     comparison_release(&made);
 }
 
-static void both_frames_may_be_none_of_octreels(void **state)
+static void edited_frames_on_both_sides_are_reported(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -102,7 +102,7 @@ static void both_frames_may_be_none_of_octreels(void **state)
     comparison_release(&made);
 }
 
-static void a_frame_without_its_texts_is_told(void **state)
+static void frame_without_text_chunks_is_reported(void **state)
 {
     octree_session session = short_session(KEYS);
     place b;
@@ -122,7 +122,7 @@ static void a_frame_without_its_texts_is_told(void **state)
     comparison_release(&made);
 }
 
-static void another_anti_aliasing_is_no_other_renderer(void **state)
+static void different_anti_aliasing_is_not_a_different_renderer(void **state)
 {
     const octree_session session = short_session(KEYS);
     film_options options = small_film("");
@@ -149,7 +149,7 @@ static void make_folders(const place *a, const place *b)
     assert_int_equal(unlink(place_below(b->path, "recording.json").path), 0);
 }
 
-static void frames_in_a_folder_tell_rendering_by_their_scenes(void **state)
+static void equal_scenes_of_frames_in_a_folder_show_different_rendering(void **state)
 {
     place b;
     const place a = film_twins(*state, KEYS, &b);
@@ -168,7 +168,7 @@ static void frames_in_a_folder_tell_rendering_by_their_scenes(void **state)
     comparison_release(&made);
 }
 
-static void frames_in_a_folder_tell_unlike_sessions_and_scenes(void **state)
+static void frames_in_a_folder_show_different_sessions_and_scenes(void **state)
 {
     octree_session session = short_session(KEYS);
     film_options options = small_film("");
@@ -187,7 +187,7 @@ static void frames_in_a_folder_tell_unlike_sessions_and_scenes(void **state)
     comparison_release(&made);
 }
 
-static void pictures_that_say_nothing_have_no_cause(void **state)
+static void pictures_without_text_chunks_have_no_cause(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 3.png");
     gallery_write(place_below(b.path, "1.png").path, 0, 5);
@@ -204,17 +204,17 @@ static void pictures_that_say_nothing_have_no_cause(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_same_scene_drawn_otherwise_is_a_difference_of_rendering),
-        TEST(another_renderer_alone_is_no_difference),
-        TEST(a_frame_changed_after_it_was_drawn_is_told),
-        TEST(a_frame_in_the_place_of_another_is_told_by_its_own_tick),
-        TEST(a_frame_of_another_session_is_told),
-        TEST(both_frames_may_be_none_of_octreels),
-        TEST(a_frame_without_its_texts_is_told),
-        TEST(another_anti_aliasing_is_no_other_renderer),
-        TEST(frames_in_a_folder_tell_rendering_by_their_scenes),
-        TEST(frames_in_a_folder_tell_unlike_sessions_and_scenes),
-        TEST(pictures_that_say_nothing_have_no_cause),
+        TEST(different_pixels_of_an_equal_scene_are_a_difference_of_rendering),
+        TEST(different_renderer_with_equal_pixels_is_no_difference),
+        TEST(frame_edited_after_recording_is_reported),
+        TEST(frame_with_the_name_of_another_is_reported_with_its_tick),
+        TEST(frame_of_another_session_is_reported),
+        TEST(edited_frames_on_both_sides_are_reported),
+        TEST(frame_without_text_chunks_is_reported),
+        TEST(different_anti_aliasing_is_not_a_different_renderer),
+        TEST(equal_scenes_of_frames_in_a_folder_show_different_rendering),
+        TEST(frames_in_a_folder_show_different_sessions_and_scenes),
+        TEST(pictures_without_text_chunks_have_no_cause),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

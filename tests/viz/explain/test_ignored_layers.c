@@ -30,7 +30,7 @@ static void set_red(const char *path, int x, int y)
     image_release(&frame);
 }
 
-static void text_of_recordings_is_ignored_where_it_is(void **state)
+static void text_of_both_recordings_is_ignored_at_its_pixels(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     octree_session session = octree_session_default();
@@ -63,7 +63,7 @@ static void text_of_recordings_is_ignored_where_it_is(void **state)
 }
 
 /* One side is enough, and a folder of plain pictures may be the other. */
-static void text_is_told_by_the_side_that_is_a_recording(void **state)
+static void text_is_located_by_the_side_that_is_a_recording(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     octree_session session = octree_session_default();
@@ -110,7 +110,7 @@ static void assert_left_out(const place *a, const place *b, view_layer layer, vi
     comparison_release(&made);
 }
 
-static void nodes_and_points_are_left_out_under_anti_aliasing_too(void **state)
+static void nodes_and_points_are_ignored_under_anti_aliasing(void **state)
 {
     const unsigned layers = 1u << LAYER_WORLD | 1u << LAYER_NODES | 1u << LAYER_POINTS;
     octree_session session;
@@ -135,7 +135,7 @@ static void nodes_and_points_are_left_out_under_anti_aliasing_too(void **state)
     }
 }
 
-static void letters_in_the_world_are_text_under_anti_aliasing_too(void **state)
+static void labels_in_the_world_are_ignored_under_anti_aliasing(void **state)
 {
     octree_shape shape = {
         .tick = OCTREE_EVERY_TICK, .kind = OCTREE_SHAPE_LABEL, .at = {-500, 500, 0}, .text = "a goal"};
@@ -152,7 +152,7 @@ static void letters_in_the_world_are_text_under_anti_aliasing_too(void **state)
     }
 }
 
-static void what_two_layers_show_is_left_out_together(void **state)
+static void several_layers_are_ignored_together(void **state)
 {
     const unsigned layers = 1u << LAYER_WORLD | 1u << LAYER_NODES | 1u << LAYER_POINTS;
     const unsigned both = 1u << LAYER_NODES | 1u << LAYER_POINTS;
@@ -176,11 +176,11 @@ static void what_two_layers_show_is_left_out_together(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(text_of_recordings_is_ignored_where_it_is),
-        WITH_FOLDER(text_is_told_by_the_side_that_is_a_recording),
-        WITH_FOLDER(nodes_and_points_are_left_out_under_anti_aliasing_too),
-        WITH_FOLDER(letters_in_the_world_are_text_under_anti_aliasing_too),
-        WITH_FOLDER(what_two_layers_show_is_left_out_together),
+        WITH_FOLDER(text_of_both_recordings_is_ignored_at_its_pixels),
+        WITH_FOLDER(text_is_located_by_the_side_that_is_a_recording),
+        WITH_FOLDER(nodes_and_points_are_ignored_under_anti_aliasing),
+        WITH_FOLDER(labels_in_the_world_are_ignored_under_anti_aliasing),
+        WITH_FOLDER(several_layers_are_ignored_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

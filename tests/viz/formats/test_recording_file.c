@@ -92,7 +92,7 @@ static void assert_same_view(const view *a, const view *b)
     assert_memory_equal(&f->region, &g->region, sizeof f->region);
 }
 
-static void a_view_that_is_written_is_read_back_to_the_bit(void **state)
+static void view_survives_the_round_trip_to_the_bit(void **state)
 {
     const temp_folder *folder = *state;
     uint64_t random = 8;
@@ -120,7 +120,7 @@ static void write_text(const view *v, char text[2048])
 }
 
 /* --camera-from is not a member of recording.json: it sets other members. */
-static void every_option_of_the_command_line_is_kept(void **state)
+static void every_view_option_is_written(void **state)
 {
     static const char *const samples[][2] = {
         {"size", "640x360"}, {"camera", "top"},   {"layers", "nodes"},       {"color-by", "plain"},
@@ -157,7 +157,7 @@ static void every_option_of_the_command_line_is_kept(void **state)
     }
 }
 
-static void a_missing_option_has_its_default(void **state)
+static void missing_option_has_its_default(void **state)
 {
     const temp_folder *folder = *state;
     view read;
@@ -173,7 +173,7 @@ static void a_missing_option_has_its_default(void **state)
     assert_same_view(&expected, &read);
 }
 
-static void what_is_no_view_is_refused_with_line_and_reason(void **state)
+static void invalid_view_is_refused_with_line_and_reason(void **state)
 {
     static const char *const rows[][2] = {
         {"", "recording.json:1: "},
@@ -252,7 +252,7 @@ static void what_is_no_view_is_refused_with_line_and_reason(void **state)
     }
 }
 
-static void what_is_no_recording_is_refused(void **state)
+static void folder_without_recording_json_is_refused(void **state)
 {
     const temp_folder *folder = *state;
     view read;
@@ -282,7 +282,7 @@ static void assert_same_view_files(const char *a, const char *b)
 }
 
 /* The second recording has other keys, so that its own camera would be different. */
-static void camera_from_takes_the_whole_view_of_another_recording(void **state)
+static void camera_from_copies_the_view_of_another_recording(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b"), c = place_in(*state, "c"),
                 d = place_in(*state, "d");
@@ -308,7 +308,7 @@ static void camera_from_takes_the_whole_view_of_another_recording(void **state)
     assert_true(changed.camera == CAMERA_TOP && changed.width == 200 && changed.fit == FIT_BOX);
 }
 
-static void camera_from_nowhere_is_refused(void **state)
+static void camera_from_a_missing_recording_is_refused(void **state)
 {
     const place absent = place_in(*state, "absent"), film = place_in(*state, "film");
     command_result result = run_octreel(NULL, "record --camera-from %s -o %s", absent.path, film.path);
@@ -323,13 +323,13 @@ static void camera_from_nowhere_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(a_view_that_is_written_is_read_back_to_the_bit),
-        IN_FOLDER(a_missing_option_has_its_default),
-        IN_FOLDER(every_option_of_the_command_line_is_kept),
-        IN_FOLDER(what_is_no_view_is_refused_with_line_and_reason),
-        IN_FOLDER(what_is_no_recording_is_refused),
-        IN_FOLDER(camera_from_takes_the_whole_view_of_another_recording),
-        IN_FOLDER(camera_from_nowhere_is_refused),
+        IN_FOLDER(view_survives_the_round_trip_to_the_bit),
+        IN_FOLDER(missing_option_has_its_default),
+        IN_FOLDER(every_view_option_is_written),
+        IN_FOLDER(invalid_view_is_refused_with_line_and_reason),
+        IN_FOLDER(folder_without_recording_json_is_refused),
+        IN_FOLDER(camera_from_copies_the_view_of_another_recording),
+        IN_FOLDER(camera_from_a_missing_recording_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,7 +104,7 @@ static bool copy_original(const char *text, session_file *out, octreel_error *er
     return session_copy(&original.session, out, error);
 }
 
-static void a_session_is_read_whole_or_not_at_all(void **state)
+static void session_is_read_whole_or_not_at_all_if_an_allocation_fails(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CASES; i++) {
@@ -114,7 +114,7 @@ static void a_session_is_read_whole_or_not_at_all(void **state)
     }
 }
 
-static void a_session_is_read_whole_or_not_at_all_where_jansson_fails_too(void **state)
+static void session_is_read_whole_or_not_at_all_if_jansson_fails(void **state)
 {
     json_malloc_t allocate;
     json_free_t release;
@@ -122,12 +122,12 @@ static void a_session_is_read_whole_or_not_at_all_where_jansson_fails_too(void *
     jansson_fails = true;
     json_set_alloc_funcs(malloc, free);
     json_watch_memory();
-    a_session_is_read_whole_or_not_at_all(state);
+    session_is_read_whole_or_not_at_all_if_an_allocation_fails(state);
     json_set_alloc_funcs(allocate, release);
     jansson_fails = false;
 }
 
-static void a_session_is_copied_whole_or_not_at_all(void **state)
+static void session_is_copied_whole_or_not_at_all_if_an_allocation_fails(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CASES; i++) {
@@ -158,7 +158,7 @@ static session_stream_state read_stream(const char *path, size_t *count, octreel
     return state;
 }
 
-static void a_stream_is_read_to_its_end_or_breaks_with_the_reason(void **state)
+static void stream_is_read_whole_or_fails_with_the_reason(void **state)
 {
     const temp_folder *own = *state;
     const place path = place_in(own, "s.json");
@@ -187,10 +187,10 @@ static void a_stream_is_read_to_its_end_or_breaks_with_the_reason(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_session_is_read_whole_or_not_at_all),
-        TEST(a_session_is_copied_whole_or_not_at_all),
-        TEST(a_stream_is_read_to_its_end_or_breaks_with_the_reason),
-        TEST(a_session_is_read_whole_or_not_at_all_where_jansson_fails_too),
+        TEST(session_is_read_whole_or_not_at_all_if_an_allocation_fails),
+        TEST(session_is_copied_whole_or_not_at_all_if_an_allocation_fails),
+        TEST(stream_is_read_whole_or_fails_with_the_reason),
+        TEST(session_is_read_whole_or_not_at_all_if_jansson_fails),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     memory_fails_alone();

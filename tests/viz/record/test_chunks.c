@@ -70,7 +70,7 @@ static void assert_not_joined(const char *folder, const char *what, const char *
     listing_release(&after);
 }
 
-static void chunk_leaves_its_frames_and_its_lines(void **state)
+static void chunk_writes_its_frames_and_lines(void **state)
 {
     static const char *const names[] = {"frame_000005.png", "frame_000006.png", "frame_000007.png", "recording.json",
                                         "renderer.json",    "session.json",     "ticks_5_8.jsonl"};
@@ -88,7 +88,7 @@ static void chunk_leaves_its_frames_and_its_lines(void **state)
     listing_release(&found);
 }
 
-static void chunks_join_to_the_bytes_of_one_film(void **state)
+static void joined_chunks_have_the_bytes_of_one_recording(void **state)
 {
     const place whole = film_whole(state), chunks = film_chunks(state);
     assert_joined(chunks.path);
@@ -97,7 +97,7 @@ static void chunks_join_to_the_bytes_of_one_film(void **state)
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void chunks_that_overlap_join(void **state)
+static void overlapping_chunks_join(void **state)
 {
     const place whole = film_whole(state), chunks = film_chunks(state);
     const octree_session session = short_session(KEYS);
@@ -108,7 +108,7 @@ static void chunks_that_overlap_join(void **state)
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void stopped_film_and_a_chunk_join(void **state)
+static void stopped_recording_and_a_chunk_join(void **state)
 {
     const place whole = film_whole(state), chunks = place_in(*state, "chunks");
     const octree_session session = short_session(KEYS);
@@ -153,7 +153,7 @@ static void session_with_edits_and_every_third_frame_joins(void **state)
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void joining_that_is_stopped_changes_nothing(void **state)
+static void stopped_join_changes_nothing(void **state)
 {
     const place chunks = film_chunks(state), copy = place_in(*state, "copy");
     uint64_t ticks = 9;
@@ -183,7 +183,7 @@ static void missing_chunks_are_named_by_their_first_tick(void **state)
     assert_not_joined(chunks.path, "no chunk has tick 0;", "--resume");
 }
 
-static void chunk_that_was_not_finished_misses_its_last_ticks(void **state)
+static void unfinished_chunk_lacks_its_last_ticks(void **state)
 {
     const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
     size_t size;
@@ -204,7 +204,7 @@ static void missing_frames_are_named(void **state)
     assert_not_joined(chunks.path, "frame_000000.png is missing", "--resume");
 }
 
-static void files_of_the_recording_that_are_missing_are_named(void **state)
+static void missing_files_of_the_recording_are_named(void **state)
 {
     static const char *const names[] = {"renderer.json", "session.json", "recording.json"};
     const place chunks = film_chunks(state);
@@ -217,7 +217,7 @@ static void files_of_the_recording_that_are_missing_are_named(void **state)
 /* ---- What is wrong ------------------------------------------------------------------------------------------ */
 
 /* Lines that are not of their ticks, or name no scene, or another one than the frame shows. */
-static void line_that_is_not_of_its_tick_and_frame_is_named(void **state)
+static void line_of_another_tick_or_frame_is_named(void **state)
 {
     const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
     char *text = file_read(lines.path, NULL), *third = strstr(text, "\"tick\": 7,"),
@@ -237,7 +237,7 @@ static void line_that_is_not_of_its_tick_and_frame_is_named(void **state)
     free(text);
 }
 
-static void chunk_with_more_lines_or_ticks_than_there_are_is_named(void **state)
+static void chunk_with_surplus_lines_or_ticks_is_named(void **state)
 {
     const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
     char *text = file_read(lines.path, NULL);
@@ -251,7 +251,7 @@ static void chunk_with_more_lines_or_ticks_than_there_are_is_named(void **state)
     free(text);
 }
 
-static void frame_that_is_not_whole_is_named(void **state)
+static void incomplete_frame_is_named(void **state)
 {
     const place chunks = film_chunks(state), frame = frame_place(chunks.path, 8);
     size_t size;
@@ -296,7 +296,7 @@ static void frame_of_another_tick_session_or_view_is_named(void **state)
     free(own);
 }
 
-static void session_that_was_changed_by_hand_is_found(void **state)
+static void edited_session_is_found(void **state)
 {
     const place chunks = film_chunks(state), session = place_below(chunks.path, "session.json");
     char *text = file_read(session.path, NULL), *keys = strstr(text, "wwdd");
@@ -307,7 +307,7 @@ static void session_that_was_changed_by_hand_is_found(void **state)
     free(text);
 }
 
-static void frame_that_the_recording_has_not_is_named(void **state)
+static void surplus_frame_is_named(void **state)
 {
     const place chunks = film_chunks(state), extra = frame_place(chunks.path, TICKS);
     file_write_text(extra.path, "");
@@ -343,7 +343,7 @@ static void chunk_of_another_recording_is_refused_and_changes_nothing(void **sta
     assert_same_folders(chunks.path, copy.path, NULL);
 }
 
-static void chunk_beyond_the_session_is_refused_and_makes_nothing(void **state)
+static void chunk_beyond_the_session_is_refused_and_writes_nothing(void **state)
 {
     const place folder = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
@@ -352,7 +352,7 @@ static void chunk_beyond_the_session_is_refused_and_makes_nothing(void **state)
     assert_false(file_exists(folder.path));
 }
 
-static void whole_film_is_not_made_into_a_folder_with_chunks(void **state)
+static void folder_with_chunks_is_refused_for_a_whole_recording(void **state)
 {
     const place chunks = film_chunks(state);
     const octree_session session = short_session(KEYS);
@@ -363,7 +363,7 @@ static void whole_film_is_not_made_into_a_folder_with_chunks(void **state)
 /* ---- The program -------------------------------------------------------------------------------------------- */
 
 /* At the same time, into a folder that is not there yet. */
-static void four_chunks_in_four_processes_are_the_bytes_of_one_film(void **state)
+static void four_processes_record_the_bytes_of_one(void **state)
 {
     const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     command_result result = run_octreel(NULL, "record --size 160x90 --camera orbit -o %s", whole.path);
@@ -382,7 +382,7 @@ static void four_chunks_in_four_processes_are_the_bytes_of_one_film(void **state
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void gnu_parallel_films_the_chunks(void **state)
+static void gnu_parallel_records_the_chunks(void **state)
 {
     const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     if (!program_is_there("parallel"))
@@ -400,7 +400,7 @@ static void gnu_parallel_films_the_chunks(void **state)
 }
 
 /* The script of the README's array job, each task with the number that Slurm gives it. */
-static void slurm_tasks_film_the_chunks(void **state)
+static void slurm_tasks_record_the_chunks(void **state)
 {
     const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
     command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
@@ -417,7 +417,7 @@ static void slurm_tasks_film_the_chunks(void **state)
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-static void command_lines_of_chunks_that_make_no_sense_are_refused(void **state)
+static void contradicting_chunk_options_are_refused(void **state)
 {
     static const char *const rows[][2] = {
         {"record --ticks 5 -o x", "100:200"},   {"record --ticks : -o x", "100:200"},
@@ -436,7 +436,7 @@ static void command_lines_of_chunks_that_make_no_sense_are_refused(void **state)
     }
 }
 
-static void join_says_in_one_sentence_what_is_missing(void **state)
+static void join_names_missing_parts_in_one_sentence(void **state)
 {
     const place chunks = film_chunks(state);
     remove(place_below(chunks.path, "ticks_0_5.jsonl").path);
@@ -449,30 +449,30 @@ static void join_says_in_one_sentence_what_is_missing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(chunk_leaves_its_frames_and_its_lines),
-        IN_FOLDER(chunks_join_to_the_bytes_of_one_film),
-        IN_FOLDER(chunks_that_overlap_join),
-        IN_FOLDER(stopped_film_and_a_chunk_join),
+        IN_FOLDER(chunk_writes_its_frames_and_lines),
+        IN_FOLDER(joined_chunks_have_the_bytes_of_one_recording),
+        IN_FOLDER(overlapping_chunks_join),
+        IN_FOLDER(stopped_recording_and_a_chunk_join),
         IN_FOLDER(session_with_edits_and_every_third_frame_joins),
-        IN_FOLDER(joining_that_is_stopped_changes_nothing),
+        IN_FOLDER(stopped_join_changes_nothing),
         IN_FOLDER(missing_chunks_are_named_by_their_first_tick),
-        IN_FOLDER(chunk_that_was_not_finished_misses_its_last_ticks),
+        IN_FOLDER(unfinished_chunk_lacks_its_last_ticks),
         IN_FOLDER(missing_frames_are_named),
-        IN_FOLDER(files_of_the_recording_that_are_missing_are_named),
-        IN_FOLDER(line_that_is_not_of_its_tick_and_frame_is_named),
-        IN_FOLDER(chunk_with_more_lines_or_ticks_than_there_are_is_named),
-        IN_FOLDER(frame_that_is_not_whole_is_named),
+        IN_FOLDER(missing_files_of_the_recording_are_named),
+        IN_FOLDER(line_of_another_tick_or_frame_is_named),
+        IN_FOLDER(chunk_with_surplus_lines_or_ticks_is_named),
+        IN_FOLDER(incomplete_frame_is_named),
         IN_FOLDER(frame_of_another_tick_session_or_view_is_named),
-        IN_FOLDER(session_that_was_changed_by_hand_is_found),
-        IN_FOLDER(frame_that_the_recording_has_not_is_named),
+        IN_FOLDER(edited_session_is_found),
+        IN_FOLDER(surplus_frame_is_named),
         IN_FOLDER(chunk_of_another_recording_is_refused_and_changes_nothing),
-        IN_FOLDER(chunk_beyond_the_session_is_refused_and_makes_nothing),
-        IN_FOLDER(whole_film_is_not_made_into_a_folder_with_chunks),
-        IN_FOLDER(four_chunks_in_four_processes_are_the_bytes_of_one_film),
-        IN_FOLDER(gnu_parallel_films_the_chunks),
-        IN_FOLDER(slurm_tasks_film_the_chunks),
-        cmocka_unit_test(command_lines_of_chunks_that_make_no_sense_are_refused),
-        IN_FOLDER(join_says_in_one_sentence_what_is_missing),
+        IN_FOLDER(chunk_beyond_the_session_is_refused_and_writes_nothing),
+        IN_FOLDER(folder_with_chunks_is_refused_for_a_whole_recording),
+        IN_FOLDER(four_processes_record_the_bytes_of_one),
+        IN_FOLDER(gnu_parallel_records_the_chunks),
+        IN_FOLDER(slurm_tasks_record_the_chunks),
+        cmocka_unit_test(contradicting_chunk_options_are_refused),
+        IN_FOLDER(join_names_missing_parts_in_one_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ static void assert_frame_traced(const char *line, size_t number, void *context)
     json_decref(tick);
 }
 
-static void every_frame_is_traced_to_its_tick(void **state)
+static void every_frame_names_its_tick_and_digests(void **state)
 {
     const place folder = place_in(*state, "film");
     size_t size;
@@ -115,7 +115,7 @@ static void assert_replayed(const char *folder, const octree_session *session)
     octree_game_destroy(game);
 }
 
-static void lines_tell_what_a_replay_does(void **state)
+static void lines_have_the_facts_of_a_replay(void **state)
 {
     const place folder = place_in(*state, "film"), random = place_in(*state, "random");
     static random_session made;
@@ -129,7 +129,7 @@ static void lines_tell_what_a_replay_does(void **state)
     assert_replayed(random.path, &made.session);
 }
 
-static void the_summary_counts_the_ticks_of_each_event(void **state)
+static void summary_counts_the_ticks_of_each_event(void **state)
 {
     const octree_session session = octree_session_default();
     uint64_t events[OCTREE_EVENT_KINDS] = {0};
@@ -162,7 +162,7 @@ static void assert_sixtieth(const char *line, size_t number, void *context)
     json_decref(tick);
 }
 
-static void every_n_th_tick_has_the_frame_that_it_has_in_the_whole_film(void **state)
+static void every_option_draws_the_same_frames_of_fewer_ticks(void **state)
 {
     const place whole = place_in(*state, "whole"), part = place_in(*state, "part");
     const octree_session session = octree_session_default();
@@ -189,7 +189,7 @@ static void every_n_th_tick_has_the_frame_that_it_has_in_the_whole_film(void **s
     assert_same_folders(whole.path, part.path, "recording.json");
 }
 
-static void every_beyond_the_end_films_tick_0_alone(void **state)
+static void every_option_beyond_the_end_draws_only_tick_0(void **state)
 {
     const place folder = place_in(*state, "film");
     const octree_session session = octree_session_default();
@@ -200,7 +200,7 @@ static void every_beyond_the_end_films_tick_0_alone(void **state)
     assert_int_equal(summary.ticks, DEFAULT_TICKS);
 }
 
-static void without_layers_a_frame_is_background(void **state)
+static void frame_without_layers_is_background(void **state)
 {
     const place folder = place_in(*state, "film");
     octree_session session = octree_session_default();
@@ -269,7 +269,7 @@ static void take_step(uint64_t done, uint64_t total, void *context)
     assert_int_equal(total, DEFAULT_TICKS);
 }
 
-static void progress_is_told_after_each_tick(void **state)
+static void progress_is_reported_after_each_tick(void **state)
 {
     const octree_session session = octree_session_default();
     const place folder = place_in(*state, "film");
@@ -282,7 +282,7 @@ static void progress_is_told_after_each_tick(void **state)
     assert_int_equal(taken.calls, DEFAULT_TICKS);
 }
 
-static void what_is_refused_makes_no_folder(void **state)
+static void refused_recording_makes_no_folder(void **state)
 {
     static const int sizes[][2] = {{0, 0}, {0, 90}, {160, -1}, {16385, 1}, {1, 16385}};
     const place folder = place_in(*state, "film");
@@ -305,7 +305,7 @@ static void what_is_refused_makes_no_folder(void **state)
     assert_false(file_exists(folder.path));
 }
 
-static void the_smallest_and_the_flattest_pictures_are_filmed(void **state)
+static void smallest_and_flattest_pictures_are_recorded(void **state)
 {
     static const int sizes[][2] = {{1, 1}, {16384, 1}, {1, 16384}, {3, 2}};
     octree_session session = octree_session_default();
@@ -330,16 +330,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(default_session_makes_253_whole_frames_and_nothing_else),
-        IN_FOLDER(every_frame_is_traced_to_its_tick),
-        IN_FOLDER(lines_tell_what_a_replay_does),
-        IN_FOLDER(the_summary_counts_the_ticks_of_each_event),
-        IN_FOLDER(every_n_th_tick_has_the_frame_that_it_has_in_the_whole_film),
-        IN_FOLDER(every_beyond_the_end_films_tick_0_alone),
-        IN_FOLDER(without_layers_a_frame_is_background),
+        IN_FOLDER(every_frame_names_its_tick_and_digests),
+        IN_FOLDER(lines_have_the_facts_of_a_replay),
+        IN_FOLDER(summary_counts_the_ticks_of_each_event),
+        IN_FOLDER(every_option_draws_the_same_frames_of_fewer_ticks),
+        IN_FOLDER(every_option_beyond_the_end_draws_only_tick_0),
+        IN_FOLDER(frame_without_layers_is_background),
         IN_FOLDER(recording_json_keeps_the_view),
-        IN_FOLDER(progress_is_told_after_each_tick),
-        IN_FOLDER(what_is_refused_makes_no_folder),
-        IN_FOLDER(the_smallest_and_the_flattest_pictures_are_filmed),
+        IN_FOLDER(progress_is_reported_after_each_tick),
+        IN_FOLDER(refused_recording_makes_no_folder),
+        IN_FOLDER(smallest_and_flattest_pictures_are_recorded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

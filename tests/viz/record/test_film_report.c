@@ -47,7 +47,7 @@ static char *filmed_and_told(const film_options *options)
 }
 
 /* The line of events counts ticks, and the line below it what was refused in them. */
-static void an_edit_of_what_is_not_there_is_told_as_refused(void **state)
+static void edit_of_a_missing_point_is_reported_as_refused(void **state)
 {
     const place folder = place_in(*state, "film");
     static const octree_edit edits[] = {{2, OCTREE_EDIT_REMOVE, {.id = 999}}, {2, OCTREE_EDIT_MOVE, {.id = 998}}};
@@ -85,7 +85,7 @@ static char *written(void (*report)(FILE *out, const film_summary *summary, cons
     return text;
 }
 
-static void what_was_stopped_is_told_with_how_to_go_on(void **state)
+static void stopped_recording_is_reported_with_the_command_to_continue(void **state)
 {
     static const struct {
         film_summary summary;
@@ -111,7 +111,7 @@ static void what_was_stopped_is_told_with_how_to_go_on(void **state)
     }
 }
 
-static void what_was_left_out_is_one_list(void **state)
+static void left_out_elements_are_reported_in_one_list(void **state)
 {
     static const char *const texts[] = {"",
                                         "nodes",
@@ -128,7 +128,7 @@ static void what_was_left_out_is_one_list(void **state)
     }
 }
 
-static void a_tree_that_no_tick_has_is_told(void **state)
+static void view_of_a_tree_that_no_tick_has_is_reported(void **state)
 {
     static const struct {
         view_tree tree;
@@ -273,25 +273,25 @@ static void assert_row(const temp_folder *own, const row *r)
     assert_film(path, &options.view, r->frames);
 }
 
-static void printed_lines_take_every_frame(void **state)
+static void printed_commands_use_every_frame(void **state)
 {
     need_ffmpeg();
     assert_row(*state, &(row){"film", 1, 160, 90, 33});
 }
 
-static void printed_lines_take_every_frame_of_a_recording_with_gaps(void **state)
+static void printed_commands_use_every_frame_of_a_recording_with_gaps(void **state)
 {
     need_ffmpeg();
     assert_row(*state, &(row){"gaps", 4, 63, 37, 9}); /* and yuv420p takes no odd sides */
 }
 
-static void printed_lines_take_a_single_frame(void **state)
+static void printed_commands_work_for_a_single_frame(void **state)
 {
     need_ffmpeg();
     assert_row(*state, &(row){"one", 1000, 64, 36, 1});
 }
 
-static void printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise(void **state)
+static void printed_commands_quote_special_characters(void **state)
 {
     need_ffmpeg();
     assert_row(*state, &(row){"-it's a:b 50%d 5$ [x]*", 1, 64, 36, 33});
@@ -299,7 +299,7 @@ static void printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise(vo
 }
 
 /* The same, from the program. */
-static void program_prints_the_lines(void **state)
+static void program_prints_the_commands(void **state)
 {
     need_ffmpeg();
     const place folder = place_in(*state, "film");
@@ -312,7 +312,7 @@ static void program_prints_the_lines(void **state)
 }
 
 /* Of a recording that is called frames, as in its examples. */
-static void help_has_lines_for_an_animation_and_a_sheet(void **state)
+static void help_has_commands_for_an_animation_and_a_sheet(void **state)
 {
     need_ffmpeg();
     const place folder = place_in(*state, "frames");
@@ -351,7 +351,7 @@ static void assert_told(const char *folder, uint64_t frames, const char *part)
 }
 
 /* For a shell none is an option, for cd none lies elsewhere. */
-static void folders_are_named_so_that_a_shell_finds_them(void **state)
+static void folder_names_are_quoted_for_shells(void **state)
 {
     static const char *const rows[][2] = {
         {"film", "as a film: (cd ./film && ffmpeg "},
@@ -390,7 +390,7 @@ static void assert_counted(uint64_t count, const char *joined, const char *stopp
     free(text);
 }
 
-static void one_of_anything_is_told_in_the_singular(void **state)
+static void counts_of_one_are_in_the_singular(void **state)
 {
     (void)state;
     assert_counted(1,
@@ -408,18 +408,18 @@ static void one_of_anything_is_told_in_the_singular(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(printed_lines_take_every_frame),
-        IN_FOLDER(printed_lines_take_every_frame_of_a_recording_with_gaps),
-        IN_FOLDER(an_edit_of_what_is_not_there_is_told_as_refused),
-        IN_FOLDER(printed_lines_take_a_single_frame),
-        IN_FOLDER(printed_lines_survive_names_that_shells_and_ffmpeg_read_otherwise),
-        IN_FOLDER(program_prints_the_lines),
-        IN_FOLDER(help_has_lines_for_an_animation_and_a_sheet),
-        cmocka_unit_test(folders_are_named_so_that_a_shell_finds_them),
-        cmocka_unit_test(what_was_stopped_is_told_with_how_to_go_on),
-        cmocka_unit_test(what_was_left_out_is_one_list),
-        cmocka_unit_test(a_tree_that_no_tick_has_is_told),
-        cmocka_unit_test(one_of_anything_is_told_in_the_singular),
+        IN_FOLDER(printed_commands_use_every_frame),
+        IN_FOLDER(printed_commands_use_every_frame_of_a_recording_with_gaps),
+        IN_FOLDER(edit_of_a_missing_point_is_reported_as_refused),
+        IN_FOLDER(printed_commands_work_for_a_single_frame),
+        IN_FOLDER(printed_commands_quote_special_characters),
+        IN_FOLDER(program_prints_the_commands),
+        IN_FOLDER(help_has_commands_for_an_animation_and_a_sheet),
+        cmocka_unit_test(folder_names_are_quoted_for_shells),
+        cmocka_unit_test(stopped_recording_is_reported_with_the_command_to_continue),
+        cmocka_unit_test(left_out_elements_are_reported_in_one_list),
+        cmocka_unit_test(view_of_a_tree_that_no_tick_has_is_reported),
+        cmocka_unit_test(counts_of_one_are_in_the_singular),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

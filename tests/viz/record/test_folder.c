@@ -53,7 +53,7 @@ static void absolute_folders_are_made(void **state)
     assert_true(file_exists(place_in(folder, "x/y").path));
 }
 
-static void empty_and_unrelated_folders_are_taken(void **state)
+static void empty_and_unrelated_folders_are_accepted(void **state)
 {
     const place folder = place_in(*state, "film");
     assert_int_equal(mkdir(folder.path, 0777), 0);
@@ -73,7 +73,7 @@ static void link_to_a_folder_is_a_folder(void **state)
 }
 
 /* A file that a recording would write over may be all that is left of somebody's work. */
-static void folder_with_any_file_of_a_recording_is_refused_untouched(void **state)
+static void folder_with_any_file_of_a_recording_is_refused_and_unchanged(void **state)
 {
     static const char *const names[] = {"frame_000000.png", "frame_000252.png", "frame_1000000.png", "ticks.jsonl",
                                         "recording.json",   "session.json",     "renderer.json",     "index.html"};
@@ -93,7 +93,7 @@ static void folder_with_any_file_of_a_recording_is_refused_untouched(void **stat
     }
 }
 
-static void file_in_the_place_of_a_folder_is_refused(void **state)
+static void file_with_the_name_of_the_folder_is_refused(void **state)
 {
     const place file = place_in(*state, "file");
     file_write_text(file.path, "mine");
@@ -106,7 +106,7 @@ static void file_in_the_place_of_a_folder_is_refused(void **state)
     free(text);
 }
 
-static void empty_name_and_a_place_for_no_files_are_refused(void **state)
+static void empty_name_and_folder_that_cannot_be_made_are_refused(void **state)
 {
     octreel_error error = {""};
     (void)state;
@@ -115,7 +115,7 @@ static void empty_name_and_a_place_for_no_files_are_refused(void **state)
     assert_unprepared("/proc/no_such_folder", "cannot create the folder");
 }
 
-static void folder_without_permission_says_so(void **state)
+static void folder_without_permission_is_refused_with_the_reason(void **state)
 {
     const temp_folder *own = *state;
     const place sealed = place_in(own, "sealed"), film = place_in(own, "sealed/film");
@@ -137,7 +137,7 @@ static void folder_without_permission_says_so(void **state)
 }
 
 /* However long the path: what went wrong must not be cut off. */
-static void reason_survives_a_long_path(void **state)
+static void reason_is_not_cut_after_a_long_path(void **state)
 {
     char name[3 * 201 + 8] = "";
     octreel_error error = {""};
@@ -166,7 +166,7 @@ static void assert_written(const char *folder, const char *name, const char *tex
     free(back);
 }
 
-static void files_are_written_whole_and_replaced_whole(void **state)
+static void files_are_written_and_replaced_whole(void **state)
 {
     const temp_folder *folder = *state;
     assert_written(folder->name, "x.json", "first, and longer than what follows");
@@ -176,7 +176,7 @@ static void files_are_written_whole_and_replaced_whole(void **state)
 }
 
 /* Writing fails as late as when the file is closed. */
-static void file_that_cannot_be_written_leaves_nothing_and_harms_nothing(void **state)
+static void unwritable_file_leaves_the_old_file_and_no_part(void **state)
 {
     const temp_folder *folder = *state;
     octreel_error error = {""};
@@ -201,7 +201,7 @@ static void file_without_its_folder_is_an_error(void **state)
     assert_non_null(strstr(error.text, "No such file or directory"));
 }
 
-static void folder_in_the_place_of_a_file_is_an_error_that_leaves_no_part(void **state)
+static void folder_with_the_name_of_a_file_is_an_error_and_leaves_no_part(void **state)
 {
     const temp_folder *folder = *state;
     octreel_error error = {""};
@@ -218,17 +218,17 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_FOLDER(new_folders_are_made_with_their_parents),
         IN_FOLDER(absolute_folders_are_made),
-        IN_FOLDER(empty_and_unrelated_folders_are_taken),
+        IN_FOLDER(empty_and_unrelated_folders_are_accepted),
         IN_FOLDER(link_to_a_folder_is_a_folder),
-        IN_FOLDER(folder_with_any_file_of_a_recording_is_refused_untouched),
-        IN_FOLDER(file_in_the_place_of_a_folder_is_refused),
-        IN_FOLDER(empty_name_and_a_place_for_no_files_are_refused),
-        IN_FOLDER(folder_without_permission_says_so),
-        IN_FOLDER(reason_survives_a_long_path),
-        IN_FOLDER(files_are_written_whole_and_replaced_whole),
-        IN_FOLDER(file_that_cannot_be_written_leaves_nothing_and_harms_nothing),
+        IN_FOLDER(folder_with_any_file_of_a_recording_is_refused_and_unchanged),
+        IN_FOLDER(file_with_the_name_of_the_folder_is_refused),
+        IN_FOLDER(empty_name_and_folder_that_cannot_be_made_are_refused),
+        IN_FOLDER(folder_without_permission_is_refused_with_the_reason),
+        IN_FOLDER(reason_is_not_cut_after_a_long_path),
+        IN_FOLDER(files_are_written_and_replaced_whole),
+        IN_FOLDER(unwritable_file_leaves_the_old_file_and_no_part),
         IN_FOLDER(file_without_its_folder_is_an_error),
-        IN_FOLDER(folder_in_the_place_of_a_file_is_an_error_that_leaves_no_part),
+        IN_FOLDER(folder_with_the_name_of_a_file_is_an_error_and_leaves_no_part),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

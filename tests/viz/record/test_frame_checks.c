@@ -54,7 +54,7 @@ static film_options checked_film(const char *folder, draw_fill fill)
     return options;
 }
 
-static void integers_never_load_gl(void **state)
+static void fill_integers_never_loads_gl(void **state)
 {
     const place folder = place_in(*state, "film");
     const octree_session session = short_session("wdwd");
@@ -65,7 +65,7 @@ static void integers_never_load_gl(void **state)
     assert_int_equal(loads, 0);
 }
 
-static void the_first_every_100th_and_the_last_frame_are_checked(void **state)
+static void first_every_100th_and_last_frame_are_checked(void **state)
 {
     const place checked = place_in(*state, "checked"), plain = place_in(*state, "plain");
     const octree_session session = octree_session_default(); /* 253 ticks */
@@ -79,7 +79,7 @@ static void the_first_every_100th_and_the_last_frame_are_checked(void **state)
     assert_same_folders(checked.path, plain.path, "renderer.json");
 }
 
-static void chunks_and_resumed_recordings_check_the_first_and_last_frame_that_they_draw(void **state)
+static void chunks_and_resumed_recordings_check_their_first_and_last_frame(void **state)
 {
     const place folder = place_in(*state, "film"), chunk = place_in(*state, "chunk");
     const octree_session session = octree_session_default();
@@ -93,7 +93,7 @@ static void chunks_and_resumed_recordings_check_the_first_and_last_frame_that_th
     assert_int_equal(assert_filmed(&session, &options).checks.count, 2);
 }
 
-static void the_last_frame_of_a_session_without_a_known_end_is_checked(void **state)
+static void last_frame_of_a_session_without_a_known_end_is_checked(void **state)
 {
     octreel_error error = {""};
     film_summary summary;
@@ -128,7 +128,7 @@ static void assert_kept(const char *prefix)
     image_release(&pictures[1]);
 }
 
-static void a_wrong_pixel_stops_the_recording_and_both_pictures_are_kept(void **state)
+static void wrong_pixel_stops_the_recording_and_keeps_both_pictures(void **state)
 {
     static const struct {
         const char *folder;
@@ -155,7 +155,7 @@ static void a_wrong_pixel_stops_the_recording_and_both_pictures_are_kept(void **
     }
 }
 
-static void a_wrong_picture_of_a_tree_is_not_written(void **state)
+static void wrong_picture_of_a_tree_is_not_written(void **state)
 {
     octreel_error error = {""};
     film_summary summary;
@@ -180,12 +180,12 @@ static void a_wrong_picture_of_a_tree_is_not_written(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(integers_never_load_gl),
-        IN_FOLDER(the_first_every_100th_and_the_last_frame_are_checked),
-        IN_FOLDER(chunks_and_resumed_recordings_check_the_first_and_last_frame_that_they_draw),
-        IN_FOLDER(the_last_frame_of_a_session_without_a_known_end_is_checked),
-        IN_FOLDER(a_wrong_pixel_stops_the_recording_and_both_pictures_are_kept),
-        IN_FOLDER(a_wrong_picture_of_a_tree_is_not_written),
+        IN_FOLDER(fill_integers_never_loads_gl),
+        IN_FOLDER(first_every_100th_and_last_frame_are_checked),
+        IN_FOLDER(chunks_and_resumed_recordings_check_their_first_and_last_frame),
+        IN_FOLDER(last_frame_of_a_session_without_a_known_end_is_checked),
+        IN_FOLDER(wrong_pixel_stops_the_recording_and_keeps_both_pictures),
+        IN_FOLDER(wrong_picture_of_a_tree_is_not_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@
 
 /* From a limit that stops the first file to one that stops ticks.jsonl in its last lines, and then index.html, which
  * has more bytes; frames have some 2400. With room again the same words, and --resume, complete it. */
-static void recording_that_outgrows_the_disk_leaves_only_whole_files_and_is_resumed(void **state)
+static void full_disk_leaves_only_whole_files_and_resume_completes_them(void **state)
 {
     static const size_t limits[] = {1,    100,  190,  400,  1500,  2000,  2300, 2420,
                                     3000, 4095, 4096, 4097, 30000, 74000, 90000};
@@ -50,7 +50,7 @@ static void take_away(uint64_t done, uint64_t total, void *context)
     }
 }
 
-static void folder_that_vanishes_is_an_error_that_names_it(void **state)
+static void error_names_a_folder_that_vanishes(void **state)
 {
     const place folder = place_in(*state, "film"), gone = place_in(*state, "film.gone");
     const octree_session session = short_session("wwddeennwwdd");
@@ -69,7 +69,7 @@ static void folder_that_vanishes_is_an_error_that_names_it(void **state)
     assert_int_equal(for_each_line(gone.path, NULL, NULL), 5);
 }
 
-static void recording_that_fits_the_disk_is_done(void **state)
+static void recording_that_fits_the_disk_succeeds(void **state)
 {
     const place folder = place_in(*state, "film");
     const command_setting roomy = {.file_limit = 1000000};
@@ -80,7 +80,7 @@ static void recording_that_fits_the_disk_is_done(void **state)
 }
 
 /* Each file of the folder in its turn meets a folder in its way. */
-static void each_file_that_cannot_be_written_is_named(void **state)
+static void error_names_each_unwritable_file(void **state)
 {
     static const char *const names[] = {"recording.json", "session.json", "renderer.json"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -96,7 +96,7 @@ static void each_file_that_cannot_be_written_is_named(void **state)
     }
 }
 
-static void picture_that_cannot_be_written_is_named_and_leaves_nothing(void **state)
+static void unwritable_picture_is_named_and_leaves_no_file(void **state)
 {
     const place points = place_in(*state, "points.txt"), picture = place_in(*state, "tree.png");
     const command_setting full = {.file_limit = 600};
@@ -107,7 +107,7 @@ static void picture_that_cannot_be_written_is_named_and_leaves_nothing(void **st
     assert_int_equal(temp_folder_count(*state), 1);
 }
 
-static void list_of_nodes_that_cannot_be_written_is_named(void **state)
+static void unwritable_list_of_nodes_is_named(void **state)
 {
     const place points = place_in(*state, "points.txt"), full = place_in(*state, "nodes.csv");
     file_write_text(points.path, "1 2 3\n4 5 6\n");
@@ -117,7 +117,7 @@ static void list_of_nodes_that_cannot_be_written_is_named(void **state)
     assert_trouble(&result, "No space left on device");
 }
 
-static void stdout_that_is_full_is_trouble(void **state)
+static void full_standard_output_is_an_error(void **state)
 {
     static const command_setting full = {.output = "/dev/full"};
     static const char *const arguments[] = {"", "--json", "--node root", "--node root --json"};
@@ -131,7 +131,7 @@ static void stdout_that_is_full_is_trouble(void **state)
     assert_trouble(&result, "cannot write to standard output");
 }
 
-static void help_and_version_that_cannot_be_written_are_trouble(void **state)
+static void unwritable_help_and_version_are_errors(void **state)
 {
     static const command_setting full = {.output = "/dev/full"};
     static const char *const arguments[] = {"--help", "--version", "record --help", "inspect --help"};
@@ -147,14 +147,14 @@ static void help_and_version_that_cannot_be_written_are_trouble(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(recording_that_outgrows_the_disk_leaves_only_whole_files_and_is_resumed),
-        IN_FOLDER(folder_that_vanishes_is_an_error_that_names_it),
-        IN_FOLDER(recording_that_fits_the_disk_is_done),
-        IN_FOLDER(each_file_that_cannot_be_written_is_named),
-        IN_FOLDER(picture_that_cannot_be_written_is_named_and_leaves_nothing),
-        IN_FOLDER(list_of_nodes_that_cannot_be_written_is_named),
-        IN_FOLDER(stdout_that_is_full_is_trouble),
-        cmocka_unit_test(help_and_version_that_cannot_be_written_are_trouble),
+        IN_FOLDER(full_disk_leaves_only_whole_files_and_resume_completes_them),
+        IN_FOLDER(error_names_a_folder_that_vanishes),
+        IN_FOLDER(recording_that_fits_the_disk_succeeds),
+        IN_FOLDER(error_names_each_unwritable_file),
+        IN_FOLDER(unwritable_picture_is_named_and_leaves_no_file),
+        IN_FOLDER(unwritable_list_of_nodes_is_named),
+        IN_FOLDER(full_standard_output_is_an_error),
+        cmocka_unit_test(unwritable_help_and_version_are_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

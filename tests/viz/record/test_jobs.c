@@ -33,7 +33,7 @@ static void assert_recorded(const char *arguments, const char *folder)
     command_release(&result);
 }
 
-static void bytes_do_not_depend_on_the_jobs(void **state)
+static void bytes_do_not_depend_on_the_number_of_jobs(void **state)
 {
     static const char *const views[] = {"--keys wwddeennwwddssaawd", "--every 7 --camera orbit", "--ticks 30:47"};
     static const char *const jobs[] = {"--jobs 2", "--jobs 3", "--jobs 5", "--jobs 256", ""};
@@ -53,7 +53,7 @@ static void bytes_do_not_depend_on_the_jobs(void **state)
     }
 }
 
-static void parts_by_several_jobs_join_to_the_same_bytes(void **state)
+static void chunks_by_several_jobs_join_to_the_same_bytes(void **state)
 {
     const place one = place_in(*state, "one"), parts = place_in(*state, "parts");
     assert_recorded("--jobs 1 --every 2 --keys wwddeennwwddssaawd", one.path);
@@ -65,7 +65,7 @@ static void parts_by_several_jobs_join_to_the_same_bytes(void **state)
     assert_same_folders(one.path, parts.path, NULL);
 }
 
-static void summary_is_that_of_one_process(void **state)
+static void summary_equals_that_of_one_process(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
     json_t *summaries[2];
@@ -85,7 +85,7 @@ static void summary_is_that_of_one_process(void **state)
     json_decref(summaries[1]);
 }
 
-static void default_is_a_job_a_core_and_enough_frames_for_each(void **state)
+static void default_is_one_job_per_core_with_enough_frames_for_each(void **state)
 {
     octree_session session = octree_session_default();
     film_options options = small_film("film");
@@ -105,7 +105,7 @@ static void default_is_a_job_a_core_and_enough_frames_for_each(void **state)
     assert_int_equal(film_default_jobs(&session, &options), 1);
 }
 
-static void what_every_job_refuses_is_said_once_and_makes_nothing(void **state)
+static void refused_session_is_reported_once_and_writes_nothing(void **state)
 {
     const place folder = place_in(*state, "film");
     command_result result = run_octreel(NULL, "record --jobs 3 --size 99999x1 -o %s", folder.path);
@@ -134,7 +134,7 @@ static place long_session(void **state)
     return session;
 }
 
-static void job_that_is_killed_is_named(void **state)
+static void error_names_a_killed_job(void **state)
 {
     const place session = long_session(state), folder = place_in(*state, "film");
     background b = start_octreel("record %s --size 160x90 --jobs 2 -o %s", session.path, folder.path);
@@ -156,7 +156,7 @@ static void job_that_is_killed_is_named(void **state)
         assert_true(file_exists(frame_place(folder.path, tick).path));
 }
 
-static void film_of_several_jobs_that_is_stopped_says_how_to_go_on(void **state)
+static void stopped_jobs_report_the_command_to_continue(void **state)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     const place session = long_session(state);
@@ -186,7 +186,7 @@ static void film_of_several_jobs_that_is_stopped_says_how_to_go_on(void **state)
     }
 }
 
-static void stopped_film_of_several_jobs_is_resumed(void **state)
+static void stopped_recording_of_several_jobs_is_resumed(void **state)
 {
     const place session = long_session(state), folder = place_in(*state, "film");
     background b = start_octreel("record %s --size 160x90 --every 100 --jobs 2 -o %s", session.path, folder.path);
@@ -214,7 +214,7 @@ static int lease(const char *path)
 
 /* A job that does not get on with its frame ends with the process that started it, and not after the frame: it waits
  * for a file that another process holds. */
-static void kill_of_the_whole_ends_a_job_within_its_frame(void **state)
+static void killing_the_parent_ends_jobs_within_a_frame(void **state)
 {
     enum { PATIENCE = 20000 }; /* milliseconds, where it does not end */
     const place folder = place_in(*state, "film");
@@ -240,7 +240,7 @@ static void kill_of_the_whole_ends_a_job_within_its_frame(void **state)
 }
 
 /* Its jobs end by themselves: no further frame appears. */
-static void kill_of_the_whole_leaves_no_job_behind(void **state)
+static void killing_the_parent_leaves_no_job(void **state)
 {
     const struct timespec while_frames_end = {0, 200000000};
     const place session = long_session(state), folder = place_in(*state, "film");
@@ -289,7 +289,7 @@ ssize_t __wrap_send(int socket, const void *bytes, size_t size, int how)
 }
 
 /* They would wait for it, and this process for them. */
-static void jobs_that_cannot_be_told_what_to_film_are_not_waited_for(void **state)
+static void jobs_that_never_got_their_work_are_not_awaited(void **state)
 {
     const place folder = place_in(*state, "film");
     const octree_session session = short_session("wdn");
@@ -310,17 +310,17 @@ static void jobs_that_cannot_be_told_what_to_film_are_not_waited_for(void **stat
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(bytes_do_not_depend_on_the_jobs),
-        IN_FOLDER(parts_by_several_jobs_join_to_the_same_bytes),
-        IN_FOLDER(summary_is_that_of_one_process),
-        cmocka_unit_test(default_is_a_job_a_core_and_enough_frames_for_each),
-        IN_FOLDER(what_every_job_refuses_is_said_once_and_makes_nothing),
-        IN_FOLDER(job_that_is_killed_is_named),
-        IN_FOLDER(jobs_that_cannot_be_told_what_to_film_are_not_waited_for),
-        IN_FOLDER(film_of_several_jobs_that_is_stopped_says_how_to_go_on),
-        IN_FOLDER(stopped_film_of_several_jobs_is_resumed),
-        IN_FOLDER(kill_of_the_whole_ends_a_job_within_its_frame),
-        IN_FOLDER(kill_of_the_whole_leaves_no_job_behind),
+        IN_FOLDER(bytes_do_not_depend_on_the_number_of_jobs),
+        IN_FOLDER(chunks_by_several_jobs_join_to_the_same_bytes),
+        IN_FOLDER(summary_equals_that_of_one_process),
+        cmocka_unit_test(default_is_one_job_per_core_with_enough_frames_for_each),
+        IN_FOLDER(refused_session_is_reported_once_and_writes_nothing),
+        IN_FOLDER(error_names_a_killed_job),
+        IN_FOLDER(jobs_that_never_got_their_work_are_not_awaited),
+        IN_FOLDER(stopped_jobs_report_the_command_to_continue),
+        IN_FOLDER(stopped_recording_of_several_jobs_is_resumed),
+        IN_FOLDER(killing_the_parent_ends_jobs_within_a_frame),
+        IN_FOLDER(killing_the_parent_leaves_no_job),
         IN_FOLDER(ignored_signals_stay_ignored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -170,7 +170,7 @@ static void assert_all_resume(const remains *r, const char *whole)
     }
 }
 
-static void film_that_is_killed_at_any_call_is_resumed(void **state)
+static void recording_killed_at_any_call_is_resumed(void **state)
 {
     const place whole = film_whole(state);
     const remains r = remains_of(state, FILM " -o", "film");
@@ -180,7 +180,7 @@ static void film_that_is_killed_at_any_call_is_resumed(void **state)
 }
 
 /* A frame is gone, and a file; lines are wrong, and what others have left lies about. */
-static void resumed_film_that_is_killed_at_any_call_is_resumed_again(void **state)
+static void resumed_recording_killed_at_any_call_is_resumed_again(void **state)
 {
     const place whole = film_whole(state), film = place_in(*state, "film");
     copy_folder(whole.path, film.path);
@@ -195,7 +195,7 @@ static void resumed_film_that_is_killed_at_any_call_is_resumed_again(void **stat
     assert_all_resume(&r, whole.path);
 }
 
-static void part_that_is_killed_at_any_call_is_resumed(void **state)
+static void chunk_killed_at_any_call_is_resumed(void **state)
 {
     const place whole = film_whole(state);
     const remains r = remains_of(state, FILM " --ticks 1: -o", "film");
@@ -203,7 +203,7 @@ static void part_that_is_killed_at_any_call_is_resumed(void **state)
     assert_all_resume(&r, whole.path);
 }
 
-static void joining_that_is_killed_at_any_call_is_done_again(void **state)
+static void join_killed_at_any_call_is_repeated(void **state)
 {
     const place whole = film_whole(state), film = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
@@ -244,7 +244,7 @@ static bool kill_at(size_t call, void *context)
     return false;
 }
 
-static void kill_leaves_the_files_as_they_are_at_that_call(void **state)
+static void files_after_a_kill_are_those_at_the_call(void **state)
 {
     const remains r = remains_of(state, FILM " -o", "film");
     for (size_t at = 3; at < r.calls; at += r.calls / 4) {
@@ -264,11 +264,11 @@ static void kill_leaves_the_files_as_they_are_at_that_call(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(film_that_is_killed_at_any_call_is_resumed),
-        IN_FOLDER(resumed_film_that_is_killed_at_any_call_is_resumed_again),
-        IN_FOLDER(part_that_is_killed_at_any_call_is_resumed),
-        IN_FOLDER(joining_that_is_killed_at_any_call_is_done_again),
-        IN_FOLDER(kill_leaves_the_files_as_they_are_at_that_call),
+        IN_FOLDER(recording_killed_at_any_call_is_resumed),
+        IN_FOLDER(resumed_recording_killed_at_any_call_is_resumed_again),
+        IN_FOLDER(chunk_killed_at_any_call_is_resumed),
+        IN_FOLDER(join_killed_at_any_call_is_repeated),
+        IN_FOLDER(files_after_a_kill_are_those_at_the_call),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,7 @@ static film_options no_frames(const char *folder)
     return options;
 }
 
-static void there_are_ticks_and_a_page_and_no_frame(void **state)
+static void no_frames_writes_ticks_and_a_page(void **state)
 {
     static const char *const files[] = {"index.html", "recording.json", "session.json", "ticks.jsonl"};
     const place film = place_in(*state, "film");
@@ -40,7 +40,7 @@ static void there_are_ticks_and_a_page_and_no_frame(void **state)
     listing_release(&names);
 }
 
-static void what_is_verified_are_the_ticks_alone(void **state)
+static void verify_checks_only_the_ticks(void **state)
 {
     const place film = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
@@ -61,7 +61,7 @@ static void what_is_verified_are_the_ticks_alone(void **state)
 }
 
 /* By jobs, resumed, or joined from chunks: the same bytes. */
-static void however_it_is_made_it_is_the_same(void **state)
+static void jobs_chunks_and_resume_give_the_same_files(void **state)
 {
     const place film = place_in(*state, "film"), jobs = place_in(*state, "jobs"), resumed = place_in(*state, "resumed"),
                 chunks = place_in(*state, "chunks");
@@ -92,7 +92,7 @@ static void however_it_is_made_it_is_the_same(void **state)
     assert_same_folders(film.path, chunks.path, NULL);
 }
 
-static void frames_are_not_added_later(void **state)
+static void frames_cannot_be_added_later(void **state)
 {
     const place film = place_in(*state, "film");
     const octree_session session = short_session(KEYS);
@@ -107,7 +107,7 @@ static void frames_are_not_added_later(void **state)
 }
 
 /* Nothing is written of a session of which a page would not play. */
-static void a_session_that_no_page_holds_is_refused(void **state)
+static void session_too_large_for_a_page_is_refused(void **state)
 {
     char *keys = malloc(PAGE_MOST_SESSION + 2), *text;
     size_t size;
@@ -135,11 +135,11 @@ static void a_session_that_no_page_holds_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(there_are_ticks_and_a_page_and_no_frame),
-        IN_FOLDER(what_is_verified_are_the_ticks_alone),
-        IN_FOLDER(however_it_is_made_it_is_the_same),
-        IN_FOLDER(frames_are_not_added_later),
-        cmocka_unit_test(a_session_that_no_page_holds_is_refused),
+        IN_FOLDER(no_frames_writes_ticks_and_a_page),
+        IN_FOLDER(verify_checks_only_the_ticks),
+        IN_FOLDER(jobs_chunks_and_resume_give_the_same_files),
+        IN_FOLDER(frames_cannot_be_added_later),
+        cmocka_unit_test(session_too_large_for_a_page_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,7 +103,7 @@ static void page_has_the_facts_of_every_tick(void **state)
 }
 
 /* From a recording that lies there, the same bytes come once more. */
-static void page_can_be_written_again_later(void **state)
+static void page_can_be_rewritten_later(void **state)
 {
     const place folder = place_in(*state, "film");
     const octree_session session = octree_session_default();
@@ -131,7 +131,7 @@ static void blank_letters(char *page)
 }
 
 /* No address, no import, no further file but those that are named by the facts. */
-static void page_needs_nothing_from_anywhere(void **state)
+static void page_loads_no_other_file(void **state)
 {
     static const char *const foreign[] = {"http:", "https:", "//cdn", "src=\"", "@import", "url(", "import(", "fetch("};
     const place folder = recording_of(state, TICK);
@@ -147,7 +147,7 @@ static void page_needs_nothing_from_anywhere(void **state)
     free(page);
 }
 
-static void nothing_in_a_tick_ends_the_facts(void **state)
+static void text_in_a_tick_cannot_end_the_embedded_facts(void **state)
 {
     const place folder = recording_of(state, "{\"tick\": 0, \"key\": \"</script><script>alert(1)</script>\"}\n"
                                              "{\"tick\": 1, \"key\": \"<!--\xe2\x80\xa8\"}\n");
@@ -164,7 +164,7 @@ static void nothing_in_a_tick_ends_the_facts(void **state)
     free(facts);
 }
 
-static void torn_last_line_is_no_tick(void **state)
+static void torn_last_line_is_ignored(void **state)
 {
     char ticks[256];
     snprintf(ticks, sizeof ticks, "%s{\"tick\": 1, \"key\": \"w", TICK);
@@ -213,7 +213,7 @@ static void a_million_refusals_are_counted_and_not_embedded(void **state)
     free(facts);
 }
 
-static void recording_that_cannot_be_read_gets_no_page(void **state)
+static void unreadable_recording_gets_no_page(void **state)
 {
     static const char *const ticks[][2] = {
         {"{\"tick\": 0}\n{\"tick\": 1\n", "ticks.jsonl:2: "},
@@ -240,7 +240,7 @@ static void recording_that_cannot_be_read_gets_no_page(void **state)
     assert_no_page(place_in(*state, "nowhere").path, "nowhere/index.html", "No such file or directory");
 }
 
-static void page_that_cannot_be_written_leaves_the_one_before(void **state)
+static void failed_write_keeps_the_old_page(void **state)
 {
     octreel_error error = {""};
     const place folder = recording_of(state, TICK), page = place_below(folder.path, "index.html");
@@ -257,7 +257,7 @@ static void page_that_cannot_be_written_leaves_the_one_before(void **state)
     free(text);
 }
 
-static void folder_that_cannot_be_written_is_named(void **state)
+static void unwritable_folder_is_named(void **state)
 {
     const temp_folder *own = *state;
     const place folder = recording_of(state, TICK);
@@ -277,7 +277,7 @@ static void folder_that_cannot_be_written_is_named(void **state)
 }
 
 /* When everything else is written: the recording is whole, and the page is what is missed. */
-static void record_tells_that_its_page_cannot_be_written(void **state)
+static void record_reports_an_unwritable_page(void **state)
 {
     const place folder = place_in(*state, "film"), part = place_below(folder.path, "index.html.part");
     assert_int_equal(mkdir(folder.path, 0777), 0);
@@ -296,16 +296,16 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         IN_FOLDER(page_has_the_facts_of_every_tick),
-        IN_FOLDER(page_can_be_written_again_later),
-        IN_FOLDER(page_needs_nothing_from_anywhere),
-        IN_FOLDER(nothing_in_a_tick_ends_the_facts),
-        IN_FOLDER(torn_last_line_is_no_tick),
+        IN_FOLDER(page_can_be_rewritten_later),
+        IN_FOLDER(page_loads_no_other_file),
+        IN_FOLDER(text_in_a_tick_cannot_end_the_embedded_facts),
+        IN_FOLDER(torn_last_line_is_ignored),
         IN_FOLDER(recording_without_ticks_has_a_page),
         IN_FOLDER(a_million_refusals_are_counted_and_not_embedded),
-        IN_FOLDER(recording_that_cannot_be_read_gets_no_page),
-        IN_FOLDER(page_that_cannot_be_written_leaves_the_one_before),
-        IN_FOLDER(folder_that_cannot_be_written_is_named),
-        IN_FOLDER(record_tells_that_its_page_cannot_be_written),
+        IN_FOLDER(unreadable_recording_gets_no_page),
+        IN_FOLDER(failed_write_keeps_the_old_page),
+        IN_FOLDER(unwritable_folder_is_named),
+        IN_FOLDER(record_reports_an_unwritable_page),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

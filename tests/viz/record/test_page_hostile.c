@@ -94,7 +94,7 @@ static const char *need_said(void **state)
     return d->said;
 }
 
-static void the_whole_page_plays(void **state)
+static void undamaged_page_plays(void **state)
 {
     const char *said = need_said(state);
     assert_said_about(said, "whole: message", "");
@@ -104,7 +104,7 @@ static void the_whole_page_plays(void **state)
     assert_said_about(said, "whole: after a key", "tick 2 of 2, played: ");
 }
 
-static void without_webassembly_it_shows_frames_alone(void **state)
+static void page_without_webassembly_shows_only_frames(void **state)
 {
     const char *said = need_said(state);
     assert_said_about(said, "without WebAssembly: message", "");
@@ -114,7 +114,7 @@ static void without_webassembly_it_shows_frames_alone(void **state)
     assert_said_about(said, "without WebAssembly: after a key", "tick 1 of 3: ");
 }
 
-static void one_that_is_cut_off_says_so(void **state)
+static void truncated_page_says_so(void **state)
 {
     const char *said = need_said(state);
     assert_said_about(said, "cut in the facts: message", CUT);
@@ -123,7 +123,7 @@ static void one_that_is_cut_off_says_so(void **state)
     assert_said_about(said, "facts changed: message", CUT);
 }
 
-static void one_whose_program_is_damaged_shows_frames_and_says_so(void **state)
+static void page_with_a_damaged_module_shows_frames_and_says_so(void **state)
 {
     static const char *const names[] = {"program changed", "program begins otherwise"};
     const char *said = need_said(state);
@@ -144,10 +144,10 @@ static void one_whose_program_is_damaged_shows_frames_and_says_so(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_whole_page_plays),
-        cmocka_unit_test(without_webassembly_it_shows_frames_alone),
-        cmocka_unit_test(one_that_is_cut_off_says_so),
-        cmocka_unit_test(one_whose_program_is_damaged_shows_frames_and_says_so),
+        cmocka_unit_test(undamaged_page_plays),
+        cmocka_unit_test(page_without_webassembly_shows_only_frames),
+        cmocka_unit_test(truncated_page_says_so),
+        cmocka_unit_test(page_with_a_damaged_module_shows_frames_and_says_so),
     };
     return cmocka_run_group_tests(tests, drive_pages, forget_pages);
 }

@@ -53,7 +53,7 @@ static const driven *need_page(void **state)
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-static void every_tick_is_that_of_the_recording_in_any_order(void **state)
+static void page_plays_the_ticks_of_the_recording_in_any_order(void **state)
 {
     const driven *d = need_page(state);
     assert_said_about(d->said, "plays by itself", "true");
@@ -61,7 +61,7 @@ static void every_tick_is_that_of_the_recording_in_any_order(void **state)
     assert_ticks_said(d->said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
 }
 
-static void gestures_at_random_change_no_tick_and_raise_no_error(void **state)
+static void random_gestures_change_no_tick_and_raise_no_error(void **state)
 {
     const driven *d = need_page(state);
     assert_ticks_said(d->said, "again", place_in(d->folder, "film").path, LAST + 1, true);
@@ -70,7 +70,7 @@ static void gestures_at_random_change_no_tick_and_raise_no_error(void **state)
 
 /* ---- Questions ---------------------------------------------------------------------------------------------- */
 
-static void a_click_says_what_pick_says(void **state)
+static void click_names_the_element_that_pick_names(void **state)
 {
     const driven *d = need_page(state);
     const place frame = frame_place(place_in(d->folder, "film").path, 219);
@@ -86,7 +86,7 @@ static void a_click_says_what_pick_says(void **state)
     assert_int_equal(picks, 40);
 }
 
-static void what_is_asked_is_answered_by_the_library(void **state)
+static void queries_on_the_page_have_the_answers_of_the_library(void **state)
 {
     const driven *d = need_page(state);
     assert_said_about(d->said, "answer", "[7]");
@@ -96,7 +96,7 @@ static void what_is_asked_is_answered_by_the_library(void **state)
 
 /* ---- Playing on --------------------------------------------------------------------------------------------- */
 
-static void what_is_played_on_is_a_session_that_films_the_same(void **state)
+static void session_played_on_the_page_records_the_same(void **state)
 {
     const driven *d = need_page(state);
     const place film = place_in(d->folder, "played");
@@ -119,7 +119,7 @@ static void what_is_played_on_is_a_session_that_films_the_same(void **state)
     free(text);
 }
 
-static void what_cannot_be_opened_is_said_and_leaves_what_was_there(void **state)
+static void unreadable_session_is_reported_and_the_old_one_stays(void **state)
 {
     const driven *d = need_page(state);
     static const char *const rows[][2] = {
@@ -168,7 +168,7 @@ static place write_page_without_frames(const driven *d)
     return page;
 }
 
-static void a_page_without_frames_draws_at_once(void **state)
+static void page_without_frames_draws_at_once(void **state)
 {
     const driven *d = need_page(state);
     const place page = write_page_without_frames(d);
@@ -185,7 +185,7 @@ static void a_page_without_frames_draws_at_once(void **state)
 }
 
 /* As where the program was not built for pages. */
-static void a_page_that_cannot_draw_says_what_can(void **state)
+static void page_that_cannot_draw_explains_the_remedy(void **state)
 {
     const driven *d = need_page(state);
     const place page = write_page_without_frames(d);
@@ -200,7 +200,7 @@ static void a_page_that_cannot_draw_says_what_can(void **state)
     free(text);
 }
 
-static void the_page_of_the_default_session_is_small(void **state)
+static void page_of_the_default_session_is_small(void **state)
 {
     const driven *d = need_page(state);
     struct stat about;
@@ -211,15 +211,15 @@ static void the_page_of_the_default_session_is_small(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tick_is_that_of_the_recording_in_any_order),
-        cmocka_unit_test(a_click_says_what_pick_says),
-        cmocka_unit_test(what_is_asked_is_answered_by_the_library),
-        cmocka_unit_test(what_is_played_on_is_a_session_that_films_the_same),
-        cmocka_unit_test(gestures_at_random_change_no_tick_and_raise_no_error),
-        cmocka_unit_test(what_cannot_be_opened_is_said_and_leaves_what_was_there),
-        cmocka_unit_test(a_page_without_frames_draws_at_once),
-        cmocka_unit_test(a_page_that_cannot_draw_says_what_can),
-        cmocka_unit_test(the_page_of_the_default_session_is_small),
+        cmocka_unit_test(page_plays_the_ticks_of_the_recording_in_any_order),
+        cmocka_unit_test(click_names_the_element_that_pick_names),
+        cmocka_unit_test(queries_on_the_page_have_the_answers_of_the_library),
+        cmocka_unit_test(session_played_on_the_page_records_the_same),
+        cmocka_unit_test(random_gestures_change_no_tick_and_raise_no_error),
+        cmocka_unit_test(unreadable_session_is_reported_and_the_old_one_stays),
+        cmocka_unit_test(page_without_frames_draws_at_once),
+        cmocka_unit_test(page_that_cannot_draw_explains_the_remedy),
+        cmocka_unit_test(page_of_the_default_session_is_small),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);
 }

@@ -188,7 +188,7 @@ static bool assert_read_alike(const reading *r, size_t i)
     return read;
 }
 
-static void the_page_reads_and_refuses_what_octreel_does(void **state)
+static void page_accepts_and_refuses_the_same_sessions_as_octreel(void **state)
 {
     const reading *r = need_reading(state);
     for (size_t i = 0; i < TEXTS; i++)
@@ -197,7 +197,7 @@ static void the_page_reads_and_refuses_what_octreel_does(void **state)
     assert_said_about(r->said, "errors", "");
 }
 
-static void faulty_sessions_are_read_or_refused_alike(void **state)
+static void page_and_octreel_agree_on_damaged_sessions(void **state)
 {
     const reading *r = need_reading(state);
     size_t read = 0;
@@ -206,7 +206,7 @@ static void faulty_sessions_are_read_or_refused_alike(void **state)
     assert_true(read > FAULTY / 8 && read < FAULTY * 7 / 8);
 }
 
-static void deep_lists_are_refused_with_a_sentence(void **state)
+static void deep_nesting_is_refused_with_a_sentence(void **state)
 {
     const reading *r = need_reading(state);
     char name[32];
@@ -218,9 +218,9 @@ static void deep_lists_are_refused_with_a_sentence(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_page_reads_and_refuses_what_octreel_does),
-        cmocka_unit_test(faulty_sessions_are_read_or_refused_alike),
-        cmocka_unit_test(deep_lists_are_refused_with_a_sentence),
+        cmocka_unit_test(page_accepts_and_refuses_the_same_sessions_as_octreel),
+        cmocka_unit_test(page_and_octreel_agree_on_damaged_sessions),
+        cmocka_unit_test(deep_nesting_is_refused_with_a_sentence),
     };
     return cmocka_run_group_tests(tests, read_by_page, forget_page);
 }

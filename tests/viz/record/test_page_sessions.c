@@ -208,7 +208,7 @@ static const driven *need_page(void **state)
 
 /* ---- What is seen ------------------------------------------------------------------------------------------- */
 
-static void every_tick_of_any_session_is_that_of_its_recording(void **state)
+static void page_plays_every_tick_of_random_sessions(void **state)
 {
     const driven *d = need_page(state);
     for (size_t i = 0; i < FILMED; i++)
@@ -217,7 +217,7 @@ static void every_tick_of_any_session_is_that_of_its_recording(void **state)
     assert_said_about(d->said, "errors", "");
 }
 
-static void every_view_of_golden_is_drawn_as_it_is_there(void **state)
+static void page_draws_the_golden_frames(void **state)
 {
     const driven *d = need_page(state);
     for (size_t i = 0; i < golden_frame_count; i++) {
@@ -234,7 +234,7 @@ static void every_view_of_golden_is_drawn_as_it_is_there(void **state)
     }
 }
 
-static void a_thousand_clicks_say_what_pick_says(void **state)
+static void thousand_clicks_name_the_elements_that_pick_names(void **state)
 {
     const driven *d = need_page(state);
     size_t clicks = 0;
@@ -275,7 +275,7 @@ static void assert_taken_films(const driven *d, const char *name)
     free(text);
 }
 
-static void what_is_played_on_from_any_tick_films_and_verifies(void **state)
+static void session_played_from_any_tick_records_and_verifies(void **state)
 {
     const driven *d = need_page(state);
     for (size_t i = 0; i < WRITTEN + RANDOM; i++)
@@ -285,10 +285,10 @@ static void what_is_played_on_from_any_tick_films_and_verifies(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_tick_of_any_session_is_that_of_its_recording),
-        cmocka_unit_test(every_view_of_golden_is_drawn_as_it_is_there),
-        cmocka_unit_test(a_thousand_clicks_say_what_pick_says),
-        cmocka_unit_test(what_is_played_on_from_any_tick_films_and_verifies),
+        cmocka_unit_test(page_plays_every_tick_of_random_sessions),
+        cmocka_unit_test(page_draws_the_golden_frames),
+        cmocka_unit_test(thousand_clicks_name_the_elements_that_pick_names),
+        cmocka_unit_test(session_played_from_any_tick_records_and_verifies),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);
 }

@@ -138,7 +138,7 @@ static void assert_tick_said(const char *line, size_t number, void *context)
     json_decref(tick);
 }
 
-static void shows_at_every_tick_what_ticks_jsonl_says(void **state)
+static void page_shows_the_facts_of_every_tick(void **state)
 {
     need_browser();
     const driven *d = *state;
@@ -159,7 +159,7 @@ static void keys_step_through_the_ticks(void **state)
     assert_non_null(strstr(((driven *)*state)->said, expected));
 }
 
-static void pointer_and_typing_lead_to_a_tick(void **state)
+static void pointer_and_typing_choose_a_tick(void **state)
 {
     need_browser();
     assert_said(*state, "click in the middle", "126");
@@ -168,7 +168,7 @@ static void pointer_and_typing_lead_to_a_tick(void **state)
     assert_said(*state, "button", "78");
 }
 
-static void frame_is_that_of_the_tick(void **state)
+static void page_shows_the_frame_of_the_tick(void **state)
 {
     need_browser();
     assert_said(*state, "frame", "78 frame_000078.png 160x90");
@@ -208,7 +208,7 @@ static void assert_walk(const driven *d, const char *what, const char *start, co
     assert_said(d, what, expected);
 }
 
-static void filter_leads_from_match_to_match(void **state)
+static void filter_steps_from_match_to_match(void **state)
 {
     need_browser();
     assert_walk(*state, "walk any", "0 ", " refused collided full split merged ");
@@ -220,7 +220,7 @@ static void filter_leads_from_match_to_match(void **state)
     assert_said(*state, "chosen none", "0");
 }
 
-static void plays_frame_by_frame_until_paused(void **state)
+static void page_plays_frame_by_frame_until_paused(void **state)
 {
     need_browser();
     char *played = said_about(((driven *)*state)->said, "played"), *at = played;
@@ -232,14 +232,14 @@ static void plays_frame_by_frame_until_paused(void **state)
     free(played);
 }
 
-static void plays_chosen_ticks_alone_and_ends_with_the_last(void **state)
+static void page_plays_only_the_filtered_ticks_and_stops_at_the_last(void **state)
 {
     need_browser();
     assert_walk(*state, "played collided", "", " collided ");
     assert_said(*state, "played collided, paused", "true");
 }
 
-static void address_names_the_place_and_leads_to_it(void **state)
+static void address_contains_the_tick_and_restores_it(void **state)
 {
     need_browser();
     assert_said(*state, "address", "#t=41&filter=collided");
@@ -280,7 +280,7 @@ static void assert_has(const char *page, const char *part)
         fail_msg("the page has no %s", part);
 }
 
-static void tick_without_a_frame_shows_the_one_before_and_says_so(void **state)
+static void tick_without_a_frame_shows_the_previous_frame_and_says_so(void **state)
 {
     need_browser();
     const driven *d = *state;
@@ -312,7 +312,7 @@ static place recording_by_hand(const driven *d, const char *name, const char *ti
 }
 
 /* Text is text, long lists are cut and say so, facts without a name here are shown, and a frame may be missing. */
-static void page_takes_what_it_does_not_expect(void **state)
+static void page_tolerates_unexpected_members(void **state)
 {
     need_browser();
     const driven *d = *state;
@@ -344,7 +344,7 @@ static void recording_without_ticks_says_so(void **state)
 }
 
 /* Curves say whose tree they are of, where there are two. */
-static void curves_of_two_trees_are_told_apart(void **state)
+static void curves_of_two_trees_are_distinguishable(void **state)
 {
     need_browser();
     const driven *d = *state;
@@ -365,20 +365,20 @@ static void curves_of_two_trees_are_told_apart(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shows_at_every_tick_what_ticks_jsonl_says),
+        cmocka_unit_test(page_shows_the_facts_of_every_tick),
         cmocka_unit_test(keys_step_through_the_ticks),
-        cmocka_unit_test(pointer_and_typing_lead_to_a_tick),
-        cmocka_unit_test(frame_is_that_of_the_tick),
-        cmocka_unit_test(filter_leads_from_match_to_match),
-        cmocka_unit_test(plays_frame_by_frame_until_paused),
-        cmocka_unit_test(plays_chosen_ticks_alone_and_ends_with_the_last),
-        cmocka_unit_test(address_names_the_place_and_leads_to_it),
+        cmocka_unit_test(pointer_and_typing_choose_a_tick),
+        cmocka_unit_test(page_shows_the_frame_of_the_tick),
+        cmocka_unit_test(filter_steps_from_match_to_match),
+        cmocka_unit_test(page_plays_frame_by_frame_until_paused),
+        cmocka_unit_test(page_plays_only_the_filtered_ticks_and_stops_at_the_last),
+        cmocka_unit_test(address_contains_the_tick_and_restores_it),
         cmocka_unit_test(question_mark_lists_the_keys),
         cmocka_unit_test(page_stays_small_and_free_of_errors),
-        cmocka_unit_test(tick_without_a_frame_shows_the_one_before_and_says_so),
-        cmocka_unit_test(page_takes_what_it_does_not_expect),
+        cmocka_unit_test(tick_without_a_frame_shows_the_previous_frame_and_says_so),
+        cmocka_unit_test(page_tolerates_unexpected_members),
         cmocka_unit_test(recording_without_ticks_says_so),
-        cmocka_unit_test(curves_of_two_trees_are_told_apart),
+        cmocka_unit_test(curves_of_two_trees_are_distinguishable),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);
 }

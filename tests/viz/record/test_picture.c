@@ -45,7 +45,7 @@ static scene scene_at_tick(unsigned tick, view_camera camera, unsigned layers)
     return s;
 }
 
-static void the_worlds_corners_have_the_colour_of_the_layer_that_is_on(void **state)
+static void corners_of_the_world_have_the_colour_of_the_visible_layer(void **state)
 {
     (void)state;
     static const struct {
@@ -88,7 +88,7 @@ static double outside_by(double corners[8][2], double x, double y)
     return most;
 }
 
-static void outside_the_worlds_outline_is_background(void **state)
+static void pixels_outside_the_world_are_background(void **state)
 {
     (void)state;
     const octree_box world = octree_session_default().tree.world;
@@ -169,7 +169,7 @@ static uint64_t roles_in(const uint8_t *frame)
     return roles & ~(UINT64_C(1) << ROLE_BACKGROUND);
 }
 
-static void a_layer_alone_lights_its_own_roles_and_all_of_them_at_some_tick(void **state)
+static void each_layer_draws_all_its_colours_and_no_others(void **state)
 {
     (void)state;
     const octree_session session = asking_session();
@@ -237,7 +237,7 @@ static void assert_one_pixel_a_step(const uint8_t *frame, const double from[2], 
     }
 }
 
-static void a_one_pixel_line_lights_one_pixel_a_step(void **state)
+static void line_of_one_pixel_draws_one_pixel_per_step(void **state)
 {
     (void)state;
     renderer *r = open_renderer(WIDTH, HEIGHT);
@@ -262,7 +262,7 @@ static void a_one_pixel_line_lights_one_pixel_a_step(void **state)
     renderer_close(r);
 }
 
-static void a_line_of_exactly_45_degrees_has_no_gap(void **state)
+static void diagonal_line_has_no_gap(void **state)
 {
     (void)state;
     for (int falling = 0; falling < 2; falling++) {
@@ -316,20 +316,20 @@ static void assert_boxes_leave_a_mark(scene_stroke style)
     renderer_close(r);
 }
 
-static void a_box_of_any_size_leaves_a_mark_at_its_place(void **state)
+static void box_of_any_size_is_visible_at_its_place(void **state)
 {
     (void)state;
     assert_boxes_leave_a_mark(STROKE_SOLID);
 }
 
-static void a_dashed_box_of_any_size_leaves_a_mark_at_its_place(void **state)
+static void dashed_box_of_any_size_is_visible_at_its_place(void **state)
 {
     (void)state;
     assert_boxes_leave_a_mark(STROKE_DASHED);
 }
 
 /* The line to a neighbour that is very near, too. */
-static void a_segment_of_any_length_leaves_a_mark_at_its_place(void **state)
+static void segment_of_any_length_is_visible_at_its_place(void **state)
 {
     (void)state;
     static const double lengths[] = {0, 1e-9, 0.1, 0.3, 0.5, 0.8, 1, 1.2, 2};
@@ -358,7 +358,7 @@ static void add_point(scene *s, uint64_t id, double x, double z)
     scene_add_marker(s, (scene_marker){.id = id, .at = {x, 0, z}, .style = style});
 }
 
-static void a_thousand_points_on_a_pixel_look_like_one(void **state)
+static void thousand_points_on_a_pixel_look_like_one(void **state)
 {
     (void)state;
     scene one = blank_scene(CAMERA_FRONT), many = blank_scene(CAMERA_FRONT);
@@ -377,7 +377,7 @@ static void a_thousand_points_on_a_pixel_look_like_one(void **state)
 }
 
 /* What is partly outside of the picture is cut off at its edge, and what is all outside is not there. */
-static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state)
+static void panels_and_markers_are_clipped_at_the_border(void **state)
 {
     (void)state;
     static const int places[][4] = {{-5, -5, 10, 10},        {WIDTH - 5, HEIGHT - 5, 10, 10},
@@ -414,7 +414,7 @@ static void panels_and_marks_are_cut_off_at_the_edge_of_the_picture(void **state
 }
 
 /* A line of four pixels for every four pixels of a row: a single one that is missing leaves a hole. */
-static void a_hundred_thousand_segments_are_all_drawn(void **state)
+static void hundred_thousand_segments_are_all_drawn(void **state)
 {
     (void)state;
     const octree_box world = {{0, -1, 0}, {1000, 1, 400}};
@@ -438,7 +438,7 @@ static void a_hundred_thousand_segments_are_all_drawn(void **state)
 }
 
 /* The later layer of two at one place is the one that is seen, whatever their depth and order in the list. */
-static void later_layers_lie_on_top(void **state)
+static void later_layers_are_drawn_on_top(void **state)
 {
     (void)state;
     renderer *r = open_renderer(WIDTH, HEIGHT);
@@ -466,18 +466,18 @@ static void later_layers_lie_on_top(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_worlds_corners_have_the_colour_of_the_layer_that_is_on),
-        cmocka_unit_test(outside_the_worlds_outline_is_background),
-        cmocka_unit_test(a_layer_alone_lights_its_own_roles_and_all_of_them_at_some_tick),
-        cmocka_unit_test(a_one_pixel_line_lights_one_pixel_a_step),
-        cmocka_unit_test(a_line_of_exactly_45_degrees_has_no_gap),
-        cmocka_unit_test(a_box_of_any_size_leaves_a_mark_at_its_place),
-        cmocka_unit_test(a_dashed_box_of_any_size_leaves_a_mark_at_its_place),
-        cmocka_unit_test(a_segment_of_any_length_leaves_a_mark_at_its_place),
-        cmocka_unit_test(a_thousand_points_on_a_pixel_look_like_one),
-        cmocka_unit_test(panels_and_marks_are_cut_off_at_the_edge_of_the_picture),
-        cmocka_unit_test(a_hundred_thousand_segments_are_all_drawn),
-        cmocka_unit_test(later_layers_lie_on_top),
+        cmocka_unit_test(corners_of_the_world_have_the_colour_of_the_visible_layer),
+        cmocka_unit_test(pixels_outside_the_world_are_background),
+        cmocka_unit_test(each_layer_draws_all_its_colours_and_no_others),
+        cmocka_unit_test(line_of_one_pixel_draws_one_pixel_per_step),
+        cmocka_unit_test(diagonal_line_has_no_gap),
+        cmocka_unit_test(box_of_any_size_is_visible_at_its_place),
+        cmocka_unit_test(dashed_box_of_any_size_is_visible_at_its_place),
+        cmocka_unit_test(segment_of_any_length_is_visible_at_its_place),
+        cmocka_unit_test(thousand_points_on_a_pixel_look_like_one),
+        cmocka_unit_test(panels_and_markers_are_clipped_at_the_border),
+        cmocka_unit_test(hundred_thousand_segments_are_all_drawn),
+        cmocka_unit_test(later_layers_are_drawn_on_top),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

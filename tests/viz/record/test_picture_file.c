@@ -24,7 +24,7 @@ static picture write_picture(int samples, const char *path)
     return p;
 }
 
-static void decoded_pixels_are_those_that_were_drawn(void **state)
+static void decoded_pixels_equal_the_drawn_pixels(void **state)
 {
     const place file = place_in(*state, "frame.png");
     for (int samples = 1; samples <= 4; samples *= 2) {
@@ -46,7 +46,7 @@ static void decoded_pixels_are_those_that_were_drawn(void **state)
 }
 
 /* No alpha, in the pixels or beside them; no gamma, profile or date that could change a colour or a byte. */
-static void the_file_is_opaque_and_its_colours_are_meant_as_they_are(void **state)
+static void file_is_opaque_and_has_no_colour_profile(void **state)
 {
     static const char allowed[] = "IHDR PLTE tEXt IDAT IEND";
     static png_bytes bytes;
@@ -72,8 +72,8 @@ static void the_file_is_opaque_and_its_colours_are_meant_as_they_are(void **stat
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(decoded_pixels_are_those_that_were_drawn),
-        IN_FOLDER(the_file_is_opaque_and_its_colours_are_meant_as_they_are),
+        IN_FOLDER(decoded_pixels_equal_the_drawn_pixels),
+        IN_FOLDER(file_is_opaque_and_has_no_colour_profile),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

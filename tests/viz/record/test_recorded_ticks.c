@@ -28,7 +28,7 @@ static void check_scene(replay *r, const place *folder, uint64_t tick)
         fail_msg("%s", error.text);
 }
 
-static void scene_of_every_tick_is_that_of_its_frame_in_any_order(void **state)
+static void scenes_equal_those_of_the_frames_in_any_order(void **state)
 {
     static const uint64_t order[] = {3, 6, 12, 0, 9, 9, 3};
     const place folder = film_short(*state);
@@ -42,7 +42,7 @@ static void scene_of_every_tick_is_that_of_its_frame_in_any_order(void **state)
 }
 
 /* Heat adds up from tick 0: going back must begin anew. */
-static void heat_is_right_after_going_back(void **state)
+static void heat_is_correct_after_going_back(void **state)
 {
     const place folder = place_in(*state, "film");
     octree_session session = short_session("wwdd");
@@ -102,10 +102,8 @@ int main(void)
 {
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(scene_of_every_tick_is_that_of_its_frame_in_any_order),
-        IN_FOLDER(heat_is_right_after_going_back),
-        IN_FOLDER(renderer_is_opened_once_and_draws_the_frame),
-        IN_FOLDER(tick_beyond_the_end_is_refused),
+        IN_FOLDER(scenes_equal_those_of_the_frames_in_any_order), IN_FOLDER(heat_is_correct_after_going_back),
+        IN_FOLDER(renderer_is_opened_once_and_draws_the_frame),   IN_FOLDER(tick_beyond_the_end_is_refused),
         IN_FOLDER(folder_without_a_recording_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -64,7 +64,7 @@ static void put(const films *f, const char *name, const char *text)
     file_write_text(place_below(f->copy.path, name).path, text);
 }
 
-static void a_recording_is_replaced_by_one_that_is_as_if_there_had_been_none(void **state)
+static void replacement_equals_a_recording_into_a_new_folder(void **state)
 {
     const films f = film_all(state);
     film(f.old.path, "--keys en --replace");
@@ -73,7 +73,7 @@ static void a_recording_is_replaced_by_one_that_is_as_if_there_had_been_none(voi
     assert_same_folders(f.old.path, f.copy.path, NULL);
 }
 
-static void other_files_stay(void **state)
+static void other_files_in_the_folder_stay(void **state)
 {
     const films f = film_all(state);
     put(&f, "film.mp4", "mine");
@@ -82,7 +82,7 @@ static void other_files_stay(void **state)
     assert_same_folders(f.old.path, f.new.path, NULL);
 }
 
-static void a_folder_without_a_recording_is_filmed_into(void **state)
+static void folder_without_a_recording_is_recorded_into(void **state)
 {
     const films f = film_all(state);
     const place fresh = place_in(*state, "fresh/er");
@@ -90,7 +90,7 @@ static void a_folder_without_a_recording_is_filmed_into(void **state)
     assert_same_folders(fresh.path, f.new.path, NULL);
 }
 
-static void a_recording_that_broke_off_and_one_of_another_version_are_replaced(void **state)
+static void interrupted_and_outdated_recordings_are_replaced(void **state)
 {
     const films f = film_all(state);
     assert_int_equal(remove(place_below(f.old.path, "index.html").path), 0);
@@ -103,7 +103,7 @@ static void a_recording_that_broke_off_and_one_of_another_version_are_replaced(v
     assert_same_folders(f.old.path, f.new.path, NULL);
 }
 
-static void frames_without_a_recording_are_left_alone(void **state)
+static void frames_without_a_recording_stay(void **state)
 {
     const films f = film_all(state);
     assert_int_equal(remove(place_below(f.old.path, "recording.json").path), 0);
@@ -113,7 +113,7 @@ static void frames_without_a_recording_are_left_alone(void **state)
     assert_not_replaced(&f, "belongs to another program");
 }
 
-static void what_only_looks_like_a_file_of_a_recording_is_left_alone(void **state)
+static void files_with_similar_names_stay(void **state)
 {
     static const char *const names[] = {"frame_notes.txt", "frame_3.png", "frame_notes.part",
                                         "frame_of_a_name_that_no_tick_has_however_late_it_is.png"};
@@ -126,7 +126,7 @@ static void what_only_looks_like_a_file_of_a_recording_is_left_alone(void **stat
     }
 }
 
-static void links_and_folders_among_its_files_are_left_alone(void **state)
+static void links_and_folders_among_the_files_stay(void **state)
 {
     const films f = film_all(state);
     const place mine = place_in(*state, "mine"), link = place_below(f.old.path, "frame_000009.png");
@@ -142,7 +142,7 @@ static void links_and_folders_among_its_files_are_left_alone(void **state)
     assert_same_folders(f.old.path, f.copy.path, NULL);
 }
 
-static void a_link_to_a_recording_stays_a_link(void **state)
+static void link_to_a_recording_stays_a_link(void **state)
 {
     const films f = film_all(state);
     const place latest = place_in(*state, "latest");
@@ -154,7 +154,7 @@ static void a_link_to_a_recording_stays_a_link(void **state)
     assert_int_equal(remove(latest.path), 0);
 }
 
-static void a_recording_that_is_being_filmed_is_left_alone(void **state)
+static void recording_in_progress_is_not_replaced(void **state)
 {
     static const char *const logs[] = {"ticks.jsonl", "ticks_0_5.jsonl"};
     const films f = film_all(state);
@@ -169,7 +169,7 @@ static void a_recording_that_is_being_filmed_is_left_alone(void **state)
     }
 }
 
-static void a_recording_that_another_process_replaces_is_left_alone(void **state)
+static void recording_that_another_process_replaces_is_refused(void **state)
 {
     const films f = film_all(state);
     const place aside = place_below(f.old.path, ASIDE);
@@ -185,7 +185,7 @@ static void a_recording_that_another_process_replaces_is_left_alone(void **state
     assert_same_folders(f.old.path, f.copy.path, NULL);
 }
 
-static void what_cannot_begin_leaves_the_recording(void **state)
+static void refused_replacement_keeps_the_recording(void **state)
 {
     const films f = film_all(state);
     const place session = place_in(*state, "bad.json");
@@ -202,7 +202,7 @@ static void what_cannot_begin_leaves_the_recording(void **state)
 }
 
 /* The disk is full at one file after the other, the first frame included. */
-static void where_the_first_tick_cannot_be_filmed_the_recording_is_put_back(void **state)
+static void failed_first_tick_restores_the_recording(void **state)
 {
     const films f = film_all(state);
     for (int jobs = 1; jobs < 3; jobs++) {
@@ -230,7 +230,7 @@ static void set_aside(const place *folder, size_t count)
 
 /* What a killed replacement has left is the recording that was there: it is put back where nothing comes in its place,
  * and else replaced. */
-static void a_replacement_that_was_killed_is_made_good(void **state)
+static void killed_replacement_is_repaired(void **state)
 {
     const command_setting full = {.file_limit = 1};
     const films f = film_all(state);
@@ -254,7 +254,7 @@ static void a_replacement_that_was_killed_is_made_good(void **state)
 }
 
 /* Killed while it removed what was aside: the new recording stays what it is. */
-static void rests_of_a_recording_that_is_gone_are_removed(void **state)
+static void remains_of_a_removed_recording_are_removed(void **state)
 {
     const command_setting full = {.file_limit = 1};
     const films f = film_all(state);
@@ -277,20 +277,20 @@ static void rests_of_a_recording_that_is_gone_are_removed(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_recording_is_replaced_by_one_that_is_as_if_there_had_been_none),
-        TEST(other_files_stay),
-        TEST(a_folder_without_a_recording_is_filmed_into),
-        TEST(a_recording_that_broke_off_and_one_of_another_version_are_replaced),
-        TEST(frames_without_a_recording_are_left_alone),
-        TEST(what_only_looks_like_a_file_of_a_recording_is_left_alone),
-        TEST(links_and_folders_among_its_files_are_left_alone),
-        TEST(a_link_to_a_recording_stays_a_link),
-        TEST(a_recording_that_is_being_filmed_is_left_alone),
-        TEST(a_recording_that_another_process_replaces_is_left_alone),
-        TEST(what_cannot_begin_leaves_the_recording),
-        TEST(where_the_first_tick_cannot_be_filmed_the_recording_is_put_back),
-        TEST(a_replacement_that_was_killed_is_made_good),
-        TEST(rests_of_a_recording_that_is_gone_are_removed),
+        TEST(replacement_equals_a_recording_into_a_new_folder),
+        TEST(other_files_in_the_folder_stay),
+        TEST(folder_without_a_recording_is_recorded_into),
+        TEST(interrupted_and_outdated_recordings_are_replaced),
+        TEST(frames_without_a_recording_stay),
+        TEST(files_with_similar_names_stay),
+        TEST(links_and_folders_among_the_files_stay),
+        TEST(link_to_a_recording_stays_a_link),
+        TEST(recording_in_progress_is_not_replaced),
+        TEST(recording_that_another_process_replaces_is_refused),
+        TEST(refused_replacement_keeps_the_recording),
+        TEST(failed_first_tick_restores_the_recording),
+        TEST(killed_replacement_is_repaired),
+        TEST(remains_of_a_removed_recording_are_removed),
     };
     return cmocka_run_group_tests(tests, film_once, nested_folder_remove);
 }

@@ -53,7 +53,7 @@ static place copy_of(void **state, const char *folder, const char *name)
     return copy;
 }
 
-static void film_that_stops_behind_any_tick_resumes_to_the_same_bytes(void **state)
+static void recording_stopped_after_any_tick_resumes_to_the_same_bytes(void **state)
 {
     const place whole = film_whole(state);
     const octree_session session = short_session(KEYS);
@@ -74,7 +74,7 @@ static void film_that_stops_behind_any_tick_resumes_to_the_same_bytes(void **sta
     }
 }
 
-static void part_that_stops_resumes_as_that_part(void **state)
+static void stopped_chunk_resumes_as_the_same_chunk(void **state)
 {
     const place folder = place_in(*state, "film"), other = place_in(*state, "other");
     const octree_session session = short_session(KEYS);
@@ -88,7 +88,7 @@ static void part_that_stops_resumes_as_that_part(void **state)
     assert_same_folders(folder.path, other.path, NULL);
 }
 
-static void summary_of_a_resumed_film_is_that_of_the_whole(void **state)
+static void summary_of_a_resumed_recording_covers_all_ticks(void **state)
 {
     const place folder = place_in(*state, "film"), other = place_in(*state, "other");
     octree_session session = octree_session_default();
@@ -107,7 +107,7 @@ static void summary_of_a_resumed_film_is_that_of_the_whole(void **state)
 }
 
 /* The player's box reaches beyond the largest double. What a kept frame leaves out is counted too. */
-static void elements_that_cannot_be_drawn_are_counted_in_kept_frames(void **state)
+static void elements_left_out_are_counted_in_kept_frames(void **state)
 {
     const place folder = place_in(*state, "film");
     octree_session session = short_session("wd");
@@ -125,7 +125,7 @@ static void elements_that_cannot_be_drawn_are_counted_in_kept_frames(void **stat
     assert_memory_equal(&first, &second, sizeof first);
 }
 
-static void frames_that_are_right_are_not_written_again(void **state)
+static void correct_frames_are_not_rewritten(void **state)
 {
     const place whole = film_whole(state);
     struct stat before[TICKS], after;
@@ -202,7 +202,7 @@ static void strip_its_texts(const char *path)
     image_release(&frame);
 }
 
-static void frames_that_are_not_right_are_filmed_again(void **state)
+static void incorrect_frames_are_redrawn(void **state)
 {
     static void (*const damages[])(const char *path) = {
         cut_off, empty, flip_a_bit, paint_a_pixel, take_the_next_frame, strip_its_texts};
@@ -217,7 +217,7 @@ static void frames_that_are_not_right_are_filmed_again(void **state)
     }
 }
 
-static void frame_of_another_view_is_filmed_again(void **state)
+static void frame_of_another_view_is_redrawn(void **state)
 {
     const place whole = film_whole(state), other = place_in(*state, "other");
     const octree_session session = short_session(KEYS);
@@ -233,7 +233,7 @@ static void frame_of_another_view_is_filmed_again(void **state)
     assert_same_folders(whole.path, folder.path, NULL);
 }
 
-static void what_was_half_written_is_removed(void **state)
+static void partial_files_are_removed(void **state)
 {
     static const char *const left[] = {"frame_000003.png.part", "session.json.part", "recording.json.ticks_0_12.jsonl",
                                        "index.html.part",       "ticks_0_3.jsonl",   "ticks.jsonl.part"};
@@ -249,7 +249,7 @@ static void what_was_half_written_is_removed(void **state)
 
 /* ---- Lines -------------------------------------------------------------------------------------------------- */
 
-static void lines_that_are_wrong_or_torn_or_too_many_are_mended(void **state)
+static void wrong_torn_and_surplus_lines_are_repaired(void **state)
 {
     const place whole = film_whole(state);
     size_t size;
@@ -274,7 +274,7 @@ static void lines_that_are_wrong_or_torn_or_too_many_are_mended(void **state)
     free(lines);
 }
 
-static void lines_stay_where_a_resumed_film_is_stopped_before_them(void **state)
+static void lines_stay_if_a_resumed_recording_stops_before_them(void **state)
 {
     const place whole = film_whole(state), folder = copy_of(state, whole.path, "film");
     const octree_session session = short_session(KEYS);
@@ -306,7 +306,7 @@ static void another_session_or_view_is_refused_and_changes_nothing(void **state)
     assert_same_folders(whole.path, folder.path, NULL);
 }
 
-static void folder_that_another_process_films_into_is_refused(void **state)
+static void folder_that_another_process_records_into_is_refused(void **state)
 {
     const place whole = film_whole(state), log = place_below(whole.path, "ticks.jsonl");
     const int file = open(log.path, O_RDWR);
@@ -321,7 +321,7 @@ static void folder_that_another_process_films_into_is_refused(void **state)
 
 /* ---- The program -------------------------------------------------------------------------------------------- */
 
-static void program_takes_session_and_view_from_what_it_resumes(void **state)
+static void resume_reads_session_and_view_from_the_recording(void **state)
 {
     static const char *const views[] = {"", "--every 3 --camera orbit --size 91x53 --keys wwddeenn",
                                         "--fit points --color-by occupancy --lod 0 --aa 2 --size 64x48 --keys wwd"};
@@ -347,7 +347,7 @@ static void program_takes_session_and_view_from_what_it_resumes(void **state)
     }
 }
 
-static void resuming_nothing_is_a_film_of_its_own(void **state)
+static void resume_of_an_empty_folder_starts_a_recording(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b/c");
     command_result result = run_octreel(NULL, "record --size 160x90 --keys wwd -o %s", a.path);
@@ -364,20 +364,20 @@ static void resuming_nothing_is_a_film_of_its_own(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(film_that_stops_behind_any_tick_resumes_to_the_same_bytes),
-        IN_FOLDER(part_that_stops_resumes_as_that_part),
-        IN_FOLDER(summary_of_a_resumed_film_is_that_of_the_whole),
-        IN_FOLDER(elements_that_cannot_be_drawn_are_counted_in_kept_frames),
-        IN_FOLDER(frames_that_are_right_are_not_written_again),
-        IN_FOLDER(frames_that_are_not_right_are_filmed_again),
-        IN_FOLDER(frame_of_another_view_is_filmed_again),
-        IN_FOLDER(what_was_half_written_is_removed),
-        IN_FOLDER(lines_that_are_wrong_or_torn_or_too_many_are_mended),
-        IN_FOLDER(lines_stay_where_a_resumed_film_is_stopped_before_them),
+        IN_FOLDER(recording_stopped_after_any_tick_resumes_to_the_same_bytes),
+        IN_FOLDER(stopped_chunk_resumes_as_the_same_chunk),
+        IN_FOLDER(summary_of_a_resumed_recording_covers_all_ticks),
+        IN_FOLDER(elements_left_out_are_counted_in_kept_frames),
+        IN_FOLDER(correct_frames_are_not_rewritten),
+        IN_FOLDER(incorrect_frames_are_redrawn),
+        IN_FOLDER(frame_of_another_view_is_redrawn),
+        IN_FOLDER(partial_files_are_removed),
+        IN_FOLDER(wrong_torn_and_surplus_lines_are_repaired),
+        IN_FOLDER(lines_stay_if_a_resumed_recording_stops_before_them),
         IN_FOLDER(another_session_or_view_is_refused_and_changes_nothing),
-        IN_FOLDER(folder_that_another_process_films_into_is_refused),
-        IN_FOLDER(program_takes_session_and_view_from_what_it_resumes),
-        IN_FOLDER(resuming_nothing_is_a_film_of_its_own),
+        IN_FOLDER(folder_that_another_process_records_into_is_refused),
+        IN_FOLDER(resume_reads_session_and_view_from_the_recording),
+        IN_FOLDER(resume_of_an_empty_folder_starts_a_recording),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,7 +55,7 @@ static void assert_refused(void **state, const char *arguments, const char *fold
 
 /* ---- Nobody has said what is filmed ------------------------------------------------------------------------- */
 
-static void folder_that_does_not_say_what_it_is_of_is_not_resumed(void **state)
+static void folder_without_session_or_view_is_not_resumed(void **state)
 {
     const place whole = recorded(state, "whole"), empty = place_in(*state, "empty");
     const place blind = copy_of(state, whole.path, "blind"), mute = copy_of(state, whole.path, "mute");
@@ -67,7 +67,7 @@ static void folder_that_does_not_say_what_it_is_of_is_not_resumed(void **state)
     assert_refused(state, "--resume --jobs 2", empty.path, "recording.json is missing");
 }
 
-static void folder_that_is_not_there_is_not_resumed(void **state)
+static void missing_folder_is_not_resumed(void **state)
 {
     const place folder = place_in(*state, "fligth");
     command_result result = run_octreel(NULL, "record --resume -o %s", folder.path);
@@ -77,7 +77,7 @@ static void folder_that_is_not_there_is_not_resumed(void **state)
     assert_trouble(&result, "-o: the name is empty");
 }
 
-static void same_words_again_resume_what_has_just_begun(void **state)
+static void resume_with_the_same_options_continues_a_recording_that_just_began(void **state)
 {
     const place whole = recorded(state, "whole"), begun = place_in(*state, "begun");
     make_folder(begun.path);
@@ -104,7 +104,7 @@ static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
 }
 
 /* Of a program that died while it recorded itself. */
-static void session_in_the_making_is_not_replaced_by_another(void **state)
+static void session_in_progress_is_not_replaced_by_another(void **state)
 {
     const place whole = recorded(state, "whole"), film = copy_of(state, whole.path, "film");
     const place live = place_below(film.path, "session.json.live");
@@ -114,7 +114,7 @@ static void session_in_the_making_is_not_replaced_by_another(void **state)
     assert_same_folders(whole.path, film.path, NULL);
 }
 
-static void another_session_is_refused_before_a_file_is_written(void **state)
+static void other_session_is_refused_before_a_file_is_written(void **state)
 {
     const place film = recorded(state, "film");
     remove(place_below(film.path, "recording.json").path);
@@ -122,7 +122,7 @@ static void another_session_is_refused_before_a_file_is_written(void **state)
 }
 
 /* The file is as octreel writes one: only the frames tell. */
-static void session_that_was_changed_after_it_was_filmed_is_refused(void **state)
+static void session_edited_after_recording_is_refused(void **state)
 {
     const place film = recorded(state, "film"), other = place_in(*state, "other");
     record("--size 64x48 --keys wwddeend", other.path);
@@ -151,7 +151,7 @@ static void surplus_frame_is_refused(void **state)
 
 /* ---- Somebody else's files ---------------------------------------------------------------------------------- */
 
-static void files_of_somebody_else_are_not_replaced(void **state)
+static void unrelated_files_are_not_replaced(void **state)
 {
     static const char *const names[] = {"frame_000000.png", "index.html", "ticks.jsonl", "renderer.json"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -166,7 +166,7 @@ static void files_of_somebody_else_are_not_replaced(void **state)
     }
 }
 
-static void what_only_begins_as_a_file_of_a_recording_stays(void **state)
+static void files_with_similar_names_stay(void **state)
 {
     const place film = recorded(state, "film"), mine = place_below(film.path, "index.html.bak");
     file_write_text(mine.path, "mine");
@@ -179,16 +179,16 @@ static void what_only_begins_as_a_file_of_a_recording_stays(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(folder_that_does_not_say_what_it_is_of_is_not_resumed),
-        IN_FOLDER(folder_that_is_not_there_is_not_resumed),
-        IN_FOLDER(same_words_again_resume_what_has_just_begun),
+        IN_FOLDER(folder_without_session_or_view_is_not_resumed),
+        IN_FOLDER(missing_folder_is_not_resumed),
+        IN_FOLDER(resume_with_the_same_options_continues_a_recording_that_just_began),
         IN_FOLDER(frames_without_a_view_or_a_session_are_not_replaced),
-        IN_FOLDER(session_in_the_making_is_not_replaced_by_another),
-        IN_FOLDER(another_session_is_refused_before_a_file_is_written),
-        IN_FOLDER(session_that_was_changed_after_it_was_filmed_is_refused),
+        IN_FOLDER(session_in_progress_is_not_replaced_by_another),
+        IN_FOLDER(other_session_is_refused_before_a_file_is_written),
+        IN_FOLDER(session_edited_after_recording_is_refused),
         IN_FOLDER(surplus_frame_is_refused),
-        IN_FOLDER(files_of_somebody_else_are_not_replaced),
-        IN_FOLDER(what_only_begins_as_a_file_of_a_recording_stays),
+        IN_FOLDER(unrelated_files_are_not_replaced),
+        IN_FOLDER(files_with_similar_names_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

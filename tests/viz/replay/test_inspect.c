@@ -61,7 +61,7 @@ static octree_box world_of(const hostile *h)
     return point_world(h->positions, sizeof *h->positions, h->count);
 }
 
-static void world_holds_every_point_and_a_tree_takes_it(void **state)
+static void world_holds_every_point_and_is_valid_for_a_tree(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CLOUDS; i++) {
@@ -99,7 +99,7 @@ static double rounding_of(const octree_box *box, int axis)
     return face == DBL_MAX ? 0x1p971 : next_up(face) - face;
 }
 
-static void world_is_a_cube_but_for_rounding(void **state)
+static void world_is_a_cube_up_to_rounding(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CLOUDS; i++) {
@@ -132,7 +132,7 @@ static double half_of_smallest(const hostile *h)
     return fmax(half == 0 && (equal || largest == 0) ? 0.5 : half, 2 * ulp);
 }
 
-static void world_is_no_larger_than_it_must_be(void **state)
+static void world_is_the_smallest_that_holds_the_points(void **state)
 {
     (void)state;
     for (size_t i = 0; i < CLOUDS; i++) {
@@ -145,7 +145,7 @@ static void world_is_no_larger_than_it_must_be(void **state)
     }
 }
 
-static void world_is_about_the_middle_of_the_points(void **state)
+static void world_is_centred_on_the_points(void **state)
 {
     static const hostile ordinary = {"ordinary", {{0, 10, -4}, {8, 12, -4}}, 2};
     const octree_box box = world_of(&ordinary), expected = {{0, 7, -8}, {8, 15, 0}};
@@ -176,7 +176,7 @@ static void worlds_of_random_extents_hold_their_points(void **state)
     }
 }
 
-static void points_are_stored_refused_or_outside(void **state)
+static void every_point_is_stored_refused_or_outside(void **state)
 {
     enum { COUNT = 3000 };
     static double positions[COUNT][3];
@@ -217,7 +217,7 @@ static void tell(uint64_t done, uint64_t total, void *context)
 
 /* Part of the points are outside, and one far off, which makes a coarse grid of the world. The nodes are those of one
  * insertion, whose full leaves refuse the same points. */
-static void a_large_cloud_is_built_in_portions(void **state)
+static void large_cloud_is_inserted_in_portions(void **state)
 {
     enum { COUNT = 200000 };
     static double positions[COUNT][3];
@@ -252,7 +252,7 @@ static void a_large_cloud_is_built_in_portions(void **state)
     }
 }
 
-static void points_that_were_skipped_are_told_with_the_reason(void **state)
+static void skipped_points_are_reported_with_the_reason(void **state)
 {
     cloud c = copy_cloud((double[3]){0, 0, 0}, 1);
     const octree_def def = define(cube(-1, 1), 2, 3, OCTREE_GROW);
@@ -283,7 +283,7 @@ static void assert_prints(const inspection *made, bool json, const char *part)
         fail_msg("%s\nhas not %s", text, part);
 }
 
-static void values_of_the_points_are_told(void **state)
+static void statistics_name_the_values_of_the_points(void **state)
 {
     static const char text[] =
         "x y z r g b intensity class\n1 2 3 0 0 255 -7.5 6\n4 5 6 1 2 3 none 2\n7 8 9 0 0 0 65535 6\n";
@@ -304,7 +304,7 @@ static void values_of_the_points_are_told(void **state)
     inspect_release(&made);
 }
 
-static void definition_that_a_tree_refuses_is_an_error(void **state)
+static void invalid_tree_definition_is_an_error(void **state)
 {
     cloud c = copy_cloud((double[3]){0, 0, 0}, 1);
     const octree_def defs[] = {define(cube(1, 1), 2, 3, OCTREE_GROW), define(cube(-1, 1), 0, 3, OCTREE_GROW),
@@ -323,16 +323,16 @@ static void definition_that_a_tree_refuses_is_an_error(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(world_holds_every_point_and_a_tree_takes_it),
-        cmocka_unit_test(world_is_a_cube_but_for_rounding),
-        cmocka_unit_test(world_is_no_larger_than_it_must_be),
-        cmocka_unit_test(world_is_about_the_middle_of_the_points),
+        cmocka_unit_test(world_holds_every_point_and_is_valid_for_a_tree),
+        cmocka_unit_test(world_is_a_cube_up_to_rounding),
+        cmocka_unit_test(world_is_the_smallest_that_holds_the_points),
+        cmocka_unit_test(world_is_centred_on_the_points),
         cmocka_unit_test(worlds_of_random_extents_hold_their_points),
-        cmocka_unit_test(points_are_stored_refused_or_outside),
-        cmocka_unit_test(a_large_cloud_is_built_in_portions),
-        cmocka_unit_test(points_that_were_skipped_are_told_with_the_reason),
-        cmocka_unit_test(values_of_the_points_are_told),
-        cmocka_unit_test(definition_that_a_tree_refuses_is_an_error),
+        cmocka_unit_test(every_point_is_stored_refused_or_outside),
+        cmocka_unit_test(large_cloud_is_inserted_in_portions),
+        cmocka_unit_test(skipped_points_are_reported_with_the_reason),
+        cmocka_unit_test(statistics_name_the_values_of_the_points),
+        cmocka_unit_test(invalid_tree_definition_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,7 +51,7 @@ static void check_line(const char *line, size_t number, void *context)
     (void)number;
 }
 
-static void lines_of_many_changes_are_short_and_verify(void **state)
+static void ticks_with_many_changes_have_short_lines_and_verify(void **state)
 {
     const place folder = film_swarm(*state, "film", 0, 0);
     size_t digested = 0;
@@ -88,7 +88,7 @@ static void list_all(const place *folder)
     session_release(&file);
 }
 
-static void lines_of_earlier_versions_which_list_them_verify(void **state)
+static void lines_of_earlier_versions_with_full_lists_verify(void **state)
 {
     const place folder = film_swarm(*state, "film", 0, 0);
     list_all(&folder);
@@ -109,7 +109,7 @@ static void assert_says(const char *command, const place *a, const place *b, con
 }
 
 /* A point comes a tick earlier: at the next tick the trees are the same, and only one of them has just split there. */
-static void causes_name_a_node_among_many(void **state)
+static void cause_names_one_node_of_many_changes(void **state)
 {
     const place a = film_swarm(*state, "a", 2, 1), b = film_swarm(*state, "b", 1, 1);
     assert_says("diff", &a, &b, "\"where\": \"splits\"");
@@ -120,9 +120,9 @@ static void causes_name_a_node_among_many(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(lines_of_many_changes_are_short_and_verify),
-        TEST(lines_of_earlier_versions_which_list_them_verify),
-        TEST(causes_name_a_node_among_many),
+        TEST(ticks_with_many_changes_have_short_lines_and_verify),
+        TEST(lines_of_earlier_versions_with_full_lists_verify),
+        TEST(cause_names_one_node_of_many_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

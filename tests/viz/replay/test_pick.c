@@ -39,7 +39,7 @@ static bool has_color_of(const scene *s, uint32_t number, uint8_t index)
            (index == 0 && style.stroke == STROKE_CUT);
 }
 
-static void every_sample_of_every_golden_frame_has_the_colour_of_its_element(void **state)
+static void every_sample_of_golden_frames_has_the_colour_of_its_element(void **state)
 {
     (void)state;
     for (size_t i = 0; i < golden_frame_count; i++) {
@@ -62,7 +62,7 @@ static void every_sample_of_every_golden_frame_has_the_colour_of_its_element(voi
     }
 }
 
-static void picking_leaves_no_trace_in_later_frames(void **state)
+static void picking_does_not_change_later_frames(void **state)
 {
     (void)state;
     scene s = busy_scene(320, 180, CAMERA_FOLLOW);
@@ -118,7 +118,7 @@ static void check_alone(renderer *r, const scene *s, const uint8_t *frame, const
     scene_release(&one);
 }
 
-static void what_is_seen_is_seen_there_alone(void **state)
+static void element_is_picked_only_where_it_is_visible(void **state)
 {
     static const char *const names[] = {"collision", "aa", "diagram", "knearest", "radius", "range", "splits"};
     (void)state;
@@ -148,7 +148,7 @@ static void what_is_seen_is_seen_there_alone(void **state)
 }
 
 /* As many as need three bytes, each one pixel. */
-static void a_hundred_thousand_elements_are_told_apart(void **state)
+static void hundred_thousand_elements_are_distinguished(void **state)
 {
     enum { WIDTH = 400, HEIGHT = 300 };
     (void)state;
@@ -253,7 +253,7 @@ static void check_places_of_boxes(const scene *s)
     renderer_close(r);
 }
 
-static void a_box_is_named_only_where_it_has_an_edge(void **state)
+static void box_is_picked_only_at_its_edges(void **state)
 {
     (void)state;
     for (size_t i = 0; i < golden_frame_count; i++) {
@@ -316,7 +316,7 @@ static void check_row(view_camera camera, bool within)
     scene_release(&s);
 }
 
-static void each_pixel_of_a_merged_edge_is_of_the_box_that_is_there(void **state)
+static void pixels_of_a_merged_edge_belong_to_the_box_at_that_place(void **state)
 {
     (void)state;
     check_row(CAMERA_FRONT, false);
@@ -325,7 +325,7 @@ static void each_pixel_of_a_merged_edge_is_of_the_box_that_is_there(void **state
     check_row(CAMERA_ISO, false);
 }
 
-static void the_shallowest_box_of_an_edge_is_named(void **state)
+static void shared_edge_belongs_to_the_shallowest_box(void **state)
 {
     (void)state;
     check_row(CAMERA_FRONT, true);
@@ -334,7 +334,7 @@ static void the_shallowest_box_of_an_edge_is_named(void **state)
 
 /* ---- Numbers and refusals ----------------------------------------------------------------------------------- */
 
-static void numbers_and_elements_are_each_others_inverse(void **state)
+static void element_numbers_and_elements_map_both_ways(void **state)
 {
     (void)state;
     scene s = busy_scene(320, 180, CAMERA_ISO);
@@ -353,7 +353,7 @@ static void numbers_and_elements_are_each_others_inverse(void **state)
     scene_release(&s);
 }
 
-static void a_scene_of_another_size_is_refused(void **state)
+static void scene_of_another_size_is_refused(void **state)
 {
     (void)state;
     scene s = busy_scene(320, 180, CAMERA_ISO);
@@ -366,7 +366,7 @@ static void a_scene_of_another_size_is_refused(void **state)
     scene_release(&s);
 }
 
-static void an_empty_scene_is_all_background(void **state)
+static void empty_scene_is_all_background(void **state)
 {
     (void)state;
     const octree_box world = {{-1, -1, -1}, {1, 1, 1}};
@@ -384,16 +384,16 @@ static void an_empty_scene_is_all_background(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_sample_of_every_golden_frame_has_the_colour_of_its_element),
-        cmocka_unit_test(picking_leaves_no_trace_in_later_frames),
-        cmocka_unit_test(what_is_seen_is_seen_there_alone),
-        cmocka_unit_test(a_hundred_thousand_elements_are_told_apart),
-        cmocka_unit_test(a_box_is_named_only_where_it_has_an_edge),
-        cmocka_unit_test(each_pixel_of_a_merged_edge_is_of_the_box_that_is_there),
-        cmocka_unit_test(the_shallowest_box_of_an_edge_is_named),
-        cmocka_unit_test(numbers_and_elements_are_each_others_inverse),
-        cmocka_unit_test(a_scene_of_another_size_is_refused),
-        cmocka_unit_test(an_empty_scene_is_all_background),
+        cmocka_unit_test(every_sample_of_golden_frames_has_the_colour_of_its_element),
+        cmocka_unit_test(picking_does_not_change_later_frames),
+        cmocka_unit_test(element_is_picked_only_where_it_is_visible),
+        cmocka_unit_test(hundred_thousand_elements_are_distinguished),
+        cmocka_unit_test(box_is_picked_only_at_its_edges),
+        cmocka_unit_test(pixels_of_a_merged_edge_belong_to_the_box_at_that_place),
+        cmocka_unit_test(shared_edge_belongs_to_the_shallowest_box),
+        cmocka_unit_test(element_numbers_and_elements_map_both_ways),
+        cmocka_unit_test(scene_of_another_size_is_refused),
+        cmocka_unit_test(empty_scene_is_all_background),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

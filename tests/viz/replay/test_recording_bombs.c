@@ -31,7 +31,7 @@ static size_t peak_of(const place *folder, bool same)
 }
 
 /* Each as large as a file may become, be it one line, many, or a line that nests. */
-static void ticks_take_what_those_of_the_session_take(void **state)
+static void ticks_jsonl_takes_no_more_memory_than_its_session(void **state)
 {
     static const struct {
         const char *begin, *repeated;
@@ -53,7 +53,7 @@ static void ticks_take_what_those_of_the_session_take(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(ticks_take_what_those_of_the_session_take,
-                                                                       temp_folder_make, nested_folder_remove)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(
+        ticks_jsonl_takes_no_more_memory_than_its_session, temp_folder_make, nested_folder_remove)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -222,19 +222,19 @@ static void assert_replays(int which)
     fclose(in);
 }
 
-static void the_default_session_replays_to_its_digests(void **state)
+static void default_session_replays_to_its_digests(void **state)
 {
     (void)state;
     assert_replays(0);
 }
 
-static void a_random_session_replays_to_its_digests(void **state)
+static void random_session_replays_to_its_digests(void **state)
 {
     (void)state;
     assert_replays(1);
 }
 
-static void a_session_that_rounds_everywhere_replays_to_its_digests(void **state)
+static void session_that_rounds_everywhere_replays_to_its_digests(void **state)
 {
     (void)state;
     assert_replays(2);
@@ -243,9 +243,9 @@ static void a_session_that_rounds_everywhere_replays_to_its_digests(void **state
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default_session_replays_to_its_digests),
-        cmocka_unit_test(a_random_session_replays_to_its_digests),
-        cmocka_unit_test(a_session_that_rounds_everywhere_replays_to_its_digests),
+        cmocka_unit_test(default_session_replays_to_its_digests),
+        cmocka_unit_test(random_session_replays_to_its_digests),
+        cmocka_unit_test(session_that_rounds_everywhere_replays_to_its_digests),
     };
     if (argc == 2 && strcmp(argv[1], "--update") == 0)
         return update();

@@ -12,13 +12,13 @@
 
 /* ---- Identical ---------------------------------------------------------------------------------------------- */
 
-static void what_was_filmed_is_identical(void **state)
+static void recording_is_identical_to_its_replay(void **state)
 {
     const place folder = film_short(*state);
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
 }
 
-static void every_camera_and_anti_aliasing_is_identical(void **state)
+static void recordings_with_every_camera_and_anti_aliasing_are_identical(void **state)
 {
     const octree_session session = octree_session_default();
     for (int kind = 0; kind < CAMERA_COUNT; kind++) {
@@ -45,7 +45,7 @@ static void session_with_edits_motion_and_queries_is_identical(void **state)
     assert_identical(&folder, summary.ticks, summary.frames);
 }
 
-static void neither_renderer_nor_page_is_asked_for(void **state)
+static void renderer_json_and_page_are_not_needed(void **state)
 {
     const place folder = film_short(*state);
     edit_file(folder.path, "renderer.json", "\"renderer\": null", "\"renderer\": \"abacus\"");
@@ -55,7 +55,7 @@ static void neither_renderer_nor_page_is_asked_for(void **state)
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
 }
 
-static void nothing_is_written(void **state)
+static void verify_writes_nothing(void **state)
 {
     const place folder = film_short(*state), before = place_in(*state, "before");
     assert_int_equal(rename(folder.path, before.path), 0);
@@ -66,7 +66,7 @@ static void nothing_is_written(void **state)
 
 /* ---- Session and view --------------------------------------------------------------------------------------- */
 
-static void session_of_other_keys_is_found_and_the_tick_where_they_matter(void **state)
+static void session_with_other_keys_is_found_with_the_first_tick_that_differs(void **state)
 {
     const place folder = film_short(*state);
     edit_file(folder.path, "session.json", "ndwwww", "ndwwdw");
@@ -81,7 +81,7 @@ static void session_of_other_keys_is_found_and_the_tick_where_they_matter(void *
     assert_non_null(strstr(report.findings[1].text, "\"w\" in ticks.jsonl, and \"d\""));
 }
 
-static void session_that_plays_the_same_is_found_too(void **state)
+static void changed_session_with_equal_ticks_is_found(void **state)
 {
     const place folder = film_short(*state);
     edit_file(folder.path, "session.json", "}", "} ");
@@ -92,7 +92,7 @@ static void session_that_plays_the_same_is_found_too(void **state)
     assert_int_equal(report.frames, SHORT_FRAMES);
 }
 
-static void session_that_is_longer_or_shorter_is_found(void **state)
+static void longer_or_shorter_session_is_found(void **state)
 {
     const place folder = film_short(*state);
     edit_file(folder.path, "session.json", "\"ndwwww", "\"ndwwwwwwww");
@@ -123,7 +123,7 @@ static void view_of_another_size_is_found_without_drawing(void **state)
     }
 }
 
-static void view_of_another_camera_is_another_scene(void **state)
+static void other_camera_is_reported_as_other_scene(void **state)
 {
     const place folder = film_short(*state);
     edit_file(folder.path, "recording.json", "\"iso\"", "\"top\"");
@@ -131,7 +131,7 @@ static void view_of_another_camera_is_another_scene(void **state)
     assert_string_equal(report.findings[0].fact, "scene");
 }
 
-static void frames_that_were_filmed_more_rarely_are_found(void **state)
+static void change_of_the_frame_interval_is_found(void **state)
 {
     const place folder = film_short(*state);
     edit_file(folder.path, "recording.json", "\"every\": 3", "\"every\": 6");
@@ -147,7 +147,7 @@ static void frames_that_were_filmed_more_rarely_are_found(void **state)
 
 /* ---- Trouble ------------------------------------------------------------------------------------------------ */
 
-static void what_is_no_recording_is_trouble(void **state)
+static void folder_without_a_recording_is_an_error(void **state)
 {
     static const char *const needed[] = {"recording.json", "session.json", "ticks.jsonl"};
     const place nowhere = place_in(*state, "nowhere");
@@ -162,7 +162,7 @@ static void what_is_no_recording_is_trouble(void **state)
     }
 }
 
-static void what_cannot_be_read_or_played_is_trouble(void **state)
+static void unreadable_or_invalid_session_is_an_error(void **state)
 {
     static const struct {
         const char *file, *from, *to, *part;
@@ -193,19 +193,19 @@ static void what_cannot_be_read_or_played_is_trouble(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(what_was_filmed_is_identical),
-        IN_FOLDER(every_camera_and_anti_aliasing_is_identical),
+        IN_FOLDER(recording_is_identical_to_its_replay),
+        IN_FOLDER(recordings_with_every_camera_and_anti_aliasing_are_identical),
         IN_FOLDER(session_with_edits_motion_and_queries_is_identical),
-        IN_FOLDER(neither_renderer_nor_page_is_asked_for),
-        IN_FOLDER(nothing_is_written),
-        IN_FOLDER(session_of_other_keys_is_found_and_the_tick_where_they_matter),
-        IN_FOLDER(session_that_plays_the_same_is_found_too),
-        IN_FOLDER(session_that_is_longer_or_shorter_is_found),
+        IN_FOLDER(renderer_json_and_page_are_not_needed),
+        IN_FOLDER(verify_writes_nothing),
+        IN_FOLDER(session_with_other_keys_is_found_with_the_first_tick_that_differs),
+        IN_FOLDER(changed_session_with_equal_ticks_is_found),
+        IN_FOLDER(longer_or_shorter_session_is_found),
         IN_FOLDER(view_of_another_size_is_found_without_drawing),
-        IN_FOLDER(view_of_another_camera_is_another_scene),
-        IN_FOLDER(frames_that_were_filmed_more_rarely_are_found),
-        IN_FOLDER(what_is_no_recording_is_trouble),
-        IN_FOLDER(what_cannot_be_read_or_played_is_trouble),
+        IN_FOLDER(other_camera_is_reported_as_other_scene),
+        IN_FOLDER(change_of_the_frame_interval_is_found),
+        IN_FOLDER(folder_without_a_recording_is_an_error),
+        IN_FOLDER(unreadable_or_invalid_session_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,19 +56,19 @@ static void assert_changes(const place *folder, const char *name, bool all_notic
     assert_false(is_noticed(folder));
 }
 
-static void every_change_of_a_line_is_noticed(void **state)
+static void every_changed_byte_of_a_line_is_found(void **state)
 {
     const place folder = film_tiny(*state);
     assert_changes(&folder, "ticks.jsonl", true);
 }
 
-static void every_change_of_the_session_is_noticed(void **state)
+static void every_changed_byte_of_the_session_is_found(void **state)
 {
     const place folder = film_tiny(*state);
     assert_changes(&folder, "session.json", true);
 }
 
-static void every_change_of_a_frame_is_noticed(void **state)
+static void every_changed_byte_of_a_frame_is_found(void **state)
 {
     const place folder = film_tiny(*state);
     assert_changes(&folder, "frame_000000.png", true);
@@ -76,7 +76,7 @@ static void every_change_of_a_frame_is_noticed(void **state)
 }
 
 /* A blank more or less, or a layer that shows nothing, makes no other frame; and who drew is not compared. */
-static void no_change_of_the_view_or_of_who_drew_does_harm(void **state)
+static void no_change_of_the_view_or_renderer_file_does_harm(void **state)
 {
     const place folder = film_tiny(*state);
     assert_changes(&folder, "recording.json", false);
@@ -84,7 +84,7 @@ static void no_change_of_the_view_or_of_who_drew_does_harm(void **state)
 }
 
 /* Opening a pipe would wait for ever. */
-static void who_drew_is_read_from_a_small_file_alone(void **state)
+static void renderer_json_is_read_only_if_it_is_small(void **state)
 {
     const place folder = film_tiny(*state), about = place_below(folder.path, "renderer.json");
     enum { LARGE = 1 << 22 };
@@ -100,7 +100,7 @@ static void who_drew_is_read_from_a_small_file_alone(void **state)
 }
 
 /* A recording from elsewhere must not have files read that are none of its own, nor have points made without end. */
-static void points_from_elsewhere_are_refused(void **state)
+static void session_json_that_names_a_file_of_points_is_refused(void **state)
 {
     static const char *const points[] = {"{\"file\": \"../points.xyz\"}",
                                          "{\"sample\": \"uniform\", \"count\": 100000000}"};
@@ -121,9 +121,12 @@ static void points_from_elsewhere_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(every_change_of_a_line_is_noticed),        IN_FOLDER(every_change_of_the_session_is_noticed),
-        IN_FOLDER(every_change_of_a_frame_is_noticed),       IN_FOLDER(no_change_of_the_view_or_of_who_drew_does_harm),
-        IN_FOLDER(who_drew_is_read_from_a_small_file_alone), IN_FOLDER(points_from_elsewhere_are_refused),
+        IN_FOLDER(every_changed_byte_of_a_line_is_found),
+        IN_FOLDER(every_changed_byte_of_the_session_is_found),
+        IN_FOLDER(every_changed_byte_of_a_frame_is_found),
+        IN_FOLDER(no_change_of_the_view_or_renderer_file_does_harm),
+        IN_FOLDER(renderer_json_is_read_only_if_it_is_small),
+        IN_FOLDER(session_json_that_names_a_file_of_points_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

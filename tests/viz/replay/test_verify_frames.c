@@ -29,7 +29,7 @@ static void write_with_texts(const char *path, const image *frame, const char *p
     assert_true(image_write_png(frame, path, texts, 4, &error));
 }
 
-static void frame_that_is_stored_otherwise_is_identical(void **state)
+static void recompressed_frame_is_identical(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path); /* what was written has a palette */
@@ -57,7 +57,7 @@ static void frame_with_the_digest_of_an_older_version_is_identical(void **state)
     image_release(&frame);
 }
 
-static void frame_with_the_digest_of_a_later_version_is_not(void **state)
+static void frame_with_the_digest_of_a_later_version_is_not_identical(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read(path.path);
@@ -66,7 +66,7 @@ static void frame_with_the_digest_of_a_later_version_is_not(void **state)
     assert_found(&folder, VERIFY_FRAME, 3, "its pixels are those that are drawn now");
 }
 
-static void frame_that_is_missing_is_named(void **state)
+static void missing_frame_is_named(void **state)
 {
     const place folder = film_short(*state);
     remove(place_below(folder.path, "frame_000009.png").path);
@@ -75,7 +75,7 @@ static void frame_that_is_missing_is_named(void **state)
     assert_found(&folder, VERIFY_FRAME, 0, "frame_000000.png is missing");
 }
 
-static void frame_that_is_no_file_is_not_waited_for(void **state)
+static void frame_that_is_a_pipe_is_not_opened(void **state)
 {
     static const char *const names[] = {"frame_000003.png", "frame_000000.png"};
     static const uint64_t ticks[] = {3, 0};
@@ -89,7 +89,7 @@ static void frame_that_is_no_file_is_not_waited_for(void **state)
 }
 
 /* Nobody can say whether it differs. */
-static void frame_that_may_not_be_read_is_trouble(void **state)
+static void frame_without_read_permission_is_an_error(void **state)
 {
     const temp_folder *own = *state;
     const place folder = film_short(*state), frame = place_below(folder.path, "frame_000003.png");
@@ -110,7 +110,7 @@ static void frame_that_may_not_be_read_is_trouble(void **state)
     assert_non_null(strstr(error.text, ": cannot be opened: Permission denied"));
 }
 
-static void frame_that_was_cut_is_found_wherever(void **state)
+static void frame_truncated_to_any_length_is_found(void **state)
 {
     const place folder = film_short(*state);
     size_t size;
@@ -123,7 +123,7 @@ static void frame_that_was_cut_is_found_wherever(void **state)
     assert_found(&folder, VERIFY_FRAME, 6, "frame_000006.png: ");
 }
 
-static void frame_in_the_place_of_another_is_found(void **state)
+static void frame_with_the_name_of_another_is_found(void **state)
 {
     const place folder = film_short(*state);
     file_copy(folder.path, "frame_000003.png", "frame_000012.png");
@@ -142,7 +142,7 @@ static void frame_of_another_recording_is_found(void **state)
     assert_found(&folder, VERIFY_FRAME, 6, "of another session");
 }
 
-static void frame_without_its_texts_is_found(void **state)
+static void frame_without_text_chunks_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path);
@@ -160,7 +160,7 @@ static void frame_without_its_texts_is_found(void **state)
 }
 
 /* The pixels are right, and one text is wrong. */
-static void frame_whose_text_was_changed_is_found(void **state)
+static void frame_with_a_changed_text_chunk_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path);
@@ -172,7 +172,7 @@ static void frame_whose_text_was_changed_is_found(void **state)
         "those that are drawn now");
 }
 
-static void frame_that_was_painted_over_is_found(void **state)
+static void frame_with_edited_pixels_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path);
@@ -183,7 +183,7 @@ static void frame_that_was_painted_over_is_found(void **state)
 }
 
 /* What another renderer would have left: a frame that tells the truth about itself. */
-static void only_pixels_are_told_with_both_renderers(void **state)
+static void finding_in_pixels_names_both_renderers(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000006.png");
     image frame = assert_read_rgb(path.path);
@@ -205,7 +205,7 @@ static void only_pixels_are_told_with_both_renderers(void **state)
     assert_found(&folder, VERIFY_PIXELS, 6, "filmed by an unknown renderer");
 }
 
-static void frames_that_are_too_many_are_found(void **state)
+static void surplus_frames_are_found(void **state)
 {
     static const struct {
         const char *name;
@@ -235,21 +235,21 @@ static void frames_that_are_too_many_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(frame_that_is_stored_otherwise_is_identical),
+        IN_FOLDER(recompressed_frame_is_identical),
         IN_FOLDER(frame_with_the_digest_of_an_older_version_is_identical),
-        IN_FOLDER(frame_with_the_digest_of_a_later_version_is_not),
-        IN_FOLDER(frame_that_is_missing_is_named),
-        IN_FOLDER(frame_that_is_no_file_is_not_waited_for),
-        IN_FOLDER(frame_that_may_not_be_read_is_trouble),
-        IN_FOLDER(frame_that_was_cut_is_found_wherever),
-        IN_FOLDER(frame_in_the_place_of_another_is_found),
+        IN_FOLDER(frame_with_the_digest_of_a_later_version_is_not_identical),
+        IN_FOLDER(missing_frame_is_named),
+        IN_FOLDER(frame_that_is_a_pipe_is_not_opened),
+        IN_FOLDER(frame_without_read_permission_is_an_error),
+        IN_FOLDER(frame_truncated_to_any_length_is_found),
+        IN_FOLDER(frame_with_the_name_of_another_is_found),
         IN_FOLDER(frame_of_another_recording_is_found),
-        IN_FOLDER(frame_without_its_texts_is_found),
+        IN_FOLDER(frame_without_text_chunks_is_found),
         IN_FOLDER(frame_of_another_recording_is_found),
-        IN_FOLDER(frame_whose_text_was_changed_is_found),
-        IN_FOLDER(frame_that_was_painted_over_is_found),
-        IN_FOLDER(only_pixels_are_told_with_both_renderers),
-        IN_FOLDER(frames_that_are_too_many_are_found),
+        IN_FOLDER(frame_with_a_changed_text_chunk_is_found),
+        IN_FOLDER(frame_with_edited_pixels_is_found),
+        IN_FOLDER(finding_in_pixels_names_both_renderers),
+        IN_FOLDER(surplus_frames_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

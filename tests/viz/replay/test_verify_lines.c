@@ -8,7 +8,7 @@
 #include "edits.h"
 #include "verified.h"
 
-static void each_fact_that_was_changed_is_named(void **state)
+static void every_changed_fact_is_named(void **state)
 {
     static const struct {
         size_t line;
@@ -38,14 +38,14 @@ static void each_fact_that_was_changed_is_named(void **state)
     }
 }
 
-static void scene_that_was_changed_is_told_from_facts(void **state)
+static void changed_scene_digest_is_distinguished_from_facts(void **state)
 {
     const place folder = film_short(*state);
     edit_line(folder.path, 6, "\"scene\": \"", "\"scene\": \"0");
     assert_found(&folder, VERIFY_SCENE, 6, "the digest of its scene is \"0");
 }
 
-static void the_first_of_several_is_told(void **state)
+static void first_of_several_changes_is_reported(void **state)
 {
     const place folder = film_short(*state);
     edit_line(folder.path, 9, "\"player\"", "\"prayer\"");
@@ -54,7 +54,7 @@ static void the_first_of_several_is_told(void **state)
     assert_found(&folder, VERIFY_FACTS, 4, "attempt is missing");
 }
 
-static void lines_that_are_no_lines_are_found(void **state)
+static void malformed_lines_are_found(void **state)
 {
     static const struct {
         const char *text, *part;
@@ -80,14 +80,14 @@ static void lines_that_are_no_lines_are_found(void **state)
     }
 }
 
-static void line_that_is_written_otherwise_is_found(void **state)
+static void line_with_other_formatting_is_found(void **state)
 {
     const place folder = film_short(*state);
     edit_line(folder.path, 5, "{", "{ ");
     assert_found(&folder, VERIFY_LINES, 5, "says the same");
 }
 
-static void line_without_end_is_found_without_reading_all_of_it(void **state)
+static void overlong_line_is_found_without_reading_all_of_it(void **state)
 {
     const place folder = film_short(*state);
     char *endless = malloc(2000001);
@@ -99,7 +99,7 @@ static void line_without_end_is_found_without_reading_all_of_it(void **state)
     assert_found(&folder, VERIFY_LINES, 5, "does not end where it should");
 }
 
-static void lines_that_are_missing_torn_or_too_many_are_found(void **state)
+static void missing_torn_and_surplus_lines_are_found(void **state)
 {
     const place folder = film_short(*state), lines = place_below(folder.path, "ticks.jsonl");
     char *last = copy_line(folder.path, SHORT_TICKS - 1);
@@ -132,13 +132,13 @@ static void lines_that_are_missing_torn_or_too_many_are_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(each_fact_that_was_changed_is_named),
-        IN_FOLDER(scene_that_was_changed_is_told_from_facts),
-        IN_FOLDER(the_first_of_several_is_told),
-        IN_FOLDER(lines_that_are_no_lines_are_found),
-        IN_FOLDER(line_that_is_written_otherwise_is_found),
-        IN_FOLDER(line_without_end_is_found_without_reading_all_of_it),
-        IN_FOLDER(lines_that_are_missing_torn_or_too_many_are_found),
+        IN_FOLDER(every_changed_fact_is_named),
+        IN_FOLDER(changed_scene_digest_is_distinguished_from_facts),
+        IN_FOLDER(first_of_several_changes_is_reported),
+        IN_FOLDER(malformed_lines_are_found),
+        IN_FOLDER(line_with_other_formatting_is_found),
+        IN_FOLDER(overlong_line_is_found_without_reading_all_of_it),
+        IN_FOLDER(missing_torn_and_surplus_lines_are_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

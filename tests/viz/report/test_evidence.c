@@ -53,7 +53,7 @@ static void assert_refused(const char *a, const char *b, const char *folder, con
     diff_side_release(&sides[1]);
 }
 
-static void each_finding_leaves_what_can_be_had(void **state)
+static void each_finding_leaves_the_pictures_that_exist(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 3.png 4.png 5.png"),
                 b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 6.png"), folder = place_in(*state, "out");
@@ -73,7 +73,7 @@ static void each_finding_leaves_what_can_be_had(void **state)
     assert_same_files(place_below(folder.path, "4.actual.png").path, place_below(b.path, "4.png").path);
 }
 
-static void digests_leave_the_frame_alone(void **state)
+static void comparison_with_a_baseline_leaves_only_the_actual_frame(void **state)
 {
     const place b = gallery_make(*state, "b", "1.png"), folder = place_in(*state, "out"),
                 digests = place_in(*state, "digests");
@@ -84,7 +84,7 @@ static void digests_leave_the_frame_alone(void **state)
 }
 
 /* The glowing pixels of the difference are those that count. */
-static void pictures_show_what_they_are_named_for(void **state)
+static void pictures_show_expected_actual_and_difference(void **state)
 {
     const image_rectangle ignored = {0, 0, 3, 16};
     diff_options options = diff_options_default();
@@ -108,14 +108,14 @@ static void pictures_show_what_they_are_named_for(void **state)
     comparison_release(&made);
 }
 
-static void nothing_that_differs_leaves_no_pictures(void **state)
+static void equal_frames_leave_no_pictures(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), folder = place_in(*state, "deep/er/out");
     leave_and_forget(a.path, a.path, folder.path);
     assert_holds(folder.path, "evidence.txt");
 }
 
-static void names_that_are_unlike_stay_so(void **state)
+static void different_frame_names_have_different_file_names(void **state)
 {
     (void)state;
     static const char *const names[][2] = {
@@ -140,7 +140,7 @@ static void names_that_are_unlike_stay_so(void **state)
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
 
-static void next_evidence_takes_the_place_of_the_last(void **state)
+static void new_evidence_replaces_old_evidence(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png");
     const place folder = place_in(*state, "out");
@@ -155,7 +155,7 @@ static void next_evidence_takes_the_place_of_the_last(void **state)
     assert_holds(folder.path, "evidence.txt notes.txt");
 }
 
-static void folder_of_others_is_refused_and_left_as_it_is(void **state)
+static void unrelated_folder_is_refused_and_unchanged(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), other = gallery_make(*state, "b", "1.actual.png");
     assert_refused(a.path, a.path, other.path, "holds 1.actual.png, and no evidence of octreel diff");
@@ -165,7 +165,7 @@ static void folder_of_others_is_refused_and_left_as_it_is(void **state)
     assert_holds(other.path, "1.actual.png evidence.txt");
 }
 
-static void empty_folder_is_taken(void **state)
+static void empty_folder_is_accepted(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
     leave_and_forget(a.path, a.path, empty.path);
@@ -173,7 +173,7 @@ static void empty_folder_is_taken(void **state)
 }
 
 /* Evidence is emptied first: what is compared must not be in it. */
-static void what_is_compared_is_not_removed(void **state)
+static void compared_pictures_are_not_removed(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "2.png");
     const place folder = place_in(*state, "out");
@@ -187,14 +187,14 @@ static void what_is_compared_is_not_removed(void **state)
     assert_holds(folder.path, "1.expected.png 2.actual.png evidence.txt");
 }
 
-static void folder_that_cannot_be_made_is_named(void **state)
+static void error_names_a_folder_that_cannot_be_made(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), file = place_in(*state, "file");
     file_write_text(file.path, "here");
     assert_refused(a.path, a.path, file.path, "a file has this name");
 }
 
-static void picture_that_cannot_be_written_is_named(void **state)
+static void error_names_a_picture_that_cannot_be_written(void **state)
 {
     static const char *const names[] = {"2.expected.png", "2.actual.png", "2.difference.png", "2.actual.png"};
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
@@ -221,17 +221,17 @@ static void picture_that_cannot_be_written_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(each_finding_leaves_what_can_be_had),
-        WITH_FOLDER(digests_leave_the_frame_alone),
-        WITH_FOLDER(pictures_show_what_they_are_named_for),
-        WITH_FOLDER(nothing_that_differs_leaves_no_pictures),
-        cmocka_unit_test(names_that_are_unlike_stay_so),
-        WITH_FOLDER(next_evidence_takes_the_place_of_the_last),
-        WITH_FOLDER(folder_of_others_is_refused_and_left_as_it_is),
-        WITH_FOLDER(empty_folder_is_taken),
-        WITH_FOLDER(what_is_compared_is_not_removed),
-        WITH_FOLDER(folder_that_cannot_be_made_is_named),
-        WITH_FOLDER(picture_that_cannot_be_written_is_named),
+        WITH_FOLDER(each_finding_leaves_the_pictures_that_exist),
+        WITH_FOLDER(comparison_with_a_baseline_leaves_only_the_actual_frame),
+        WITH_FOLDER(pictures_show_expected_actual_and_difference),
+        WITH_FOLDER(equal_frames_leave_no_pictures),
+        cmocka_unit_test(different_frame_names_have_different_file_names),
+        WITH_FOLDER(new_evidence_replaces_old_evidence),
+        WITH_FOLDER(unrelated_folder_is_refused_and_unchanged),
+        WITH_FOLDER(empty_folder_is_accepted),
+        WITH_FOLDER(compared_pictures_are_not_removed),
+        WITH_FOLDER(error_names_a_folder_that_cannot_be_made),
+        WITH_FOLDER(error_names_a_picture_that_cannot_be_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

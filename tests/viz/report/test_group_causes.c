@@ -57,7 +57,7 @@ static void assert_grouped(void **state, const film_options *how, const change *
 
 /* ---- Causes in the sessions ---------------------------------------------------------------------------------- */
 
-static void queries_of_unlike_ticks_are_causes_of_their_own(void **state)
+static void queries_of_different_ticks_are_separate_causes(void **state)
 {
     assert_grouped(state, NULL, (const change[]){other_radius, other_nearest, {0}}, "tick 3\ntick 6\n");
 }
@@ -71,24 +71,24 @@ static film_options wide_film(void)
     return options;
 }
 
-static void a_key_is_the_cause_of_all_ticks_that_show_it(void **state)
+static void key_is_the_cause_of_all_ticks_that_show_its_effect(void **state)
 {
     const film_options options = wide_film();
     assert_grouped(state, &options, (const change[]){other_key, {0}}, "ticks 8 to 20\n");
 }
 
-static void a_query_before_a_key_is_a_cause_of_its_own(void **state)
+static void query_before_a_key_is_a_separate_cause(void **state)
 {
     const film_options options = wide_film();
     assert_grouped(state, &options, (const change[]){other_radius, other_key, {0}}, "tick 3\nticks 8 to 20\n");
 }
 
-static void a_second_cause_that_lasts_begins_another_group(void **state)
+static void second_lasting_cause_begins_another_group(void **state)
 {
     assert_grouped(state, NULL, (const change[]){other_edit, other_key, {0}}, "ticks 8 to 13\nticks 14 to 20\n");
 }
 
-static void what_differs_in_all_ticks_is_one_cause(void **state)
+static void difference_in_all_ticks_is_one_cause(void **state)
 {
     film_options options = small_film("");
     assert_grouped(state, NULL, (const change[]){other_capacity, {0}}, "ticks 0 to 20\n");
@@ -100,13 +100,13 @@ static void what_differs_in_all_ticks_is_one_cause(void **state)
 }
 
 /* A tick that has a cause more than the others is told apart. */
-static void one_tick_may_have_one_cause_more(void **state)
+static void one_tick_may_have_an_additional_cause(void **state)
 {
     assert_grouped(state, NULL, (const change[]){other_radius, other_capacity, {0}}, "ticks 0 to 2, 4 to 20\ntick 3\n");
 }
 
 /* Where heat is shown, a query changes all later frames. */
-static void heat_keeps_a_query_in_force(void **state)
+static void heat_makes_a_query_the_cause_of_later_ticks(void **state)
 {
     film_options options = small_film("");
     options.view.layers = 1u << LAYER_VISIT_HEAT;
@@ -115,7 +115,7 @@ static void heat_keeps_a_query_in_force(void **state)
 
 /* ---- Causes in the frames ------------------------------------------------------------------------------------ */
 
-static void frames_changed_in_unlike_ways_are_of_unlike_groups(void **state)
+static void frames_edited_in_different_ways_are_in_different_groups(void **state)
 {
     place b;
     const place a = film_twins(*state, "wdn.", &b);
@@ -136,7 +136,7 @@ static void assert_cause(const comparison_of *made, const char *name, const char
 }
 
 /* What its own recording did not make is no effect of the other session. */
-static void a_foreign_frame_is_in_no_group_of_the_sessions(void **state)
+static void edited_frame_is_in_no_group_of_the_sessions(void **state)
 {
     const place a = film_changed(state, "a", NULL, NULL),
                 b = film_changed(state, "b", NULL, (const change[]){other_radius, {0}});
@@ -149,7 +149,7 @@ static void a_foreign_frame_is_in_no_group_of_the_sessions(void **state)
     comparison_release(&made);
 }
 
-static void a_frame_of_another_view_is_in_no_group_of_the_sessions(void **state)
+static void frame_of_another_view_is_in_no_group_of_the_sessions(void **state)
 {
     film_options options = small_film("");
     options.view.camera = CAMERA_TOP;
@@ -165,7 +165,7 @@ static void a_frame_of_another_view_is_in_no_group_of_the_sessions(void **state)
 
 /* ---- Sentences ----------------------------------------------------------------------------------------------- */
 
-static void a_foreign_frame_after_the_last_tick_has_both_told(void **state)
+static void frame_after_the_last_tick_is_reported_with_both_causes(void **state)
 {
     place b;
     const place a = film_twins(*state, "wdn.", &b);
@@ -176,7 +176,7 @@ static void a_foreign_frame_after_the_last_tick_has_both_told(void **state)
 }
 
 /* The interval of frames changes none of them. */
-static void session_and_view_are_both_told_where_both_matter(void **state)
+static void session_and_view_are_both_reported_if_both_matter(void **state)
 {
     static const char shape[] = "another shape shown at every tick (box (-40, -40, -40) to (40, 50, 50), was ";
     film_options options = small_film("");
@@ -202,18 +202,18 @@ static void session_and_view_are_both_told_where_both_matter(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(queries_of_unlike_ticks_are_causes_of_their_own),
-        TEST(a_key_is_the_cause_of_all_ticks_that_show_it),
-        TEST(a_query_before_a_key_is_a_cause_of_its_own),
-        TEST(a_second_cause_that_lasts_begins_another_group),
-        TEST(what_differs_in_all_ticks_is_one_cause),
-        TEST(one_tick_may_have_one_cause_more),
-        TEST(heat_keeps_a_query_in_force),
-        TEST(frames_changed_in_unlike_ways_are_of_unlike_groups),
-        TEST(a_foreign_frame_is_in_no_group_of_the_sessions),
-        TEST(a_frame_of_another_view_is_in_no_group_of_the_sessions),
-        TEST(a_foreign_frame_after_the_last_tick_has_both_told),
-        TEST(session_and_view_are_both_told_where_both_matter),
+        TEST(queries_of_different_ticks_are_separate_causes),
+        TEST(key_is_the_cause_of_all_ticks_that_show_its_effect),
+        TEST(query_before_a_key_is_a_separate_cause),
+        TEST(second_lasting_cause_begins_another_group),
+        TEST(difference_in_all_ticks_is_one_cause),
+        TEST(one_tick_may_have_an_additional_cause),
+        TEST(heat_makes_a_query_the_cause_of_later_ticks),
+        TEST(frames_edited_in_different_ways_are_in_different_groups),
+        TEST(edited_frame_is_in_no_group_of_the_sessions),
+        TEST(frame_of_another_view_is_in_no_group_of_the_sessions),
+        TEST(frame_after_the_last_tick_is_reported_with_both_causes),
+        TEST(session_and_view_are_both_reported_if_both_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

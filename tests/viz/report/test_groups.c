@@ -40,7 +40,7 @@ static comparison_of make_all(void **state)
     return compare(a.path, b.path, 10);
 }
 
-static void frames_are_grouped_by_what_makes_them_differ(void **state)
+static void frames_are_grouped_by_cause(void **state)
 {
     comparison_of made = make_all(state);
     assert_groups(&made, false, "1.png, 2.png, 5.png\n3.png\n6.png, 7.png\n8.png\n9.png\na.png\n");
@@ -49,7 +49,7 @@ static void frames_are_grouped_by_what_makes_them_differ(void **state)
     comparison_release(&made);
 }
 
-static void without_an_explanation_nothing_is_lumped_together(void **state)
+static void frames_without_explanation_are_not_grouped(void **state)
 {
     comparison_of made = make_all(state);
     explanation_release(&made.why);
@@ -59,7 +59,7 @@ static void without_an_explanation_nothing_is_lumped_together(void **state)
 
 /* Of unlike digests, and of a frame that only one side has, nothing tells whether others are alike; of two sizes the
  * sizes do. */
-static void what_cannot_be_compared_is_not_lumped_together(void **state)
+static void frames_that_cannot_be_compared_are_not_grouped(void **state)
 {
     const place a = place_in(*state, "a.digests"), b = gallery_make(*state, "b", "1.png 2.png 3.png 4.png 5.png 6.png");
     file_write_text(a.path, "octreel-digests 2\nbackground ffffff\naccepted 7f 2026-11-22 24x16 runs x\n"
@@ -72,7 +72,7 @@ static void what_cannot_be_compared_is_not_lumped_together(void **state)
 }
 
 /* One pixel elsewhere, or by another colour, is another cause. */
-static void another_place_or_color_is_another_group(void **state)
+static void different_place_or_colour_is_a_different_group(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "");
     static const struct {
@@ -93,7 +93,7 @@ static void another_place_or_color_is_another_group(void **state)
     comparison_release(&made);
 }
 
-static void long_groups_are_told_in_runs(void **state)
+static void long_groups_are_listed_as_ranges(void **state)
 {
     const place a = gallery_make(*state, "a", ""), b = gallery_make(*state, "b", "");
     for (int i = 0; i < 20; i++) {
@@ -114,11 +114,11 @@ static void long_groups_are_told_in_runs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        WITH_FOLDER(frames_are_grouped_by_what_makes_them_differ),
-        WITH_FOLDER(without_an_explanation_nothing_is_lumped_together),
-        WITH_FOLDER(what_cannot_be_compared_is_not_lumped_together),
-        WITH_FOLDER(another_place_or_color_is_another_group),
-        WITH_FOLDER(long_groups_are_told_in_runs),
+        WITH_FOLDER(frames_are_grouped_by_cause),
+        WITH_FOLDER(frames_without_explanation_are_not_grouped),
+        WITH_FOLDER(frames_that_cannot_be_compared_are_not_grouped),
+        WITH_FOLDER(different_place_or_colour_is_a_different_group),
+        WITH_FOLDER(long_groups_are_listed_as_ranges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

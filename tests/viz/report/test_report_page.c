@@ -123,7 +123,7 @@ static void assert_said_part(void **state, const char *what, const char *part)
     free(value);
 }
 
-static void page_comes_up_with_the_verdict_and_without_errors(void **state)
+static void page_shows_the_verdict_and_raises_no_error(void **state)
 {
     assert_said(state, "errors", "none");
     assert_said(state, "verdict", "Trouble");
@@ -135,7 +135,7 @@ static void page_comes_up_with_the_verdict_and_without_errors(void **state)
 }
 
 /* As text, whatever is in it. */
-static void cause_is_the_headline_beside_the_picture(void **state)
+static void cause_is_the_headline_of_the_picture(void **state)
 {
     assert_said(state, "frame 0",
                 "frame_000000.png | Node 0/3/7 split, point 12 moved </script><script>document.title = "
@@ -148,7 +148,7 @@ static void cause_is_the_headline_beside_the_picture(void **state)
 }
 
 /* The way to look that was asked for comes back with the pictures it needs. */
-static void frames_without_all_pictures_show_what_they_have(void **state)
+static void frames_show_the_pictures_that_exist(void **state)
 {
     assert_said(state, "frame 1",
                 "frame_000001.png | The reference is 24x16, the frame is 5x30 | expected actual "
@@ -160,7 +160,7 @@ static void frames_without_all_pictures_show_what_they_have(void **state)
                      "frame_000006.png | 7 of 384 pixels differ | expected actual difference | swipe");
 }
 
-static void keys_lead_from_difference_to_difference(void **state)
+static void keys_step_from_difference_to_difference(void **state)
 {
     static const char expected[] =
         "\nkey n\tframe_000001.png\nkey ArrowRight\tframe_000002.png\nkey p\tframe_000001.png\n"
@@ -170,7 +170,7 @@ static void keys_lead_from_difference_to_difference(void **state)
     assert_non_null(strstr(((driven *)*state)->said, expected));
 }
 
-static void page_says_how_many_frames_were_left_out(void **state)
+static void page_counts_the_frames_it_leaves_out(void **state)
 {
     assert_said(state, "listed", "50");
     assert_said(state, "place", "1 of 50");
@@ -178,7 +178,7 @@ static void page_says_how_many_frames_were_left_out(void **state)
                 "6 more findings: this page has the first 50. The pictures of all are files beside it.");
 }
 
-static void keys_choose_how_to_look(void **state)
+static void keys_choose_the_display_mode(void **state)
 {
     assert_said(state, "mode d", "difference: difference: difference");
     assert_said(state, "mode t", "side: expected actual difference: side");
@@ -188,7 +188,7 @@ static void keys_choose_how_to_look(void **state)
     assert_said(state, "mode by button", "difference");
 }
 
-static void difference_glows_for_one_level(void **state)
+static void difference_of_one_level_glows(void **state)
 {
     need_browser();
     int r, g, b;
@@ -201,7 +201,7 @@ static void difference_glows_for_one_level(void **state)
     free(dim);
 }
 
-static void line_is_swiped_by_pointer_and_keys(void **state)
+static void pointer_and_keys_move_the_dividing_line(void **state)
 {
     assert_said(state, "swipe pressed", "inset(0px 75% 0px 0px) inset(0px 0px 0px 25%)");
     assert_said(state, "swipe dragged", "100");
@@ -209,13 +209,13 @@ static void line_is_swiped_by_pointer_and_keys(void **state)
     assert_said(state, "swipe by keys", "96");
 }
 
-static void pictures_blink_by_themselves_and_by_hand(void **state)
+static void pictures_blink_automatically_and_by_key(void **state)
 {
     assert_said(state, "blink", "expected actual expected actual");
     assert_said(state, "blink by hand", "expected expected actual");
 }
 
-static void zoom_leads_to_the_worst_place_and_back(void **state)
+static void zoom_shows_the_worst_place_and_returns(void **state)
 {
     assert_said(state, "worst in the middle", "0,3");
     assert_said(state, "worst is larger", "true");
@@ -228,7 +228,7 @@ static void zoom_leads_to_the_worst_place_and_back(void **state)
     assert_said(state, "marks off", "0");
 }
 
-static void address_names_the_frame_and_leads_to_it(void **state)
+static void address_contains_the_frame_and_restores_it(void **state)
 {
     assert_said(state, "address", "#frame=frame_000001.png&mode=difference");
     assert_said(state, "from address", "frame_000003.png expected");
@@ -236,7 +236,7 @@ static void address_names_the_frame_and_leads_to_it(void **state)
 }
 
 /* The page has the first that differ. */
-static void bars_show_how_much_differs_over_the_frames(void **state)
+static void bars_show_the_size_of_the_difference_per_frame(void **state)
 {
     assert_said(state, "bars",
                 "56 tick 0; pixels that differ in each frame; click to go to the nearest difference; tick 56");
@@ -252,7 +252,7 @@ static void question_mark_lists_the_keys(void **state)
 }
 
 /* What cannot be read cannot be accepted. */
-static void findings_are_ticked_and_saved_for_accept(void **state)
+static void ticked_findings_are_saved_for_accept(void **state)
 {
     const driven *d = *state;
     char how[512];
@@ -269,7 +269,7 @@ static void findings_are_ticked_and_saved_for_accept(void **state)
     assert_said(state, "ticked none", "0 ticked, 0 frames");
 }
 
-static void page_loads_nothing(void **state)
+static void page_loads_no_other_file(void **state)
 {
     driven *d = *state;
     assert_said(state, "loaded", "0");
@@ -301,7 +301,7 @@ static void page_of_no_difference_says_so(void **state)
                       "bytes</p>\n<p id=\"calm-tolerance\">Compared exactly</p>");
 }
 
-static void page_of_what_is_forgiven_says_that_it_differs(void **state)
+static void page_of_tolerated_differences_says_that_frames_differ(void **state)
 {
     driven *d = *state;
     const place a = gallery_make(d->folder, "strict", "1.png 2.png"), b = gallery_make(d->folder, "lax", "1.png 2.png");
@@ -315,7 +315,7 @@ static void page_of_what_is_forgiven_says_that_it_differs(void **state)
 }
 
 /* In the list beside the pictures, as wide windows have it. */
-static void names_of_files_are_neither_changed_nor_cut(void **state)
+static void file_names_are_neither_changed_nor_cut(void **state)
 {
     static const char look[] =
         "for (const {cssRules, ownerNode} of document.styleSheets)\n"
@@ -339,7 +339,7 @@ static void names_of_files_are_neither_changed_nor_cut(void **state)
     free(said);
 }
 
-static void page_of_few_differences_leaves_none_out(void **state)
+static void page_of_few_differences_shows_all(void **state)
 {
     driven *d = *state;
     const place a = gallery_make(d->folder, "few", "1.png 2.png"), b = gallery_make(d->folder, "fewer", "1.png");
@@ -350,7 +350,7 @@ static void page_of_few_differences_leaves_none_out(void **state)
 }
 
 /* One entry, one picture, and all names for accept.txt. */
-static void frames_of_one_cause_are_one_entry(void **state)
+static void frames_with_one_cause_are_one_entry(void **state)
 {
     driven *d = *state;
     const place a = gallery_make(d->folder, "old", "1.png 2.png 3.png"),
@@ -373,7 +373,7 @@ static void enlarge(const char *folder)
     assert_int_equal(truncate(place_below(folder, "1.actual.png").path, (off_t)DIFF_REPORT_PAGE_BYTES), 0);
 }
 
-static void pictures_that_are_too_large_for_a_page_are_left_beside_it(void **state)
+static void large_pictures_stay_in_files_beside_the_page(void **state)
 {
     driven *d = *state;
     const place a = gallery_make(d->folder, "large a", "1.png 2.png"), b = gallery_make(d->folder, "large b", "");
@@ -392,27 +392,27 @@ static void pictures_that_are_too_large_for_a_page_are_left_beside_it(void **sta
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(page_comes_up_with_the_verdict_and_without_errors),
-        cmocka_unit_test(cause_is_the_headline_beside_the_picture),
-        cmocka_unit_test(frames_without_all_pictures_show_what_they_have),
-        cmocka_unit_test(keys_lead_from_difference_to_difference),
-        cmocka_unit_test(page_says_how_many_frames_were_left_out),
-        cmocka_unit_test(keys_choose_how_to_look),
-        cmocka_unit_test(difference_glows_for_one_level),
-        cmocka_unit_test(line_is_swiped_by_pointer_and_keys),
-        cmocka_unit_test(pictures_blink_by_themselves_and_by_hand),
-        cmocka_unit_test(zoom_leads_to_the_worst_place_and_back),
-        cmocka_unit_test(bars_show_how_much_differs_over_the_frames),
-        cmocka_unit_test(address_names_the_frame_and_leads_to_it),
+        cmocka_unit_test(page_shows_the_verdict_and_raises_no_error),
+        cmocka_unit_test(cause_is_the_headline_of_the_picture),
+        cmocka_unit_test(frames_show_the_pictures_that_exist),
+        cmocka_unit_test(keys_step_from_difference_to_difference),
+        cmocka_unit_test(page_counts_the_frames_it_leaves_out),
+        cmocka_unit_test(keys_choose_the_display_mode),
+        cmocka_unit_test(difference_of_one_level_glows),
+        cmocka_unit_test(pointer_and_keys_move_the_dividing_line),
+        cmocka_unit_test(pictures_blink_automatically_and_by_key),
+        cmocka_unit_test(zoom_shows_the_worst_place_and_returns),
+        cmocka_unit_test(bars_show_the_size_of_the_difference_per_frame),
+        cmocka_unit_test(address_contains_the_frame_and_restores_it),
         cmocka_unit_test(question_mark_lists_the_keys),
-        cmocka_unit_test(findings_are_ticked_and_saved_for_accept),
-        cmocka_unit_test(frames_of_one_cause_are_one_entry),
-        cmocka_unit_test(page_loads_nothing),
+        cmocka_unit_test(ticked_findings_are_saved_for_accept),
+        cmocka_unit_test(frames_with_one_cause_are_one_entry),
+        cmocka_unit_test(page_loads_no_other_file),
         cmocka_unit_test(page_of_no_difference_says_so),
-        cmocka_unit_test(page_of_what_is_forgiven_says_that_it_differs),
-        cmocka_unit_test(names_of_files_are_neither_changed_nor_cut),
-        cmocka_unit_test(page_of_few_differences_leaves_none_out),
-        cmocka_unit_test(pictures_that_are_too_large_for_a_page_are_left_beside_it),
+        cmocka_unit_test(page_of_tolerated_differences_says_that_frames_differ),
+        cmocka_unit_test(file_names_are_neither_changed_nor_cut),
+        cmocka_unit_test(page_of_few_differences_shows_all),
+        cmocka_unit_test(large_pictures_stay_in_files_beside_the_page),
     };
     return cmocka_run_group_tests(tests, drive_page, forget_page);
 }

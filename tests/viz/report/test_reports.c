@@ -94,7 +94,7 @@ static void junit_of_no_difference_has_passed_cases(void **state)
 }
 
 /* Where two recordings cannot be explained, that is said beside what differs. */
-static void reports_say_that_nobody_can_say_why(void **state)
+static void reports_say_if_the_cause_is_unknown(void **state)
 {
     comparison_of made = compare_three(state, NULL);
     made.why.trouble = strdup("a/session.json: it ends <too> early");
@@ -108,7 +108,7 @@ static void reports_say_that_nobody_can_say_why(void **state)
 }
 
 /* A reader of XML gets back what can be said in it, and U+FFFD for what cannot. */
-static void junit_survives_any_name_and_cause(void **state)
+static void junit_escapes_any_name_and_cause(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b & <c>", "1.png"),
                 file = place_in(*state, "report.xml");
@@ -127,7 +127,7 @@ static void junit_survives_any_name_and_cause(void **state)
     comparison_release(&made);
 }
 
-static void junit_names_the_pictures_that_were_left(void **state)
+static void junit_names_the_pictures_of_the_evidence(void **state)
 {
     comparison_of made = compare_three(state, NULL);
     const place folder = place_in(*state, "out");
@@ -166,7 +166,7 @@ static void markdown_has_the_verdict_and_a_row_for_each_difference(void **state)
     comparison_release(&made);
 }
 
-static void markdown_without_causes_has_no_column_of_them(void **state)
+static void markdown_without_causes_has_no_column_for_them(void **state)
 {
     comparison_of made = compare_three(state, NULL);
     char *text = report_text(&made, NULL, diff_report_markdown);
@@ -207,7 +207,7 @@ static void markdown_lists_the_first_and_counts_the_rest(void **state)
 }
 
 /* One line, and nothing in it that Markdown, a table or HTML would take for its own. */
-static void markdown_survives_any_name(void **state)
+static void markdown_escapes_any_name(void **state)
 {
     char *text;
     size_t size;
@@ -240,7 +240,7 @@ static bool report_json(FILE *out, const diff_report *report)
     return true;
 }
 
-static void a_gamma_that_is_ignored_is_told(void **state)
+static void ignored_gamma_is_reported(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
     comparison_of made = compare(a.path, b.path, NULL);
@@ -267,15 +267,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         WITH_FOLDER(junit_has_a_case_for_each_frame),
         WITH_FOLDER(junit_of_no_difference_has_passed_cases),
-        WITH_FOLDER(reports_say_that_nobody_can_say_why),
-        WITH_FOLDER(junit_survives_any_name_and_cause),
-        WITH_FOLDER(junit_names_the_pictures_that_were_left),
+        WITH_FOLDER(reports_say_if_the_cause_is_unknown),
+        WITH_FOLDER(junit_escapes_any_name_and_cause),
+        WITH_FOLDER(junit_names_the_pictures_of_the_evidence),
         WITH_FOLDER(markdown_has_the_verdict_and_a_row_for_each_difference),
-        WITH_FOLDER(markdown_without_causes_has_no_column_of_them),
+        WITH_FOLDER(markdown_without_causes_has_no_column_for_them),
         WITH_FOLDER(markdown_of_no_difference_has_no_table),
         WITH_FOLDER(markdown_lists_the_first_and_counts_the_rest),
-        cmocka_unit_test(markdown_survives_any_name),
-        WITH_FOLDER(a_gamma_that_is_ignored_is_told),
+        cmocka_unit_test(markdown_escapes_any_name),
+        WITH_FOLDER(ignored_gamma_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
