@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* batches.c - what a tick of a game does to a tree, by one call, by a loop and by building anew. */
+/* batches.c - measures the changes of one game tick: by one call, in a loop, and by building the tree anew. */
 #include "batches.h"
 #include "measuring.h"
 

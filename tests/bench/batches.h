@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* batches.h - what a tick of a game does to a tree, by one call, by a loop and by building anew. */
+/* batches.h - measures the changes of one game tick: by one call, in a loop, and by building the tree anew. */
 #ifndef BENCH_BATCHES_H
 #define BENCH_BATCHES_H
 

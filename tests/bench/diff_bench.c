@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* diff_bench.c - octreel-diff-bench: octreel diff beside cmp, odiff and ImageMagick on the same pictures, in turn. */
+/* diff_bench.c - octreel-diff-bench: compares octreel diff with cmp, odiff and ImageMagick on the same pictures, in
+ * turn. */
 #include "png_read.h"
 #include "png_write.h"
 #include "measuring.h"

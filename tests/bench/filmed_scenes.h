@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* filmed_scenes.h - what octreel-bench films: the scenes and the goals of its table. */
+/* filmed_scenes.h - the scenes that octreel-bench records, and the goals of its table. */
 #ifndef BENCH_FILMED_SCENES_H
 #define BENCH_FILMED_SCENES_H
 

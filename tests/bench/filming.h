@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* filming.h - a scene filmed by one of those that octreel-bench compares, each time in a process of its own. */
+/* filming.h - records a scene with one of the renderers that octreel-bench compares, each time in a new process. */
 #ifndef BENCH_FILMING_H
 #define BENCH_FILMING_H
 

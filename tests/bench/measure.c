@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* measure.c - one operation, timed on several trees in turn, their answers compared. */
+/* measure.c - times one operation on several trees in turn, and compares their answers. */
 #include "measure.h"
 #include "measuring.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* measure.h - one operation, timed on several trees in turn, their answers compared. */
+/* measure.h - times one operation on several trees in turn, and compares their answers. */
 #ifndef BENCH_MEASURE_H
 #define BENCH_MEASURE_H
 

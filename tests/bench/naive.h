@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* naive.h - how one would film without giving it much thought: the yardstick of octreel-bench.
+/* naive.h - the renderer that a programmer would write first: the yardstick of octreel-bench.
  *
- * The scene of a tick through OSMesa into its own buffer: twelve GL_LINES a box, a GL_POINT a marker, GL's own
- * matrices, text as the rectangles of its letters; then RGB through libpng with its defaults. It is not made slow on
- * purpose: vertices go as arrays, one call a kind, and nothing is computed that the picture does not need.
- */
+ * It draws the scene of a tick through OSMesa into its own buffer, with twelve GL_LINES for each box, a GL_POINT for
+ * each marker, GL's own matrices, and text as the rectangles of its letters; then it writes RGB through libpng with
+ * default settings. It is not made slow on purpose: vertices are passed as arrays, one call for each kind, and nothing
+ * is computed that the picture does not need. */
 #ifndef BENCH_NAIVE_H
 #define BENCH_NAIVE_H
 

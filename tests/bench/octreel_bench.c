@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* octreel_bench.c - octreel-bench: its command line, and its table of frames a second beside the naive way's. */
+/* octreel_bench.c - octreel-bench: its command line, and its table of frames per second beside those of the naive
+ * renderer. */
 #include "filming.h"
 #include "measuring.h"
 #include "program.h"

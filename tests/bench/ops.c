@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ops.c - the operations of the bench, and the trees that each is measured on. */
+/* ops.c - the operations of the bench, and the trees on which each is measured. */
 #include "ops.h"
 
 #include "peers.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ops.h - the operations of the bench, and the trees that each is measured on. */
+/* ops.h - the operations of the bench, and the trees on which each is measured. */
 #ifndef BENCH_OPS_H
 #define BENCH_OPS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* page_timing.h - the page of a recording, timed in headless Chromium. */
+/* page_timing.h - times the page of a recording in headless Chromium. */
 #ifndef BENCH_PAGE_TIMING_H
 #define BENCH_PAGE_TIMING_H
 

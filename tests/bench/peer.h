@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* peer.h - one face for every tree that the bench measures: the octree and its peers.
+/* peer.h - one interface for every tree that the bench measures: the octree and its peers.
  *
- * Each function takes a whole array, so that what is timed is the tree and not the call. A null function is an
- * operation that the tree does not have. The peers in C++ end the program where memory runs out.
- */
+ * Each function takes a whole array, so that the tree is timed and not the call. A null function is an operation that
+ * the tree does not have. The peers in C++ end the program when memory runs out. */
 #ifndef BENCH_PEER_H
 #define BENCH_PEER_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* peer_grid.c - what a game would use where everything moves: a uniform grid of doubles, built anew each tick by one
- * counting sort, with some two points a cell. Not made slow on purpose, and not clever: distances are rounded, and
- * ties fall as they may. */
+/* peer_grid.c - the structure that a game would use if everything moves: a uniform grid of doubles, rebuilt each tick
+ * by one counting sort, with about two points in a cell. It is neither made slow on purpose nor optimized: distances
+ * are rounded, and ties fall either way. */
 #include "peer.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* peer_octree.c - the octree as the bench sees it: default capacity and depth, leaves that grow. */
+/* peer_octree.c - the octree as a peer of the bench: default capacity and depth, leaves that grow. */
 #include "peer.h"
 
 #include <stdlib.h>

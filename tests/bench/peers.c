@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* peers.c - the trees that are in this build. */
+/* peers.c - the trees of this build. */
 #include "peers.h"
 
 const peer *const all_peers[] = {

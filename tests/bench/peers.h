@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* peers.h - the trees that are in this build. */
+/* peers.h - the trees of this build. */
 #ifndef BENCH_PEERS_H
 #define BENCH_PEERS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder_bench.c - octreel-recorder-bench: what the embedded recorder takes from the thread of the program that hands
- * its tree over, beside what the program's own tick takes. */
+/* recorder_bench.c - octreel-recorder-bench: the time that the embedded recorder takes from the program's thread,
+ * beside the time of the program's own tick. */
 #include "measuring.h"
 #include "octreel/recorder.h"
 #include "octree/octree.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report.c - what was measured: a table for people, a JSON object a line for programs. */
+/* report.c - prints the measurements: a table for people, and one JSON object per line for programs. */
 #include "report.h"
 
 #include <stdio.h>

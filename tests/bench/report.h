@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* report.h - what was measured: a table for people, a JSON object a line for programs. */
+/* report.h - prints the measurements: a table for people, and one JSON object per line for programs. */
 #ifndef BENCH_REPORT_H
 #define BENCH_REPORT_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* run_program.h - a program run as a child: how long it took, how much memory, and how it ended. */
+/* run_program.h - runs a program as a child, and measures its time, its memory and its exit status. */
 #ifndef BENCH_RUN_PROGRAM_H
 #define BENCH_RUN_PROGRAM_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_octreel_bench.c - what octreel-bench says of a filming of a few frames: its times mean nothing. */
+/* test_octreel_bench.c - octreel-bench prints complete results for a few frames; their times mean nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

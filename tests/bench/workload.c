@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* workload.c - what every tree is asked: one set of points, changes to it and targets, the same for all. */
+/* workload.c - the workload, the same for every tree: one set of points, changes to it, and targets of queries. */
 #include "workload.h"
 
 #include <math.h>

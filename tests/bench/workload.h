@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* workload.h - what every tree is asked: one set of points, changes to it and targets, the same for all. */
+/* workload.h - the workload, the same for every tree: one set of points, changes to it, and targets of queries. */
 #ifndef BENCH_WORKLOAD_H
 #define BENCH_WORKLOAD_H
 

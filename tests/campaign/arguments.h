@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* arguments.h - random arguments for operations: on points, beside them by a double or two, between them, far away. One
- * random number a statement: compilers differ in the order within.
- */
+/* arguments.h - random arguments for operations: on points, one or two doubles beside them, between them, and far away.
+ * Each statement draws at most one random number, because compilers evaluate operands in different orders. */
 #ifndef CAMPAIGN_ARGUMENTS_H
 #define CAMPAIGN_ARGUMENTS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ask_boxes.c - boxes, at rest and on their way: ranges and collisions. */
+/* ask_boxes.c - checks queries for boxes, at rest and moving: ranges and collisions. */
 #include "arguments.h"
 #include "fixture.h"
 #include "judge.h"

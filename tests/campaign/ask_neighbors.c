@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* ask_neighbors.c - nearest points and balls, decided by the real numbers; and what may stand for them with an epsilon
- * or in FAST mode.
- */
+/* ask_neighbors.c - checks nearest neighbours and balls, decided by real numbers, and the approximate answers that an
+ * epsilon or FAST mode allows. */
 #include "arguments.h"
 #include "brute.h"
 #include "fixture.h"

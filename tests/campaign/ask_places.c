@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ask_places.c - what lies at a place: find, contains, the leaf. */
+/* ask_places.c - checks queries at a place: find, contains, and the leaf. */
 #include "arguments.h"
 #include "fixture.h"
 #include "operations.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* campaign.c - octree-campaign: random operations on trees of every scene, each answer held against a scan of all
- * points.
- */
+/* campaign.c - octree-campaign: random operations on trees of every scene; each answer is compared with a scan of all
+ * points. */
 #include "octree/digest.h"
 #include "operations.h"
 #include "program.h"

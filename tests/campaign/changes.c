@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* changes.c - random changes, the same to the tree and to the model, some of them with an allocation that fails first.
- */
+/* changes.c - random changes, applied to the tree and to the model; in some of them an allocation fails first. */
 #include "arguments.h"
 #include "fixture.h"
 #include "octree/sample.h"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* cloud_campaign.c - runs octreel inspect on point clouds damaged at random: in a file or a pipe, LAZ through the
- * process that decompresses it where there is liblaszip.
+/* cloud_campaign.c - runs octreel inspect on point clouds damaged at random: from a file or a pipe; LAZ through the
+ * process that decompresses it, if liblaszip is installed.
  *
- * Each is read, with status 0, or refused with status 2 and one sentence of printable characters, within a time and
- * with an amount of memory that no small file needs; nothing is ended by a signal. */
+ * Each cloud is read, with status 0, or refused with status 2 and one sentence of printable characters, within a time
+ * and with an amount of memory that suffice for any small file; no command is ended by a signal. */
 #include <getopt.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* failing.c - preloaded into a program: the n-th allocation or call of the system that it makes itself fails, or each
- * thread from the n-th on.
+/* failing.c - preloaded into a program: makes the n-th allocation or system call of the program fail, or every thread
+ * from the n-th on.
  *
- * FAIL_MEMORY, FAIL_CALL or FAIL_THREAD is n, and FAIL_ERROR the errno of a call. What fails makes the file FAILED,
- * with the calls that led to it. The file FAIL_SITES gets a line for each that is led to as none before it was, with
- * its number. An allocation or call is the program's own where the first code on the way to it that is not of HELPERS
- * is the program's: what the C library, libpng and jansson need for it counts, and what Mesa and the loader of
- * libraries need does not, which end a program where they please. A program that hangs is ended.
+ * FAIL_MEMORY, FAIL_CALL or FAIL_THREAD is n, and FAIL_ERROR the errno of a call. A failure creates the file FAILED
+ * with its call stack. The file FAIL_SITES gets a line, with the number of the call, for each call stack that is new.
+ * An allocation or call is the program's own if the innermost stack frame outside of HELPERS is in the program.
+ * Allocations of the C library, libpng and jansson on behalf of the program count. Those of Mesa and of the dynamic
+ * loader do not, because these end the program on failure. A program that hangs is ended.
  *
- * A stream whose transfer fails is given another file below it, which takes or gives nothing: what was written before
- * is there, what is still in its buffer is lost, and whoever closes it learns of it, as on a full disk.
- */
+ * A stream whose transfer fails gets another file below it, which stores and returns nothing. Earlier writes are in the
+ * first file, the stream's buffer is lost, and closing the stream reports the error, as on a full disk. */
 #define _GNU_SOURCE
 #undef _FORTIFY_SOURCE /* it has functions of these names inline */
 #include <dirent.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* judge.h - what a visitor was called with, held against what belongs to the answer. */
+/* judge.h - compares the calls of a visitor with the points of the exact answer. */
 #ifndef CAMPAIGN_JUDGE_H
 #define CAMPAIGN_JUDGE_H
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* model.h - what a tree must hold and refuse: a plain list of points, and the paper's rule of full leaves without a
- * tree.
- */
+/* model.h - the model of a tree, which says what the tree must hold and refuse: a list of points, and the paper's rule
+ * of full leaves. */
 #ifndef CAMPAIGN_MODEL_H
 #define CAMPAIGN_MODEL_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* operations.h - all that a campaign does to a tree and asks of it. */
+/* operations.h - all operations that a campaign performs on a tree. */
 #ifndef CAMPAIGN_OPERATIONS_H
 #define CAMPAIGN_OPERATIONS_H
 

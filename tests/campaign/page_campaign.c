@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* page_campaign.c - as many random inputs as asked for in the page of a recording, in headless Chromium: keys, drags,
- * clicks, scrubs, controls, questions and dropped files, as drive_campaign.js has them. No exception may come of them,
- * and what is shown must be what an engine shows that has played the session from its beginning. */
+/* page_campaign.c - random inputs to the page of a recording, in headless Chromium: keys, drags, clicks, scrubs,
+ * controls, queries and dropped files, as drive_campaign.js makes them. No input may raise an exception, and the page
+ * must show the same as an engine that has played the session from its beginning. */
 #include <getopt.h>
 #include <inttypes.h>
 #include <stdint.h>

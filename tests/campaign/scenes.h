@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scenes.h - worlds, and the places in them where a campaign puts its points: one table of all that is ordinary and all
- * that is extreme.
- */
+/* scenes.h - worlds, and the places in them where a campaign puts its points: ordinary and extreme ones. */
 #ifndef CAMPAIGN_SCENES_H
 #define CAMPAIGN_SCENES_H
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* trial.h - the life of one tree: a scene, a tree, and the model that says what it must hold and answer.
- */
+/* trial.h - one trial: a scene, a tree, and the model that says what the tree must hold and answer. */
 #ifndef CAMPAIGN_TRIAL_H
 #define CAMPAIGN_TRIAL_H
 

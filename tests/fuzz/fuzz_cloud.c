@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_cloud.c - libFuzzer entry of the point cloud readers. The first line of an input is the suffix of the file's
- * name, such as "ply", or empty; the rest is the file. So the corpus stays valid when a format is added. */
+/* fuzz_cloud.c - libFuzzer entry of the point cloud readers. The first line of an input is the suffix of the file name,
+ * such as "ply", or empty; the rest is the file. Inputs of the corpus therefore stay valid when a format is added. */
 #include "cloud.h"
 #include "support/edited_words.h"
 

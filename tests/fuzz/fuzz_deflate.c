@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_deflate.c - libFuzzer entry of the encoder of rows: zlib's inflate gives the rows back, and accepts their
- * checksum. Three bytes say how long rows are and how the others become pixels. Build with clang
- * -fsanitize=fuzzer,address,undefined.
- */
+/* fuzz_deflate.c - libFuzzer entry of the encoder of rows: zlib's inflate must return the rows and accept their
+ * checksum. Three bytes choose the length of the rows and how the other bytes become pixels. Build with clang
+ * -fsanitize=fuzzer,address,undefined. */
 #include "deflate.h"
 
 #include <stdlib.h>

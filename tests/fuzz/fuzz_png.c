@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_png.c - libFuzzer entry of the PNG reader and of comparing what it reads. The first byte tells what the rest is:
- * a file as it is, a file whose checksums are put right, so that what is behind them is reached, or a recipe for a
- * legal file. Build with clang -fsanitize=fuzzer,address,undefined; no input may take more memory than the reader
- * promises.
+/* fuzz_png.c - libFuzzer entry of the PNG reader and the comparison of pictures. The first byte says what the rest is:
+ * a file; a file whose checksums are corrected, so that the code behind the checks is reached; or a recipe for a valid
+ * file. No input may take more memory than the reader promises. Build with clang -fsanitize=fuzzer,address,undefined.
  */
 #undef _POSIX_C_SOURCE
 #define _GNU_SOURCE /* memfd_create */

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_recording.c - libFuzzer entry of whole recordings: one that was filmed here is edited, all of its files
- * together, and is verified, compared with what it was, picked from, audited, accepted, resumed and joined. The first
- * byte says which recording, the second what is done with it, the rest are edits (support/edited_files.h). Build with
- * clang -fsanitize=fuzzer,address,undefined.
- */
+/* fuzz_recording.c - libFuzzer entry of whole recordings: the files of a recording are edited, and then the recording
+ * is verified, compared with its original, picked from, audited, accepted, resumed and joined. The first byte chooses
+ * the recording, the second the command, and the rest are edits (support/edited_files.h). Build with clang
+ * -fsanitize=fuzzer,address,undefined. */
 #include "accept.h"
 #include "audit_print.h"
 #include "contact_sheet.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_session.c - libFuzzer entry of the session reader and writer: what is read is written, and reads back to the
- * same bytes. Inputs change value by value. Build with clang -fsanitize=fuzzer,address,undefined.
- */
+/* fuzz_session.c - libFuzzer entry of the session reader and writer: an accepted session is written and must read back
+ * to the same bytes. Inputs change value by value. Build with clang -fsanitize=fuzzer,address,undefined. */
 #include "session_file.h"
 #include "support/edited_json.h"
 

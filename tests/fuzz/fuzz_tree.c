@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* fuzz_tree.c - libFuzzer entry of sequences of library calls: each is made of a tree and of a list of points, and both
- * must say the same. The first bytes say which tree, and each operation is six bytes; coordinates are whole, so that a
- * scan is exact. Allocations fail where an operation says so: the tree must then be as before. Build with clang
- * -fsanitize=fuzzer,address,undefined.
- */
+/* fuzz_tree.c - libFuzzer entry of sequences of library calls, made on a tree and on a list of points, which must
+ * agree. The first bytes choose the tree, and each operation is six bytes. Coordinates are whole numbers, so that a
+ * scan is exact. If an operation makes an allocation fail, the tree must be unchanged. Build with clang
+ * -fsanitize=fuzzer,address,undefined. */
 #include "octree/octree.h"
 #include "octree/sample.h"
 

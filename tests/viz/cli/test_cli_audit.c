@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_audit.c - octreel audit: the verdict on a program's answers; and recordings of sessions that have them. */
+/* test_cli_audit.c - octreel audit compares the answers of a foreign index with exact ones, and recordings keep both.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

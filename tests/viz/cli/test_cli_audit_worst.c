@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_audit_worst.c - octreel audit: which wrong answers are told first. */
+/* test_cli_audit_worst.c - octreel audit lists the worst answers first: those that no limit allows, then those beyond
+ * the limits. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_baseline.c - octreel accept into a baseline, and octreel diff against it, with and without its pictures. */
+/* test_cli_baseline.c - octreel accept writes baselines and their stored pictures, and octreel diff compares with them.
+ */
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_cause.c - octreel diff of two recordings: the cause in words and as JSON, and exit statuses. */
+/* test_cli_cause.c - octreel diff of two recordings reports the cause as text and as JSON, and ends with the right
+ * status. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

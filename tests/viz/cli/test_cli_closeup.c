@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_closeup.c - close-ups of clouds and of recordings without a player, as inspect, record, pick and diff have
- * them. */
+/* test_cli_closeup.c - close-ups of clouds, and of recordings without a player, in inspect, record, pick and diff. */
 #include "commands.h"
 #include "fixture.h"
 #include "png_chunks.h"

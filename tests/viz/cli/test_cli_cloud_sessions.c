@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_cloud_sessions.c - sessions whose points are those of a cloud: the world they are in, the ids they have, and
- * what is said where most of them are refused. */
+/* test_cli_cloud_sessions.c - sessions with a file of points: their world, the ids of the points, and the warnings
+ * about refused points. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_clouds.c - octreel inspect: clouds that cannot be read, places that cannot be written, and how far it is. */
+/* test_cli_clouds.c - octreel inspect refuses bad clouds and output paths, names the classes of points, and shows
+ * progress. */
 #include <stdio.h>
 #include <string.h>
 

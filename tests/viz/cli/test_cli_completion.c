@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_completion.c - bash, zsh and fish complete every command, option and choice, and files by what a command
- * takes. Where a shell is not installed, its tests say so and are skipped. */
+/* test_cli_completion.c - bash, zsh and fish complete every command, option and value, and the files that a command
+ * takes. Tests of a shell that is not installed are skipped. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_context.c - octreel's --context: who draws, what is said where nobody can, and that a renderer which is not
- * llvmpipe draws only where it is asked for. */
+/* test_cli_context.c - --context and --fill choose the renderer; a machine without OpenGL gets an error with a remedy,
+ * and a renderer other than llvmpipe draws only with --any-renderer. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_diff.c - octreel diff: exit statuses, what is said, JSON, and what is refused. */
+/* test_cli_diff.c - octreel diff: exit statuses, text, JSON, and refused arguments. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_evidence.c - octreel diff -o, --junit and --markdown: which files they leave, what they say of them, and
- * what is trouble. */
+/* test_cli_evidence.c - octreel diff -o, --junit and --markdown write the files that they promise, and report write
+ * errors. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

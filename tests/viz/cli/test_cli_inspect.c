@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_inspect.c - octreel inspect: its statistics add up, its nodes lie within each other, and what it refuses. */
+/* test_cli_inspect.c - octreel inspect: statistics, nodes and pictures agree with the cloud, and invalid arguments are
+ * refused. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_manuals.c - manuals say what --help says, of every option, and man and mandoc have nothing against them. */
+/* test_cli_manuals.c - manuals describe every option, member and kind of finding, and man and mandoc print no warning.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

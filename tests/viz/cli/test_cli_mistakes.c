@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_mistakes.c - slips on the command line, each one sentence that names the way on, and makes nothing; and
- * help. */
+/* test_cli_mistakes.c - each mistake on the command line gets one sentence with a remedy and writes nothing; and help
+ * is complete. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

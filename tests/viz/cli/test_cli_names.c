@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_names.c - names on the command line: empty ones, and those that a terminal would obey. */
+/* test_cli_names.c - empty names are refused, and control characters in names never reach the terminal. */
 #include <string.h>
 
 #include <stdio.h>

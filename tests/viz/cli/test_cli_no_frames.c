@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_no_frames.c - the commands about recordings, of recordings without frames: their ticks are compared, and
- * taken over. */
+/* test_cli_no_frames.c - recordings without frames are verified, compared and accepted by their ticks. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

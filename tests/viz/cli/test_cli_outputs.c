@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_outputs.c - what octreel writes does not take the place of what it reads, nor one of its files that of
- * another, however they are named; a command that is refused leaves nothing; what frames leave out is told. */
+/* test_cli_outputs.c - octreel never overwrites an input or another output, whatever their paths look like; a refused
+ * command writes nothing; left-out elements are reported. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_pick.c - octreel pick: what it says of pixels whose elements the camera tells, and how it ends. */
+/* test_cli_pick.c - octreel pick names the elements at a pixel, which the test computes from the camera, and refuses
+ * other files. */
 #include "commands.h"
 #include "edits.h"
 #include "recordings.h"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_play.c - octreel play: a session becomes a page that plays it, without a frame; and octreel record
- * --no-frames. */
+/* test_cli_play.c - octreel play writes a page that plays a session without frames, and overwrites only such pages. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

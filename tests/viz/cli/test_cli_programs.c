@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_programs.c - programs in Python, JavaScript and awk are filmed while they print their sessions, and their
- * answers are audited: those of tests/examples. */
+/* test_cli_programs.c - the programs of tests/examples, in Python, JavaScript and awk, are recorded while they print
+ * their sessions, and their answers are audited. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_progress.c - the progress bar on terminals of every width, and on those that cannot write a line over. */
+/* test_cli_progress.c - the progress bar fits terminals of every width, and is not shown on terminals that cannot
+ * overwrite a line. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_queries.c - octreel inspect asked on its command line: its answers are those of a scan over all points. */
+/* test_cli_queries.c - octreel inspect answers the queries of its command line as a scan over all points does. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

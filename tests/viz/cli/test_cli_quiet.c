@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_quiet.c - --quiet and --version, which every command has. */
+/* test_cli_quiet.c - every command has --quiet and --version. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

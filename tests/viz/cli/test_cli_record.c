@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_record.c - octreel and octreel record: what the command line takes, says and refuses. */
+/* test_cli_record.c - octreel and octreel record: arguments, output and refused input. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

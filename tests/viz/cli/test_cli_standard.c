@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_standard.c - "-" is standard input where a file is read, and standard output where one is written: with the
- * same bytes. */
+/* test_cli_standard.c - "-" is standard input for an input file and standard output for an output file, with the same
+ * bytes. */
 #define _XOPEN_SOURCE 700 /* pseudo terminals */
 
 #include <fcntl.h>

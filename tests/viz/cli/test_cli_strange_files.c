@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_strange_files.c - pipes and links where a recording's files belong: nobody waits for the other end of the
- * one, and nothing is written where the other leads. */
+/* test_cli_strange_files.c - pipes and links with the names of recording files: no command waits for a pipe or writes
+ * through a link. */
 #include <string.h>
 
 #include <stdio.h>

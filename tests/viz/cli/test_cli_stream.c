@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_stream.c - octreel record -: a session is filmed while it is written, to the bytes of its file; what came
- * before it broke off is a whole recording. */
+/* test_cli_stream.c - octreel record - films a session while it is written, to the same bytes as from a file; the ticks
+ * before an interruption are a whole recording. */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_told_once.c - octreel diff of many frames that differ for one cause: each report tells it once, and what
- * programs read has the form that is promised. */
+/* test_cli_told_once.c - octreel diff of many frames with one cause: each report names the cause once, and JSON follows
+ * its schema. */
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_cli_verify.c - octreel verify: what it says, and how it ends. */
+/* test_cli_verify.c - octreel verify: output and exit status. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_commands.c - what tests run commands with: names of folders hold any characters, and what ended is not waited
- * for. */
+/* test_commands.c - the functions by which tests run commands: folders with any characters in their names, and programs
+ * that end early. */
 #include <stdio.h>
 #include <string.h>
 #include <time.h>

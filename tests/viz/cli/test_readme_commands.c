@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_readme_commands.c - the README's lines of shell are run as they stand there, one after the other, in a folder
- * that has of a fresh clone what they name. */
+/* test_readme_commands.c - every command of the README works, run in order in a folder that has what a fresh clone has.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_readme_job.c - the README's job for GitHub, and the action that it uses: their lines are run as they stand
- * there, with frames of ours for those of somebody's game. */
+/* test_readme_job.c - the GitHub job of the README and the action that it uses work; frames of a test stand for those
+ * of a user. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_workflow.c - the workflows of this project: their lines are run as they stand there, on a machine where what
- * installs, builds and tests only writes down that it was called. */
+/* test_workflow.c - the steps of this project's workflows run, on a machine whose installers and compilers only record
+ * that they were called. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_aa.c - anti-aliasing: what a picture is made of, that letters stay crisp, and how large it may be. */
+/* test_aa.c - anti-aliasing: each pixel is the mean of its samples, letters stay crisp, and the size of pictures is
+ * limited. */
 #include <stdlib.h>
 #include <string.h>
 

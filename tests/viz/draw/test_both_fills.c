@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_both_fills.c - integers and GL give every scene the same picture, pixel for pixel: lines across each border,
- * places far outside the picture, markers, letters and panels of any size, and whole sessions with all layers. */
+/* test_both_fills.c - integers and GL draw every scene with the same pixels: lines across each border, places far
+ * outside the picture, markers, letters and panels of any size, and whole sessions with all layers. */
 #include "frames.h"
 #include "camera.h"
 #include "point_scale.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_canvas.c - what is not filled again is there all the same. */
+/* test_canvas.c - quads that are not filled again, because they did not change, are in the picture all the same. */
 #include "frames.h"
 #include "canvas.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_closeup_drawn.c - the pixels of a close-up are those of its scene, in its part of the picture alone, and their
- * elements are told. */
+/* test_closeup_drawn.c - the pixels of a close-up are those of its scene, only in its part of the picture, and pick
+ * finds their elements. */
 #include "frames.h"
 #include "layer.h"
 #include "pixel.h"

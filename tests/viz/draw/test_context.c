@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_context.c - contexts: each kind that is built draws the same, beside one of another kind too; llvmpipe alone. */
+/* test_context.c - all contexts draw the same pixels, also two at once, and only llvmpipe is accepted. */
 #include "frames.h"
 
 #include <stdlib.h>

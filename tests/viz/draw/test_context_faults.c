@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
-/* test_context_faults.c - what OSMesa, EGL and GL may lack or refuse: nothing is drawn, and the sentence says what.
+/* test_context_faults.c - missing functions and failures of OSMesa, EGL and GL: nothing is drawn, and the error says
+ * why.
  *
- * The linker hands the calls that open contexts and look up functions to this file (see tests/CMakeLists.txt). */
+ * The linker redirects the calls that open contexts and look up functions to this file (see tests/CMakeLists.txt). */
 #include <GL/gl.h>
 #include <GL/glext.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_draw_memory.c - the n-th allocation fails while something is drawn, n = 0, 1, 2 ...: nothing is drawn and the
- * sentence says why, or what is drawn with all memory. */
+/* test_draw_memory.c - if the n-th allocation fails while drawing, for n = 0, 1, 2 ..., nothing is drawn and the error
+ * says why, or the picture is the same as with all memory. */
 #include "fixture.h"
 
 #include <stdlib.h>

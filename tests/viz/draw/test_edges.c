@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_edges.c - the merged edges of boxes against every unit stretch of a small grid, and against counting. */
+/* test_edges.c - the merged edges of boxes, compared with every unit segment of a small grid and with a count. */
 #include "scenes.h"
 #include "edges.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_faces.c - the program of the build that makes rectangles of fonts: fonts of both versions, and files that are
- * none. */
+/* test_faces.c - the build's program that turns fonts into rectangles: fonts of both versions, and files that are not
+ * fonts. */
 #include "commands.h"
 #include "files.h"
 #include "fixture.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_fill.c - integers give every quad the pixels that GL gives it, in whatever way its corners lie. */
+/* test_fill.c - integers fill every quad with the pixels of GL, wherever its corners are. */
 #include "frames.h"
 #include "fill.h"
 

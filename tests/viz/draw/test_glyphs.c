@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_glyphs.c - the letters that were made of the fonts of this machine are those of every other, whichever release
- * of Spleen it has. */
+/* test_glyphs.c - the letters made from this machine's fonts are the same as on every machine, whichever release of
+ * Spleen it has. */
 #include "fixture.h"
 #include "frames.h"
 #include "glyphs.h"

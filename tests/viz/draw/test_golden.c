@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* test_golden.c - the frames of golden/ are drawn as they were: exactly.
+/* test_golden.c - the frames of golden/ are drawn exactly as before.
  *
- * GL alone draws all of them into the folder golden/ of the build's tests; integers, which fill frames by default,
- * must give the same. They are compared with the references as octreel diff does it; what differs leaves its evidence
- * in the current folder (<name>.ref.difference.png), and both renderers are named.
- * `test_golden --draw` draws and does no more: the target golden-update runs it, and octreel accept behind it.
- */
+ * GL draws all of them into the folder golden/ of the build's tests; integers, the default, must give the same. The
+ * frames are compared with the references as octreel diff does it. A different frame leaves <name>.ref.difference.png
+ * in the current folder, and both renderers are named. `test_golden --draw` only draws: the target golden-update runs
+ * it before octreel accept. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* test_greyscale.c - with the picture turned to greys, a collision is still told from free flight: by what is drawn,
- * and not by the colour that it is drawn in.
+/* test_greyscale.c - with the picture turned to greys, a collision can still be recognized: by different shapes, not
+ * only by different colours.
  *
- * A frame is turned to greys by the weights of Rec. 601, and then to what is lit: pixels that stand out from the
- * ground. A line that only changes its colour lights the same pixels as before.
- */
+ * A frame is turned to greys by the weights of Rec. 601, and then to the set of bright pixels, which stand out from the
+ * background. A line that only changes its colour has the same bright pixels as before. */
 #include "frames.h"
 #include "layer.h"
 

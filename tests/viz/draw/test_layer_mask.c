@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_layer_mask.c - where layers are seen in a picture. */
+/* test_layer_mask.c - the mask of layers covers the pixels at which elements of these layers are visible. */
 #include "frames.h"
 #include "layer.h"
 

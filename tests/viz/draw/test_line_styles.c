@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_line_styles.c - lines that are bold, and lines that are cut out of what lies beneath: what pixels they light. */
+/* test_line_styles.c - bold lines, cut lines, arrows and markers draw the pixels that they promise. */
 #include "frames.h"
 #include "layer.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_pixel.c - all elements of one pixel: what is on top, what it covers, and what is there by another's paint. */
+/* test_pixel.c - all elements of one pixel: the one on top, the covered ones, and those that share a line or point with
+ * it. */
 #include "frames.h"
 #include "golden_frames.h"
 #include "layer.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_project.c - clipping and cutting of segments, against long double, against sampling, and at 1e300. */
+/* test_project.c - projecting, clipping and cutting of segments, compared with long double, with sampling, and at
+ * 1e300. */
 #include "scenes.h"
 #include "project.h"
 

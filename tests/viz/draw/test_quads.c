@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_quads.c - painter's order, and the quads of a whole scene before any GL. */
+/* test_quads.c - the quads of a scene are in painter's order before they are rasterized. */
 #include "scenes.h"
 #include "paint.h"
 

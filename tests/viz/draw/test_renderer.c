@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_renderer.c - renderers: which sizes they take, and that the same scene is the same frame. */
+/* test_renderer.c - renderers accept certain sizes, and draw the same frame for the same scene. */
 #include "frames.h"
 #include "layer.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_same_bytes.c - a recording is the same bytes, renderer.json aside: filmed twice, played again from its own
- * session.json, by the library or the program, through any context, on
- * however many threads and on whatever processor. */
+/* test_same_bytes.c - a recording has the same bytes, except renderer.json: recorded twice, replayed from its own
+ * session.json, by the library or the program, through any context, with any number of threads and on any processor. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_splats.c - points that are painted one by one: the nearest wins, whatever their order; surfaces are closed at
- * any size of the picture; light tells what is near, and flat ground is evenly lit. */
+/* test_splats.c - points that are painted one by one: the nearest wins in any order, surfaces have no holes at any
+ * picture size, shading shows depth, and flat ground is evenly lit. */
 #include "frames.h"
 #include "brute.h"
 #include "point_scale.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_text_boxes.c - text lights no pixel outside the boxes that are told of it. */
+/* test_text_boxes.c - text draws no pixel outside its reported boxes. */
 #include "frames.h"
 #include "letters.h"
 #include "layer.h"

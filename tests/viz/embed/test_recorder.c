@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder.c - a program records itself: what comes out is the recording of what its tree was. */
+/* test_recorder.c - a program records itself: the recording has the program's tree at every tick. */
 #include "fixture.h"
 
 #include <jansson.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_answers.c - what a program answered to its queries is recorded with them, and judged. */
+/* test_recorder_answers.c - the answers of a program to its queries are recorded and compared with the exact ones. */
 #include "fixture.h"
 
 #include <stdio.h>

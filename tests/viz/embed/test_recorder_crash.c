@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_crash.c - what is left of the recording of a program that is killed. It forks, which it may while it
- * has drawn nothing: hence a program of its own.
- */
+/* test_recorder_crash.c - the recording of a killed program is resumed. The test forks before anything is drawn, which
+ * is why it is a program of its own. */
 #include "fixture.h"
 
 #include <signal.h>

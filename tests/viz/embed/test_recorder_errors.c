@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_errors.c - what a recorder refuses: each with its own status and a sentence, and nothing lost. */
+/* test_recorder_errors.c - a recorder refuses invalid calls, each with its own status and sentence, and loses nothing.
+ */
 #include "fixture.h"
 
 #include <fenv.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_followed.c - a tree tells the recorder what changed in it: the recording is that of a tree that is
- * looked at, whatever is done to it. */
+/* test_recorder_followed.c - a tree that reports its changes to the recorder gives the same recording as one that the
+ * recorder compares, whatever changes. */
 #include "fixture.h"
 
 #include <stdio.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_gaps.c - a tick that a recorder refuses keeps its number: the recording has a gap there, with the
- * reason, and closing and verifying say so.
- */
+/* test_recorder_gaps.c - a refused tick keeps its number: the recording has a gap there with the reason, which closing
+ * and verify report. */
 #include "fixture.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_lists.c - a program without an octree hands over its points by lists, or by what changed. */
+/* test_recorder_lists.c - a program without an octree passes its points as lists or as changes. */
 #include "fixture.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_memory.c - the n-th allocation of a call fails, n = 0, 1, 2 ...: the call says so, and nothing is lost.
- * Then one of the thread that films.
- */
+/* test_recorder_memory.c - if the n-th allocation of a call fails, for n = 0, 1, 2 ..., the call reports it and nothing
+ * is lost. Then the same for the thread that films. */
 #include "fixture.h"
 
 #include <stdio.h>

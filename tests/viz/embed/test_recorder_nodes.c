@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_nodes.c - the nodes of a program's own index, and how its queries met them, are recorded with a tick.
- */
+/* test_recorder_nodes.c - the nodes of a foreign index, and how its queries visited them, are recorded with a tick. */
 #include "fixture.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recorder_ring.c - the last ticks of a program, kept until it wants them filmed. */
+/* test_recorder_ring.c - a ring keeps the last ticks of a program until the program has them filmed. */
 #include "fixture.h"
 
 #include <fenv.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_session_nodes.c - foreign nodes in session files: round trips and errors; and their faults in ticks.jsonl. */
+/* test_session_nodes.c - foreign nodes in session files survive the round trip, invalid ones are refused, and wrong
+ * ones are listed in ticks.jsonl. */
 #include "fixture.h"
 #include "session_file.h"
 #include "session_texts.h"

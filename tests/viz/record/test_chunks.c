@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_chunks.c - a session filmed in chunks: what one leaves, what it refuses, and how they become the same bytes as
- * one film. What is missing or wrong is named. */
+/* test_chunks.c - a session recorded in chunks: the files of a chunk, the refused chunks, and chunks that join to the
+ * bytes of one recording. Missing and wrong parts are named. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

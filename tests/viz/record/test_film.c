@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_film.c - a session becomes a recording: its frames, what traces them to their ticks, and its lines. */
+/* test_film.c - a session becomes a recording: its frames, the text chunks that name their ticks, and its lines. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_film_report.c - the lines that record prints for ffmpeg: run in a shell, they make of every frame what they
- * say. */
+/* test_film_report.c - the commands for ffmpeg that record prints: a shell runs them, and they use every frame. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_folder.c - the folder of a recording: made with its parents, refused untouched, filled with whole files. */
+/* test_folder.c - the folder of a recording is made with its parents, refused unchanged, or filled with whole files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* test_frame_checks.c - GL draws the first, every 100th and the last frame too, and a wrong pixel stops the recording.
+/* test_frame_checks.c - GL also draws the first, every 100th and the last frame, and a wrong pixel stops the recording.
  *
- * The linker hands fill_quads() and dlopen() to this file (see tests/CMakeLists.txt). */
+ * The linker redirects fill_quads() and dlopen() to this file (see tests/CMakeLists.txt). */
 #include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_full_disk.c - writing that fails at any byte: a sentence that names the file, and nothing half written. */
+/* test_full_disk.c - a write that fails at any byte is an error that names the file, and leaves only whole files. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_jobs.c - a recording by several processes: the bytes of one, whatever becomes of the processes. */
+/* test_jobs.c - a recording by several processes has the bytes of one process, even if a process is stopped or killed.
+ */
 #define _GNU_SOURCE /* leases of files, where there are any */
 #include <errno.h>
 #include <fcntl.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* test_killed.c - a kill at any call: every frame that is there is whole, and the recording is completed to the bytes
- * of one that was left alone.
+/* test_killed.c - after a kill at any call every frame is whole, and the recording is resumed to the bytes of an
+ * uninterrupted one.
  *
- * What a kill leaves is the files as they are at that call, and no buffer. So the program is run once, stopped at each
- * call, and its folder is copied as it is there. That this is what a kill leaves is tested at some of them.
- */
+ * A kill leaves the files as they are at that call; buffers are lost. The program therefore runs once, is stopped at
+ * each call, and its folder is copied. At some of the calls it is really killed, to check that this leaves the same
+ * files. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_no_frames.c - recordings without frames: their ticks are what there is, whoever makes them; and a page that
- * cannot play its session is not made. */
+/* test_no_frames.c - recordings without frames consist of ticks and a page, by every way of recording; a page that
+ * could not play its session is refused. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_page.c - index.html of a recording: the facts of ticks.jsonl, safe within a page that needs nothing else;
- * there whole or not at all. What the page does with them is test_page_shown.c. */
+/* test_page.c - index.html of a recording contains the facts of ticks.jsonl, loads no other file, and is written whole
+ * or not at all. test_page_shown.c tests what it shows. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_page_hostile.c - pages that are not as they were written, or that a browser without WebAssembly opens: they say
- * so, and show what they can. */
+/* test_page_hostile.c - damaged pages, and pages in a browser without WebAssembly, say so and show what they can. */
 #include <stdlib.h>
 #include <string.h>
 

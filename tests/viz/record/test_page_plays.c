@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_page_plays.c - index.html in headless Chromium plays the session by itself: the same ticks, scenes and pixels as
- * the recording's, whatever the way there; what is picked, asked and taken over is what the program says of it. */
+/* test_page_plays.c - index.html in headless Chromium plays the session itself: the ticks, scenes and pixels of the
+ * recording in any order; picks, queries and saved sessions agree with the program. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_page_sessions.c - index.html plays any session as it was recorded: random ones, those with all that a session
- * can have, and those of the frames of golden/. What is at a pixel is what pick says, and what is played on there is a
- * session that films and verifies as the same. */
+/* test_page_sessions.c - index.html plays any session as it was recorded: random ones, sessions with every feature, and
+ * those of golden/. A click names what pick names, and a session played on the page records and verifies. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_page_shown.c - index.html in headless Chromium: it opens from the disk, steps, plays and filters, and shows
- * what ticks.jsonl says. */
+/* test_page_shown.c - index.html in headless Chromium opens from the disk, steps, plays and filters, and shows the
+ * facts of ticks.jsonl. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_picture.c - what pixels a scene lights, and which it leaves alone. */
+/* test_picture.c - a scene draws the pixels that it should, and no others. */
 #include "frames.h"
 #include "layer.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_picture_file.c - a picture as a file: opaque, without gamma, and its pixels are those that were drawn. */
+/* test_picture_file.c - a picture's file is opaque, has no gamma, and contains the drawn pixels. */
 #include <string.h>
 
 #include "files.h"

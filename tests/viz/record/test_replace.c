@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_replace.c - octreel record --replace: a recording goes for another one, whole or not at all, and nothing else
- * goes with it.
- */
+/* test_replace.c - octreel record --replace replaces a recording whole or not at all, and keeps all other files of the
+ * folder. */
 #include "fixture.h"
 
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_resume.c - a recording that was stopped or broke off, completed to the bytes of one that was not; what is there
- * is believed for its pixels and not for its name. */
+/* test_resume.c - a stopped or interrupted recording is resumed to the bytes of an uninterrupted one; existing frames
+ * are checked by their pixels. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

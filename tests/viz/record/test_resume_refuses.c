@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_resume_refuses.c - what octreel record --resume, and a chunk, do not touch: files of somebody else, of another
- * session or view, and folders that say nothing of what was to be filmed. */
+/* test_resume_refuses.c - octreel record --resume and --ticks do not change unrelated files, files of another session
+ * or view, or folders that do not say what was recorded. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_inspect.c - the world of a cloud at its extremes, and the tree that is built in it. */
+/* test_inspect.c - the world that is chosen for a cloud, also at the limits of doubles, and the tree that is built in
+ * it. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_many_changes.c - ticks in which very many nodes split and merge: their lines are short, and what these nodes are
- * is found by playing the session again. */
+/* test_many_changes.c - ticks in which very many nodes split and merge have short lines, and the nodes are found by
+ * replaying the session. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_pick.c - which element is seen at a sample: against the frame itself, against scenes of one element, and against
- * the places of boxes, which are found by the camera alone. */
+/* test_pick.c - the element that is visible at a sample, compared with the frame itself, with scenes of one element,
+ * and with the places of boxes that the camera gives. */
 #include "frames.h"
 #include "golden_frames.h"
 #include "layer.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_recording_bombs.c - no ticks.jsonl takes more memory than its session's ticks do. */
+/* test_recording_bombs.c - reading ticks.jsonl takes at most as much memory as the ticks of its session. */
 #include <stdlib.h>
 #include <string.h>
 

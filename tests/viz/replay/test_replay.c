@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* test_replay.c - sessions replay to the same ticks.jsonl and the same scenes on every machine and compiler: to the
- * digests in replay_digests.txt, a line a tick. tests/viz/same_ticks_everywhere runs this under the compilers at hand,
- * with FMA and without.
+ * digests in replay_digests.txt, one line for each tick. tests/viz/same_ticks_everywhere runs this test with the
+ * installed compilers, with FMA and without.
  *
- * What ticks or scenes say may change on purpose: the target replay-update (test_replay --update) writes that file
- * anew. The tree's speed, its layout in memory, a compiler or a processor must not change a digest.
- */
+ * Ticks or scenes may change on purpose: the target replay-update (test_replay --update) then rewrites the file. The
+ * tree's speed, its layout in memory, a compiler or a processor must not change a digest. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

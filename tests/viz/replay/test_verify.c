@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_verify.c - verifying: a recording is identical to what its session makes; a session and a view that were changed
- * by hand are found, and what cannot be verified is trouble. */
+/* test_verify.c - octreel verify accepts a recording that its session reproduces, finds a changed session or view, and
+ * reports what cannot be verified. */
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_verify_damage.c - verifying: no byte of a recording can change unnoticed, and none does harm. */
+/* test_verify_damage.c - octreel verify finds every changed byte of a recording, and no damage makes it crash. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* test_verify_frames.c - verifying: frames that are missing, torn, exchanged, painted over, too many, or drawn by
- * another renderer are found and told apart. */
+/* test_verify_frames.c - octreel verify finds frames that are missing, torn, exchanged, edited, surplus or drawn by
+ * another renderer, and distinguishes them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

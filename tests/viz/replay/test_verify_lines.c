@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_verify_lines.c - verifying: what was changed by hand in ticks.jsonl is found, and the fact that differs is
- * named. */
+/* test_verify_lines.c - octreel verify finds edited lines of ticks.jsonl and names the fact that differs. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
