@@ -55,15 +55,6 @@ static bool allocate_lists(batch *b)
 
 enum { TOGETHER = 64 }; /* positions whose codes are computed in one call */
 
-/* Complete the code of a position if it is unsure. Returns OK if the position is in the world. */
-static octree_status complete_code(const octree *tree, const double position[3], uint64_t *code)
-{
-    const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
-    if (*code == MORTON_UNSURE && status == OCTREE_OK)
-        *code = morton_code(tree->axes, position);
-    return status;
-}
-
 /* Check a point and, for a move, its destination. */
 static octree_status check_point(const batch *b, size_t place, uint64_t *code)
 {
@@ -124,15 +115,6 @@ static void collect_items(batch *b)
 
 enum { LEAST_REMADE = 64 };
 
-/* Whether ids are strictly ascending, as when a program counts them: then no pair is repeated. */
-static bool ids_ascend(const batch *b)
-{
-    for (size_t i = 1; i < b->count; i++)
-        if (b->points[i].id <= b->points[i - 1].id)
-            return false;
-    return true;
-}
-
 static bool sort_items(batch *b)
 {
     morton_item *spare = b->spare ? b->spare : allocate_items(b, 1);
@@ -170,12 +152,6 @@ static bool choose_remake(batch *b)
 
 octree_status batch_begin(batch *b)
 {
-    if (!b->tree || (b->count && !b->points))
-        return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
-    if (b->count >= UINT32_MAX)
-        return OCTREE_TOO_MANY;
     b->store = &b->tree->store;
     if (!choose_remake(b))
         return OCTREE_NO_MEMORY;
@@ -183,30 +159,15 @@ octree_status batch_begin(batch *b)
     return b->remakes ? OCTREE_OK : batch_collect(b);
 }
 
-/* Compute the grid cells of points, which replace items when an empty tree is built. */
-static void find_cells(const batch *b, size_t first, size_t count)
-{
-    const octree_point *points = b->points + first;
-    uint32_t *cells = b->cells + first;
-    grid_cells(b->tree->axes, b->grid, points->position, sizeof *points / sizeof(double), count, cells);
-    for (size_t i = 0; i < count; i++) {
-        octree_status status = OCTREE_OK;
-        if (cells[i] == GRID_NONE)
-            status = check_position(b->tree, points[i].position);
-        if (cells[i] == GRID_NONE && status == OCTREE_OK)
-            cells[i] = grid_cell(b->tree->axes, b->grid, points[i].position);
-        if (b->statuses)
-            b->statuses[first + i] = status;
-    }
-}
-
+/* Find the grid cells of a share of the points. Cells replace items when an empty tree is built. */
 static void find_share(size_t number, void *context)
 {
     const batch *b = context;
     const unsigned tasks = tasks_for(b->tree, b->count);
     const size_t end = tasks_share(b->count, tasks, number + 1);
     for (size_t i = tasks_share(b->count, tasks, number); i < end; i += GRID_TOGETHER)
-        find_cells(b, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER);
+        find_grid_cells(b, b->points + i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, b->cells + i,
+                        b->statuses ? b->statuses + i : NULL);
 }
 
 octree_status batch_collect(batch *b)
@@ -238,11 +199,8 @@ void release_repetitions(batch *b)
 
 void batch_end(batch *b)
 {
-    if (!b->tree)
-        return;
     release_repetitions(b);
-    if (b->store)
-        division_end(b);
+    division_end(b);
     release_items(b, b->lists, list_count(b));
     arena_give(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
@@ -383,20 +341,19 @@ static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visi
 typedef struct visits {
     division *division;
     leaf_visitor *visitor;
-    list all;
 } visits;
 
-/* List subtrees with their items, each of at most `grain` items or a single leaf. False when there is no memory. */
-static bool gather_visits(batch *b, list *all, node *n, unsigned depth, span items)
+/* Make jobs of subtrees with their items, each of at most `grain` items or a single leaf. False when there is no
+ * memory.
+ */
+static bool gather_visits(batch *b, const node *n, unsigned depth, span items)
 {
-    if (!n || !n->octants || items.count <= b->division->grain) {
-        const visit v = {n, depth, items};
-        return list_push(&b->store->memory, all, &v, sizeof v);
-    }
+    if (!n || !n->octants || items.count <= b->division->grain)
+        return division_add_job(b, n, (cell){.depth = depth}, (span){NULL, 0}, items);
     span shares[8];
     divide_items(items, depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
-        if (shares[octant].count > 0 && !gather_visits(b, all, child_at(n, octant), depth + 1, shares[octant]))
+        if (shares[octant].count > 0 && !gather_visits(b, child_at(n, octant), depth + 1, shares[octant]))
             return false;
     return true;
 }
@@ -411,37 +368,24 @@ static void visit_part(size_t number, void *context)
 {
     const visits *v = context;
     const size_t first = v->division->starts[number], end = v->division->starts[number + 1];
-    const visit *all = v->all.items;
+    const job *jobs = v->division->work.jobs.items;
     batch *b = &v->division->parts[number].batch;
-    const size_t before = first < end ? (size_t)(all[first].items.items - b->valid.items) : 0;
+    const size_t before = first < end ? (size_t)(jobs[first].arriving.items - b->valid.items) : 0;
     b->leaving = list_from(b->leaving, before);
     b->arriving = list_from(b->arriving, before);
     b->done = 0;
-    for (size_t i = first; i < end; i++)
-        visit_below(b, all[i].node, all[i].depth, all[i].items, v->visitor);
-}
-
-static void share_visits(division *d, const list *all, size_t total)
-{
-    const visit *items = all->items;
-    size_t sum = 0, next = 0;
-    for (unsigned task = 0; task < d->tasks; task++) {
-        d->starts[task] = next;
-        for (; next < all->count && sum < tasks_share(total, d->tasks, task + 1); next++)
-            sum += items[next].items.count;
-    }
-    d->starts[d->tasks] = all->count;
+    for (size_t i = first; i < end; i++) /* the nodes of the tree are not const */
+        visit_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, v->visitor);
 }
 
 /* False when there is no memory; then nothing was visited. */
 static bool visit_by_tasks(batch *b, leaf_visitor *visitor)
 {
     division *d = b->division;
-    visits v = {.division = d, .visitor = visitor};
-    const bool ok = gather_visits(b, &v.all, &b->tree->root, 0, b->valid);
+    const bool ok = gather_visits(b, &b->tree->root, 0, b->valid);
     if (ok) {
-        share_visits(d, &v.all, b->valid.count);
-        division_run(b, visit_part, &v);
+        division_share_jobs(d);
+        division_run(b, visit_part, &(visits){d, visitor});
     }
     for (unsigned i = 0; ok && i < d->tasks; i++) {
         const batch *part = &d->parts[i].batch;
@@ -449,7 +393,7 @@ static bool visit_by_tasks(batch *b, leaf_visitor *visitor)
         append_part(&b->arriving, part->arriving);
         b->done += part->done;
     }
-    list_release(&b->store->memory, &v.all, sizeof(visit));
+    list_release(&b->store->memory, &d->work.jobs, sizeof(job));
     return ok;
 }
 

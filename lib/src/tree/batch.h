@@ -97,7 +97,19 @@ static inline octree_status check_inside(const octree *tree, const double positi
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
 }
 
+/* Complete a code that is MORTON_UNSURE. Returns OK if the position is in the world. */
+static inline octree_status complete_code(const octree *tree, const double position[3], uint64_t *code)
+{
+    const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
+    if (*code == MORTON_UNSURE && status == OCTREE_OK)
+        *code = morton_code(tree->axes, position);
+    return status;
+}
+
 void batch_end(batch *b);
+
+/* Whether the ids of the batch are strictly ascending, as when a program counts them: then no pair is repeated. */
+bool ids_ascend(const batch *b);
 
 /* Store in *differ whether all ids of the batch differ: then no change depends on another, except where a leaf is full.
  * False when there is no memory. */

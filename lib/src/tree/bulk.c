@@ -7,109 +7,9 @@
 
 #include <string.h>
 
-/* End a batch. *done (may be null) receives the number of points changed. */
-static octree_status finish(batch *b, octree_status status, size_t *done)
-{
-    if (status == OCTREE_OK && b->done > 0)
-        b->tree->version++;
-    if (status == OCTREE_OK && done)
-        *done = b->done;
-    batch_end(b);
-    return status;
-}
-
-/* ---- Points in the tree's own memory ------------------------------------------------------------------------- */
-
-/* Whether the caller's array lies in a leaf of the tree. */
-static bool lie_in_leaf(const octree *tree, const octree_point *points, size_t count)
-{
-    if (!points || count == 0 || check_position(tree, points->position) != OCTREE_OK)
-        return false;
-    const path p = path_to(tree, morton_code(tree->axes, points->position));
-    const node *end = path_end(&p);
-    for (uint32_t i = 0; end->octants == 0 && i + count <= end->count; i++)
-        if (points == &leaf_points(end)[i])
-            return true;
-    return false;
-}
-
-/* Make a batch of changes with a copy of the points. */
-static octree_status change_copies(octree *tree, octree_change_kind kind, const octree_point *points,
-                                   const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
-{
-    arena *memory = &tree->store.memory;
-    octree_point *copies = arena_take(memory, count * sizeof *copies);
-    if (!copies)
-        return OCTREE_NO_MEMORY;
-    memcpy(copies, points, count * sizeof *copies);
-    const octree_status status = change_batch(tree, kind, copies, to, count, statuses, done);
-    arena_give(memory, copies, count * sizeof *copies);
-    return status;
-}
-
-/* ---- Ids ---------------------------------------------------------------------------------------------------- */
-
-/* Whether ids are close enough together for a table of one bit per id. */
-static bool are_dense(const batch *b, uint64_t least, uint64_t most)
-{
-    return most - least < 64 * (uint64_t)b->count;
-}
-
-static bool bits_differ(const batch *b, uint64_t least, uint64_t *bits)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        const uint64_t at = b->points[i].id - least, bit = UINT64_C(1) << at % 64;
-        if (bits[at / 64] & bit)
-            return false;
-        bits[at / 64] |= bit;
-    }
-    return true;
-}
-
-/* A hash table with linear probing; a slot holds an index + 1, or 0. */
-static bool hashes_differ(const batch *b, uint32_t *table, size_t slots)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        const uint64_t id = b->points[i].id;
-        size_t slot = (size_t)(id ^ (id >> 32) * UINT64_C(0x9e3779b97f4a7c15)) & (slots - 1);
-        for (; table[slot]; slot = (slot + 1) & (slots - 1))
-            if (b->points[table[slot] - 1].id == id)
-                return false;
-        table[slot] = (uint32_t)(i + 1);
-    }
-    return true;
-}
-
-bool ids_differ(const batch *b, bool *differ)
-{
-    uint64_t least = UINT64_MAX, most = 0;
-    *differ = true;
-    for (size_t i = 0; i < b->count; i++) {
-        const uint64_t id = b->points[i].id;
-        *differ &= i == 0 || id > most; /* true while ids ascend */
-        least = id < least ? id : least;
-        most = id > most ? id : most;
-    }
-    if (*differ)
-        return true;
-    size_t slots = 64;
-    while (slots < 2 * b->count)
-        slots *= 2;
-    const bool dense = are_dense(b, least, most);
-    const size_t size = dense ? ((size_t)(most - least) / 64 + 1) * sizeof(uint64_t) : slots * sizeof(uint32_t);
-    arena *memory = &b->tree->store.memory;
-    void *table = arena_take(memory, size);
-    if (!table)
-        return false;
-    memset(table, 0, size);
-    *differ = dense ? bits_differ(b, least, table) : hashes_differ(b, table, slots);
-    arena_give(memory, table, size);
-    return true;
-}
-
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
-static octree_status insert_valid(batch *b)
+static octree_status insert_valid_points(batch *b)
 {
     const uint32_t before = b->tree->root.count;
     if (!drop_repetitions(b))
@@ -121,30 +21,6 @@ static octree_status insert_valid(batch *b)
     const octree_status status = restructure(b);
     b->done = b->tree->root.count - before;
     set_repeated_statuses(b, OCTREE_DUPLICATE);
-    return status;
-}
-
-octree_status insert_sorted(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                            size_t *inserted)
-{
-    batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses, .inserts = true};
-    octree_status status = batch_begin(&b);
-    if (status == OCTREE_OK)
-        status = insert_valid(&b);
-    return finish(&b, status, inserted);
-}
-
-octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                                 size_t *inserted)
-{
-    if (lie_in_leaf(tree, points, count))
-        return change_copies(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
-    if (tree && change_log_is_on(&tree->changes))
-        return change_batch_and_log(tree, OCTREE_INSERTED, points, NULL, count, statuses, inserted);
-    const bool few = tree && points && are_few(tree, count) && float_mode_is_default();
-    const octree_status status = (few ? insert_few : insert_sorted)(tree, points, count, statuses, inserted);
-    if (status == OCTREE_OK)
-        tune_if_due(tree);
     return status;
 }
 
@@ -164,7 +40,7 @@ static void find_removed(batch *b, node *leaf, unsigned depth, span items)
     }
 }
 
-static octree_status remove_valid(batch *b)
+static octree_status remove_valid_points(batch *b)
 {
     if (!drop_repetitions(b))
         return OCTREE_NO_MEMORY;
@@ -173,26 +49,6 @@ static octree_status remove_valid(batch *b)
     set_repeated_statuses(b, OCTREE_NOT_FOUND);
     b->done = b->leaving.count;
     return restructure(b);
-}
-
-octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                                 size_t *removed)
-{
-    if (lie_in_leaf(tree, points, count))
-        return change_copies(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
-    if (tree && change_log_is_on(&tree->changes))
-        return change_batch_and_log(tree, OCTREE_REMOVED, points, NULL, count, statuses, removed);
-    batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
-    octree_status status = OCTREE_OK;
-    bool differ = false;
-    if (tree && points && are_few(tree, count) && float_mode_is_default() && !ids_differ(&b, &differ))
-        return OCTREE_NO_MEMORY;
-    if (differ)
-        return remove_few(tree, points, count, statuses, removed);
-    status = batch_begin(&b);
-    if (status == OCTREE_OK)
-        status = remove_valid(&b);
-    return finish(&b, status, removed);
 }
 
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
@@ -286,7 +142,7 @@ static octree_status move_in_order(batch *b)
     return resolve_moves_in_order(b) ? restructure(b) : OCTREE_NO_MEMORY;
 }
 
-static octree_status move_valid(batch *b)
+static octree_status move_valid_points(batch *b)
 {
     bool settled = false;
     octree_status status = OCTREE_OK;
@@ -303,18 +159,120 @@ static octree_status move_valid(batch *b)
     return settled || status != OCTREE_OK ? status : move_in_order(b);
 }
 
+/* ---- Many changes of one kind ------------------------------------------------------------------------------- */
+
+static octree_status check_arguments(const batch *b, octree_change_kind kind)
+{
+    if (!b->tree || (b->count && (!b->points || (kind == OCTREE_MOVED && !b->to))))
+        return OCTREE_NULL_ARGUMENT;
+    if (!float_mode_is_default())
+        return OCTREE_FLOAT_MODE;
+    return b->count < UINT32_MAX ? OCTREE_OK : OCTREE_TOO_MANY;
+}
+
+/* Whether the caller's array lies in a leaf of the tree. */
+static bool lies_in_leaf(const octree *tree, const octree_point *points, size_t count)
+{
+    if (count == 0 || check_position(tree, points->position) != OCTREE_OK)
+        return false;
+    const path p = path_to(tree, morton_code(tree->axes, points->position));
+    const node *end = path_end(&p);
+    for (uint32_t i = 0; end->octants == 0 && i + count <= end->count; i++)
+        if (points == &leaf_points(end)[i])
+            return true;
+    return false;
+}
+
+/* Sort the points of a batch and change the tree. */
+static octree_status change_sorted(batch *b, octree_status (*change)(batch *b))
+{
+    octree_status status = batch_begin(b);
+    if (status == OCTREE_OK)
+        status = change(b);
+    batch_end(b);
+    return status;
+}
+
+octree_status insert_sorted(batch *b)
+{
+    return change_sorted(b, insert_valid_points);
+}
+
+static octree_status change_points(batch *b, octree_change_kind kind)
+{
+    const bool few = kind != OCTREE_MOVED && are_few(b->tree, b->count);
+    bool differ = false;
+    switch (kind) {
+    case OCTREE_INSERTED:
+        return few ? insert_few(b) : insert_sorted(b);
+    case OCTREE_REMOVED:
+        if (few && !ids_differ(b, &differ))
+            return OCTREE_NO_MEMORY;
+        return differ ? remove_few(b) : change_sorted(b, remove_valid_points);
+    default:
+        return change_sorted(b, move_valid_points);
+    }
+}
+
+static void log_changes(const batch *b, octree_change_kind kind)
+{
+    for (size_t i = 0; i < b->count && change_log_is_on(&b->tree->changes); i++)
+        if (b->statuses[i] == OCTREE_OK)
+            change_log_append(b->tree, kind, &b->points[i], b->to ? b->to[i] : b->points[i].position);
+}
+
+/* Make a batch of changes and log them. Points that lie in the tree's own memory are copied first. */
+static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
+{
+    octree_status status = check_arguments(&b, kind);
+    if (status != OCTREE_OK)
+        return status;
+    change_log *log = &b.tree->changes;
+    arena *memory = &b.tree->store.memory;
+    const uint64_t version = b.tree->version;
+    const bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
+    const size_t copies_size = lies_in_leaf(b.tree, b.points, b.count) ? b.count * sizeof *b.points : 0;
+    const size_t statuses_size = logs && !b.statuses ? b.count * sizeof *b.statuses : 0;
+    octree_point *copies = copies_size ? arena_take(memory, copies_size) : NULL;
+    octree_status *statuses = statuses_size ? arena_take(memory, statuses_size) : NULL;
+    if (copies)
+        b.points = memcpy(copies, b.points, copies_size);
+    if (statuses)
+        b.statuses = statuses;
+    status = copies_size && !copies ? OCTREE_NO_MEMORY : change_points(&b, kind);
+    const bool changes = status == OCTREE_OK && b.done > 0;
+    b.tree->version = version + changes;
+    if (changes && logs && b.statuses)
+        log_changes(&b, kind);
+    else if (changes && change_log_is_on(log))
+        change_log_stop(log, memory);
+    if (status == OCTREE_OK && done)
+        *done = b.done;
+    arena_give(memory, copies, copies_size);
+    arena_give(memory, statuses, statuses_size);
+    return status;
+}
+
+octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                 size_t *inserted)
+{
+    const batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses, .inserts = true};
+    const octree_status status = change_many(b, OCTREE_INSERTED, inserted);
+    if (status == OCTREE_OK)
+        tune_if_due(tree);
+    return status;
+}
+
+octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
+                                 size_t *removed)
+{
+    const batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
+    return change_many(b, OCTREE_REMOVED, removed);
+}
+
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved)
 {
-    if (lie_in_leaf(tree, points, count))
-        return change_copies(tree, OCTREE_MOVED, points, to, count, statuses, moved);
-    if (tree && change_log_is_on(&tree->changes))
-        return change_batch_and_log(tree, OCTREE_MOVED, points, to, count, statuses, moved);
-    if (count && !to)
-        return OCTREE_NULL_ARGUMENT;
-    batch b = {.tree = tree, .points = points, .to = to, .count = count, .statuses = statuses};
-    octree_status status = batch_begin(&b);
-    if (status == OCTREE_OK)
-        status = move_valid(&b);
-    return finish(&b, status, moved);
+    const batch b = {.tree = tree, .points = points, .to = to, .count = count, .statuses = statuses};
+    return change_many(b, OCTREE_MOVED, moved);
 }

@@ -183,15 +183,15 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 {
-    if (tree && change_log_is_on(&tree->changes))
-        return change_and_log(tree, OCTREE_INSERTED, position, id, position);
-    const octree_status status = check_position(tree, position);
+    octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
-    const octree_status inserted = insert_point(tree, &(octree_point){{position[0], position[1], position[2]}, id},
-                                                morton_code(tree->axes, position), true);
+    const octree_point point = {{position[0], position[1], position[2]}, id};
+    status = insert_point(tree, &point, morton_code(tree->axes, position), true);
+    if (status == OCTREE_OK && change_log_is_on(&tree->changes))
+        change_log_append(tree, OCTREE_INSERTED, &point, point.position);
     tune_if_due(tree);
-    return inserted;
+    return status;
 }
 
 /* ---- Removing: allocate first, then change, so that a move can allocate before it changes anything ---------- */
@@ -249,64 +249,78 @@ static void remove_found(octree *tree, const found_point *found, node *spare)
     tree->version++;
 }
 
-octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
+octree_status remove_point(octree *tree, const octree_point *point)
 {
-    if (tree && change_log_is_on(&tree->changes))
-        return change_and_log(tree, OCTREE_REMOVED, position, id, position);
-    const octree_status status = check_position(tree, position);
-    if (status != OCTREE_OK)
-        return status;
     found_point found;
-    if (!find_point(tree, position, id, &found))
-        return OCTREE_NOT_FOUND;
     node spare;
+    if (!find_point(tree, point->position, point->id, &found))
+        return OCTREE_NOT_FOUND;
     if (!reserve_merge(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
     remove_found(tree, &found, &spare);
     return OCTREE_OK;
 }
 
+octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
+{
+    octree_status status = check_position(tree, position);
+    if (status != OCTREE_OK)
+        return status;
+    const octree_point removed = {{position[0], position[1], position[2]}, id}; /* `position` may be in the leaf */
+    status = remove_point(tree, &removed);
+    if (status == OCTREE_OK && change_log_is_on(&tree->changes))
+        change_log_append(tree, OCTREE_REMOVED, &removed, NULL);
+    return status;
+}
+
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
 /* Move a point to another leaf. Only the insertion can be refused, so it comes first; the memory of the removal is
  * allocated before it. That suffices: the insertion only adds points, so no more nodes merge after it than before. */
-static octree_status move_across(octree *tree, const found_point *found, const octree_point *moved)
+static octree_status move_to_other_leaf(octree *tree, found_point *found, const octree_point *old,
+                                        const octree_point *moved, uint64_t code)
 {
-    const octree_point old = leaf_points(path_end(&found->path))[found->index];
     node spare;
     if (!reserve_merge(tree, found, &spare))
         return OCTREE_NO_MEMORY;
-    const octree_status status = insert_point(tree, moved, morton_code(tree->axes, moved->position), true);
+    const octree_status status = insert_point(tree, moved, code, true);
     if (status != OCTREE_OK) {
         leaf_release(&tree->store, &spare);
         return status;
     }
-    found_point again; /* the insertion may have moved nodes in memory */
-    find_point(tree, old.position, old.id, &again);
-    remove_found(tree, &again, &spare);
+    find_point(tree, old->position, old->id, found); /* again: the insertion may have moved nodes in memory */
+    remove_found(tree, found, &spare);
+    return OCTREE_OK;
+}
+
+static octree_status move_point(octree *tree, const octree_point *old, const octree_point *moved)
+{
+    found_point found;
+    if (!find_point(tree, old->position, old->id, &found))
+        return OCTREE_NOT_FOUND;
+    const uint64_t code = morton_code(tree->axes, moved->position);
+    const path p = path_to(tree, code);
+    node *leaf = path_end(&p);
+    if (leaf != path_end(&found.path))
+        return move_to_other_leaf(tree, &found, old, moved, code);
+    const uint32_t taken = leaf_find(leaf, moved->position, moved->id);
+    if (taken != LEAF_NONE && taken != found.index)
+        return OCTREE_DUPLICATE;
+    leaf_replace(leaf, found.index, moved);
+    tree->version++;
     return OCTREE_OK;
 }
 
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
-    if (tree && change_log_is_on(&tree->changes))
-        return change_and_log(tree, OCTREE_MOVED, from, id, to);
     octree_status status = check_position(tree, from);
     if (status == OCTREE_OK)
         status = check_position(tree, to);
     if (status != OCTREE_OK)
         return status;
-    found_point found;
-    if (!find_point(tree, from, id, &found))
-        return OCTREE_NOT_FOUND;
-    const octree_point moved = {{to[0], to[1], to[2]}, id};
-    const path p = path_to(tree, morton_code(tree->axes, to));
-    if (path_end(&p) != path_end(&found.path))
-        return move_across(tree, &found, &moved);
-    const uint32_t taken = leaf_find(path_end(&p), to, id);
-    if (taken != LEAF_NONE && taken != found.index)
-        return OCTREE_DUPLICATE;
-    leaf_replace(path_end(&p), found.index, &moved);
-    tree->version++;
-    return OCTREE_OK;
+    const octree_point old = {{from[0], from[1], from[2]}, id}, moved = {{to[0], to[1], to[2]}, id};
+    status = move_point(tree, &old, &moved);
+    if (status == OCTREE_OK && change_log_is_on(&tree->changes))
+        change_log_append(tree, OCTREE_MOVED, &old, moved.position);
+    return status;
 }

@@ -19,7 +19,7 @@
 /* A reader that missed more changes than a quarter of the points reads the whole tree at the same cost. */
 enum { LEAST_CHANGES = 1024, SHARE = 4 };
 
-static uint64_t change_limit(const octree *tree)
+uint64_t change_log_limit(const octree *tree)
 {
     const uint64_t share = tree->root.count / SHARE;
     return share > LEAST_CHANGES ? share : LEAST_CHANGES;
@@ -62,104 +62,20 @@ static bool make_room(change_log *log, arena *memory)
     return true;
 }
 
-static void append_change(octree *tree, const octree_change *change)
+void change_log_append(octree *tree, octree_change_kind kind, const octree_point *old, const double to[3])
 {
     change_log *log = &tree->changes;
+    octree_change made = {.kind = kind, .id = old->id};
+    if (kind != OCTREE_INSERTED)
+        memcpy(made.from, old->position, sizeof made.from);
+    if (kind != OCTREE_REMOVED)
+        memcpy(made.to, to, sizeof made.to);
     if (atomic_exchange_explicit(&log->was_read, false, memory_order_relaxed))
         log->last_read = log->next;
-    if (log->next - log->last_read < change_limit(tree) && make_room(log, &tree->store.memory))
-        log->items[log->next++ & (log->room - 1)] = *change;
+    if (log->next - log->last_read < change_log_limit(tree) && make_room(log, &tree->store.memory))
+        log->items[log->next++ & (log->room - 1)] = made;
     else
         change_log_stop(log, &tree->store.memory);
-}
-
-/* ---- Changes that are logged -------------------------------------------------------------------------------- */
-
-static size_t suspend(change_log *log)
-{
-    const size_t name = atomic_load_explicit(&log->name, memory_order_relaxed);
-    atomic_store_explicit(&log->name, 0, memory_order_relaxed);
-    return name;
-}
-
-static void resume(change_log *log, size_t name)
-{
-    atomic_store_explicit(&log->name, name, memory_order_relaxed);
-}
-
-static octree_status apply_change(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
-                                  const double to[3])
-{
-    switch (kind) {
-    case OCTREE_INSERTED:
-        return octree_insert(tree, to, id);
-    case OCTREE_REMOVED:
-        return octree_remove(tree, from, id);
-    default:
-        return octree_move(tree, from, id, to);
-    }
-}
-
-octree_status change_and_log(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
-                             const double to[3])
-{
-    octree_change made = {.kind = kind, .id = id}; /* copied first: `from` and `to` may be the tree's own memory */
-    if (from && kind != OCTREE_INSERTED)
-        memcpy(made.from, from, sizeof made.from);
-    if (to && kind != OCTREE_REMOVED)
-        memcpy(made.to, to, sizeof made.to);
-    const size_t name = suspend(&tree->changes);
-    const octree_status status = apply_change(tree, kind, from, id, to);
-    resume(&tree->changes, name);
-    if (status == OCTREE_OK)
-        append_change(tree, &made);
-    return status;
-}
-
-octree_status change_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
-                           size_t count, octree_status *statuses, size_t *done)
-{
-    switch (kind) {
-    case OCTREE_INSERTED:
-        return octree_insert_many(tree, points, count, statuses, done);
-    case OCTREE_REMOVED:
-        return octree_remove_many(tree, points, count, statuses, done);
-    default:
-        return octree_move_many(tree, points, to, count, statuses, done);
-    }
-}
-
-static void log_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
-                      size_t count, const octree_status *statuses)
-{
-    for (size_t i = 0; i < count && change_log_is_on(&tree->changes); i++) {
-        octree_change made = {.kind = kind, .id = points[i].id};
-        if (kind != OCTREE_INSERTED)
-            memcpy(made.from, points[i].position, sizeof made.from);
-        if (kind != OCTREE_REMOVED)
-            memcpy(made.to, kind == OCTREE_MOVED ? to[i] : points[i].position, sizeof made.to);
-        if (statuses[i] == OCTREE_OK)
-            append_change(tree, &made);
-    }
-}
-
-octree_status change_batch_and_log(octree *tree, octree_change_kind kind, const octree_point *points,
-                                   const double (*to)[3], size_t count, octree_status *statuses, size_t *done)
-{
-    arena *memory = &tree->store.memory;
-    const uint64_t version = tree->version;
-    const bool few = points && count > 0 && count <= change_limit(tree);
-    octree_status *own = few && !statuses ? arena_take(memory, count * sizeof *own) : NULL;
-    octree_status *results = statuses ? statuses : own;
-    const size_t name = suspend(&tree->changes);
-    const octree_status status = change_batch(tree, kind, points, to, count, results, done);
-    resume(&tree->changes, name);
-    if (tree->version != version && few && results)
-        log_batch(tree, kind, points, to, count, results);
-    else if (tree->version != version)
-        change_log_stop(&tree->changes, memory);
-    arena_give(memory, own, count * sizeof *own);
-    return status;
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */

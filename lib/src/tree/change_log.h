@@ -28,18 +28,12 @@ static inline bool change_log_is_on(const change_log *log)
     return atomic_load_explicit(&log->name, memory_order_relaxed) != 0;
 }
 
-/* Make one change through octree_insert(), octree_remove() or octree_move(), with the log off meanwhile, and log it. An
- * insertion or removal passes its position as both `from` and `to`. */
-octree_status change_and_log(octree *tree, octree_change_kind kind, const double from[3], uint64_t id,
-                             const double to[3]);
+/* Log a change that was made. `old` is the point before a move or removal, or the inserted point; `to` is its position
+ * afterwards, not read for a removal. Neither lies in the tree's memory. */
+void change_log_append(octree *tree, octree_change_kind kind, const octree_point *old, const double to[3]);
 
-/* Make a batch of changes through octree_insert_many(), octree_remove_many() or octree_move_many(). */
-octree_status change_batch(octree *tree, octree_change_kind kind, const octree_point *points, const double (*to)[3],
-                           size_t count, octree_status *statuses, size_t *done);
-
-/* The same with the log off meanwhile; then log the changes that were made. */
-octree_status change_batch_and_log(octree *tree, octree_change_kind kind, const octree_point *points,
-                                   const double (*to)[3], size_t count, octree_status *statuses, size_t *done);
+/* The number of unread changes at which reading the whole tree costs a reader less than reading the changes. */
+uint64_t change_log_limit(const octree *tree);
 
 /* Discard all changes and turn the log off. */
 void change_log_stop(change_log *log, arena *memory);

@@ -63,3 +63,24 @@ void division_run(batch *b, octree_task *task, void *context)
     }
     tasks_run(b->tree, task, d->tasks, context);
 }
+
+bool division_add_job(batch *b, const node *old, cell c, span leaving, span arriving)
+{
+    const job j = {.old = old, .cell = c, .leaving = leaving, .arriving = arriving};
+    return list_push(&b->store->memory, &b->division->work.jobs, &j, sizeof j);
+}
+
+void division_share_jobs(division *d)
+{
+    const job *jobs = d->work.jobs.items;
+    const size_t count = d->work.jobs.count;
+    size_t total = 0, sum = 0, next = 0;
+    for (size_t i = 0; i < count; i++)
+        total += jobs[i].leaving.count + jobs[i].arriving.count;
+    for (unsigned task = 0; task < d->tasks; task++) {
+        d->starts[task] = next;
+        for (; next < count && sum < tasks_share(total, d->tasks, task + 1); next++)
+            sum += jobs[next].leaving.count + jobs[next].arriving.count;
+    }
+    d->starts[d->tasks] = count;
+}

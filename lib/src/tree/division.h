@@ -13,14 +13,20 @@
 #include "batch.h"
 #include "tasks.h"
 
-/* A node that a task plans before its parent is planned. */
+/* Work of a task on one node: to plan its successor before its parent is planned, or to visit the leaves below it. */
 typedef struct job {
-    const node *old; /* the node that changes; null: build one from the arriving items */
-    cell cell;
+    const node *old; /* null: build a node from the arriving items */
+    cell cell;       /* for a visit only its depth */
     span leaving, arriving;
     node made;
     bool ok;
 } job;
+
+typedef struct job_list {
+    list jobs;   /* in the order in which planning reaches their nodes */
+    size_t next; /* index of the next job whose result is used */
+    bool ready;  /* all jobs are done */
+} job_list;
 
 /* A node that is replaced when the plan is carried out. */
 typedef struct patch {
@@ -43,10 +49,8 @@ typedef struct part {
 
 typedef struct division {
     unsigned tasks;
-    size_t grain;                     /* the greatest number of items of a job */
-    list jobs;                        /* in the order in which planning reaches their nodes */
-    size_t next;                      /* index of the next job whose result is used */
-    bool ready;                       /* all jobs are done */
+    size_t grain; /* the greatest number of items of a job */
+    job_list work;
     size_t starts[TASKS_AT_MOST + 1]; /* index of the first job of each task */
     part parts[TASKS_AT_MOST];
 } division;
@@ -61,6 +65,12 @@ void division_close(batch *b);
 
 /* Run a task for each part. Each part becomes a copy of the batch and keeps its own plan. */
 void division_run(batch *b, octree_task *task, void *context);
+
+/* Add a job. False when there is no memory. */
+bool division_add_job(batch *b, const node *old, cell c, span leaving, span arriving);
+
+/* Set `starts`: each task gets adjacent jobs with about the same number of items. */
+void division_share_jobs(division *d);
 
 /* Whether a node with this many items was planned by a task; and the next node that was. */
 bool is_job(const batch *b, size_t count);

@@ -45,11 +45,8 @@ typedef struct descents {
 static void find_codes(descents *w, const octree *tree, const octree_point *points, size_t count)
 {
     morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
-    for (size_t i = 0; i < count; i++) {
-        w->statuses[i] = w->codes[i] == MORTON_UNSURE ? check_position(tree, points[i].position) : OCTREE_OK;
-        if (w->codes[i] == MORTON_UNSURE && w->statuses[i] == OCTREE_OK)
-            w->codes[i] = morton_code(tree->axes, points[i].position);
-    }
+    for (size_t i = 0; i < count; i++)
+        w->statuses[i] = complete_code(tree, points[i].position, &w->codes[i]);
 }
 
 /* Descend one level at a time with all points, so that their cache misses overlap. */
@@ -86,10 +83,10 @@ static void descend_together(descents *w, octree *tree, const octree_point *poin
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
 typedef struct insertions {
+    batch *batch;
     octree_point *full;      /* points that met a full leaf */
     octree_status *statuses; /* of all points, then of the full ones */
-    const octree_point *points;
-    size_t full_count, inserted;
+    size_t full_count;
 } insertions;
 
 /* Insert a point into the leaf at the end of its path. No node moves in memory, so that other paths stay valid. The
@@ -110,11 +107,12 @@ static octree_status insert_at_end(octree *tree, const octree_point *point, cons
 
 /* Insert up to TOGETHER points. A point whose path ends at an inner node adds a leaf, which moves nodes in memory; the
  * rest of the group then descends from the root again, point by point. */
-static octree_status insert_group(octree *tree, const octree_point *points, size_t count, insertions *f)
+static octree_status insert_group(insertions *f, size_t first, size_t count)
 {
     descents w;
     bool moved = false;
-    const size_t first = (size_t)(points - f->points);
+    octree *tree = f->batch->tree;
+    const octree_point *points = f->batch->points + first;
     descend_together(&w, tree, points, count);
     for (size_t i = 0; i < count; i++) {
         octree_status status = w.statuses[i];
@@ -129,44 +127,41 @@ static octree_status insert_group(octree *tree, const octree_point *points, size
             return status;
         if (status == OCTREE_FULL)
             f->full[f->full_count++] = points[i];
-        f->inserted += status == OCTREE_OK;
+        f->batch->done += status == OCTREE_OK;
     }
     return OCTREE_OK;
 }
 
-static void undo_insertions(octree *tree, const octree_point *points, insertions *f, uint64_t version)
+static void undo_insertions(const batch *b, const octree_status *statuses)
 {
-    for (size_t i = 0; f->inserted > 0; i++)
-        if (f->statuses[i] == OCTREE_OK) {
-            octree_remove(tree, points[i].position, points[i].id);
-            f->inserted--;
+    for (size_t i = 0, left = b->done; left > 0; i++)
+        if (statuses[i] == OCTREE_OK) {
+            remove_point(b->tree, &b->points[i]);
+            left--;
         }
-    tree->version = version;
 }
 
-octree_status insert_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                         size_t *inserted)
+octree_status insert_few(batch *b)
 {
-    arena *memory = &tree->store.memory;
-    const uint64_t version = tree->version;
-    insertions f = {.points = points,
-                    .full = arena_take(memory, (count + 1) * sizeof *points),
-                    .statuses = arena_take(memory, (2 * count + 1) * sizeof *statuses)};
-    size_t more = 0;
+    arena *memory = &b->tree->store.memory;
+    const size_t count = b->count, points_size = count * sizeof *b->points, size = 2 * count * sizeof *b->statuses;
+    insertions f = {.batch = b, .full = arena_take(memory, points_size), .statuses = arena_take(memory, size)};
+    batch full = {.tree = b->tree, .points = f.full, .inserts = true};
     octree_status status = f.full && f.statuses ? OCTREE_OK : OCTREE_NO_MEMORY;
     for (size_t i = 0; status == OCTREE_OK && i < count; i += TOGETHER)
-        status = insert_group(tree, points + i, count - i < TOGETHER ? count - i : TOGETHER, &f);
-    tree->version = version + f.inserted;
-    if (status == OCTREE_OK && f.full_count > 0)
-        status = insert_sorted(tree, f.full, f.full_count, f.statuses + count, &more);
+        status = insert_group(&f, i, count - i < TOGETHER ? count - i : TOGETHER);
+    if (status == OCTREE_OK && f.full_count > 0) {
+        full.count = f.full_count;
+        full.statuses = f.statuses + count;
+        status = insert_sorted(&full);
+    }
     if (status != OCTREE_OK)
-        undo_insertions(tree, points, &f, version);
-    for (size_t i = 0, full = 0; status == OCTREE_OK && statuses && i < count; i++)
-        statuses[i] = f.statuses[i] == OCTREE_FULL ? f.statuses[count + full++] : f.statuses[i];
-    if (status == OCTREE_OK && inserted)
-        *inserted = f.inserted + more;
-    arena_give(memory, f.full, (count + 1) * sizeof *points);
-    arena_give(memory, f.statuses, (2 * count + 1) * sizeof *statuses);
+        undo_insertions(b, f.statuses);
+    for (size_t i = 0, next = 0; status == OCTREE_OK && b->statuses && i < count; i++)
+        b->statuses[i] = f.statuses[i] == OCTREE_FULL ? full.statuses[next++] : f.statuses[i];
+    b->done += full.done;
+    arena_give(memory, f.full, points_size);
+    arena_give(memory, f.statuses, size);
     return status;
 }
 
@@ -185,9 +180,7 @@ typedef struct merging {
 } merging;
 
 typedef struct removals {
-    octree *tree;
-    const octree_point *points;
-    octree_status *statuses; /* the caller's; may be null */
+    const batch *batch;
     removal *found;
     size_t count;
     list mergings;
@@ -197,10 +190,11 @@ typedef struct removals {
 static void find_group(removals *r, size_t first, size_t count)
 {
     descents w;
-    descend_together(&w, r->tree, r->points + first, count);
+    const batch *b = r->batch;
+    descend_together(&w, b->tree, b->points + first, count);
     for (size_t i = 0; i < count; i++) {
         octree_status status = w.statuses[i];
-        const octree_point *point = &r->points[first + i];
+        const octree_point *point = &b->points[first + i];
         node *end = status == OCTREE_OK ? w.nodes[w.depths[i]][i] : NULL;
         const uint32_t index = end && !end->octants ? leaf_find(end, point->position, point->id) : LEAF_NONE;
         if (index != LEAF_NONE) {
@@ -211,24 +205,24 @@ static void find_group(removals *r, size_t first, size_t count)
         } else if (status == OCTREE_OK) {
             status = OCTREE_NOT_FOUND;
         }
-        if (r->statuses)
-            r->statuses[first + i] = status;
+        if (b->statuses)
+            b->statuses[first + i] = status;
     }
 }
 
 static path path_of(const removals *r, const removal *found)
 {
-    return path_to(r->tree, morton_code(r->tree->axes, r->points[found->place].position));
+    return path_to(r->batch->tree, morton_code(r->batch->tree->axes, r->batch->points[found->place].position));
 }
 
 /* Allocate the leaf for the highest node above a point that now fits one. An inner node with room != 0 already has it.
  */
 static bool plan_merging(removals *r, const removal *found)
 {
-    store *s = &r->tree->store;
+    store *s = &r->batch->tree->store;
     const path p = path_of(r, found);
     merging m = {.at = p.nodes[0]};
-    for (unsigned depth = 0; !fits_leaf(r->tree, m.at->count);)
+    for (unsigned depth = 0; !fits_leaf(r->batch->tree, m.at->count);)
         m.at = p.nodes[++depth];
     if (m.at->room)
         return true;
@@ -246,7 +240,7 @@ static bool plan_mergings(removals *r)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < r->count; i++)
-        if (r->found[i].parent && fits_leaf(r->tree, r->found[i].parent->count))
+        if (r->found[i].parent && fits_leaf(r->batch->tree, r->found[i].parent->count))
             ok = plan_merging(r, &r->found[i]);
     return ok;
 }
@@ -256,7 +250,7 @@ static void undo_removals(removals *r)
     const merging *mergings = r->mergings.items;
     for (size_t i = 0; i < r->mergings.count; i++) {
         mergings[i].at->room = 0;
-        leaf_release(&r->tree->store, &mergings[i].made);
+        leaf_release(&r->batch->tree->store, &mergings[i].made);
     }
     for (size_t i = 0; i < r->count; i++) {
         const path p = path_of(r, &r->found[i]);
@@ -271,10 +265,10 @@ static size_t remove_points(removals *r)
     size_t emptied = 0;
     for (size_t i = 0; i < r->count; i++) {
         removal *it = &r->found[i];
-        const octree_point *point = &r->points[it->place];
+        const octree_point *point = &r->batch->points[it->place];
         if (it->index >= it->leaf->count) /* it was the last point and has moved into a removed one's place */
             it->index = leaf_find(it->leaf, point->position, point->id);
-        leaf_remove(&r->tree->store, it->leaf, it->index);
+        leaf_remove(&r->batch->tree->store, it->leaf, it->index);
         if (it->leaf->count == 0)
             r->found[emptied++] = *it;
     }
@@ -284,7 +278,7 @@ static size_t remove_points(removals *r)
 /* Cannot fail. */
 static void carry_out_removals(removals *r)
 {
-    octree *tree = r->tree;
+    octree *tree = r->batch->tree;
     const size_t emptied = remove_points(r);
     merging *mergings = r->mergings.items;
     for (size_t i = 0; i < r->mergings.count; i++) {
@@ -297,28 +291,23 @@ static void carry_out_removals(removals *r)
         if (path_end(&p)->count == 0) /* never the root, since most points stay */
             drop_child(tree, p.nodes[p.depth - 1], path_end(&p));
     }
-    if (r->count > 0)
-        tree->version++;
 }
 
-octree_status remove_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                         size_t *removed)
+octree_status remove_few(batch *b)
 {
-    arena *memory = &tree->store.memory;
-    removals r = {.tree = tree, .points = points, .statuses = statuses};
-    r.found = arena_take(memory, count * sizeof *r.found);
+    arena *memory = &b->tree->store.memory;
+    removals r = {.batch = b, .found = arena_take(memory, b->count * sizeof *r.found)};
     if (!r.found)
         return OCTREE_NO_MEMORY;
-    for (size_t i = 0; i < count; i += TOGETHER)
-        find_group(&r, i, count - i < TOGETHER ? count - i : TOGETHER);
+    for (size_t i = 0; i < b->count; i += TOGETHER)
+        find_group(&r, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
     const bool ok = plan_mergings(&r);
     if (ok)
         carry_out_removals(&r);
     else
         undo_removals(&r);
-    if (ok && removed)
-        *removed = r.count;
-    arena_give(memory, r.found, count * sizeof *r.found);
+    b->done = r.count;
+    arena_give(memory, r.found, b->count * sizeof *r.found);
     list_release(memory, &r.mergings, sizeof(merging));
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }

@@ -9,15 +9,12 @@
 bool are_few(const octree *tree, size_t count);
 
 /* Insert points: those whose leaf has room one by one, the others as one batch at the end. */
-octree_status insert_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                         size_t *inserted);
+octree_status insert_few(batch *b);
 
 /* Remove points whose ids all differ. */
-octree_status remove_few(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                         size_t *removed);
+octree_status remove_few(batch *b);
 
-/* Insert any number of points through a sorted batch (bulk.c). */
-octree_status insert_sorted(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
-                            size_t *inserted);
+/* Insert any number of points in Morton order (bulk.c). */
+octree_status insert_sorted(batch *b);
 
 #endif

@@ -90,6 +90,20 @@ bool grid_choose(batch *b, size_t total)
     return true;
 }
 
+void find_grid_cells(const batch *b, const octree_point *points, size_t count, uint32_t *cells, octree_status *statuses)
+{
+    const octree *tree = b->tree;
+    grid_cells(tree->axes, b->grid, points->position, sizeof *points / sizeof(double), count, cells);
+    for (size_t i = 0; i < count; i++) {
+        const bool unsure = cells[i] == GRID_UNSURE;
+        const octree_status status = unsure ? check_position(tree, points[i].position) : OCTREE_OK;
+        if (unsure && status == OCTREE_OK)
+            cells[i] = grid_cell(tree->axes, b->grid, points[i].position);
+        if (statuses)
+            statuses[i] = status;
+    }
+}
+
 /* Make items for adjacent points, which are all the caller's or all copies of stored ones. Returns the number made. */
 static size_t add_items(const batch *b, size_t first, size_t count, octree_point *const *filter, morton_item *items)
 {

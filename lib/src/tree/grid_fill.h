@@ -14,6 +14,11 @@ enum { GRID_TOGETHER = 64 }; /* positions whose cells are computed in one call *
  * changes, or leave it 0 if a sample shows that they are not spread evenly. False when there is no memory. */
 bool grid_choose(batch *b, size_t total);
 
+/* Find the cells of adjacent points in the grid of the batch; GRID_NONE for a point outside the world. `statuses` may
+ * be null; else it receives OK, or why a point has no cell. */
+void find_grid_cells(const batch *b, const octree_point *points, size_t count, uint32_t *cells,
+                     octree_status *statuses);
+
 /* Make items for the points of the batch and of `stored` that have a cell. Returns the number of items. If `filter` is
  * not null, only cells with a null entry in it count. */
 size_t grid_items(const batch *b, octree_point *const *filter, morton_item *items);

@@ -264,3 +264,16 @@ void node_release(store *s, const node *n)
 {
     node_release_unshared(s, n, &(node){0});
 }
+
+void store_init(store *s)
+{
+    pool_init(&s->nodes, &s->memory, sizeof(node));
+    pool_init(&s->points, &s->memory, sizeof(octree_point));
+}
+
+void store_release(store *s, const node *root)
+{
+    node_release(s, root); /* hashed leaves are not in the pools */
+    pool_release(&s->nodes);
+    pool_release(&s->points);
+}

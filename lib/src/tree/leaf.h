@@ -31,6 +31,12 @@ typedef struct store {
     pool points;
 } store;
 
+/* Prepare the pools of a store whose memory is set. */
+void store_init(store *s);
+
+/* Free the nodes below a root, and all blocks of the pools. */
+void store_release(store *s, const node *root);
+
 static inline node *children_of(const node *n)
 {
     return n->below;

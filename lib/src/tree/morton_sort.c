@@ -21,6 +21,8 @@
 #define LEVELS 3 /* the greatest number of tree levels per pass: 8^3 buckets */
 
 typedef struct sorter {
+    const octree *tree; /* only to sort by tasks, like `memory` */
+    arena *memory;
     size_t unsorted; /* cells of at most this many items stay unsorted */
     bool differ;     /* no two items are the same point, so that equal codes need not be adjacent */
     bool repeated;   /* result: some items may have equal codes */
@@ -119,18 +121,17 @@ static void sort(sorter *s, morton_item *items, morton_item *other, size_t count
             sort(s, other + start, items + start, ends[digit] - start, left - levels, !in_place, ends + digits);
 }
 
-static bool sort_alone(morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
-                       size_t unsorted, bool differ)
+static void sort_alone(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place)
 {
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* one section for each level of the recursion */
-    sorter s = {.unsorted = unsorted, .differ = differ};
-    sort(&s, items, other, count, left, in_place, ends);
-    return s.repeated;
+    sort(s, items, other, count, left, in_place, ends);
 }
 
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted)
 {
-    return sort_alone(items, spare, count, OCTREE_MAX_DEPTH - depth, true, unsorted, false);
+    sorter s = {.unsorted = unsorted};
+    sort_alone(&s, items, spare, count, OCTREE_MAX_DEPTH - depth, true);
+    return s.repeated;
 }
 
 /* ---- By tasks ----------------------------------------------------------------------------------------------- */
@@ -139,14 +140,13 @@ enum { DIGITS = 1 << 3 * LEVELS };
 
 /* One parallel pass and the cells that it produces. */
 typedef struct pass {
-    const octree *tree;
+    sorter sorter;
     uint32_t (*counts)[DIGITS]; /* for each task: items per digit, then where its next item of a digit goes */
     morton_item *from, *to;
-    size_t count, unsorted;
+    size_t count;
     unsigned tasks;
-    unsigned left;  /* levels below the cells */
-    unsigned shift; /* of the digit in a code */
-    bool differ;
+    unsigned left;                     /* levels below the cells */
+    unsigned shift;                    /* of the digit in a code */
     bool in_place;                     /* sort the cells in place in `to` */
     size_t ends[DIGITS + 1];           /* cell d spans ends[d] .. ends[d + 1] */
     unsigned cells[TASKS_AT_MOST + 1]; /* the first cell of each task */
@@ -192,14 +192,15 @@ static void sum_digits(pass *p)
 /* Whether a cell is so large that it is sorted by a parallel pass of its own. */
 static bool is_large(const pass *p, unsigned digit)
 {
-    return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > p->count / 8 && tasks_for(p->tree, p->count / 8) > 1;
+    const size_t large = p->count / 8;
+    return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > large && tasks_for(p->sorter.tree, large) > 1;
 }
 
 static void sort_cells(size_t number, void *context)
 {
     pass *p = context;
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
-    sorter s = {.unsorted = p->unsorted, .differ = p->differ};
+    sorter s = p->sorter;
     for (unsigned digit = p->cells[number]; digit < p->cells[number + 1]; digit++) {
         const size_t start = p->ends[digit], count = p->ends[digit + 1] - start;
         if (count > 0 && !is_large(p, digit))
@@ -220,37 +221,34 @@ static void assign_cells(pass *p)
 }
 
 /* sort() by tasks; on the calling thread if there is no memory for the counts. */
-static bool sort_by_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *other, size_t count,
-                          unsigned left, bool in_place, size_t unsorted, bool differ)
+static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place)
 {
-    pass p = {.tree = tree, .from = items, .to = other, .count = count, .unsorted = unsorted, .differ = differ};
-    p.tasks = tasks_for(tree, count);
-    p.left = left - LEVELS;
+    pass p = {.sorter = *s, .from = items, .to = other, .count = count, .left = left - LEVELS, .in_place = !in_place};
+    p.tasks = tasks_for(s->tree, count);
     p.shift = 3 * p.left;
-    p.in_place = !in_place;
-    p.counts = arena_take(memory, p.tasks * sizeof *p.counts);
-    if (!p.counts)
-        return sort_alone(items, other, count, left, in_place, unsorted, differ);
-    tasks_run(tree, count_digits, p.tasks, &p);
+    p.counts = arena_take(s->memory, p.tasks * sizeof *p.counts);
+    if (!p.counts) {
+        sort_alone(s, items, other, count, left, in_place);
+        return;
+    }
+    tasks_run(s->tree, count_digits, p.tasks, &p);
     sum_digits(&p);
-    tasks_run(tree, scatter_share, p.tasks, &p);
-    arena_give(memory, p.counts, p.tasks * sizeof *p.counts);
+    tasks_run(s->tree, scatter_share, p.tasks, &p);
+    arena_give(s->memory, p.counts, p.tasks * sizeof *p.counts);
     assign_cells(&p);
-    tasks_run(tree, sort_cells, p.tasks, &p);
-    bool repeated = false;
+    tasks_run(s->tree, sort_cells, p.tasks, &p);
     for (unsigned task = 0; task < p.tasks; task++)
-        repeated |= p.repeated[task];
+        s->repeated |= p.repeated[task];
     for (unsigned digit = 0; digit < DIGITS; digit++)
         if (is_large(&p, digit))
-            repeated |= sort_by_tasks(tree, memory, other + p.ends[digit], items + p.ends[digit],
-                                      p.ends[digit + 1] - p.ends[digit], p.left, p.in_place, unsorted, differ);
-    return repeated;
+            sort_by_tasks(s, other + p.ends[digit], items + p.ends[digit], p.ends[digit + 1] - p.ends[digit], p.left,
+                          p.in_place);
 }
 
 bool morton_sort_tasks(const octree *tree, arena *memory, morton_item *items, morton_item *spare, size_t count,
                        size_t unsorted, bool differ)
 {
-    if (tasks_for(tree, count) == 1)
-        return sort_alone(items, spare, count, OCTREE_MAX_DEPTH, true, unsorted, differ);
-    return sort_by_tasks(tree, memory, items, spare, count, OCTREE_MAX_DEPTH, true, unsorted, differ);
+    sorter s = {.tree = tree, .memory = memory, .unsorted = unsorted, .differ = differ};
+    (tasks_for(tree, count) == 1 ? sort_alone : sort_by_tasks)(&s, items, spare, count, OCTREE_MAX_DEPTH, true);
+    return s.repeated;
 }

@@ -5,15 +5,15 @@
  * arriving points can be changed at once. They interact if an id occurs twice (A to B, then B to C), if a pair would
  * occur twice for a moment, or if a full leaf refuses a point depending on which points have left it before.
  *
- * Idea: simulate without the tree. A hash table holds each pair (position, id) that a move leaves or reaches, with its
+ * Idea: simulate without the tree. A table holds each pair (position, id) that a move leaves or reaches, with its
  * current owner. Under OCTREE_REFUSE a second table holds the point count of each smallest cell involved: a leaf
- * refuses exactly if its smallest cell is full, since any larger leaf would split. Each move is then O(1). At the end
+ * refuses exactly if its smallest cell is full, since any larger leaf would split. Two leaves outside the tree serve as
+ * the hash tables: leaf_find() gives the index of a pair or cell. Each move is then O(1). At the end
  * the table shows which stored points leave and which points arrive, and restructure.c makes the change.
  *
  * Cost: about 250 bytes a move, so may_overflow() and may_overflow_anew() first rule out full leaves where they can.
  */
 #include "batch.h"
-#include "octree/digest.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,39 +24,18 @@
 
 /* A pair (position, id) that a move leaves or goes to. */
 typedef struct pair {
-    octree_point point;
     uint64_t code;
     uint32_t owner; /* index of the move whose point is here, NO_OWNER, or FIRST_OWNER for the point stored at first */
     uint32_t index; /* in its leaf at first; MORTON_NEW if it was not stored */
 } pair;
 
-/* An indivisible cell and its current number of points. */
-typedef struct cell_count {
-    octree_address cell; /* 0: unused */
-    uint32_t count;
-} cell_count;
-
 typedef struct simulation {
     batch *batch;
+    node points; /* a leaf with the positions and ids of the pairs */
     pair *pairs;
-    size_t pair_count;
-    uint32_t *slots;   /* index + 1 of a pair, or 0; open addressing with linear probing */
-    cell_count *cells; /* likewise; null where no leaf refuses a point */
-    size_t slot_count;
+    node cells;       /* a leaf whose ids are the addresses of indivisible cells, at position 0 */
+    uint32_t *counts; /* the current number of points in each of these cells; null if no leaf refuses a point */
 } simulation;
-
-static bool same_pair(const octree_point *a, const octree_point *b)
-{
-    return a->id == b->id && same_position(a->position, b->position);
-}
-
-static size_t home_slot(const simulation *r, const octree_point *point)
-{
-    uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, point->id);
-    for (int i = 0; i < 3; i++)
-        digest = octree_digest_double(digest, point->position[i]);
-    return (size_t)digest & (r->slot_count - 1);
-}
 
 static uint32_t stored_index(const octree *tree, const octree_point *point)
 {
@@ -64,19 +43,26 @@ static uint32_t stored_index(const octree *tree, const octree_point *point)
     return find_point(tree, point->position, point->id, &found) ? found.index : MORTON_NEW;
 }
 
+/* The index of a point in a leaf that serves as a table; if it is missing it is added at the end. */
+static uint32_t find_or_add(node *table, const octree_point *point)
+{
+    const uint32_t index = leaf_find(table, point->position, point->id);
+    if (index != LEAF_NONE)
+        return index;
+    leaf_put(table, point);
+    return table->count - 1;
+}
+
 static pair *find_pair(simulation *r, const octree_point *point)
 {
     const octree *tree = r->batch->tree;
-    size_t slot = home_slot(r, point);
-    while (r->slots[slot] && !same_pair(&r->pairs[r->slots[slot] - 1].point, point))
-        slot = (slot + 1) & (r->slot_count - 1);
-    if (!r->slots[slot]) {
+    const uint32_t known = r->points.count, at = find_or_add(&r->points, point);
+    if (at == known) {
         const uint32_t index = stored_index(tree, point);
-        r->pairs[r->pair_count++] = (pair){*point, morton_code(tree->axes, point->position),
-                                           index == MORTON_NEW ? NO_OWNER : FIRST_OWNER, index};
-        r->slots[slot] = (uint32_t)r->pair_count;
+        r->pairs[at] =
+            (pair){morton_code(tree->axes, point->position), index == MORTON_NEW ? NO_OWNER : FIRST_OWNER, index};
     }
-    return &r->pairs[r->slots[slot] - 1];
+    return &r->pairs[at];
 }
 
 /* The indivisible cell that contains a code. */
@@ -99,28 +85,26 @@ static uint32_t stored_count(const octree *tree, uint64_t code, octree_address c
     return count;
 }
 
-static cell_count *count_of_cell(const simulation *r, uint64_t code)
+static uint32_t *count_of_cell(simulation *r, uint64_t code)
 {
     const octree_address cell = smallest_cell(r->batch->tree, code);
-    size_t slot = (size_t)octree_digest_word(OCTREE_DIGEST_START, cell) & (r->slot_count - 1);
-    while (r->cells[slot].cell && r->cells[slot].cell != cell)
-        slot = (slot + 1) & (r->slot_count - 1);
-    if (!r->cells[slot].cell)
-        r->cells[slot] = (cell_count){cell, stored_count(r->batch->tree, code, cell)};
-    return &r->cells[slot];
+    const uint32_t known = r->cells.count, at = find_or_add(&r->cells, &(octree_point){.id = cell});
+    if (at == known)
+        r->counts[at] = stored_count(r->batch->tree, code, cell);
+    return &r->counts[at];
 }
 
 /* Move the count of a point from one indivisible cell to another. False if the destination is full: a full leaf that
  * cannot split holds the points of one indivisible cell only. */
-static bool enter_cell(const simulation *r, uint64_t from, uint64_t to)
+static bool enter_cell(simulation *r, uint64_t from, uint64_t to)
 {
-    if (!r->cells)
+    if (!r->counts)
         return true;
-    cell_count *left = count_of_cell(r, from), *entered = count_of_cell(r, to);
-    if (entered != left && entered->count >= r->batch->tree->def.leaf_capacity)
+    uint32_t *left = count_of_cell(r, from), *entered = count_of_cell(r, to);
+    if (entered != left && *entered >= r->batch->tree->def.leaf_capacity)
         return false;
-    left->count--;
-    entered->count++;
+    --*left;
+    ++*entered;
     return true;
 }
 
@@ -150,7 +134,7 @@ static int compare_places(const void *a, const void *b)
 static void list_changes(const simulation *r)
 {
     batch *b = r->batch;
-    for (size_t i = 0; i < r->pair_count; i++) {
+    for (size_t i = 0; i < r->points.count; i++) {
         const pair *p = &r->pairs[i];
         if (p->index != MORTON_NEW && p->owner != FIRST_OWNER)
             b->leaving.items[b->leaving.count++] = (morton_item){p->code, 0, p->index};
@@ -165,9 +149,6 @@ static void simulate(simulation *r)
 {
     batch *b = r->batch;
     morton_item *items = b->valid.items;
-    memset(r->slots, 0, r->slot_count * sizeof *r->slots);
-    if (r->cells)
-        memset(r->cells, 0, r->slot_count * sizeof *r->cells);
     qsort(items, b->valid.count, sizeof *items, compare_places);
     for (size_t i = 0; i < b->valid.count; i++) {
         const octree_status status = move_one(r, items[i].place);
@@ -179,38 +160,24 @@ static void simulate(simulation *r)
 
 bool resolve_moves_in_order(batch *b)
 {
-    arena *memory = &b->tree->store.memory;
+    store *s = &b->tree->store;
+    const size_t count = 2 * b->valid.count + 1;
     const bool refuses = b->tree->def.full_leaf == OCTREE_REFUSE;
-    simulation r = {.batch = b, .slot_count = 64};
-    while (r.slot_count < 4 * b->valid.count)
-        r.slot_count *= 2;
-    const size_t pairs_size = (2 * b->valid.count + 1) * sizeof(pair);
-    r.pairs = arena_take(memory, pairs_size);
-    r.slots = arena_take(memory, r.slot_count * sizeof *r.slots);
-    r.cells = refuses ? arena_take(memory, r.slot_count * sizeof *r.cells) : NULL;
-    const bool ok = r.pairs && r.slots && (r.cells || !refuses);
+    simulation r = {.batch = b, .pairs = arena_take(&s->memory, count * sizeof *r.pairs)};
+    r.counts = refuses ? arena_take(&s->memory, count * sizeof *r.counts) : NULL;
+    const bool ok = r.pairs && (r.counts || !refuses) && count <= UINT32_MAX &&
+                    leaf_create(s, &r.points, (uint32_t)count) &&
+                    (!refuses || leaf_create(s, &r.cells, (uint32_t)count));
     if (ok)
         simulate(&r);
-    arena_give(memory, r.pairs, pairs_size);
-    arena_give(memory, r.slots, r.slot_count * sizeof *r.slots);
-    arena_give(memory, r.cells, r.slot_count * sizeof *r.cells);
+    leaf_release(s, &r.points);
+    leaf_release(s, &r.cells);
+    arena_give(&s->memory, r.pairs, count * sizeof *r.pairs);
+    arena_give(&s->memory, r.counts, count * sizeof *r.counts);
     return ok;
 }
 
 /* ---- Overflow ----------------------------------------------------------------------------------------------- */
-
-static size_t lower_bound(span s, uint64_t code)
-{
-    size_t low = 0, high = s.count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (s.items[middle].code < code)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
 
 /* Whether one indivisible cell of a leaf has more than the capacity of codes among its points, the origins of moves and
  * the destinations of moves. */
@@ -218,8 +185,9 @@ static bool may_overfill(const batch *b, const node *leaf, cell c, span arriving
 {
     const size_t capacity = b->tree->def.leaf_capacity;
     const uint64_t first = morton_interleave(c.low);
-    const size_t start = lower_bound(b->valid, first);
-    const size_t moved = lower_bound(b->valid, first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth))) - start;
+    const uint64_t end = first + (UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - c.depth));
+    const size_t start = find_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, first);
+    const size_t moved = find_first_word(b->valid.items, sizeof *b->valid.items, b->valid.count, end) - start;
     const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
     arena *memory = &b->store->memory;
     /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */

@@ -18,20 +18,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Jobs: the nodes that tasks plan
- * ---------------------------------------------------------------------------------- */
-
-static bool push_job(batch *b, const node *old, cell c, span leaving, span arriving)
-{
-    const job j = {.old = old, .cell = c, .leaving = leaving, .arriving = arriving};
-    return list_push(&b->store->memory, &b->division->jobs, &j, sizeof j);
-}
+/* ---- Jobs: the nodes that tasks plan ------------------------------------------------------------------------ */
 
 /* List the jobs of build_node() in its order. False when there is no memory. */
 static bool gather_builds(batch *b, cell c, span items)
 {
     if (items.count <= b->division->grain)
-        return push_job(b, NULL, c, (span){NULL, 0}, items);
+        return division_add_job(b, NULL, c, (span){NULL, 0}, items);
     if (becomes_leaf(b, c, items))
         return true;
     span shares[8];
@@ -51,7 +44,7 @@ static bool gather_changes(batch *b, const node *old, cell c, span leaving, span
     if (count == 0 || (arriving.count == 0 && leaving.count == old->count))
         return true;
     if (count <= b->division->grain)
-        return push_job(b, old, c, leaving, arriving);
+        return division_add_job(b, old, c, leaving, arriving);
     if (leaving.count == old->count)
         return gather_builds(b, c, arriving);
     if (!old->octants || fits_leaf(b->tree, old->count - leaving.count + arriving.count))
@@ -71,7 +64,7 @@ static void plan_jobs(size_t number, void *context)
 {
     division *d = context;
     batch *b = &d->parts[number].batch;
-    job *jobs = d->jobs.items;
+    job *jobs = d->work.jobs.items;
     for (size_t i = d->starts[number]; i < d->starts[number + 1]; i++) {
         job *j = &jobs[i];
         j->ok = j->old ? change_node(b, j->old, j->cell, j->leaving, j->arriving, &j->made)
@@ -85,48 +78,39 @@ static void plan_jobs(size_t number, void *context)
 static void drop_jobs(batch *b)
 {
     static const node none = {0};
-    division *d = b->division;
-    const job *jobs = d->jobs.items;
-    for (; d->next < d->jobs.count; d->next++)
-        node_release_unshared(b->store, &jobs[d->next].made, jobs[d->next].old ? jobs[d->next].old : &none);
-    list_release(&b->store->memory, &d->jobs, sizeof(job));
-    d->next = 0;
-    d->ready = false;
+    job_list *work = &b->division->work;
+    const job *jobs = work->jobs.items;
+    for (; work->next < work->jobs.count; work->next++)
+        node_release_unshared(b->store, &jobs[work->next].made, jobs[work->next].old ? jobs[work->next].old : &none);
+    list_release(&b->store->memory, &work->jobs, sizeof(job));
+    *work = (job_list){.ready = false};
 }
 
 /* Run all jobs. False when there is no memory; the jobs are then dropped. */
 static bool run_jobs(batch *b)
 {
-    division *d = b->division;
-    const job *jobs = d->jobs.items;
-    size_t total = 0, sum = 0, next = 0;
-    for (size_t i = 0; i < d->jobs.count; i++)
-        total += jobs[i].leaving.count + jobs[i].arriving.count;
-    for (unsigned task = 0; task < d->tasks; task++) {
-        d->starts[task] = next;
-        for (; next < d->jobs.count && sum < tasks_share(total, d->tasks, task + 1); next++)
-            sum += jobs[next].leaving.count + jobs[next].arriving.count;
-    }
-    d->starts[d->tasks] = d->jobs.count;
-    division_run(b, plan_jobs, d);
-    bool ok = true;
-    for (size_t i = 0; i < d->jobs.count; i++)
-        ok = ok && jobs[i].ok;
-    d->ready = ok;
-    if (!ok)
-        drop_jobs(b);
-    return ok;
+    job_list *work = &b->division->work;
+    const job *jobs = work->jobs.items;
+    division_share_jobs(b->division);
+    division_run(b, plan_jobs, b->division);
+    work->ready = true;
+    for (size_t i = 0; i < work->jobs.count; i++)
+        work->ready = work->ready && jobs[i].ok;
+    if (work->ready)
+        return true;
+    drop_jobs(b);
+    return false;
 }
 
 bool is_job(const batch *b, size_t count)
 {
-    return b->division && b->division->ready && count <= b->division->grain;
+    return b->division && b->division->work.ready && count <= b->division->grain;
 }
 
 bool use_job(batch *b, node *made)
 {
-    const job *jobs = b->division->jobs.items;
-    *made = jobs[b->division->next++].made;
+    job_list *work = &b->division->work;
+    *made = ((const job *)work->jobs.items)[work->next++].made;
     return true;
 }
 
@@ -135,18 +119,11 @@ bool build_divided(batch *b, cell c, span items, node *made)
 {
     if (!b->division)
         return build_node(b, c, items, made);
-    division *d = b->division;
-    const list jobs = d->jobs;
-    const size_t next = d->next;
-    const bool ready = d->ready;
-    d->jobs = (list){0};
-    d->next = 0;
-    d->ready = false;
-    bool ok = gather_builds(b, c, items) && run_jobs(b) && build_node(b, c, items, made);
+    const job_list outer = b->division->work;
+    b->division->work = (job_list){.ready = false};
+    const bool ok = gather_builds(b, c, items) && run_jobs(b) && build_node(b, c, items, made);
     drop_jobs(b);
-    d->jobs = jobs;
-    d->next = next;
-    d->ready = ready;
+    b->division->work = outer;
     return ok;
 }
 
@@ -227,20 +204,6 @@ static void gather_flags(batch *b)
 
 /* ---- Building anew -------------------------------------------------------------------------------------- */
 
-static void reset_pools(store *s)
-{
-    pool_init(&s->nodes, &s->memory, sizeof(node));
-    pool_init(&s->points, &s->memory, sizeof(octree_point));
-}
-
-/* Free all nodes and the pools that hold them. */
-static void release_pools(store *s, const node *root)
-{
-    node_release(s, root); /* hashed leaves are not in the pools */
-    pool_release(&s->nodes);
-    pool_release(&s->points);
-}
-
 /* Build a tree in new pools, densely packed, and replace the old one if it succeeds. */
 octree_status build_anew(batch *b)
 {
@@ -250,7 +213,7 @@ octree_status build_anew(batch *b)
     b->overflow = b->to && !b->grid && may_overflow(b, &tree->root, root_cell(), b->arriving);
     if (b->overflow)
         return OCTREE_OK;
-    reset_pools(&tree->store);
+    store_init(&tree->store);
     division_open(b, b->arriving.count);
     const bool ok = b->grid ? grid_fill(b, &made) : build_divided(b, root_cell(), b->arriving, &made);
     division_close(b);
@@ -261,7 +224,7 @@ octree_status build_anew(batch *b)
         tree->store.nodes = old_nodes;
         tree->store.points = old_points;
     }
-    release_pools(&tree->store, succeeds ? &tree->root : &made);
+    store_release(&tree->store, succeeds ? &tree->root : &made);
     tree->store.nodes = succeeds ? nodes : old_nodes;
     tree->store.points = succeeds ? points : old_points;
     tree->root = succeeds ? made : tree->root;

@@ -53,27 +53,26 @@ octree_allocator default_allocator(void)
     return (octree_allocator){.allocate = default_allocate, .release = default_release};
 }
 
-static void *allocate(arena *a, size_t size)
+/* The arena that counts the bytes, locked if tasks share it. */
+static arena *lock_owner(arena *a)
 {
-    void *memory = a->allocator.allocate(size, a->allocator.context);
-    if (memory)
-        a->bytes += size;
-    return memory;
+    if (a->shared)
+        arena_lock(a->shared);
+    return a->shared ? a->shared : a;
 }
 
-static void release(arena *a, void *memory, size_t size)
+static void unlock_owner(arena *a)
 {
-    a->bytes -= size;
-    a->allocator.release(memory, size, a->allocator.context);
+    if (a->shared)
+        arena_unlock(a->shared);
 }
 
 void *arena_take(arena *a, size_t size)
 {
-    if (!a->shared)
-        return allocate(a, size);
-    arena_lock(a->shared);
-    void *memory = allocate(a->shared, size);
-    arena_unlock(a->shared);
+    arena *owner = lock_owner(a);
+    void *memory = owner->allocator.allocate(size, owner->allocator.context);
+    owner->bytes += memory ? size : 0;
+    unlock_owner(a);
     return memory;
 }
 
@@ -81,11 +80,10 @@ void arena_give(arena *a, void *memory, size_t size)
 {
     if (!memory)
         return;
-    if (a->shared)
-        arena_lock(a->shared);
-    release(a->shared ? a->shared : a, memory, size);
-    if (a->shared)
-        arena_unlock(a->shared);
+    arena *owner = lock_owner(a);
+    owner->bytes -= size;
+    owner->allocator.release(memory, size, owner->allocator.context);
+    unlock_owner(a);
 }
 
 void pool_init(pool *p, arena *memory, size_t unit)
@@ -409,4 +407,35 @@ void list_release(arena *memory, list *l, size_t item_size)
 {
     arena_give(memory, l->items, l->room * item_size);
     *l = (list){0};
+}
+
+void list_sort(list *l, size_t item_size, int (*compare)(const void *a, const void *b))
+{
+    if (l->count > 1)
+        qsort(l->items, l->count, item_size, compare);
+}
+
+static uint64_t first_word(const void *item)
+{
+    uint64_t word;
+    memcpy(&word, item, sizeof word);
+    return word;
+}
+
+int compare_first_words(const void *a, const void *b)
+{
+    return (first_word(a) > first_word(b)) - (first_word(a) < first_word(b));
+}
+
+size_t find_first_word(const void *items, size_t item_size, size_t count, uint64_t word)
+{
+    size_t first = 0;
+    while (first < count) {
+        const size_t middle = first + (count - first) / 2;
+        if (first_word((const char *)items + middle * item_size) < word)
+            first = middle + 1;
+        else
+            count = middle;
+    }
+    return first;
 }

@@ -100,4 +100,12 @@ static inline bool list_push(arena *memory, list *l, const void *item, size_t it
 
 void list_release(arena *memory, list *l, size_t item_size);
 
+/* Sort all items with qsort(). */
+void list_sort(list *l, size_t item_size, int (*compare)(const void *a, const void *b));
+
+/* For items that begin with a uint64_t: compare two of them for qsort(); and the index of the first of `count`
+ * ascending items whose word is not below `word`. */
+int compare_first_words(const void *a, const void *b);
+size_t find_first_word(const void *items, size_t item_size, size_t count, uint64_t word);
+
 #endif

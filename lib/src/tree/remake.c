@@ -43,13 +43,20 @@ typedef struct remake {
     octree_point *staying; /* copies of the points that stay; those of a task begin at its first point */
     uint32_t *cells;       /* grid cell of each move, then of each staying point; without a grid 0 */
     size_t count;          /* moves */
-    unsigned tasks, move_tasks;
-    size_t subtree_count;
-    subtree subtrees[SUBTREES_AT_MOST];
+    unsigned move_tasks;
+    forest stored; /* the tree before the moves */
     findings found[TASKS_AT_MOST];
 } remake;
 
 /* ---- The table of ids --------------------------------------------------------------------------------------- */
+
+bool ids_ascend(const batch *b)
+{
+    for (size_t i = 1; i < b->count; i++)
+        if (b->points[i].id <= b->points[i - 1].id)
+            return false;
+    return true;
+}
 
 /* The slot of an id in a hash table, or the empty slot where it would be. */
 static size_t find_slot(const id_table *t, const octree_point *points, uint64_t id)
@@ -104,7 +111,7 @@ static bool set_bits(const batch *b, id_table *t, bool *differ)
     return true;
 }
 
-/* Enter all moves into the hash table. False if two moves have the same id. */
+/* Enter all ids into the hash table. False if two are equal. */
 static bool set_places(const batch *b, id_table *t)
 {
     for (size_t i = 0; i < b->count; i++) {
@@ -116,33 +123,52 @@ static bool set_places(const batch *b, id_table *t)
     return true;
 }
 
-/* Make the table. False when there is no memory. *differ becomes false if two moves have the same id; the table is then
- * unusable. */
-static bool make_table(const batch *b, id_table *t, bool *differ)
+/* Enter the ids of a batch into an empty table, which becomes dense if they are all among the `reach` * count ids
+ * around the first one. False when there is no memory. *differ becomes false if two ids are equal; the table is then
+ * unusable.
+ */
+static bool enter_ids(const batch *b, id_table *t, size_t reach, bool *differ)
 {
-    arena *memory = &b->store->memory;
-    t->least = b->points[0].id - 4 * (uint64_t)b->count; /* modulo 2^64 */
-    t->slot_count = 8 * b->count;
+    arena *memory = &b->tree->store.memory;
+    t->least = b->points[0].id - reach / 2 * b->count; /* modulo 2^64 */
+    t->slot_count = reach * b->count;
     t->bits = arena_take(memory, bits_size(t));
     if (!t->bits)
         return false;
     memset(t->bits, 0, bits_size(t));
     *differ = true;
-    if (!set_bits(b, t, differ) && *differ) {
-        release_table(memory, t);
-        t->slot_count = 64;
-        while (t->slot_count < 2 * b->count)
-            t->slot_count *= 2;
-        t->places = arena_take(memory, t->slot_count * sizeof *t->places);
-        if (!t->places)
-            return false;
-        memset(t->places, 0, t->slot_count * sizeof *t->places);
-        *differ = set_places(b, t);
-        t->stored_count = t->slot_count;
-    }
+    if (set_bits(b, t, differ) || !*differ)
+        return true;
+    release_table(memory, t);
+    t->slot_count = 64;
+    while (t->slot_count < 2 * b->count)
+        t->slot_count *= 2;
+    t->places = arena_take(memory, t->slot_count * sizeof *t->places);
+    if (!t->places)
+        return false;
+    memset(t->places, 0, t->slot_count * sizeof *t->places);
+    *differ = set_places(b, t);
+    t->stored_count = t->slot_count;
+    return true;
+}
+
+bool ids_differ(const batch *b, bool *differ)
+{
+    id_table t = {0};
+    *differ = ids_ascend(b);
+    const bool ok = *differ || enter_ids(b, &t, 64, differ);
+    release_table(&b->tree->store.memory, &t);
+    return ok;
+}
+
+/* Make the table of all moves. False when there is no memory. *differ becomes false if two moves have the same id. */
+static bool make_table(const batch *b, id_table *t, bool *differ)
+{
+    if (!enter_ids(b, t, 8, differ))
+        return false;
     if (!*differ)
-        t->stored_count = 1;
-    t->stored = arena_take(memory, t->stored_count * sizeof *t->stored);
+        return true;
+    t->stored = arena_take(&b->tree->store.memory, t->stored_count * sizeof *t->stored);
     if (t->stored)
         memset((void *)t->stored, 0, t->stored_count * sizeof *t->stored);
     return t->stored != NULL;
@@ -150,16 +176,10 @@ static bool make_table(const batch *b, id_table *t, bool *differ)
 
 /* ---- The stored points -------------------------------------------------------------------------------------- */
 
-/* Compute the grid cells of staying points. */
+/* Find the grid cells of staying points. */
 static void add_cells(const remake *r, size_t first, size_t count)
 {
-    const octree *tree = r->whole->tree;
-    const octree_point *points = r->staying + first;
-    uint32_t *cells = r->cells + r->count + first;
-    grid_cells(tree->axes, r->whole->grid, points->position, sizeof *points / sizeof(double), count, cells);
-    for (size_t i = 0; i < count; i++)
-        if (cells[i] == GRID_NONE)
-            cells[i] = grid_cell(tree->axes, r->whole->grid, points[i].position);
+    find_grid_cells(r->whole, r->staying + first, count, r->cells + r->count + first, NULL);
 }
 
 static void sort_out_leaf(const remake *r, const node *leaf, findings *f)
@@ -192,20 +212,17 @@ static void sort_out_below(const remake *r, const node *n, findings *f)
 static void sort_out_share(size_t number, void *context)
 {
     remake *r = context;
-    const octree *tree = r->whole->tree;
-    size_t i = subtrees_share(tree, r->subtrees, r->subtree_count, r->tasks, number);
-    const size_t end = subtrees_share(tree, r->subtrees, r->subtree_count, r->tasks, number + 1);
+    const subtree *s = first_subtree(&r->stored, number), *end = first_subtree(&r->stored, number + 1);
     findings *f = &r->found[number];
-    *f = (findings){.first = i < end ? r->subtrees[i].before : 0};
-    for (; i < end; i++)
-        sort_out_below(r, r->subtrees[i].node, f);
+    *f = (findings){.first = s < end ? s->before : 0};
+    for (; s < end; s++)
+        sort_out_below(r, s->node, f);
     add_cells(r, f->first, f->stay);
     for (size_t at = f->stay; at < f->looked_up; at++)
         r->cells[r->count + f->first + at] = GRID_NONE;
 }
 
-/* ---- The moves ----------------------------------------------------------------------------------------------
- */
+/* ---- The moves ---------------------------------------------------------------------------------------------- */
 
 /* The status of an invalid move. */
 static octree_status refusal(const batch *b, size_t place)
@@ -332,11 +349,10 @@ static octree_status move_and_build(remake *r, bool *settled)
         return OCTREE_NO_MEMORY;
     if (!*settled)
         return OCTREE_OK;
-    r->tasks = tasks_for(b->tree, b->tree->root.count);
-    r->subtree_count = subtrees_of(b->tree, r->tasks, NULL, NULL, r->subtrees);
+    divide_tree(&r->stored, b->tree, NULL, NULL);
     r->move_tasks = tasks_for(b->tree, r->count);
     memset(r->found, 0, sizeof r->found);
-    tasks_run(b->tree, sort_out_share, r->tasks, r);
+    tasks_run(b->tree, sort_out_share, r->stored.tasks, r);
     tasks_run(b->tree, move_share, r->move_tasks, r);
     b->done = 0;
     for (unsigned i = 0; i < TASKS_AT_MOST; i++) {

@@ -250,6 +250,12 @@ static void drop_stored(batch *b, const node *leaf, span leaving, span *arriving
     arriving->count = left;
 }
 
+/* Set `overflow` if arriving points, moved one by one in some order, may meet a full leaf. */
+static void find_overflow(batch *b, const node *old, cell c, span arriving)
+{
+    b->overflow = b->overflow || (b->to && may_overflow(b, old, c, arriving));
+}
+
 static bool change_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     sort_by_index(leaving);
@@ -257,8 +263,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
         drop_stored(b, old, leaving, &arriving);
     if (leaving.count + arriving.count == 0)
         return true;
-    if (b->to && may_overflow(b, old, c, arriving))
-        b->overflow = true;
+    find_overflow(b, old, c, arriving);
     const size_t count = old->count - leaving.count + arriving.count;
     if (!fits_leaf(b->tree, count))
         return divide_leaf(b, old, c, leaving, arriving, made);
@@ -285,8 +290,7 @@ static void gather_staying(const node *old, unsigned depth, span leaving, node *
 /* Merge a node whose points fit one leaf. */
 static bool merge(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
-    if (b->to && may_overflow(b, old, c, arriving))
-        b->overflow = true;
+    find_overflow(b, old, c, arriving);
     if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
     gather_staying(old, c.depth, leaving, made);
@@ -378,18 +382,14 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
 /* A node of which no point stays is built from the arriving items only. */
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
-    *made = *old;
-    if (leaving.count + arriving.count == 0)
-        return true;
-    if (leaving.count == old->count)
-        *made = (node){0};
-    if (leaving.count == old->count && arriving.count == 0)
+    const bool is_emptied = leaving.count == old->count;
+    *made = is_emptied ? (node){0} : *old;
+    if (arriving.count == 0 && (is_emptied || leaving.count == 0))
         return true;
     if (is_job(b, leaving.count + arriving.count))
         return use_job(b, made);
-    if (leaving.count == old->count) {
-        if (b->to && may_overflow(b, old, c, arriving))
-            b->overflow = true;
+    if (is_emptied) {
+        find_overflow(b, old, c, arriving);
         return build_node(b, c, arriving, made);
     }
     if (!old->octants)

@@ -40,44 +40,45 @@ void tasks_run(const octree *tree, octree_task *task, unsigned count, void *cont
             task(number, context);
 }
 
-/* Replace a subtree by those of its children. Returns the new count. */
-static size_t divide_subtree(subtree *subtrees, size_t count, size_t at)
+/* Replace a subtree by those of its children. */
+static void divide_subtree(forest *f, size_t at)
 {
-    const subtree whole = subtrees[at];
+    const subtree whole = f->subtrees[at];
     const unsigned children = bits_count8(whole.node->octants);
-    memmove(subtrees + at + children, subtrees + at + 1, (count - at - 1) * sizeof *subtrees);
+    subtree *part = &f->subtrees[at];
+    memmove(part + children, part + 1, (f->count - at - 1) * sizeof *part);
     const node *child = children_of(whole.node);
     size_t before = whole.before;
     for (unsigned octant = 0; octant < 8; octant++)
         if (whole.node->octants >> octant & 1) {
-            subtrees[at++] = (subtree){child, whole.address << 3 | octant, cell_child(whole.cell, octant), before};
+            *part++ = (subtree){child, whole.address << 3 | octant, cell_child(whole.cell, octant), before};
             before += child++->count;
         }
-    return count - 1 + children;
+    f->count += children - 1;
 }
 
-size_t subtrees_of(const octree *tree, unsigned tasks, subtree_opener *open, void *context,
-                   subtree subtrees[SUBTREES_AT_MOST])
+void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *context)
 {
-    const size_t share = tasks == 1 ? SIZE_MAX : tree->root.count / tasks / 2 + 1;
-    size_t count = 1;
-    subtrees[0] = (subtree){&tree->root, OCTREE_ROOT, root_cell(), 0};
-    for (size_t at = 0; at < count;) {
-        const bool fits = count + 7 <= SUBTREES_AT_MOST;
-        const subtree *s = &subtrees[at];
+    f->tree = tree;
+    f->tasks = tasks_for(tree, tree->root.count);
+    f->count = 1;
+    f->subtrees[0] = (subtree){&tree->root, OCTREE_ROOT, root_cell(), 0};
+    const size_t share = f->tasks == 1 ? SIZE_MAX : tree->root.count / f->tasks / 2 + 1;
+    for (size_t at = 0; at < f->count;) {
+        const bool fits = f->count + 7 <= SUBTREES_AT_MOST;
+        const subtree *s = &f->subtrees[at];
         if (s->node->octants && s->node->count > share && fits && (!open || open(s, context)))
-            count = divide_subtree(subtrees, count, at);
+            divide_subtree(f, at);
         else
             at++;
     }
-    return count;
 }
 
-size_t subtrees_share(const octree *tree, const subtree *subtrees, size_t count, unsigned tasks, size_t number)
+const subtree *first_subtree(const forest *f, size_t number)
 {
-    const size_t before = tasks_share(tree->root.count, tasks, number);
-    size_t first = 0;
-    while (first < count && subtrees[first].before < before)
+    const size_t before = tasks_share(f->tree->root.count, f->tasks, number);
+    const subtree *first = f->subtrees;
+    while (first < f->subtrees + f->count && first->before < before)
         first++;
     return first;
 }

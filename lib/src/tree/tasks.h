@@ -34,14 +34,21 @@ typedef struct subtree {
 
 enum { SUBTREES_AT_MOST = 8 * TASKS_AT_MOST };
 
+/* A tree divided into subtrees of about half a task's share, in Morton order. */
+typedef struct forest {
+    const octree *tree;
+    unsigned tasks;
+    size_t count;
+    subtree subtrees[SUBTREES_AT_MOST];
+} forest;
+
 /* Called with each node before it is divided. Returns false to leave the node whole. */
 typedef bool subtree_opener(const subtree *divided, void *context);
 
-/* Divide a tree into subtrees of about half a task's share, in Morton order. Returns their count. */
-size_t subtrees_of(const octree *tree, unsigned tasks, subtree_opener *open, void *context,
-                   subtree subtrees[SUBTREES_AT_MOST]);
+/* Divide a tree among the tasks for its points. `open` may be null. */
+void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *context);
 
-/* The index of the first subtree of a task; its subtrees end where those of the next begin. */
-size_t subtrees_share(const octree *tree, const subtree *subtrees, size_t count, unsigned tasks, size_t number);
+/* The first subtree of a task; its subtrees end where those of the next task begin. */
+const subtree *first_subtree(const forest *f, size_t number);
 
 #endif

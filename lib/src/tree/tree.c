@@ -71,8 +71,7 @@ octree_status octree_create(const octree_def *def, octree **tree)
         made->tuning.choose = octree_tune;
     for (int i = 0; i < 3; i++)
         made->axes[i] = axis_make(def->world.min[i], def->world.max[i]);
-    pool_init(&made->store.nodes, &made->store.memory, sizeof(node));
-    pool_init(&made->store.points, &made->store.memory, sizeof(octree_point));
+    store_init(&made->store);
     *tree = made;
     return OCTREE_OK;
 }
@@ -90,9 +89,7 @@ octree_status octree_clear(octree *tree)
 {
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
-    node_release(&tree->store, &tree->root); /* hashed leaves are not in the pools */
-    pool_release(&tree->store.nodes);
-    pool_release(&tree->store.points);
+    store_release(&tree->store, &tree->root);
     change_log_stop(&tree->changes, &tree->store.memory);
     tree->root = (node){0};
     tree->tuning.due = TUNE_LEAST;

@@ -56,6 +56,9 @@ octree_status check_position(const octree *tree, const double position[3]);
  * memory. */
 octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides);
 
+/* Remove a point whose position is in the world. Returns OK, NOT_FOUND or NO_MEMORY. */
+octree_status remove_point(octree *tree, const octree_point *point);
+
 /* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
 void drop_child(octree *tree, node *parent, node *child);
 

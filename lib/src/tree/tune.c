@@ -45,7 +45,9 @@ static size_t cell_points(const octree_mix *mix)
 typedef struct sample {
     octree_point *points;
     size_t count, room;
-    double extents[TARGETS]; /* half the side of each target's range */
+    octree_mix mix;
+    octree_neighbor *neighbors; /* room for the results of any search of the mix */
+    double extents[TARGETS];    /* half the side of each target's range */
 } sample;
 
 static bool add_point(const octree_point *point, void *context)
@@ -77,10 +79,10 @@ static octree_walk_order copy_cell(const octree_node *seen, void *context)
     return OCTREE_WALK_SKIP;
 }
 
-static bool make_sample(sample *s, octree *tree, const octree_mix *mix)
+static bool make_sample(sample *s, octree *tree)
 {
-    const size_t count = octree_count(tree), cell = cell_points(mix);
-    *s = (sample){.room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL};
+    const size_t count = octree_count(tree), cell = cell_points(&s->mix);
+    s->room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL;
     s->points = arena_take(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
@@ -98,14 +100,14 @@ static const octree_point *target_of(const sample *s, size_t i)
 /* ---- Trials ------------------------------------------------------------------------------------------------- */
 
 /* For each target, find the cube with the volume of the ball that contains `hits` points. */
-static octree_status measure_ranges(sample *s, const octree *trial, size_t hits, octree_neighbor *room)
+static octree_status measure_ranges(sample *s, const octree *trial)
 {
     octree_status status = OCTREE_OK;
     /* unreachable: a search for a stored point in a valid tree cannot fail */
     for (size_t i = 0; status == OCTREE_OK && i < TARGETS; i++) {
         size_t found = 0;
-        status = octree_nearest_k(trial, target_of(s, i)->position, hits, NULL, room, &found);
-        s->extents[i] = found ? 0.806 * room[found - 1].distance : 0;
+        status = octree_nearest_k(trial, target_of(s, i)->position, s->mix.hits, NULL, s->neighbors, &found);
+        s->extents[i] = found ? 0.806 * s->neighbors[found - 1].distance : 0;
     }
     return status;
 }
@@ -117,12 +119,12 @@ static octree_cost cost_of_change(const octree *trial, const octree_point *targe
     return (octree_cost){.nodes = leaf.depth + 1, .leaves = 1, .points = leaf.count};
 }
 
-static octree_cost cost_of_nearest(const octree *trial, const octree_point *target, size_t k, octree_neighbor *room)
+static octree_cost cost_of_nearest(const sample *s, const octree *trial, const octree_point *target)
 {
     octree_cost cost = {0};
     size_t found;
-    octree_nearest_k(trial, target->position, k,
-                     &(octree_search){.skip = OCTREE_SKIP_ID, .skip_id = target->id, .cost = &cost}, room, &found);
+    const octree_search how = {.skip = OCTREE_SKIP_ID, .skip_id = target->id, .cost = &cost};
+    octree_nearest_k(trial, target->position, s->mix.k, &how, s->neighbors, &found);
     return cost;
 }
 
@@ -167,47 +169,46 @@ static octree_cost cost_of_range(const octree *trial, const octree_point *target
 }
 
 /* The cost of the mix in a trial tree. */
-static double mix_cost(const sample *s, const octree *trial, const octree_mix *mix, octree_neighbor *room)
+static double mix_cost(const sample *s, const octree *trial)
 {
     double sum = 0;
     for (size_t i = 0; i < TARGETS; i++) {
         const octree_point *target = target_of(s, i);
-        const octree_cost costs[3] = {cost_of_change(trial, target), cost_of_nearest(trial, target, mix->k, room),
-                                      cost_of_range(trial, target, s->extents[i])};
-        sum += mix->changes * weighted_cost(&costs[0]) + mix->nearest * weighted_cost(&costs[1]) +
-               mix->ranges * weighted_cost(&costs[2]);
+        const octree_cost change = cost_of_change(trial, target), nearest = cost_of_nearest(s, trial, target);
+        const octree_cost range = cost_of_range(trial, target, s->extents[i]);
+        sum += s->mix.changes * weighted_cost(&change) + s->mix.nearest * weighted_cost(&nearest) +
+               s->mix.ranges * weighted_cost(&range);
     }
     return sum;
 }
 
-static octree_status try_capacity(sample *s, octree_def def, const octree_mix *mix, octree_neighbor *room, double *cost)
+static octree_status try_capacity(sample *s, octree_def def, double *cost)
 {
     octree *trial;
     octree_status status = octree_create(&def, &trial);
     if (status == OCTREE_OK)
         status = octree_insert_many(trial, s->points, s->count, NULL, NULL);
     if (status == OCTREE_OK && def.leaf_capacity == LEAST_CAPACITY)
-        status = measure_ranges(s, trial, mix->hits, room);
+        status = measure_ranges(s, trial);
     if (status == OCTREE_OK)
-        *cost = mix_cost(s, trial, mix, room);
+        *cost = mix_cost(s, trial);
     octree_destroy(trial);
     return status;
 }
 
-static octree_status choose_capacity(sample *s, octree_def def, const octree_mix *mix, octree_neighbor *room,
-                                     size_t *capacity)
+static octree_status choose_capacity(sample *s, octree_def def, size_t *capacity)
 {
     double least = INFINITY, cost = 0;
-    octree_status status = OCTREE_OK;
-    for (def.leaf_capacity = LEAST_CAPACITY; status == OCTREE_OK && def.leaf_capacity <= MOST_CAPACITY;
-         def.leaf_capacity *= 2) {
-        status = try_capacity(s, def, mix, room, &cost);
-        if (status == OCTREE_OK && cost < least) {
+    for (def.leaf_capacity = LEAST_CAPACITY; def.leaf_capacity <= MOST_CAPACITY; def.leaf_capacity *= 2) {
+        const octree_status status = try_capacity(s, def, &cost);
+        if (status != OCTREE_OK)
+            return status;
+        if (cost < least) {
             least = cost;
             *capacity = def.leaf_capacity;
         }
     }
-    return status;
+    return OCTREE_OK;
 }
 
 /* ---- The choice --------------------------------------------------------------------------------------------- */
@@ -239,15 +240,14 @@ static octree_mix clamp_mix(octree_mix mix, size_t most)
 
 static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_t *capacity)
 {
-    sample s;
-    octree_status status = OCTREE_NO_MEMORY;
-    const octree_mix tried = clamp_mix(*mix, LEAST_CELL);
-    const size_t size = ((tried.k > tried.hits ? tried.k : tried.hits) + 1) * sizeof(octree_neighbor);
-    octree_neighbor *room = arena_take(&tree->store.memory, size);
-    if (make_sample(&s, tree, &tried) && room)
-        status = choose_capacity(&s, tree->def, &tried, room, capacity);
-    arena_give(&tree->store.memory, room, size);
-    arena_give(&tree->store.memory, s.points, s.room * sizeof *s.points);
+    sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
+    arena *memory = &tree->store.memory;
+    const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
+    s.neighbors = arena_take(memory, size);
+    const bool ok = make_sample(&s, tree) && s.neighbors;
+    const octree_status status = ok ? choose_capacity(&s, tree->def, capacity) : OCTREE_NO_MEMORY;
+    arena_give(memory, s.neighbors, size);
+    arena_give(memory, s.points, s.room * sizeof *s.points);
     return status;
 }
 

@@ -214,45 +214,32 @@ static void keep_first(validation *first, const char *broken, octree_address whe
     }
 }
 
-typedef struct shares {
-    const octree *tree;
-    unsigned tasks;
-    size_t count;
-    subtree subtrees[SUBTREES_AT_MOST];
+/* A tree whose nodes are read by tasks. */
+typedef struct reading {
+    forest forest;
     validation first[TASKS_AT_MOST + 1]; /* of each task, and of the nodes above the subtrees */
     uint64_t sums[TASKS_AT_MOST + 1];    /* likewise */
-} shares;
-
-static void shares_begin(shares *d, const octree *tree, subtree_opener *open)
-{
-    d->tree = tree;
-    d->tasks = tasks_for(tree, tree->root.count);
-    for (unsigned i = 0; i <= d->tasks; i++) {
-        d->first[i] = (validation){.broken = NULL};
-        d->sums[i] = 0;
-    }
-    d->count = subtrees_of(tree, d->tasks, open, d, d->subtrees);
-}
+} reading;
 
 /* Returns false for a node that violates an invariant: its children may be invalid pointers. */
 static bool check_opened(const subtree *s, void *context)
 {
-    shares *d = context;
-    const char *broken = check_inner(d->tree, s->node, s->cell);
-    keep_first(&d->first[d->tasks], broken, s->address);
+    reading *r = context;
+    const char *broken = check_inner(r->forest.tree, s->node, s->cell);
+    keep_first(&r->first[r->forest.tasks], broken, s->address);
     return !broken;
 }
 
 static void check_share(size_t number, void *context)
 {
-    shares *d = context;
-    const size_t end = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number + 1);
-    for (size_t i = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number); i < end; i++) {
-        const subtree *s = &d->subtrees[i];
-        const octree_box box = cell_bounds(d->tree->axes, s->cell);
-        validation v = {.tree = d->tree};
+    reading *r = context;
+    const octree *tree = r->forest.tree;
+    const subtree *end = first_subtree(&r->forest, number + 1);
+    for (const subtree *s = first_subtree(&r->forest, number); s < end; s++) {
+        const octree_box box = cell_bounds(tree->axes, s->cell);
+        validation v = {.tree = tree};
         check_below(&v, s->node, s->address, s->cell, &box);
-        keep_first(&d->first[number], v.broken, v.where);
+        keep_first(&r->first[number], v.broken, v.where);
     }
 }
 
@@ -262,12 +249,13 @@ const char *octree_check(const octree *tree, octree_address *where)
         return "there is no tree";
     if (!float_mode_is_default())
         return octree_status_text(OCTREE_FLOAT_MODE);
-    shares d;
-    shares_begin(&d, tree, check_opened);
-    tasks_run(tree, check_share, d.tasks, &d);
-    validation *first = &d.first[d.tasks];
-    for (unsigned i = 0; i < d.tasks; i++)
-        keep_first(first, d.first[i].broken, d.first[i].where);
+    reading r;
+    memset(r.first, 0, sizeof r.first);
+    divide_tree(&r.forest, tree, check_opened, &r);
+    tasks_run(tree, check_share, r.forest.tasks, &r);
+    validation *first = &r.first[r.forest.tasks];
+    for (unsigned i = 0; i < r.forest.tasks; i++)
+        keep_first(first, r.first[i].broken, r.first[i].where);
     if (first->broken && where)
         *where = first->where;
     return first->broken;
@@ -355,30 +343,29 @@ uint64_t digest_of_sum(const octree *tree, uint64_t sum)
 
 static bool digest_opened(const subtree *s, void *context)
 {
-    shares *d = context;
-    d->sums[d->tasks] += digest_node(s->node, s->address);
+    reading *r = context;
+    r->sums[r->forest.tasks] += digest_node(s->node, s->address);
     return true;
 }
 
 static void digest_share(size_t number, void *context)
 {
-    shares *d = context;
-    const size_t end = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number + 1);
-    for (size_t i = subtrees_share(d->tree, d->subtrees, d->count, d->tasks, number); i < end; i++) {
-        const subtree *s = &d->subtrees[i];
-        d->sums[number] += s->node->octants ? digest_below(s->node, s->address) : digest_node(s->node, s->address);
-    }
+    reading *r = context;
+    const subtree *end = first_subtree(&r->forest, number + 1);
+    for (const subtree *s = first_subtree(&r->forest, number); s < end; s++)
+        r->sums[number] += s->node->octants ? digest_below(s->node, s->address) : digest_node(s->node, s->address);
 }
 
 uint64_t octree_digest(const octree *tree)
 {
     if (!tree || !float_mode_is_default())
         return 0;
-    shares d;
-    shares_begin(&d, tree, digest_opened);
-    tasks_run(tree, digest_share, d.tasks, &d);
-    uint64_t sum = d.sums[d.tasks];
-    for (unsigned i = 0; i < d.tasks; i++)
-        sum += d.sums[i];
+    reading r;
+    memset(r.sums, 0, sizeof r.sums);
+    divide_tree(&r.forest, tree, digest_opened, &r);
+    tasks_run(tree, digest_share, r.forest.tasks, &r);
+    uint64_t sum = 0;
+    for (unsigned i = 0; i <= r.forest.tasks; i++)
+        sum += r.sums[i];
     return digest_of_sum(tree, sum);
 }
