@@ -369,9 +369,8 @@ static octree_status check_batch(const octree *tree, const double (*targets)[3],
     return status;
 }
 
-#define PREFETCH_AHEAD                                                                                                 \
-    4 /* targets: the lead of prefetching in the caller's arrays, which are not accessed in order                      \
-       */
+/* Targets: the lead of prefetching in the caller's arrays, which are not accessed in order. */
+#define PREFETCH_AHEAD 4
 
 typedef struct target_batch {
     const octree *tree;
@@ -416,23 +415,12 @@ static void search_share(size_t number, void *context)
     }
 }
 
-static void add_cost(octree_cost *sum, const octree_cost *cost)
-{
-    sum->nodes += cost->nodes;
-    sum->leaves += cost->leaves;
-    sum->points += cost->points;
-    sum->pruned += cost->pruned;
-    sum->taken += cost->taken;
-}
-
 static void search_in_order(target_batch *b, arena *memory)
 {
     tasks_run(b->tree, order_share, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
     if (b->how.trace)
         b->tasks = 1; /* the caller's tracer need not be thread-safe */
-    for (unsigned i = 0; i < b->tasks; i++)
-        b->costs[i] = (octree_cost){0};
     tasks_run(b->tree, search_share, b->tasks, b);
     for (unsigned i = 0; b->how.cost && i < b->tasks; i++)
         add_cost(b->how.cost, &b->costs[i]);
@@ -445,16 +433,14 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     const octree_status status = check_batch(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
-    arena memory = {.allocator =
-                        tree->def.allocator}; /* an arena of its own: queries do not change the tree's byte count */
-    target_batch b;
-    b.tree = tree;
-    b.targets = targets;
-    b.count = count;
-    b.how = search;
-    b.neighbors = neighbors;
-    b.found = found;
-    b.tasks = tasks_for(tree, count);
+    arena memory = {.allocator = tree->def.allocator}; /* queries do not change the tree's own byte count */
+    target_batch b = {.tree = tree,
+                      .targets = targets,
+                      .count = count,
+                      .how = search,
+                      .neighbors = neighbors,
+                      .found = found,
+                      .tasks = tasks_for(tree, count)};
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
     b.order = size < SIZE_MAX ? arena_take(&memory, size) : NULL;
     if (!b.order)

@@ -116,14 +116,7 @@ static void search_ball(const octree *tree, const double center[3], double radiu
     b.reach = metric_above(b.square);
     b.whole = metric_below(squared(radius * tree->scale + how->epsilon * tree->scale)); /* their sum may overflow */
     region r = {
-        .tree = tree,
-        .shape = &b,
-        .enter = enter,
-        .scan = scan,
-        .visit = visit,
-        .context = context,
-        .meter = {.how = how},
-    };
+        .tree = tree, .shape = &b, .enter = enter, .scan = scan, .visit = visit, .context = context, .meter.how = how};
     region_search(&r, measure_root(&b, tree));
 }
 

@@ -106,17 +106,20 @@ static inline void meter_prune_root(meter *m)
     meter_trace(m, OCTREE_ROOT, OCTREE_TRACE_PRUNED);
 }
 
+static inline void add_cost(octree_cost *sum, const octree_cost *cost)
+{
+    sum->nodes += cost->nodes;
+    sum->leaves += cost->leaves;
+    sum->points += cost->points;
+    sum->pruned += cost->pruned;
+    sum->taken += cost->taken;
+}
+
 /* Add the counts to the caller's octree_cost. */
 static inline void meter_report(const meter *m)
 {
-    octree_cost *cost = m->how->cost;
-    if (!cost)
-        return;
-    cost->nodes += m->count.nodes;
-    cost->leaves += m->count.leaves;
-    cost->points += m->count.points;
-    cost->pruned += m->count.pruned;
-    cost->taken += m->count.taken;
+    if (m->how->cost)
+        add_cost(m->how->cost, &m->count);
 }
 
 #endif
