@@ -7,7 +7,6 @@
 #include "search.h"
 
 #include <limits.h>
-#include <stdlib.h>
 #include <string.h>
 
 const char *octree_node_visit_name(octree_node_visit visit)
@@ -45,25 +44,10 @@ int foreign_compare_keys(const void *a, const void *b)
     return p->id != q->id ? (p->id > q->id) - (p->id < q->id) : (p->place > q->place) - (p->place < q->place);
 }
 
-/* The index of the first key whose id is not below `id`. */
-static size_t first_key(const list *keys, uint64_t id)
-{
-    const foreign_key *items = keys->items;
-    size_t first = 0, end = keys->count;
-    while (first < end) {
-        const size_t middle = first + (end - first) / 2;
-        if (items[middle].id < id)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    return first;
-}
-
 static size_t find_key(const list *keys, uint64_t id)
 {
     const foreign_key *items = keys->items;
-    const size_t first = first_key(keys, id);
+    const size_t first = find_first_word(items, sizeof *items, keys->count, id);
     return first < keys->count && items[first].id == id ? items[first].place : SIZE_MAX;
 }
 
@@ -80,9 +64,9 @@ static octree_status list_keys(arena *memory, const octree_foreign_tree *tree, l
         if (!list_push(memory, keys, &key, sizeof key))
             return OCTREE_NO_MEMORY;
     }
-    foreign_key *items = keys->items;
+    const foreign_key *items = keys->items;
     if (!sorted)
-        qsort(items, keys->count, sizeof *items, foreign_compare_keys);
+        list_sort(keys, sizeof *items, foreign_compare_keys);
     for (size_t i = 1; i < keys->count; i++)
         if (items[i].id == items[i - 1].id)
             return *fault = items[i].place, OCTREE_DUPLICATE;
@@ -299,7 +283,7 @@ size_t foreign_find(const foreign *f, uint64_t id)
 
 size_t foreign_first_holding(const foreign *f, uint64_t point)
 {
-    return first_key(&f->holdings, point);
+    return find_first_word(f->holdings.items, sizeof(foreign_holding), f->holdings.count, point);
 }
 
 void foreign_publish(foreign *f)

@@ -71,14 +71,14 @@ bool foreign_contains(const octree_foreign_node *node, const double position[3])
 /* Forget the nodes that the last tick's queries named. */
 void foreign_begin_tick(foreign *f);
 
-/* After all changes of a tick: find what is wrong with the nodes apart from queries. Returns OK or NO_MEMORY. Cost:
- * nothing if neither the nodes nor the tree changed; else O(n log n) for n nodes, points and listed ids, and one range
- * search for each leaf that lists no points. */
-octree_status foreign_check(foreign *f, const audited_points *points);
+/* After all changes of a tick: find what is wrong with the nodes apart from queries. False when there is no memory.
+ * Cost: nothing if neither the nodes nor the tree changed; else O(n log n) for n nodes, points and listed ids, and one
+ * range search for each leaf that lists no points. */
+bool foreign_check(foreign *f, const audited_points *points);
 
 /* Record which nodes a query named, and what is wrong with that. `answer` is the index of the query's answer among
- * those of the tick. Returns OK or NO_MEMORY. */
-octree_status foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer);
+ * those of the tick. False when there is no memory. */
+bool foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer);
 
 /* Set the pointers and counts of f->state. The lists must not grow any more. */
 void foreign_publish(foreign *f);

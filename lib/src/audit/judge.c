@@ -19,8 +19,6 @@
 #include "kind.h"
 #include "search.h"
 
-#include <stdlib.h>
-
 const char *octree_wrong_name(octree_wrong_kind wrong)
 {
     static const char *const names[OCTREE_WRONG_KINDS] = {"none",  "unknown", "duplicate", "skipped",
@@ -35,7 +33,8 @@ typedef struct judge_state {
     octree_answer asked; /* what is asked, rounded to floats where the foreign index promises floats */
     bool rounds;
     metric metric;
-    bool failed; /* out of memory */
+    list *collected; /* where a search puts the points that it finds */
+    bool failed;     /* out of memory */
 } judge_state;
 
 static bool finds_neighbors(const judge_state *s)
@@ -101,12 +100,6 @@ static int compare_ranks(const void *a, const void *b)
     return by_distance ? by_distance : compare_ids(a, b);
 }
 
-static void sort(list *l, int (*compare)(const void *, const void *))
-{
-    if (l->count > 1)
-        qsort(l->items, l->count, sizeof(judged_point), compare);
-}
-
 /* ---- The foreign answer ------------------------------------------------------------------------------------- */
 
 /* Record how the answer is wrong, unless a lower kind of wrong is recorded already. `id` counts only for the kinds that
@@ -153,7 +146,7 @@ static void list_named(judge_state *s)
         else
             keep(s, &j->named, &p);
     }
-    sort(&j->named, compare_ids);
+    list_sort(&j->named, sizeof(judged_point), compare_ids);
     remove_duplicates(s, &j->named);
 }
 
@@ -179,36 +172,31 @@ static double rounding_of(const octree *tree)
     return largest > FLT_MAX ? largest : largest * 0x1p-24 + 0x1p-149;
 }
 
-/* A search that collects points with their positions as judged. */
-typedef struct collecting {
-    judge_state *state;
-    list *into;
-} collecting;
-
 /* An octree_point_visitor: keep a point of the region. Neighbours are kept wherever they are. */
 static bool keep_judged(const octree_point *point, void *context)
 {
-    const collecting *c = context;
-    judge_state *s = c->state;
+    judge_state *s = context;
     judged_point p = judge_point(s, point);
     const query_rules *rules = query_rules_of(s->asked.kind);
     if (!is_skipped(s, &p) && (!rules->contains || rules->contains(&s->asked, p.at, 0)))
-        keep(s, c->into, &p);
+        keep(s, s->collected, &p);
     return !s->failed;
 }
 
-static octree_status collect_ball(judge_state *s, double radius, double slack, list *into)
+/* Collect the points in a ball around the target. Valid searches cannot fail; s->failed records a lack of memory. */
+static void collect_ball(judge_state *s, double radius, double slack)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     const octree *tree = s->about->points->tree;
     const double reach = exact_add_up(radius, slack);
-    collecting c = {s, into};
-    return reach < DBL_MAX ? octree_radius(tree, s->asked.target, reach, NULL, keep_judged, &c)
-                           : octree_range(tree, &all, keep_judged, &c);
+    if (reach < DBL_MAX)
+        octree_radius(tree, s->asked.target, reach, NULL, keep_judged, s);
+    else
+        octree_range(tree, &all, keep_judged, s);
 }
 
 /* Search larger and larger balls until the k-th neighbour found is nearer than every point outside the ball. */
-static octree_status collect_nearest(judge_state *s, double slack)
+static void collect_nearest(judge_state *s, double slack)
 {
     const octree_answer *answer = s->about->answer;
     const double *target = s->asked.target;
@@ -218,43 +206,40 @@ static octree_status collect_nearest(judge_state *s, double slack)
         count && count == k ? metric_distance(target, s->about->exact_neighbors[count - 1].point.position) : 0;
     if (k >= octree_count(s->about->points->tree))
         radius = DBL_MAX;
-    for (radius += slack;; radius *= 2) {
+    for (radius += slack; !s->failed; radius *= 2) {
         truth->count = 0;
         radius = radius < DBL_MAX ? radius : DBL_MAX;
-        const octree_status status = collect_ball(s, radius, slack, truth);
-        if (status != OCTREE_OK || s->failed) /* only out of memory: a search of such a ball is never refused */
-            return status;
-        sort(truth, compare_ranks);
+        collect_ball(s, radius, slack);
+        list_sort(truth, sizeof(judged_point), compare_ranks);
         const judged_point *found = truth->items;
         if (k == 0 || radius == DBL_MAX ||
             (truth->count >= k && metric_compare_radius(target, found[k - 1].at, radius) <= 0))
             break;
     }
     truth->count = truth->count < k ? truth->count : k;
-    return OCTREE_OK;
 }
 
 /* The exact answer for positions rounded to floats. */
-static octree_status list_rounded_truth(judge_state *s)
+static void list_rounded_truth(judge_state *s)
 {
     const octree *tree = s->about->points->tree;
     const double slack = 2 * rounding_of(tree); /* a distance in space: above the square root of 3 times that */
-    if (finds_neighbors(s))
-        return collect_nearest(s, slack);
-    const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, slack);
-    collecting c = {s, &s->judge->truth};
-    return octree_range(tree, &bound, keep_judged, &c);
+    s->collected = &s->judge->truth;
+    if (finds_neighbors(s)) {
+        collect_nearest(s, slack);
+    } else {
+        const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, slack);
+        octree_range(tree, &bound, keep_judged, s);
+    }
 }
 
-static octree_status find_truth(judge_state *s)
+static void find_truth(judge_state *s)
 {
-    octree_status status = OCTREE_OK;
     if (s->rounds)
-        status = list_rounded_truth(s);
+        list_rounded_truth(s);
     else
         list_truth(s);
     s->made->expected = s->judge->truth.count;
-    return s->failed ? OCTREE_NO_MEMORY : status;
 }
 
 /* ---- Regions ------------------------------------------------------------------------------------------------ */
@@ -283,7 +268,7 @@ static void list_difference(judge_state *s, const list *from, const list *withou
 static void judge_region(judge_state *s)
 {
     judge *j = s->judge;
-    sort(&j->truth, compare_ids);
+    list_sort(&j->truth, sizeof(judged_point), compare_ids);
     list_difference(s, &j->truth, &j->named, 0, &s->made->missing_count);
     list_difference(s, &j->named, &j->truth, s->asked.epsilon, &s->made->extra_count);
     if (s->made->missing_count)
@@ -344,12 +329,11 @@ static void list_wrong_neighbors(judge_state *s)
             list_wrong(s, &named[i], &made->extra_count);
 }
 
-/* `given` is the number of ids in the foreign answer. */
 static void judge_neighbors(judge_state *s, size_t given)
 {
     judge *j = s->judge;
     const size_t named = j->named.count, truth = j->truth.count, ranks = named < truth ? named : truth;
-    sort(&j->named, compare_ranks);
+    list_sort(&j->named, sizeof(judged_point), compare_ranks);
     judge_ranks(s, j->named.items, j->truth.items, ranks);
     if (given != truth)
         record_wrong(s, OCTREE_WRONG_COUNT, 0);
@@ -361,23 +345,24 @@ static void judge_neighbors(judge_state *s, size_t given)
 
 /* ---- An answer ---------------------------------------------------------------------------------------------- */
 
-static octree_status compare(judge_state *s, size_t given)
+/* Compare both lists unless one of them is incomplete. `given` is the number of ids in the foreign answer. */
+static void compare_lists(judge_state *s, size_t given)
 {
-    if (finds_neighbors(s))
+    if (!s->failed && finds_neighbors(s))
         judge_neighbors(s, given);
-    else
+    else if (!s->failed)
         judge_region(s);
-    return s->failed ? OCTREE_NO_MEMORY : OCTREE_OK;
 }
 
-octree_status judge_answer(judge *j, const judging *about, octree_judgement *made)
+bool judge_answer(judge *j, const judging *about, octree_judgement *made)
 {
     judge_state s;
     *made = (octree_judgement){.judged = true, .given_count = about->query->answer_count};
     begin(&s, j, about, made);
     list_named(&s);
-    const octree_status status = s.failed ? OCTREE_NO_MEMORY : find_truth(&s);
-    return status == OCTREE_OK ? compare(&s, about->query->answer_count) : status;
+    find_truth(&s);
+    compare_lists(&s, about->query->answer_count);
+    return !s.failed;
 }
 
 /* ---- An answer without some points -------------------------------------------------------------------------- */
@@ -394,54 +379,52 @@ static void remove_lost(list *l, point_test *is_lost, void *context)
 
 /* List as the foreign answer all points that a right answer may contain: those within epsilon of the last exact
  * neighbour. */
-static octree_status list_possible_neighbors(judge_state *s)
+static void list_possible_neighbors(judge_state *s)
 {
     const list *truth = &s->judge->truth;
     const judged_point *last = (const judged_point *)truth->items + truth->count - 1;
     const double distance = metric_distance(s->asked.target, last->at);
     const double factor = (1 + s->asked.epsilon) * (1 + 0x1p-40);
-    s->judge->named.count = 0;
-    return collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
-                        s->rounds ? 2 * rounding_of(s->about->points->tree) : 0x1p-1000, &s->judge->named);
+    s->collected = &s->judge->named;
+    s->collected->count = 0;
+    collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
+                 s->rounds ? 2 * rounding_of(s->about->points->tree) : 0x1p-1000);
 }
 
 /* Make the best answer without the lost points: the nearest others, or all others of the region. */
-static octree_status list_best_named(judge_state *s, point_test *is_lost, void *context)
+static void list_best_named(judge_state *s, point_test *is_lost, void *context)
 {
     list *named = &s->judge->named;
     const list *truth = &s->judge->truth;
     if (!finds_neighbors(s)) {
-        sort(named, compare_ids);
-        return OCTREE_OK;
+        list_sort(named, sizeof(judged_point), compare_ids);
+        return;
     }
-    const octree_status status = list_possible_neighbors(s);
+    list_possible_neighbors(s);
     remove_lost(named, is_lost, context);
-    sort(named, compare_ranks);
+    list_sort(named, sizeof(judged_point), compare_ranks);
     named->count = named->count < truth->count ? named->count : truth->count;
-    return s->failed ? OCTREE_NO_MEMORY : status;
 }
 
-octree_status judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context)
+bool judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context)
 {
     octree_judgement made = {.judged = true};
     judge_state s;
     const size_t listed = j->wrong.count;
     begin(&s, j, about, &made);
-    octree_status status = find_truth(&s);
+    find_truth(&s);
     for (size_t i = 0; i < j->truth.count; i++)
         keep(&s, &j->named, (const judged_point *)j->truth.items + i);
     remove_lost(&j->named, is_lost, context);
-    if (status != OCTREE_OK || s.failed || j->named.count == j->truth.count)
-        return s.failed ? OCTREE_NO_MEMORY : status;
-    status = list_best_named(&s, is_lost, context);
-    if (status == OCTREE_OK)
-        status = compare(&s, j->named.count);
-    const octree_point *missed = j->wrong.items;
-    for (size_t i = 0; status == OCTREE_OK && made.wrong && i < made.missing_count; i++)
-        status =
-            report(&missed[listed + i], context); /* it misses only lost points: the others are the best there are */
+    if (s.failed || j->named.count == j->truth.count)
+        return !s.failed;
+    list_best_named(&s, is_lost, context);
+    compare_lists(&s, j->named.count);
+    const octree_point *missed = j->wrong.items; /* only lost points: the others are the best there are */
+    for (size_t i = 0; !s.failed && made.wrong && i < made.missing_count; i++)
+        s.failed = !report(&missed[listed + i], context);
     j->wrong.count = listed;
-    return status;
+    return !s.failed;
 }
 
 /* ---- Lists -------------------------------------------------------------------------------------------------- */

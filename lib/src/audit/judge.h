@@ -48,17 +48,17 @@ typedef struct judging {
     uint64_t skip_id;
 } judging;
 
-/* Judge the foreign answer of a query. Returns OK or NO_MEMORY. Cost: O(m log m) for m points of both answers; with
- * OCTREE_FLOATS also one or more searches for the points that rounding may bring into the answer. */
-octree_status judge_answer(judge *j, const judging *about, octree_judgement *made);
+/* Judge the foreign answer of a query. False when there is no memory. Cost: O(m log m) for m points of both answers;
+ * with OCTREE_FLOATS also one or more searches for the points that rounding may bring into the answer. */
+bool judge_answer(judge *j, const judging *about, octree_judgement *made);
 
 typedef bool point_test(const octree_point *point, void *context);
-typedef octree_status point_visit(const octree_point *point, void *context);
+typedef bool point_visit(const octree_point *point, void *context);
 
 /* Judge the best answer that leaves out all points for which `is_lost` is true. If even this answer is wrong, call
- * `report` for each lost point that it misses. Returns OK, NO_MEMORY, or what `report` returned. Cost: that of
+ * `report` for each lost point that it misses. False when there is no memory or `report` returned false. Cost: that of
  * judge_answer(), and where an exact neighbour is lost a search of a ball that contains them all. */
-octree_status judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context);
+bool judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context);
 
 /* Point the judgements of these answers to their parts of `given` and `wrong`, which must not grow any more. */
 void judge_assign(const judge *j, octree_answer *answers, size_t count);

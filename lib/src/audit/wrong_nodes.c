@@ -144,8 +144,7 @@ static bool report_repeated(foreign *f)
         if (is_same_holding(&items[i], &items[i - 1]) && !(i > 1 && is_same_holding(&items[i], &items[i - 2])))
             whole = list_push(f->memory, &f->repeated, &items[i], sizeof *items);
     const foreign_holding *repeated = f->repeated.items;
-    if (f->repeated.count > 1)
-        qsort(f->repeated.items, f->repeated.count, sizeof *repeated, compare_by_place);
+    list_sort(&f->repeated, sizeof *repeated, compare_by_place);
     for (size_t i = 0; whole && i < f->repeated.count; i++)
         whole = report_wrong(f, repeated[i].place,
                              (octree_wrong_node){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
@@ -189,19 +188,13 @@ static bool collect_unlisted(const octree_point *point, void *context)
     return !s->failed;
 }
 
-static int compare_unlisted(const void *a, const void *b)
-{
-    const unlisted_point *p = a, *q = b;
-    return (p->id > q->id) - (p->id < q->id);
-}
-
 /* An octree_point_visitor: mark a point that is in the box of the leaf. */
 static bool hold_point(const octree_point *point, void *context)
 {
     holding_search *s = context;
     const list *unlisted = &s->foreign->unlisted;
     const unlisted_point key = {point->id, false};
-    unlisted_point *found = bsearch(&key, unlisted->items, unlisted->count, sizeof key, compare_unlisted);
+    unlisted_point *found = bsearch(&key, unlisted->items, unlisted->count, sizeof key, compare_first_words);
     if (found && !found->held && foreign_contains(s->leaf, point->position)) {
         found->held = true;
         s->lost--;
@@ -233,23 +226,22 @@ static void hold_by_boxes(holding_search *search)
 }
 
 /* Report the points that no node holds, by id. */
-static octree_status find_lost_points(foreign *f, const audited_points *points)
+static bool find_lost_points(foreign *f, const audited_points *points)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     holding_search search = {.foreign = f, .points = points};
     f->unlisted.count = 0;
     octree_range(points->tree, &all, collect_unlisted, &search);
     search.lost = f->unlisted.count;
-    unlisted_point *unlisted = f->unlisted.items;
-    if (f->unlisted.count > 1)
-        qsort(unlisted, f->unlisted.count, sizeof *unlisted, compare_unlisted);
+    const unlisted_point *unlisted = f->unlisted.items;
+    list_sort(&f->unlisted, sizeof *unlisted, compare_first_words);
     hold_by_boxes(&search);
     bool whole = !search.failed;
     for (size_t i = 0; whole && search.lost > 0 && i < f->unlisted.count; i++)
         if (!unlisted[i].held)
             whole =
                 report_wrong(f, SIZE_MAX, (octree_wrong_node){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
-    return whole ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return whole;
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -272,7 +264,7 @@ void foreign_begin_tick(foreign *f)
 }
 
 /* Find what is wrong with the nodes apart from queries. */
-static octree_status find_standing(foreign *f, const audited_points *points)
+static bool find_standing(foreign *f, const audited_points *points)
 {
     octree_foreign_state *state = &f->state;
     memset(state->wrong, 0, sizeof state->wrong);
@@ -282,27 +274,23 @@ static octree_status find_standing(foreign *f, const audited_points *points)
     bool whole = check_parents(f);
     for (size_t i = 0; whole && i < f->places.count; i++)
         whole = check_points(f, points, i);
-    if (!whole)
-        return OCTREE_NO_MEMORY;
-    if (f->holdings.count > 1)
-        qsort(f->holdings.items, f->holdings.count, sizeof(foreign_holding), foreign_compare_keys);
-    const octree_status status = report_repeated(f) ? find_lost_points(f, points) : OCTREE_NO_MEMORY;
+    list_sort(&f->holdings, sizeof(foreign_holding), foreign_compare_keys);
+    f->checked = whole && report_repeated(f) && find_lost_points(f, points);
     f->standing = f->wrong.count;
     memcpy(f->standing_counts, state->wrong, sizeof state->wrong);
-    f->checked = status == OCTREE_OK;
     f->version = octree_version(points->tree);
-    return status;
+    return f->checked;
 }
 
-octree_status foreign_check(foreign *f, const audited_points *points)
+bool foreign_check(foreign *f, const audited_points *points)
 {
     if (!f->state.given)
-        return OCTREE_OK;
+        return true;
     if (!f->checked || f->version != octree_version(points->tree))
         return find_standing(f, points);
     f->wrong.count = f->standing;
     memcpy(f->state.wrong, f->standing_counts, sizeof f->standing_counts);
-    return OCTREE_OK;
+    return true;
 }
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
@@ -346,77 +334,50 @@ static size_t pruned_above(const foreign *f, size_t place)
     return place != SIZE_MAX && marks_of(f)[place].visit == OCTREE_NODE_PRUNED ? place : SIZE_MAX;
 }
 
-/* Call `visit` for each node that holds a point, until it returns false. */
-static void for_each_holder(const node_query *q, const octree_point *point, bool (*visit)(size_t place, void *),
-                            void *context)
+/* The next node that holds a point; SIZE_MAX where there is no further one. *at is 0 before the first call. */
+static size_t next_holder(const foreign *f, const octree_point *point, size_t *at)
 {
-    const foreign *f = q->foreign;
     const foreign_holding *items = f->holdings.items;
-    const size_t first = foreign_first_holding(f, point->id);
-    bool on = true;
-    for (size_t i = first; on && i < f->holdings.count && items[i].id == point->id; i++)
-        on = visit(items[i].place, context);
-    if (first < f->holdings.count && items[first].id == point->id)
-        return;
-    for (size_t i = 0; on && i < f->places.count; i++)
-        if (holds_by_box(&places_of(f)[i]) && foreign_contains(places_of(f)[i].node, point->position))
-            on = visit(i, context);
-}
-
-typedef struct holder_count {
-    const foreign *foreign;
-    size_t pruned, others;
-} holder_count;
-
-static bool count_holder(size_t place, void *context)
-{
-    holder_count *c = context;
-    const bool pruned = pruned_above(c->foreign, place) != SIZE_MAX;
-    c->pruned += pruned;
-    c->others += !pruned;
-    return pruned;
+    if (is_listed(f, point->id)) {
+        const size_t i = foreign_first_holding(f, point->id) + (*at)++;
+        return i < f->holdings.count && items[i].id == point->id ? items[i].place : SIZE_MAX;
+    }
+    for (const octree_foreign_place *places = places_of(f); *at < f->places.count; ++*at)
+        if (holds_by_box(&places[*at]) && foreign_contains(places[*at].node, point->position))
+            return (*at)++;
+    return SIZE_MAX;
 }
 
 /* Whether the query pruned all nodes that hold a point, and there is one. */
 static bool is_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;
-    holder_count count = {.foreign = q->foreign};
+    size_t at = 0, holders = 0;
     if (is_own_point(q->points, point->id))
         return false;
-    for_each_holder(q, point, count_holder, &count);
-    return count.pruned > 0 && count.others == 0;
+    for (size_t place; (place = next_holder(q->foreign, point, &at)) != SIZE_MAX; holders++)
+        if (pruned_above(q->foreign, place) == SIZE_MAX)
+            return false;
+    return holders > 0;
 }
 
-typedef struct prune_report {
-    const node_query *query;
-    const octree_point *point;
-    bool failed; /* out of memory */
-} prune_report;
-
-/* Report the pruned node above a holder, once for each query, with the first point that it loses. */
-static bool report_holder(size_t place, void *context)
+/* Report the pruned nodes above the holders of a point, each once for a query, with the first point that it loses. */
+static bool report_pruned(const octree_point *point, void *context)
 {
-    prune_report *r = context;
-    foreign *f = r->query->foreign;
-    const size_t pruned = pruned_above(f, place);
-    foreign_mark *mark = &marks_of(f)[pruned];
-    const octree_wrong_node wrong = {
-        .kind = OCTREE_NODE_PRUNED_POINT, .point = r->point->id, .answer = r->query->answer};
-    if (!mark->reported)
-        r->failed |= !report_wrong(f, pruned, wrong);
-    mark->reported = true;
-    return !r->failed;
+    const node_query *q = context;
+    size_t at = 0;
+    for (size_t place; (place = next_holder(q->foreign, point, &at)) != SIZE_MAX;) {
+        const size_t pruned = pruned_above(q->foreign, place);
+        const octree_wrong_node wrong = {.kind = OCTREE_NODE_PRUNED_POINT, .point = point->id, .answer = q->answer};
+        foreign_mark *mark = &marks_of(q->foreign)[pruned];
+        if (!mark->reported && !report_wrong(q->foreign, pruned, wrong))
+            return false;
+        mark->reported = true;
+    }
+    return true;
 }
 
-static octree_status report_pruned(const octree_point *point, void *context)
-{
-    prune_report r = {.query = context, .point = point};
-    for_each_holder(context, point, report_holder, &r);
-    return r.failed ? OCTREE_NO_MEMORY : OCTREE_OK;
-}
-
-octree_status foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer)
+bool foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer)
 {
     const octree_query *query = about->query;
     node_query q = {f, about->points, answer};
@@ -425,7 +386,6 @@ octree_status foreign_note_query(foreign *f, judge *j, const judging *about, siz
     for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
         for (size_t i = 0; whole && i < query->visits[visit].count; i++)
             whole = note_node(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
-    if (!whole)
-        return OCTREE_NO_MEMORY;
-    return query->visits[OCTREE_NODE_PRUNED].count ? judge_without(j, about, is_pruned, report_pruned, &q) : OCTREE_OK;
+    const bool prunes = query->visits[OCTREE_NODE_PRUNED].count > 0;
+    return whole && (!prunes || judge_without(j, about, is_pruned, report_pruned, &q));
 }

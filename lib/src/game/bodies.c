@@ -215,22 +215,17 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
     return OCTREE_OK;
 }
 
-octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
+bool game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
 {
     const octree_refusal refusal = {id, why, {position[0], position[1], position[2]}};
-    if (!list_push(&game->memory, &game->refusals, &refusal, sizeof refusal))
-        return OCTREE_NO_MEMORY;
     game->tick.events |= why == OCTREE_FULL ? OCTREE_EVENT_FULL : OCTREE_EVENT_REFUSED;
-    return OCTREE_OK;
+    return list_push(&game->memory, &game->refusals, &refusal, sizeof refusal);
 }
 
-/* Record a refusal by the tree, which is part of the game. Success and NO_MEMORY are returned as they are. */
-static octree_status note_failure(octree_game *game, uint64_t id, octree_status status, const double position[3])
+/* Record a refusal by the tree, which is part of the game. False when there is no memory, here or in the tree. */
+static bool note_status(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
-    if (status == OCTREE_OK || status == OCTREE_NO_MEMORY)
-        return status;
-    const octree_status noted = game_note_refusal(game, id, status, position);
-    return noted == OCTREE_OK ? status : noted;
+    return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_note_refusal(game, id, status, position));
 }
 
 /* The tick at which the motion of an edited body starts: edits come before the motion of their tick. */
@@ -263,14 +258,14 @@ octree_status game_check_body(const octree_game *game, const octree_body *body)
     return is_finite(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
-octree_status game_add_body(octree_game *game, const octree_body *body, octree_status status)
+bool game_add_body(octree_game *game, const octree_body *body, octree_status status)
 {
-    if (status == OCTREE_OK && !bodies_add(&game->bodies, &game->memory, body, origin_tick(game)))
-        return OCTREE_NO_MEMORY;
-    return note_failure(game, body->id, status, body->position);
+    if (status == OCTREE_OK)
+        return bodies_add(&game->bodies, &game->memory, body, origin_tick(game));
+    return note_status(game, body->id, status, body->position);
 }
 
-static octree_status insert_body(octree_game *game, const octree_body *body)
+static bool insert_body(octree_game *game, const octree_body *body)
 {
     octree_status status = game_check_body(game, body);
     if (status == OCTREE_OK)
@@ -278,40 +273,36 @@ static octree_status insert_body(octree_game *game, const octree_body *body)
     return game_add_body(game, body, status);
 }
 
-static octree_status remove_body(octree_game *game, const octree_edit *edit)
+static bool remove_body(octree_game *game, uint64_t id)
 {
     static const double nowhere[3] = {0, 0, 0}; /* a removal has no position */
-    moving_body *body = bodies_find(&game->bodies, edit->body.id);
-    octree_status status = OCTREE_NOT_FOUND;
-    if (body)
-        status = game_remove(game, body->position, body->id);
+    moving_body *body = bodies_find(&game->bodies, id);
+    const octree_status status = body ? game_remove(game, body->position, id) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
-    return note_failure(game, edit->body.id, status, nowhere);
+    return note_status(game, id, status, nowhere);
 }
 
-static octree_status move_body(octree_game *game, const octree_edit *edit)
+static bool move_body(octree_game *game, uint64_t id, const double to[3])
 {
-    moving_body *body = bodies_find(&game->bodies, edit->body.id);
-    octree_status status = OCTREE_NOT_FOUND;
-    if (body)
-        status = game_move(game, body->position, body->id, edit->body.position);
+    moving_body *body = bodies_find(&game->bodies, id);
+    const octree_status status = body ? game_move(game, body->position, id, to) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK) {
-        body_store(body, edit->body.position, game->tick.number);
-        restart(body, &game->session->tree.world, edit->body.position, origin_tick(game));
+        body_store(body, to, game->tick.number);
+        restart(body, &game->session->tree.world, to, origin_tick(game));
     }
-    return note_failure(game, edit->body.id, status, edit->body.position);
+    return note_status(game, id, status, to);
 }
 
-static octree_status apply_edit(octree_game *game, const octree_edit *edit)
+static bool apply_edit(octree_game *game, const octree_edit *edit)
 {
     switch (edit->kind) {
     case OCTREE_EDIT_INSERT:
         return insert_body(game, &edit->body);
     case OCTREE_EDIT_REMOVE:
-        return remove_body(game, edit);
+        return remove_body(game, edit->body.id);
     default:
-        return move_body(game, edit);
+        return move_body(game, edit->body.id, edit->body.position);
     }
 }
 
@@ -326,22 +317,23 @@ typedef struct motion {
     size_t count, room;
 } motion;
 
+#define MOVE_SIZE (sizeof(octree_point) + sizeof(double[3]) + sizeof(octree_status) + sizeof(uint32_t))
+
+/* Allocate the four arrays in one block, which begins with the points. */
 static bool motion_allocate(motion *m, arena *memory, size_t room)
 {
-    *m = (motion){.room = room};
-    m->points = arena_take(memory, room * sizeof *m->points);
-    m->to = arena_take(memory, room * sizeof *m->to);
-    m->statuses = arena_take(memory, room * sizeof *m->statuses);
-    m->bodies = arena_take(memory, room * sizeof *m->bodies);
-    return m->points && m->to && m->statuses && m->bodies;
+    *m = (motion){.room = room, .points = arena_take(memory, room * MOVE_SIZE)};
+    if (!m->points)
+        return false;
+    m->to = (double(*)[3])(m->points + room);
+    m->statuses = (octree_status *)(m->to + room);
+    m->bodies = (uint32_t *)(m->statuses + room);
+    return true;
 }
 
 static void motion_release(motion *m, arena *memory)
 {
-    arena_give(memory, m->points, m->room * sizeof *m->points);
-    arena_give(memory, m->to, m->room * sizeof *m->to);
-    arena_give(memory, m->statuses, m->room * sizeof *m->statuses);
-    arena_give(memory, m->bodies, m->room * sizeof *m->bodies);
+    arena_give(memory, m->points, m->room * MOVE_SIZE);
 }
 
 static void add_move(motion *m, const bodies *all, size_t index, const double to[3])
@@ -367,79 +359,64 @@ static void collect_motion(const octree_game *game, motion *m)
 
 enum { MANY = 256 }; /* with fewer moves octree_move_many() is not faster */
 
-/* Move the points in the tree only. Returns OK, or NO_MEMORY after which some points may have moved. */
-static octree_status move_points(octree *tree, motion *m)
+/* Move the points in the tree only. False when there is no memory; some points may have moved. */
+static bool move_points(octree *tree, motion *m)
 {
     if (m->count >= MANY)
-        return octree_move_many(tree, m->points, (const double(*)[3])m->to, m->count, m->statuses, NULL);
-    for (size_t i = 0; i < m->count; i++) {
+        return octree_move_many(tree, m->points, (const double(*)[3])m->to, m->count, m->statuses, NULL) == OCTREE_OK;
+    bool ok = true;
+    for (size_t i = 0; ok && i < m->count; i++) {
         m->statuses[i] = octree_move(tree, m->points[i].position, m->points[i].id, m->to[i]);
-        if (m->statuses[i] == OCTREE_NO_MEMORY)
-            return OCTREE_NO_MEMORY;
+        ok = m->statuses[i] != OCTREE_NO_MEMORY;
     }
-    return OCTREE_OK;
+    return ok;
 }
 
-/* Apply the result of a move to its body. */
-static octree_status finish_move(octree_game *game, const motion *m, size_t i)
+/* Move the points in the tree and then the bodies. `edited`: an edit moves them, which restarts their motion. False
+ * when there is no memory. */
+static bool apply_motion(octree_game *game, motion *m, bool edited)
 {
-    if (m->statuses[i] == OCTREE_OK) {
-        note_change(game, m->points[i].position);
-        note_change(game, m->to[i]);
-        body_store(&bodies_items(&game->bodies)[m->bodies[i]], m->to[i], game->tick.number);
+    bool ok = move_points(game->tree, m);
+    for (size_t i = 0; ok && i < m->count; i++) {
+        moving_body *body = &bodies_items(&game->bodies)[m->bodies[i]];
+        if (m->statuses[i] == OCTREE_OK) {
+            note_change(game, m->points[i].position);
+            note_change(game, m->to[i]);
+            body_store(body, m->to[i], game->tick.number);
+            if (edited)
+                restart(body, &game->session->tree.world, m->to[i], origin_tick(game));
+        }
+        ok = note_status(game, body->id, m->statuses[i], m->to[i]);
     }
-    return note_failure(game, m->points[i].id, m->statuses[i], m->to[i]);
+    return ok;
 }
 
 /* Collect moves from the first edit on, until an edit moves an unknown body or one that the run moves already. */
-static void collect_run(const octree_game *game, const octree_edit *edits, size_t count, size_t *last_run, size_t run,
-                        motion *m)
+static void collect_run(octree_game *game, const octree_edit *edits, size_t count, motion *m)
 {
+    const size_t run = ++game->bodies.runs;
     m->count = 0;
     while (m->count < count) {
         const octree_body *to = &edits[m->count].body;
-        const moving_body *body = bodies_find(&game->bodies, to->id);
-        const size_t index = body ? (size_t)(body - bodies_items(&game->bodies)) : 0;
-        if (!body || last_run[index] == run)
+        moving_body *body = bodies_find(&game->bodies, to->id);
+        if (!body || body->run == run)
             break;
-        last_run[index] = run;
-        add_move(m, &game->bodies, index, to->position);
+        body->run = run;
+        add_move(m, &game->bodies, (size_t)(body - bodies_items(&game->bodies)), to->position);
     }
-}
-
-static octree_status apply_run(octree_game *game, motion *m)
-{
-    octree_status status = move_points(game->tree, m);
-    for (size_t i = 0; status == OCTREE_OK && i < m->count; i++) {
-        moving_body *body = &bodies_items(&game->bodies)[m->bodies[i]];
-        status = finish_move(game, m, i) == OCTREE_NO_MEMORY ? OCTREE_NO_MEMORY : OCTREE_OK;
-        if (m->statuses[i] == OCTREE_OK)
-            restart(body, &game->session->tree.world, m->to[i], origin_tick(game));
-    }
-    return status;
 }
 
 /* Apply edits that are all moves, in runs that move no body twice. */
-static octree_status apply_moves(octree_game *game, const octree_edit *edits, size_t count)
+static bool apply_moves(octree_game *game, const octree_edit *edits, size_t count)
 {
-    motion m = {0};
-    const size_t size = (game->bodies.items.count + 1) * sizeof(size_t);
-    size_t *last_run = arena_take(&game->memory, size); /* by body: the last run that moved it; 0 for none */
-    octree_status status = last_run && motion_allocate(&m, &game->memory, count) ? OCTREE_OK : OCTREE_NO_MEMORY;
-    if (last_run)
-        memset(last_run, 0, size);
-    for (size_t run = 1; status == OCTREE_OK && count > 0; run++) {
-        collect_run(game, edits, count, last_run, run, &m);
-        if (m.count > 0)
-            status = apply_run(game, &m);
-        else if (apply_edit(game, edits) == OCTREE_NO_MEMORY) /* the body is unknown */
-            status = OCTREE_NO_MEMORY;
-        edits += m.count ? m.count : 1;
-        count -= m.count ? m.count : 1;
+    motion m;
+    bool ok = motion_allocate(&m, &game->memory, count);
+    for (size_t done = 0; ok && done < count; done += m.count ? m.count : 1) {
+        collect_run(game, edits + done, count - done, &m);
+        ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done); /* the body is unknown */
     }
     motion_release(&m, &game->memory);
-    arena_give(&game->memory, last_run, size);
-    return status;
+    return ok;
 }
 
 static size_t count_moves(const octree_edit *edits, size_t count)
@@ -450,37 +427,32 @@ static size_t count_moves(const octree_edit *edits, size_t count)
     return moves;
 }
 
-octree_status game_apply_edits(octree_game *game, const octree_input *input)
+bool game_apply_edits(octree_game *game, const octree_input *input)
 {
-    const octree_edit *edits = input->edits;
-    octree_status status = OCTREE_OK;
-    for (size_t left = input->edit_count; status != OCTREE_NO_MEMORY && left > 0;) {
-        const size_t moves = count_moves(edits, left), made = moves >= MANY ? moves : 1;
-        status = moves >= MANY ? apply_moves(game, edits, moves) : apply_edit(game, edits);
-        edits += made;
-        left -= made;
+    bool ok = true;
+    for (size_t i = 0, done; ok && i < input->edit_count; i += done) {
+        const size_t moves = count_moves(input->edits + i, input->edit_count - i);
+        done = moves >= MANY ? moves : 1;
+        ok = moves >= MANY ? apply_moves(game, input->edits + i, moves) : apply_edit(game, input->edits + i);
     }
-    return status == OCTREE_NO_MEMORY ? status : OCTREE_OK;
+    return ok;
 }
 
-octree_status game_move_bodies(octree_game *game)
+bool game_move_bodies(octree_game *game)
 {
     motion m;
-    octree_status status = OCTREE_NO_MEMORY;
     if (game->bodies.movers == 0)
-        return OCTREE_OK;
-    if (motion_allocate(&m, &game->memory, game->bodies.movers)) {
+        return true;
+    bool ok = motion_allocate(&m, &game->memory, game->bodies.movers);
+    if (ok) {
         collect_motion(game, &m);
-        status = move_points(game->tree, &m);
+        ok = apply_motion(game, &m, false);
     }
-    for (size_t i = 0; status == OCTREE_OK && i < m.count; i++)
-        if (finish_move(game, &m, i) == OCTREE_NO_MEMORY)
-            status = OCTREE_NO_MEMORY;
     motion_release(&m, &game->memory);
-    return status;
+    return ok;
 }
 
-octree_status game_list_movers(octree_game *game)
+bool game_list_movers(octree_game *game)
 {
     const bodies *all = &game->bodies;
     for (size_t i = 0; all->movers && i < all->items.count; i++) {
@@ -488,12 +460,11 @@ octree_status game_list_movers(octree_game *game)
         if (!is_moving(body->velocity))
             continue;
         octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
-        memcpy(now.position, body->position,
-               sizeof now.position); /* the stored position: a full leaf may have refused the move */
-        if (!is_moving(now.velocity))
-            continue; /* too fast to follow: it does not move */
-        if (!list_push(&game->memory, &game->movers, &now, sizeof now))
-            return OCTREE_NO_MEMORY;
+        /* the stored position: a full leaf may have refused the move */
+        memcpy(now.position, body->position, sizeof now.position);
+        /* a body that is too fast to follow does not move */
+        if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))
+            return false;
     }
-    return OCTREE_OK;
+    return true;
 }

@@ -15,6 +15,7 @@ typedef struct moving_body {
     uint64_t since;   /* the tick of the origin */
     uint64_t moved;   /* the last tick that moved it; UINT64_MAX if none has */
     double before[3]; /* its stored position before that tick */
+    size_t run;       /* the last run of edits that moved it; 0 if none has */
 } moving_body;
 
 typedef struct bodies {
@@ -22,6 +23,7 @@ typedef struct bodies {
     uint32_t *slots;   /* index + 1 by hash of id, or 0; open addressing with linear probing */
     size_t slot_count; /* a power of two, or 0 */
     size_t movers;     /* the number of bodies whose velocity is not zero */
+    size_t runs;       /* the number of runs of edits so far that move bodies */
 } bodies;
 
 void bodies_release(bodies *b, arena *memory);
@@ -39,22 +41,20 @@ moving_body *bodies_find(const bodies *b, uint64_t id);
 octree_status game_insert(octree_game *game, const double position[3], uint64_t id);
 octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
 
-/* Record a refusal in the tick. Returns OK or NO_MEMORY. */
-octree_status game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
+/* Record a refusal in the tick. False when there is no memory. */
+bool game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
 /* Check whether a body can be inserted: DUPLICATE (its id is in use), NOT_FINITE (its velocity), or OK. */
 octree_status game_check_body(const octree_game *game, const octree_body *body);
 
-/* Add a body whose point was inserted with this status: OK adds it, an error records a refusal. Returns the status, or
- * NO_MEMORY. */
-octree_status game_add_body(octree_game *game, const octree_body *body, octree_status status);
+/* Add a body whose point was inserted with this status: OK adds it, an error records a refusal. False when there is no
+ * memory. */
+bool game_add_body(octree_game *game, const octree_body *body, octree_status status);
 
-/* Apply the edits of a tick in their order. Returns OK or NO_MEMORY. */
-octree_status game_apply_edits(octree_game *game, const octree_input *input);
-
-/* Move the bodies by their velocities; list the moving bodies as they are after the tick. Both return OK or NO_MEMORY.
- */
-octree_status game_move_bodies(octree_game *game);
-octree_status game_list_movers(octree_game *game);
+/* Apply the edits of a tick in their order; move the bodies by their velocities; list the moving bodies as they are
+ * after the tick. All return false when there is no memory. */
+bool game_apply_edits(octree_game *game, const octree_input *input);
+bool game_move_bodies(octree_game *game);
+bool game_list_movers(octree_game *game);
 
 #endif

@@ -51,19 +51,19 @@ static bool collect_hit(const octree_point *point, void *context)
 }
 
 /* Collect points of the tree; with sweep, without the bodies that this tick has moved. */
-static octree_status collide_points(octree_game *game, const octree_point *self)
+static bool collide_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
     const double *from = tick->swept ? tick->from : tick->attempt;
     const octree_search how = game_search(game, &game->tick.hit_cost);
     hit_collector found = {game, {&game->memory, &game->hits, false}};
-    const octree_status status = octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size,
-                                                      self, &how, collect_hit, &found);
-    return found.hits.failed ? OCTREE_NO_MEMORY : status;
+    octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size, self, &how, collect_hit,
+                         &found); /* with valid arguments, which cannot fail */
+    return !found.hits.failed;
 }
 
 /* Collect the bodies that this tick has moved. */
-static octree_status collide_moved(octree_game *game)
+static bool collide_moved(octree_game *game)
 {
     const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
     point_collector hits = {&game->memory, &game->hits, false};
@@ -77,13 +77,13 @@ static octree_status collide_moved(octree_game *game)
         octree_point hit = {.id = body->id};
         memcpy(hit.position, body->position, sizeof hit.position);
         if (!collect_point(&hit, &hits))
-            return OCTREE_NO_MEMORY;
+            return false;
     }
-    return OCTREE_OK;
+    return true;
 }
 
 /* List the position of each hit before the tick, in the order of the hits. */
-static octree_status list_hit_origins(octree_game *game)
+static bool list_hit_origins(octree_game *game)
 {
     const octree_point *hits = game->hits.items;
     game->hit_from.count = 0;
@@ -92,13 +92,13 @@ static octree_status list_hit_origins(octree_game *game)
             bodies_find(&game->bodies, hits[i].id); /* not null: every point except the player's is a body */
         const double *from = was_moved(game, body) ? body->before : hits[i].position;
         if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
-            return OCTREE_NO_MEMORY;
+            return false;
     }
-    return OCTREE_OK;
+    return true;
 }
 
 /* Collect the points in the player's box into `hits`, sorted by id: at `to` or, with sweep, on the whole way there. */
-static octree_status collide(octree_game *game, const double to[3])
+static bool collide(octree_game *game, const double to[3])
 {
     octree_tick *tick = &game->tick;
     octree_point self = {.id = game->session->player.id};
@@ -106,15 +106,11 @@ static octree_status collide(octree_game *game, const double to[3])
     memcpy(tick->attempt, to, sizeof tick->attempt);
     tick->hit_cost = (octree_cost){0};
     game->hits.count = game->visits.count = 0;
-    octree_status status = collide_points(game, &self);
-    if (status == OCTREE_OK && tick->swept)
-        status = collide_moved(game);
+    const bool ok = collide_points(game, &self) && (!tick->swept || collide_moved(game));
     sort_points(&game->hits, 0);
-    if (status == OCTREE_OK && tick->swept)
-        status = list_hit_origins(game);
     if (game->hits.count)
         tick->events |= OCTREE_EVENT_COLLIDED;
-    return status;
+    return ok && (!tick->swept || list_hit_origins(game));
 }
 
 /* ---- The player's step -------------------------------------------------------------------------------------- */
@@ -127,25 +123,23 @@ static int direction_of(char key, int axis)
 
 /* Record that the player stays. With sweep the collision test is repeated for a waiting player, so that it finds the
  * bodies that move into it. */
-static octree_status refuse_step(octree_game *game, octree_status why, const double to[3])
+static bool refuse_step(octree_game *game, octree_status why, const double to[3])
 {
-    const octree_status status = game_note_refusal(game, game->session->player.id, why, to);
-    return status == OCTREE_OK && game->session->player.sweep ? collide(game, game->tick.player) : status;
+    return game_note_refusal(game, game->session->player.id, why, to) &&
+           (!game->session->player.sweep || collide(game, game->tick.player));
 }
 
 /* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. */
-static octree_status make_step(octree_game *game, const int64_t steps[3], const double to[3])
+static bool make_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
     const octree_status status = game_move(game, game->tick.player, id, to);
-    if (status == OCTREE_NO_MEMORY)
-        return status;
     if (status != OCTREE_OK)
-        return refuse_step(game, status, to);
+        return status != OCTREE_NO_MEMORY && refuse_step(game, status, to);
     memcpy(game->steps, steps, sizeof game->steps);
     memcpy(game->tick.player, to, sizeof game->tick.player);
     game->tick.events |= OCTREE_EVENT_MOVED;
-    return OCTREE_OK;
+    return true;
 }
 
 /* Store the player's position now and before the tick. A player that is a body is where edits and motion put it. */
@@ -164,11 +158,11 @@ static void find_player(octree_game *game)
 }
 
 /* Make the step of the tick's key, unless the collision test or the tree prevents it. */
-static octree_status step_player(octree_game *game)
+static bool step_player(octree_game *game)
 {
     find_player(game);
     if (!game->tick.has_player)
-        return OCTREE_OK;
+        return true;
     const octree_player *player = &game->session->player;
     if (player->kind != OCTREE_PLAYER_KEYS)
         return collide(game, game->tick.player);
@@ -184,23 +178,20 @@ static octree_status step_player(octree_game *game)
         game->tick.events |= OCTREE_EVENT_REFUSED;
         return collide(game, game->tick.player);
     }
-    const octree_status status = collide(game, to);
-    if (status != OCTREE_OK || game->hits.count)
-        return status;
-    return make_step(game, steps, to);
+    return collide(game, to) && (game->hits.count > 0 || make_step(game, steps, to));
 }
 
 /* ---- The end of a tick -------------------------------------------------------------------------------------- */
 
-static octree_status list_shapes(octree_game *game, const octree_shape *shapes, size_t count)
+static bool list_shapes(octree_game *game, const octree_shape *shapes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         octree_shape shape = shapes[i];
         shape.tick = game->tick.number;
         if (!list_push(&game->memory, &game->shapes, &shape, sizeof shape))
-            return OCTREE_NO_MEMORY;
+            return false;
     }
-    return OCTREE_OK;
+    return true;
 }
 
 static bool look_up_point(const void *game, uint64_t id, octree_point *point)
@@ -217,48 +208,38 @@ audited_points game_audited_points(const octree_game *game)
                             .own_id = player->kind == OCTREE_PLAYER_KEYS ? &player->id : NULL};
 }
 
-static octree_status check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
+static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
 {
     const audited_points points = game_audited_points(game);
-    const octree_status status = replacement ? foreign_install(&game->foreign, replacement) : OCTREE_OK;
-    return status == OCTREE_OK ? foreign_check(&game->foreign, &points) : status;
+    if (replacement && foreign_install(&game->foreign, replacement) != OCTREE_OK)
+        return false;
+    return foreign_check(&game->foreign, &points);
 }
 
 /* Check the foreign nodes; ask the queries and show the shapes of the tick, then those of every tick. */
-static octree_status ask_and_show(octree_game *game, const octree_input *input)
+static bool ask_and_show(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
-    octree_status status = check_foreign_nodes(game, input->foreign);
-    if (status == OCTREE_OK)
-        status = game_ask_by_key(game);
-    if (status == OCTREE_OK)
-        status = game_ask(game, input->queries, input->query_count);
-    if (status == OCTREE_OK)
-        status = game_ask(game, always.queries, always.query_count);
-    if (status == OCTREE_OK)
-        status = game_finish_asking(game);
-    if (status == OCTREE_OK)
-        status = list_shapes(game, input->shapes, input->shape_count);
-    if (status == OCTREE_OK)
-        status = list_shapes(game, always.shapes, always.shape_count);
-    return status;
+    return check_foreign_nodes(game, input->foreign) && game_ask_by_key(game) &&
+           game_ask(game, input->queries, input->query_count) && game_ask(game, always.queries, always.query_count) &&
+           game_finish_asking(game) && list_shapes(game, input->shapes, input->shape_count) &&
+           list_shapes(game, always.shapes, always.shape_count);
 }
 
 /* The tick's splits and merges, and the digest and statistics of its tree. */
-static octree_status summarize_tree(octree_game *game)
+static bool summarize_tree(octree_game *game)
 {
     tree_summary *summary = &game->summary;
     const bool first = game->tick.number == 0;
     if (!first && summary->version == octree_version(game->tree))
-        return OCTREE_OK;
-    octree_status status = tree_summary_update(summary, &game->memory, game->tree);
-    if (status == OCTREE_OK && !first && !tree_summary_compare(summary, &game->memory, &game->splits, &game->merges))
-        status = OCTREE_NO_MEMORY;
+        return true;
+    const bool ok = tree_summary_update(summary, &game->memory, game->tree) &&
+                    (first || tree_summary_compare(summary, &game->memory, &game->splits, &game->merges));
     game->tick.events |= game->splits.count ? OCTREE_EVENT_SPLIT : 0;
     game->tick.events |= game->merges.count ? OCTREE_EVENT_MERGED : 0;
     game->tick.stats = summary->stats;
     game->tick.tree_digest = summary->digest;
-    return status;
+    return ok;
 }
 
 /* Point the tick to the lists, which must not grow any more. */
@@ -276,22 +257,18 @@ static void publish(octree_game *game)
         game->tick.events |= OCTREE_EVENT_WRONG;
 }
 
-/* Finish a tick. In a gap nothing is tested, asked or shown. */
+/* Finish a tick. In a gap nothing is tested, asked or shown. Returns OK or NO_MEMORY. */
 static octree_status finish_tick(octree_game *game, const octree_input *input)
 {
-    octree_status status = OCTREE_OK;
+    bool ok = true;
     game->tick.gap = input->gap ? strcpy(game->gap, input->gap->why) : NULL;
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
-        status = collide(game, game->tick.player);
-    if (status == OCTREE_OK)
-        status = input->gap ? game_finish_asking(game) : ask_and_show(game, input);
-    if (status == OCTREE_OK)
-        status = summarize_tree(game);
-    if (status == OCTREE_OK)
-        status = game_list_movers(game);
-    if (status == OCTREE_OK)
+        ok = collide(game, game->tick.player);
+    ok = ok && (input->gap ? game_finish_asking(game) : ask_and_show(game, input));
+    ok = ok && summarize_tree(game) && game_list_movers(game);
+    if (ok)
         publish(game);
-    return status;
+    return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
 /* ---- The beginning and the end of a game -------------------------------------------------------------------- */
@@ -397,13 +374,10 @@ static void record_edits(octree_tick *tick, const octree_input *input)
     }
 }
 
-static octree_status play_changes(octree_game *game, const octree_input *input)
+static bool play_changes(octree_game *game, const octree_input *input)
 {
     record_edits(&game->tick, input);
-    octree_status status = game_apply_edits(game, input);
-    if (status == OCTREE_OK)
-        status = game_move_bodies(game);
-    return status == OCTREE_OK ? step_player(game) : status;
+    return game_apply_edits(game, input) && game_move_bodies(game) && step_player(game);
 }
 
 /* Play one tick with the given input, or if it is null with the session's. */
@@ -418,13 +392,12 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     if (!game_is_key(key))
         return OCTREE_BAD_KEY;
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
-    octree_status status = OCTREE_OK;
     begin_tick(game, input->gap ? '.' : key);
     if (input->gap)
         find_player(game); /* it has not moved */
-    else
-        status = play_changes(game, input);
-    return status == OCTREE_OK ? finish_tick(game, input) : status;
+    else if (!play_changes(game, input))
+        return OCTREE_NO_MEMORY;
+    return finish_tick(game, input);
 }
 
 octree_status octree_game_step(octree_game *game, char key)
@@ -450,12 +423,10 @@ octree_status octree_game_ask(octree_game *game, const octree_query *queries, si
     if (status != OCTREE_OK)
         return status;
     game->hit_leaves.count = 0;
-    status = game_ask(game, queries, count);
-    if (status == OCTREE_OK)
-        status = game_finish_asking(game);
-    if (status == OCTREE_OK)
-        publish(game);
-    return status;
+    if (!game_ask(game, queries, count) || !game_finish_asking(game))
+        return OCTREE_NO_MEMORY;
+    publish(game);
+    return OCTREE_OK;
 }
 
 bool octree_game_over(const octree_game *game)

@@ -4,15 +4,14 @@
 #include "game_state.h"
 #include "search.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- The queries of a tick ---------------------------------------------------------------------------------- */
 
 /* Judge what a foreign index did for a query. Its exact answer is the tick's last; `points` and `neighbors` are the
  * lengths that the lists of results had before. */
-static octree_status judge_foreign(octree_game *game, const octree_query *query, const octree_search *how,
-                                   size_t points, size_t neighbors)
+static bool judge_foreign(octree_game *game, const octree_query *query, const octree_search *how, size_t points,
+                          size_t neighbors)
 {
     octree_answer *answer = (octree_answer *)game->answers.items + game->answers.count - 1;
     const bool near = octree_query_about(query->kind)->neighbors, none = answer->count == 0;
@@ -26,20 +25,20 @@ static octree_status judge_foreign(octree_game *game, const octree_query *query,
                            .skip = near ? how->skip : query->skip,
                            .skip_id = near ? how->skip_id : query->skip_id};
     game->tick.judged |= query->answered;
-    const octree_status status = query->answered ? judge_answer(&game->judge, &about, &answer->judgement) : OCTREE_OK;
+    if (query->answered && !judge_answer(&game->judge, &about, &answer->judgement))
+        return false;
     if (answer->judgement.wrong)
         game->tick.events |= OCTREE_EVENT_WRONG;
-    return status == OCTREE_OK ? foreign_note_query(&game->foreign, &game->judge, &about, game->answers.count - 1)
-                               : status;
+    return foreign_note_query(&game->foreign, &game->judge, &about, game->answers.count - 1);
 }
 
-static octree_status ask_in_game(octree_game *game, const octree_query *query, bool by_key)
+static bool ask_in_game(octree_game *game, const octree_query *query, bool by_key)
 {
     if (query->at_player && !game->tick.has_player)
-        return OCTREE_OK;
+        return true;
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
-        return OCTREE_NO_MEMORY;
+        return false;
     asking a = {game->tree, game_search(game, NULL), {&game->memory, &game->found, false}, &game->near, NULL};
     a.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     a.how.skip_id = game->session->player.id;
@@ -47,21 +46,21 @@ static octree_status ask_in_game(octree_game *game, const octree_query *query, b
     const octree_status status = ask(&a, query, game->tick.player, answer);
     answer->by_key = by_key;
     game->tick.asked |= 1u << query->kind;
-    return status == OCTREE_OK ? judge_foreign(game, query, &a.how, points, neighbors) : status;
+    return status == OCTREE_OK && judge_foreign(game, query, &a.how, points, neighbors);
 }
 
-octree_status game_ask(octree_game *game, const octree_query *queries, size_t count)
+bool game_ask(octree_game *game, const octree_query *queries, size_t count)
 {
-    octree_status status = OCTREE_OK;
-    for (size_t i = 0; status == OCTREE_OK && i < count; i++)
-        status = ask_in_game(game, &queries[i], false);
-    return status;
+    bool ok = true;
+    for (size_t i = 0; ok && i < count; i++)
+        ok = ask_in_game(game, &queries[i], false);
+    return ok;
 }
 
-octree_status game_ask_by_key(octree_game *game)
+bool game_ask_by_key(octree_game *game)
 {
     const octree_query nearest = {.kind = OCTREE_QUERY_NEAREST, .at_player = true};
-    return game->tick.key == 'n' ? ask_in_game(game, &nearest, true) : OCTREE_OK;
+    return game->tick.key != 'n' || ask_in_game(game, &nearest, true);
 }
 
 /* Point each answer to its part of the lists, which must not grow any more. */
@@ -113,8 +112,7 @@ static void sort_visits(octree_game *game)
     octree_tick *tick = &game->tick;
     octree_visit *visits = game->visits.items;
     size_t kept = 0;
-    if (game->visits.count > 1)
-        qsort(visits, game->visits.count, sizeof *visits, compare_visits);
+    list_sort(&game->visits, sizeof *visits, compare_visits);
     for (int touch = 0; touch < OCTREE_TRACE_KINDS; touch++)
         tick->touched[touch] = 0;
     for (size_t i = 0; i < game->visits.count; i++) {
@@ -153,20 +151,19 @@ static void sort_leaves(octree_game *game)
 {
     octree_address *leaves = game->hit_leaves.items;
     size_t kept = 0;
-    if (game->hit_leaves.count > 1)
-        qsort(leaves, game->hit_leaves.count, sizeof *leaves, address_compare);
+    list_sort(&game->hit_leaves, sizeof *leaves, address_compare);
     for (size_t i = 0; i < game->hit_leaves.count; i++)
         if (kept == 0 || leaves[i] != leaves[kept - 1])
             leaves[kept++] = leaves[i];
     game->hit_leaves.count = kept;
 }
 
-octree_status game_finish_asking(octree_game *game)
+bool game_finish_asking(octree_game *game)
 {
     if (game->lost_visits || !add_leaves(game))
-        return OCTREE_NO_MEMORY;
+        return false;
     assign_results(game);
     sort_visits(game);
     sort_leaves(game);
-    return OCTREE_OK;
+    return true;
 }

@@ -85,84 +85,59 @@ octree_status octree_input_check(const octree_input *input)
     return status == OCTREE_OK && input->gap ? check_gap(input->gap) : status;
 }
 
-/* The tick of the i-th item: edits, queries, shapes, gaps and foreign trees all begin with their tick. */
-static uint64_t tick_of(const void *items, size_t size, size_t i)
+/* Check items that begin with their tick: the ticks ascend, and if `distinct` no two are equal. */
+static octree_status check_order(const void *items, size_t size, size_t count, bool distinct)
 {
-    uint64_t tick;
-    memcpy(&tick, (const char *)items + i * size, sizeof tick);
-    return tick;
-}
-
-static octree_status check_order(const void *items, size_t size, size_t count)
-{
-    for (size_t i = 1; i < count; i++)
-        if (tick_of(items, size, i) < tick_of(items, size, i - 1))
+    if (!items && count)
+        return OCTREE_NULL_ARGUMENT;
+    const char *item = items;
+    for (size_t i = 1; i < count; i++, item += size) {
+        const int order = compare_first_words(item, item + size);
+        if (order > 0 || (order == 0 && distinct))
             return OCTREE_BAD_ORDER;
+    }
     return OCTREE_OK;
-}
-
-static octree_status check_gaps(const octree_session *s)
-{
-    octree_status status = s->gaps || s->gap_count == 0 ? OCTREE_OK : OCTREE_NULL_ARGUMENT;
-    for (size_t i = 0; status == OCTREE_OK && i < s->gap_count; i++)
-        status = i > 0 && s->gaps[i].tick <= s->gaps[i - 1].tick ? OCTREE_BAD_ORDER : check_gap(&s->gaps[i]);
-    return status;
-}
-
-static octree_status check_foreign(const octree_session *s)
-{
-    octree_status status = s->foreign || s->foreign_count == 0 ? OCTREE_OK : OCTREE_NULL_ARGUMENT;
-    for (size_t i = 0; status == OCTREE_OK && i < s->foreign_count; i++)
-        status = i > 0 && s->foreign[i].tick <= s->foreign[i - 1].tick ? OCTREE_BAD_ORDER
-                                                                       : octree_foreign_check(&s->foreign[i], NULL);
-    return status;
 }
 
 octree_status game_check_session(const octree_session *s, const octree *tree)
 {
+    const octree_input changes = {.edits = s->edits,
+                                  .edit_count = s->edit_count,
+                                  .queries = s->queries,
+                                  .query_count = s->query_count,
+                                  .shapes = s->shapes,
+                                  .shape_count = s->shape_count};
     octree_status status = check_player(&s->player, tree);
     if (status == OCTREE_OK)
         status = check_keys(s->keys);
     if (status == OCTREE_OK)
-        status = octree_input_check(&(octree_input){.edits = s->edits,
-                                                    .edit_count = s->edit_count,
-                                                    .queries = s->queries,
-                                                    .query_count = s->query_count,
-                                                    .shapes = s->shapes,
-                                                    .shape_count = s->shape_count});
+        status = octree_input_check(&changes);
+    if (status == OCTREE_OK && s->edit_count && s->edits[0].tick == 0)
+        status = OCTREE_BAD_ORDER;
     if (status == OCTREE_OK)
-        status = s->edit_count && s->edits[0].tick == 0 ? OCTREE_BAD_ORDER
-                                                        : check_order(s->edits, sizeof *s->edits, s->edit_count);
+        status = check_order(s->edits, sizeof *s->edits, s->edit_count, false);
     if (status == OCTREE_OK)
-        status = check_order(s->queries, sizeof *s->queries, s->query_count);
+        status = check_order(s->queries, sizeof *s->queries, s->query_count, false);
     if (status == OCTREE_OK)
-        status = check_order(s->shapes, sizeof *s->shapes, s->shape_count);
+        status = check_order(s->shapes, sizeof *s->shapes, s->shape_count, false);
     if (status == OCTREE_OK)
-        status = check_gaps(s);
-    return status == OCTREE_OK ? check_foreign(s) : status;
+        status = check_order(s->gaps, sizeof *s->gaps, s->gap_count, true);
+    for (size_t i = 0; status == OCTREE_OK && i < s->gap_count; i++)
+        status = check_gap(&s->gaps[i]);
+    if (status == OCTREE_OK)
+        status = check_order(s->foreign, sizeof *s->foreign, s->foreign_count, true);
+    for (size_t i = 0; status == OCTREE_OK && i < s->foreign_count; i++)
+        status = octree_foreign_check(&s->foreign[i], NULL);
+    return status;
 }
 
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
 
-/* The index of the first item of this tick or a later one. The items ascend by tick. */
-static size_t first_from(const void *items, size_t size, size_t count, uint64_t tick)
-{
-    size_t first = 0;
-    while (first < count) {
-        const size_t middle = first + (count - first) / 2;
-        if (tick_of(items, size, middle) < tick)
-            first = middle + 1;
-        else
-            count = middle;
-    }
-    return first;
-}
-
 /* The items of a tick; *found is their number. Null if there are none. */
 static const void *items_of(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
 {
-    const size_t first = first_from(items, size, count, tick);
-    *found = (tick < OCTREE_EVERY_TICK ? first_from(items, size, count, tick + 1) : count) - first;
+    const size_t first = find_first_word(items, size, count, tick);
+    *found = (tick < OCTREE_EVERY_TICK ? find_first_word(items, size, count, tick + 1) : count) - first;
     return *found ? (const char *)items + first * size : NULL;
 }
 
@@ -172,41 +147,29 @@ const octree_gap *octree_session_gap(const octree_session *session, uint64_t tic
     return session ? items_of(session->gaps, sizeof *session->gaps, session->gap_count, tick, &found) : NULL;
 }
 
-static const octree_foreign_tree *foreign_of(const octree_session *s, uint64_t tick)
-{
-    size_t found;
-    return items_of(s->foreign, sizeof *s->foreign, s->foreign_count, tick, &found);
-}
-
 octree_input session_input(const octree_session *s, uint64_t tick)
 {
-    octree_input input = {0};
+    octree_input input = {.gap = octree_session_gap(s, tick)};
+    size_t found;
     input.edits = items_of(s->edits, sizeof *s->edits, s->edit_count, tick, &input.edit_count);
     input.queries = items_of(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
     input.shapes = items_of(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
-    input.gap = octree_session_gap(s, tick);
-    input.foreign = foreign_of(s, tick);
+    input.foreign = items_of(s->foreign, sizeof *s->foreign, s->foreign_count, tick, &found);
     return input;
 }
 
 /* ---- Loading ------------------------------------------------------------------------------------------------ */
 
-static void update_fastest(octree_game *game, const double velocity[3])
-{
-    for (int i = 0; i < 3; i++)
-        if (fabs(velocity[i]) > game->fastest)
-            game->fastest = fabs(velocity[i]);
-}
-
 /* Store the points of all bodies whose velocity is finite; the others are refused. Returns the number of points. */
-static size_t collect_points(octree_game *game, octree_point *points)
+static size_t collect_finite_bodies(octree_game *game, octree_point *points)
 {
     size_t count = 0;
     for (size_t i = 0; i < game->session->body_count; i++) {
         const octree_body *body = &game->session->bodies[i];
         if (!is_finite(body->velocity))
             continue;
-        update_fastest(game, body->velocity);
+        for (int axis = 0; axis < 3; axis++)
+            game->fastest = larger(game->fastest, fabs(body->velocity[axis]));
         points[count].id = body->id;
         memcpy(points[count++].position, body->position, sizeof points->position);
     }
@@ -223,9 +186,10 @@ static octree_status add_bodies(octree_game *game, const octree_status *statuses
         if (status == OCTREE_OK)
             status = *statuses;
         statuses += is_finite(body->velocity);
-        status = game_add_body(game, body, status);
-        if (status == OCTREE_DUPLICATE || status == OCTREE_NO_MEMORY)
+        if (status == OCTREE_DUPLICATE)
             return status;
+        if (!game_add_body(game, body, status))
+            return OCTREE_NO_MEMORY;
     }
     return OCTREE_OK;
 }
@@ -239,7 +203,7 @@ octree_status game_load_bodies(octree_game *game)
     octree_status *statuses = arena_take(&game->memory, room * sizeof *statuses);
     octree_status status = OCTREE_NO_MEMORY;
     if (points && statuses)
-        status = octree_insert_many(game->tree, points, collect_points(game, points), statuses, NULL);
+        status = octree_insert_many(game->tree, points, collect_finite_bodies(game, points), statuses, NULL);
     if (status == OCTREE_OK)
         status = add_bodies(game, statuses);
     arena_give(&game->memory, points, room * sizeof *points);

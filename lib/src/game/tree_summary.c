@@ -3,8 +3,6 @@
 #include "tree_summary.h"
 #include "walk.h"
 
-#include <stdlib.h>
-
 #define SUBTREE_POINTS 512
 
 /* A subtree of SUBTREE_POINTS points or fewer whose parent has more, or a leaf. */
@@ -144,13 +142,7 @@ static void swap_with_before(list *now, list *before)
     now->count = 0;
 }
 
-static int compare_codes(const void *a, const void *b)
-{
-    const uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
-    return p < q ? -1 : p > q;
-}
-
-octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
+bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
 {
     update u = {.to = s, .memory = memory};
     uint64_t sum = 0;
@@ -158,8 +150,7 @@ octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *
     swap_with_before(&s->inner, &s->inner_before);
     if (!s->known || s->capacity != tree->def.leaf_capacity)
         s->subtrees_before.count = 0;
-    if (s->touched.count > 1)
-        qsort(s->touched.items, s->touched.count, sizeof(uint64_t), compare_codes);
+    list_sort(&s->touched, sizeof(uint64_t), compare_first_words);
     s->stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
     add_below(&u, &s->stats, &sum, &tree->root, OCTREE_ROOT, false);
     const subtree *subtrees = s->subtrees.items;
@@ -172,7 +163,7 @@ octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *
     s->version = tree->version;
     s->capacity = tree->def.leaf_capacity;
     s->touched.count = 0;
-    return s->known ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return s->known;
 }
 
 /* Append the addresses of `a` that are not in `b`. */

@@ -26,9 +26,9 @@ typedef struct tree_summary {
  * whole tree. */
 void tree_summary_record(tree_summary *s, arena *memory, const octree *tree, const double position[3]);
 
-/* Update the summary. Returns OK, or NO_MEMORY after which the next update walks the whole tree. Cost: O(subtrees +
+/* Update the summary. False when there is no memory; then the next update walks the whole tree. Cost: O(subtrees +
  * nodes and points of the subtrees that changed). */
-octree_status tree_summary_update(tree_summary *s, arena *memory, const octree *tree);
+bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree);
 
 /* Append the nodes that became inner nodes with the last update to `splits`, and those that ceased to be to `merges`.
  * False when there is no memory. */
