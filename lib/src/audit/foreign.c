@@ -44,7 +44,7 @@ int foreign_compare_keys(const void *a, const void *b)
     return p->id != q->id ? (p->id > q->id) - (p->id < q->id) : (p->place > q->place) - (p->place < q->place);
 }
 
-static size_t find_key(const list *keys, uint64_t id)
+static size_t find_place(const list *keys, uint64_t id)
 {
     const foreign_key *items = keys->items;
     const size_t first = find_first_word(items, sizeof *items, keys->count, id);
@@ -81,7 +81,7 @@ static octree_status list_places(arena *memory, const octree_foreign_tree *tree,
         octree_foreign_place place = {.node = node, .parent = SIZE_MAX, .depth = DEPTH_UNKNOWN, .leaf = true};
         *fault = i;
         if (node->has_parent) {
-            place.parent = find_key(keys, node->parent);
+            place.parent = find_place(keys, node->parent);
             if (place.parent == SIZE_MAX)
                 return OCTREE_NOT_FOUND;
         }
@@ -172,7 +172,7 @@ static bool copy_nodes(foreign *f, const octree_foreign_tree *tree)
     return true;
 }
 
-static uint64_t digest_node(uint64_t digest, const octree_foreign_node *node)
+static uint64_t digest_foreign_node(uint64_t digest, const octree_foreign_node *node)
 {
     digest = octree_digest_word(digest, node->id);
     digest = octree_digest_word(digest, node->has_parent ? node->parent : UINT64_MAX);
@@ -190,7 +190,7 @@ static uint64_t digest_node(uint64_t digest, const octree_foreign_node *node)
 
 /* Store the index of a node's kind among all kinds so far. A new kind is added while there is room; further kinds share
  * the last index. False when there is no memory. */
-static bool find_kind(foreign *f, octree_foreign_place *place)
+static bool find_node_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
     const size_t last = place->kind; /* of the node before: usually the same kind */
@@ -210,7 +210,7 @@ static bool find_kind(foreign *f, octree_foreign_place *place)
 
 /* Add the points of all descendants to each node: start at each leaf and go on to a parent when its last child is done.
  * False when there is no memory. */
-static bool sum_points(foreign *f)
+static bool sum_points_below(foreign *f)
 {
     octree_foreign_place *places = f->places.items;
     list pending = {0}; /* size_t, by node index: the number of children that are not done */
@@ -252,14 +252,14 @@ octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
     octree_foreign_place *places = f->places.items;
     for (size_t i = 0; i < f->places.count; i++) {
         places[i].kind = i ? places[i - 1].kind : 0;
-        if (!find_kind(f, &places[i]) ||
+        if (!find_node_kind(f, &places[i]) ||
             !list_push(f->memory, &f->marks, &(foreign_mark){.query = 0}, sizeof(foreign_mark)))
             return OCTREE_NO_MEMORY;
-        state->digest = digest_node(state->digest, places[i].node);
+        state->digest = digest_foreign_node(state->digest, places[i].node);
         state->leaf_count += places[i].leaf;
         state->depth = places[i].depth > state->depth ? places[i].depth : state->depth;
     }
-    return sum_points(f) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    return sum_points_below(f) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
 void foreign_release(foreign *f)
@@ -278,7 +278,7 @@ void foreign_release(foreign *f)
 
 size_t foreign_find(const foreign *f, uint64_t id)
 {
-    return find_key(&f->keys, id);
+    return find_place(&f->keys, id);
 }
 
 size_t foreign_first_holding(const foreign *f, uint64_t point)

@@ -66,7 +66,7 @@ size_t foreign_find(const foreign *f, uint64_t id);
 size_t foreign_first_holding(const foreign *f, uint64_t point);
 
 /* Whether a position is in a node's box, with the precision of the node. */
-bool foreign_contains(const octree_foreign_node *node, const double position[3]);
+bool foreign_node_contains(const octree_foreign_node *node, const double position[3]);
 
 /* Forget the nodes that the last tick's queries named. */
 void foreign_begin_tick(foreign *f);
@@ -78,7 +78,7 @@ bool foreign_check(foreign *f, const audited_points *points);
 
 /* Record which nodes a query named, and what is wrong with that. `answer` is the index of the query's answer among
  * those of the tick. False when there is no memory. */
-bool foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer);
+bool foreign_record_query(foreign *f, judge *j, const judging *about, size_t answer);
 
 /* Set the pointers and counts of f->state. The lists must not grow any more. */
 void foreign_publish(foreign *f);

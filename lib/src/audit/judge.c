@@ -45,7 +45,7 @@ static bool finds_neighbors(const judge_state *s)
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
 /* Start judging a query. The state stays where it is: judged points refer to its target. */
-static void begin(judge_state *s, judge *j, const judging *about, octree_judgement *made)
+static void begin_judging(judge_state *s, judge *j, const judging *about, octree_judgement *made)
 {
     const octree *tree = about->points->tree;
     *s = (judge_state){.judge = j, .about = about, .made = made, .asked = *about->answer};
@@ -71,7 +71,7 @@ static bool is_skipped(const judge_state *s, const judged_point *p)
            (s->about->skip == OCTREE_SKIP_COINCIDENT && same_position(p->at, s->asked.target));
 }
 
-static void keep(judge_state *s, list *l, const judged_point *p)
+static void append_judged_point(judge_state *s, list *l, const judged_point *p)
 {
     s->failed |= !list_push(s->judge->memory, l, p, sizeof *p);
 }
@@ -128,7 +128,7 @@ static void remove_duplicates(judge_state *s, list *points)
 }
 
 /* List the points of the foreign answer by id, each once, without those that the query skips. */
-static void list_named(judge_state *s)
+static void list_foreign_answer(judge_state *s)
 {
     judge *j = s->judge;
     const octree_query *query = s->about->query;
@@ -144,7 +144,7 @@ static void list_named(judge_state *s)
         if (is_skipped(s, &p))
             record_wrong(s, OCTREE_WRONG_SKIPPED, point.id);
         else
-            keep(s, &j->named, &p);
+            append_judged_point(s, &j->named, &p);
     }
     list_sort(&j->named, sizeof(judged_point), compare_ids);
     remove_duplicates(s, &j->named);
@@ -153,18 +153,18 @@ static void list_named(judge_state *s)
 /* ---- The exact answer --------------------------------------------------------------------------------------- */
 
 /* The exact answer for positions as they are: the game has asked it already. */
-static void list_truth(judge_state *s)
+static void list_exact_answer(judge_state *s)
 {
     const judging *about = s->about;
     for (size_t i = 0; !s->failed && i < about->answer->count; i++) {
         judged_point p =
             judge_point(s, about->exact_points ? &about->exact_points[i] : &about->exact_neighbors[i].point);
-        keep(s, &s->judge->truth, &p);
+        append_judged_point(s, &s->judge->truth, &p);
     }
 }
 
 /* The farthest that rounding to floats moves a point of the world along one axis. */
-static double rounding_of(const octree *tree)
+static double largest_rounding(const octree *tree)
 {
     double largest = 0;
     for (int i = 0; i < 3; i++)
@@ -173,13 +173,13 @@ static double rounding_of(const octree *tree)
 }
 
 /* An octree_point_visitor: keep a point of the region. Neighbours are kept wherever they are. */
-static bool keep_judged(const octree_point *point, void *context)
+static bool collect_judged_point(const octree_point *point, void *context)
 {
     judge_state *s = context;
     judged_point p = judge_point(s, point);
     const query_rules *rules = query_rules_of(s->asked.kind);
     if (!is_skipped(s, &p) && (!rules->contains || rules->contains(&s->asked, p.at, 0)))
-        keep(s, s->collected, &p);
+        append_judged_point(s, s->collected, &p);
     return !s->failed;
 }
 
@@ -190,9 +190,9 @@ static void collect_ball(judge_state *s, double radius, double slack)
     const octree *tree = s->about->points->tree;
     const double reach = exact_add_up(radius, slack);
     if (reach < DBL_MAX)
-        octree_radius(tree, s->asked.target, reach, NULL, keep_judged, s);
+        octree_radius(tree, s->asked.target, reach, NULL, collect_judged_point, s);
     else
-        octree_range(tree, &all, keep_judged, s);
+        octree_range(tree, &all, collect_judged_point, s);
 }
 
 /* Search larger and larger balls until the k-th neighbour found is nearer than every point outside the ball. */
@@ -220,31 +220,31 @@ static void collect_nearest(judge_state *s, double slack)
 }
 
 /* The exact answer for positions rounded to floats. */
-static void list_rounded_truth(judge_state *s)
+static void list_rounded_exact_answer(judge_state *s)
 {
     const octree *tree = s->about->points->tree;
-    const double slack = 2 * rounding_of(tree); /* a distance in space: above the square root of 3 times that */
+    const double slack = 2 * largest_rounding(tree); /* a distance in space: above the square root of 3 times that */
     s->collected = &s->judge->truth;
     if (finds_neighbors(s)) {
         collect_nearest(s, slack);
     } else {
         const octree_box bound = query_rules_of(s->asked.kind)->bound(&s->asked, slack);
-        octree_range(tree, &bound, keep_judged, s);
+        octree_range(tree, &bound, collect_judged_point, s);
     }
 }
 
-static void find_truth(judge_state *s)
+static void find_exact_answer(judge_state *s)
 {
     if (s->rounds)
-        list_rounded_truth(s);
+        list_rounded_exact_answer(s);
     else
-        list_truth(s);
+        list_exact_answer(s);
     s->made->expected = s->judge->truth.count;
 }
 
 /* ---- Regions ------------------------------------------------------------------------------------------------ */
 
-static void list_wrong(judge_state *s, const judged_point *p, size_t *count)
+static void list_wrong_point(judge_state *s, const judged_point *p, size_t *count)
 {
     s->failed |= !list_push(s->judge->memory, &s->judge->wrong, &p->point, sizeof p->point);
     ++*count;
@@ -261,7 +261,7 @@ static void list_difference(judge_state *s, const list *from, const list *withou
             j++;
         const bool lacks = j == without->count || compare_ids(&others[j], &items[i]) > 0;
         if (lacks && !(slack > 0 && rules->contains(&s->asked, items[i].at, slack)))
-            list_wrong(s, &items[i], count);
+            list_wrong_point(s, &items[i], count);
     }
 }
 
@@ -280,7 +280,7 @@ static void judge_region(judge_state *s)
 /* ---- Neighbours --------------------------------------------------------------------------------------------- */
 
 /* Whether a, which is farther than the exact neighbour b, is farther than epsilon allows. */
-static bool is_farther(const judge_state *s, const judged_point *a, const judged_point *b)
+static bool is_too_far(const judge_state *s, const judged_point *a, const judged_point *b)
 {
     if (!(s->asked.epsilon > 0) || same_position(b->at, s->asked.target))
         return true;
@@ -298,7 +298,7 @@ static void judge_ranks(judge_state *s, const judged_point *named, const judged_
         const double ratio =
             metric_distance(named[i].at, s->asked.target) / metric_distance(truth[i].at, s->asked.target);
         made->ratio = ratio > made->ratio ? ratio : made->ratio;
-        if (made->rank == 0 && is_farther(s, &named[i], &truth[i]))
+        if (made->rank == 0 && is_too_far(s, &named[i], &truth[i]))
             made->rank = i + 1;
     }
     if (made->rank)
@@ -322,11 +322,11 @@ static void list_wrong_neighbors(judge_state *s)
         const bool lacks = n == in_reach || named[n].point.id != truth[i].point.id;
         const bool needed = compare_distances(&truth[i], last) < 0 || made->missing_count + in_reach < j->truth.count;
         if (lacks && needed)
-            list_wrong(s, &truth[i], &made->missing_count);
+            list_wrong_point(s, &truth[i], &made->missing_count);
     }
     for (size_t i = in_reach; !s->failed && i < j->named.count; i++)
-        if (!last || is_farther(s, &named[i], last))
-            list_wrong(s, &named[i], &made->extra_count);
+        if (!last || is_too_far(s, &named[i], last))
+            list_wrong_point(s, &named[i], &made->extra_count);
 }
 
 static void judge_neighbors(judge_state *s, size_t given)
@@ -358,16 +358,16 @@ bool judge_answer(judge *j, const judging *about, octree_judgement *made)
 {
     judge_state s;
     *made = (octree_judgement){.judged = true, .given_count = about->query->answer_count};
-    begin(&s, j, about, made);
-    list_named(&s);
-    find_truth(&s);
+    begin_judging(&s, j, about, made);
+    list_foreign_answer(&s);
+    find_exact_answer(&s);
     compare_lists(&s, about->query->answer_count);
     return !s.failed;
 }
 
 /* ---- An answer without some points -------------------------------------------------------------------------- */
 
-static void remove_lost(list *l, point_test *is_lost, void *context)
+static void remove_lost_points(list *l, point_test *is_lost, void *context)
 {
     judged_point *items = l->items;
     size_t kept = 0;
@@ -388,11 +388,11 @@ static void list_possible_neighbors(judge_state *s)
     s->collected = &s->judge->named;
     s->collected->count = 0;
     collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
-                 s->rounds ? 2 * rounding_of(s->about->points->tree) : 0x1p-1000);
+                 s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0x1p-1000);
 }
 
 /* Make the best answer without the lost points: the nearest others, or all others of the region. */
-static void list_best_named(judge_state *s, point_test *is_lost, void *context)
+static void list_best_answer(judge_state *s, point_test *is_lost, void *context)
 {
     list *named = &s->judge->named;
     const list *truth = &s->judge->truth;
@@ -401,7 +401,7 @@ static void list_best_named(judge_state *s, point_test *is_lost, void *context)
         return;
     }
     list_possible_neighbors(s);
-    remove_lost(named, is_lost, context);
+    remove_lost_points(named, is_lost, context);
     list_sort(named, sizeof(judged_point), compare_ranks);
     named->count = named->count < truth->count ? named->count : truth->count;
 }
@@ -411,14 +411,14 @@ bool judge_without(judge *j, const judging *about, point_test *is_lost, point_vi
     octree_judgement made = {.judged = true};
     judge_state s;
     const size_t listed = j->wrong.count;
-    begin(&s, j, about, &made);
-    find_truth(&s);
+    begin_judging(&s, j, about, &made);
+    find_exact_answer(&s);
     for (size_t i = 0; i < j->truth.count; i++)
-        keep(&s, &j->named, (const judged_point *)j->truth.items + i);
-    remove_lost(&j->named, is_lost, context);
+        append_judged_point(&s, &j->named, (const judged_point *)j->truth.items + i);
+    remove_lost_points(&j->named, is_lost, context);
     if (s.failed || j->named.count == j->truth.count)
         return !s.failed;
-    list_best_named(&s, is_lost, context);
+    list_best_answer(&s, is_lost, context);
     compare_lists(&s, j->named.count);
     const octree_point *missed = j->wrong.items; /* only lost points: the others are the best there are */
     for (size_t i = 0; !s.failed && made.wrong && i < made.missing_count; i++)
@@ -429,7 +429,7 @@ bool judge_without(judge *j, const judging *about, point_test *is_lost, point_vi
 
 /* ---- Lists -------------------------------------------------------------------------------------------------- */
 
-void judge_assign(const judge *j, octree_answer *answers, size_t count)
+void judge_assign_lists(const judge *j, octree_answer *answers, size_t count)
 {
     const uint64_t *given = j->given.items;
     const octree_point *wrong = j->wrong.items;

@@ -61,6 +61,6 @@ typedef bool point_visit(const octree_point *point, void *context);
 bool judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context);
 
 /* Point the judgements of these answers to their parts of `given` and `wrong`, which must not grow any more. */
-void judge_assign(const judge *j, octree_answer *answers, size_t count);
+void judge_assign_lists(const judge *j, octree_answer *answers, size_t count);
 
 #endif

@@ -52,7 +52,7 @@ static octree_foreign_place *places_of(const foreign *f)
 
 /* Count what is wrong with a node, and list it while there is room. `place` is SIZE_MAX where it is not about a node of
  * the tree. False when there is no memory. */
-static bool report_wrong(foreign *f, size_t place, octree_wrong_node wrong)
+static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 {
     f->state.wrong[wrong.kind]++;
     if (place != SIZE_MAX) {
@@ -74,7 +74,7 @@ static octree_box rounded_box(const octree_box *box)
     return rounded;
 }
 
-bool foreign_contains(const octree_foreign_node *node, const double position[3])
+bool foreign_node_contains(const octree_foreign_node *node, const double position[3])
 {
     if (box_contains(&node->box, position) || node->precision == OCTREE_DOUBLES)
         return box_contains(&node->box, position);
@@ -96,18 +96,18 @@ static bool is_within_parent(const octree_foreign_node *child, const octree_fore
 
 /* ---- Nodes by themselves ------------------------------------------------------------------------------------ */
 
-static bool check_parents(foreign *f)
+static bool check_boxes_in_parents(foreign *f)
 {
     const octree_foreign_place *places = places_of(f);
     bool whole = true;
     for (size_t i = 0; whole && i < f->places.count; i++)
         if (places[i].parent != SIZE_MAX && !is_within_parent(places[i].node, places[places[i].parent].node))
-            whole = report_wrong(f, i, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_PARENT});
+            whole = report_wrong_node(f, i, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_PARENT});
     return whole;
 }
 
 /* Check the points that a node lists. */
-static bool check_points(foreign *f, const audited_points *points, size_t place)
+static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
     const octree_foreign_node *node = places_of(f)[place].node;
     bool whole = true;
@@ -115,9 +115,9 @@ static bool check_points(foreign *f, const audited_points *points, size_t place)
         octree_point point;
         const uint64_t id = node->points.ids[i];
         if (!points->find(points->context, id, &point))
-            whole = report_wrong(f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
-        else if (!foreign_contains(node, point.position))
-            whole = report_wrong(f, place, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
+            whole = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
+        else if (!foreign_node_contains(node, point.position))
+            whole = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
         whole = whole && list_push(f->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
     }
     return whole;
@@ -146,8 +146,8 @@ static bool report_repeated(foreign *f)
     const foreign_holding *repeated = f->repeated.items;
     list_sort(&f->repeated, sizeof *repeated, compare_by_place);
     for (size_t i = 0; whole && i < f->repeated.count; i++)
-        whole = report_wrong(f, repeated[i].place,
-                             (octree_wrong_node){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
+        whole = report_wrong_node(f, repeated[i].place,
+                                  (octree_wrong_node){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
     return whole;
 }
 
@@ -189,13 +189,13 @@ static bool collect_unlisted(const octree_point *point, void *context)
 }
 
 /* An octree_point_visitor: mark a point that is in the box of the leaf. */
-static bool hold_point(const octree_point *point, void *context)
+static bool mark_held_point(const octree_point *point, void *context)
 {
     holding_search *s = context;
     const list *unlisted = &s->foreign->unlisted;
     const unlisted_point key = {point->id, false};
     unlisted_point *found = bsearch(&key, unlisted->items, unlisted->count, sizeof key, compare_first_words);
-    if (found && !found->held && foreign_contains(s->leaf, point->position)) {
+    if (found && !found->held && foreign_node_contains(s->leaf, point->position)) {
         found->held = true;
         s->lost--;
     }
@@ -213,7 +213,7 @@ static octree_box enlarged_box(const octree_foreign_node *leaf)
     return box;
 }
 
-static void hold_by_boxes(holding_search *search)
+static void mark_points_in_boxes(holding_search *search)
 {
     const octree_foreign_place *places = places_of(search->foreign);
     for (size_t i = 0; search->lost > 0 && i < search->foreign->places.count; i++) {
@@ -221,7 +221,7 @@ static void hold_by_boxes(holding_search *search)
             continue;
         const octree_box box = enlarged_box(places[i].node);
         search->leaf = places[i].node;
-        octree_range(search->points->tree, &box, hold_point, search); /* a valid box: no error is possible */
+        octree_range(search->points->tree, &box, mark_held_point, search); /* a valid box: no error is possible */
     }
 }
 
@@ -235,12 +235,12 @@ static bool find_lost_points(foreign *f, const audited_points *points)
     search.lost = f->unlisted.count;
     const unlisted_point *unlisted = f->unlisted.items;
     list_sort(&f->unlisted, sizeof *unlisted, compare_first_words);
-    hold_by_boxes(&search);
+    mark_points_in_boxes(&search);
     bool whole = !search.failed;
     for (size_t i = 0; whole && search.lost > 0 && i < f->unlisted.count; i++)
         if (!unlisted[i].held)
-            whole =
-                report_wrong(f, SIZE_MAX, (octree_wrong_node){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
+            whole = report_wrong_node(f, SIZE_MAX,
+                                      (octree_wrong_node){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
     return whole;
 }
 
@@ -264,16 +264,16 @@ void foreign_begin_tick(foreign *f)
 }
 
 /* Find what is wrong with the nodes apart from queries. */
-static bool find_standing(foreign *f, const audited_points *points)
+static bool find_standing_faults(foreign *f, const audited_points *points)
 {
     octree_foreign_state *state = &f->state;
     memset(state->wrong, 0, sizeof state->wrong);
     f->wrong.count = f->holdings.count = 0;
     for (size_t i = 0; i < f->places.count; i++)
         places_of(f)[i].wrong = 0;
-    bool whole = check_parents(f);
+    bool whole = check_boxes_in_parents(f);
     for (size_t i = 0; whole && i < f->places.count; i++)
-        whole = check_points(f, points, i);
+        whole = check_listed_points(f, points, i);
     list_sort(&f->holdings, sizeof(foreign_holding), foreign_compare_keys);
     f->checked = whole && report_repeated(f) && find_lost_points(f, points);
     f->standing = f->wrong.count;
@@ -287,7 +287,7 @@ bool foreign_check(foreign *f, const audited_points *points)
     if (!f->state.given)
         return true;
     if (!f->checked || f->version != octree_version(points->tree))
-        return find_standing(f, points);
+        return find_standing_faults(f, points);
     f->wrong.count = f->standing;
     memcpy(f->state.wrong, f->standing_counts, sizeof f->standing_counts);
     return true;
@@ -308,13 +308,13 @@ static foreign_mark *marks_of(const foreign *f)
 }
 
 /* Record that the query visited, pruned or hit a node. */
-static bool note_node(const node_query *q, octree_node_visit visit, uint64_t id)
+static bool record_node_visit(const node_query *q, octree_node_visit visit, uint64_t id)
 {
     foreign *f = q->foreign;
     const size_t place = foreign_find(f, id);
     if (place == SIZE_MAX)
-        return report_wrong(f, place,
-                            (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});
+        return report_wrong_node(
+            f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});
     octree_foreign_place *node = &places_of(f)[place];
     f->state.visits[visit] += !(node->visits >> visit & 1);
     node->visits |= 1u << visit;
@@ -327,7 +327,7 @@ static bool note_node(const node_query *q, octree_node_visit visit, uint64_t id)
 
 /* The pruned node that excludes a node: the first node from `place` upwards that the query named, if the query pruned
  * it; else SIZE_MAX. */
-static size_t pruned_above(const foreign *f, size_t place)
+static size_t find_pruned_ancestor(const foreign *f, size_t place)
 {
     while (place != SIZE_MAX && marks_of(f)[place].query != f->query)
         place = places_of(f)[place].parent;
@@ -343,7 +343,7 @@ static size_t next_holder(const foreign *f, const octree_point *point, size_t *a
         return i < f->holdings.count && items[i].id == point->id ? items[i].place : SIZE_MAX;
     }
     for (const octree_foreign_place *places = places_of(f); *at < f->places.count; ++*at)
-        if (holds_by_box(&places[*at]) && foreign_contains(places[*at].node, point->position))
+        if (holds_by_box(&places[*at]) && foreign_node_contains(places[*at].node, point->position))
             return (*at)++;
     return SIZE_MAX;
 }
@@ -356,7 +356,7 @@ static bool is_pruned(const octree_point *point, void *context)
     if (is_own_point(q->points, point->id))
         return false;
     for (size_t place; (place = next_holder(q->foreign, point, &at)) != SIZE_MAX; holders++)
-        if (pruned_above(q->foreign, place) == SIZE_MAX)
+        if (find_pruned_ancestor(q->foreign, place) == SIZE_MAX)
             return false;
     return holders > 0;
 }
@@ -367,17 +367,17 @@ static bool report_pruned(const octree_point *point, void *context)
     const node_query *q = context;
     size_t at = 0;
     for (size_t place; (place = next_holder(q->foreign, point, &at)) != SIZE_MAX;) {
-        const size_t pruned = pruned_above(q->foreign, place);
+        const size_t pruned = find_pruned_ancestor(q->foreign, place);
         const octree_wrong_node wrong = {.kind = OCTREE_NODE_PRUNED_POINT, .point = point->id, .answer = q->answer};
         foreign_mark *mark = &marks_of(q->foreign)[pruned];
-        if (!mark->reported && !report_wrong(q->foreign, pruned, wrong))
+        if (!mark->reported && !report_wrong_node(q->foreign, pruned, wrong))
             return false;
         mark->reported = true;
     }
     return true;
 }
 
-bool foreign_note_query(foreign *f, judge *j, const judging *about, size_t answer)
+bool foreign_record_query(foreign *f, judge *j, const judging *about, size_t answer)
 {
     const octree_query *query = about->query;
     node_query q = {f, about->points, answer};
@@ -385,7 +385,7 @@ bool foreign_note_query(foreign *f, judge *j, const judging *about, size_t answe
     f->query++;
     for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
         for (size_t i = 0; whole && i < query->visits[visit].count; i++)
-            whole = note_node(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
+            whole = record_node_visit(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
     const bool prunes = query->visits[OCTREE_NODE_PRUNED].count > 0;
     return whole && (!prunes || judge_without(j, about, is_pruned, report_pruned, &q));
 }

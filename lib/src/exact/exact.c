@@ -53,7 +53,7 @@ static int64_t *digits_at(exact_sum *sum, int place)
 }
 
 /* Add sign * value * 2^offset; offset >= 0 counts from the lowest bit of the fixed-point number. */
-static void add_at(exact_sum *sum, int sign, uint64_t value, int offset)
+static void add_shifted(exact_sum *sum, int sign, uint64_t value, int offset)
 {
     const int shift = offset % 32;
     const uint64_t low = (value & UINT32_MAX) << shift;
@@ -71,9 +71,9 @@ void exact_add_product(exact_sum *sum, int factor, double a, double b)
     const int offset = p.exponent + q.exponent + 2 * 1074 + (factor == 2 || factor == -2);
     const uint64_t p_low = p.mantissa & UINT32_MAX, p_high = p.mantissa >> 32;
     const uint64_t q_low = q.mantissa & UINT32_MAX, q_high = q.mantissa >> 32;
-    add_at(sum, sign, p_low * q_low, offset);
-    add_at(sum, sign, p_low * q_high + p_high * q_low, offset + 32);
-    add_at(sum, sign, p_high * q_high, offset + 64);
+    add_shifted(sum, sign, p_low * q_low, offset);
+    add_shifted(sum, sign, p_low * q_high + p_high * q_low, offset + 32);
+    add_shifted(sum, sign, p_high * q_high, offset + 64);
 }
 
 int exact_sign(exact_sum *sum)

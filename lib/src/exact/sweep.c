@@ -20,7 +20,7 @@ typedef struct ends {
     double a, b, p, q;
 } ends;
 
-static ends ends_on(const sweep *box, const double from[3], const double to[3], int axis)
+static ends ends_on_axis(const sweep *box, const double from[3], const double to[3], int axis)
 {
     return (ends){box->from[axis], box->to[axis], from[axis], to[axis]};
 }
@@ -69,7 +69,7 @@ static int test_in_doubles(const sweep *box, const double from[3], const double 
     moments known = {.enter = 0, .leave = 1};
     int result = 1;
     for (int i = 0; i < 3; i++) {
-        const ends e = ends_on(box, from, to, i);
+        const ends e = ends_on_axis(box, from, to, i);
         const bool rests = e.a == e.b && e.p == e.q;
         const int answer = rests ? test_axis_at_rest(&e, box->size) : intersect_axis(&known, &e, box->size) ? 1 : -1;
         if (answer == 0)
@@ -99,14 +99,14 @@ static int motion_sign(const ends *e)
 }
 
 /* Whether side * (point - middle) <= size. */
-static bool is_inside(double point, double middle, int side, double size)
+static bool is_within_size(double point, double middle, int side, double size)
 {
     return sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
 
 /* Add factor * (way * u + reach) of one axis times the length |u - w| of another axis. */
-static void add_cross(exact_sum *sum, int factor, const ends *e, int way, double reach, const ends *other,
-                      int other_way)
+static void add_cross_product(exact_sum *sum, int factor, const ends *e, int way, double reach, const ends *other,
+                              int other_way)
 {
     const double terms[3] = {way * e->p, -way * e->a, reach};
     const double length[4] = {other->p, -other->a, -other->q, other->b};
@@ -121,8 +121,8 @@ static bool enters_before(const ends *i, int way_i, const ends *j, int way_j, do
 {
     exact_sum sum;
     exact_clear(&sum);
-    add_cross(&sum, 1, j, way_j, size, i, way_i);
-    add_cross(&sum, -1, i, way_i, -size, j, way_j);
+    add_cross_product(&sum, 1, j, way_j, size, i, way_i);
+    add_cross_product(&sum, -1, i, way_i, -size, j, way_j);
     return exact_sign(&sum) >= 0;
 }
 
@@ -131,10 +131,10 @@ static bool touches_exactly(const sweep *box, const double from[3], const double
     ends e[3];
     int way[3];
     for (int i = 0; i < 3; i++) {
-        e[i] = ends_on(box, from, to, i);
+        e[i] = ends_on_axis(box, from, to, i);
         way[i] = motion_sign(&e[i]);
         const int side = way[i] ? way[i] : 1; /* at rest the two tests check the two sides of one position */
-        if (!is_inside(e[i].q, e[i].b, side, box->size) || !is_inside(e[i].p, e[i].a, -side, box->size))
+        if (!is_within_size(e[i].q, e[i].b, side, box->size) || !is_within_size(e[i].p, e[i].a, -side, box->size))
             return false;
     }
     for (int i = 0; i < 3; i++)

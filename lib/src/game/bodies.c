@@ -2,8 +2,8 @@
 /* bodies.c - the bodies of a game: a hash table by id, their motion, and the edits of a tick.
  *
  * A position is computed from the origin, the velocity and the number of ticks since then, so that no error adds up
- * over ticks. A body that bounces follows a triangle wave between the two faces of the world (reflect()). Many moves at
- * once go through octree_move_many(), which is faster than single moves from a few hundred points on.
+ * over ticks. A body that bounces follows a triangle wave between the two faces of the world (reflect_path()). Many
+ * moves at once go through octree_move_many(), which is faster than single moves from a few hundred points on.
  */
 #include "bodies.h"
 #include "float_rules.h"
@@ -12,15 +12,15 @@
 
 #include <math.h>
 
-static size_t home_of(const bodies *b, uint64_t id)
+static size_t home_slot_of(const bodies *b, uint64_t id)
 {
     return (size_t)octree_digest_word(OCTREE_DIGEST_START, id) & (b->slot_count - 1);
 }
 
 /* The slot that holds an id, or the empty slot where it would be inserted. Requires slot_count > 0. */
-static size_t slot_of(const bodies *b, uint64_t id)
+static size_t find_body_slot(const bodies *b, uint64_t id)
 {
-    size_t slot = home_of(b, id);
+    size_t slot = home_slot_of(b, id);
     while (b->slots[slot] && bodies_items(b)[b->slots[slot] - 1].id != id)
         slot = (slot + 1) & (b->slot_count - 1);
     return slot;
@@ -36,12 +36,12 @@ moving_body *bodies_find(const bodies *b, uint64_t id)
 {
     if (b->slot_count == 0)
         return NULL;
-    const uint32_t entry = b->slots[slot_of(b, id)];
+    const uint32_t entry = b->slots[find_body_slot(b, id)];
     return entry ? &bodies_items(b)[entry - 1] : NULL;
 }
 
 /* Make room for `count` bodies with at least half of the slots empty. False when there is no memory. */
-static bool make_slots(bodies *b, arena *memory, size_t count)
+static bool make_room_in_slots(bodies *b, arena *memory, size_t count)
 {
     if (2 * count <= b->slot_count)
         return true;
@@ -54,7 +54,7 @@ static bool make_slots(bodies *b, arena *memory, size_t count)
     b->slots = slots;
     b->slot_count = slot_count;
     for (size_t i = 0; i < b->items.count; i++)
-        slots[slot_of(b, bodies_items(b)[i].id)] = (uint32_t)(i + 1);
+        slots[find_body_slot(b, bodies_items(b)[i].id)] = (uint32_t)(i + 1);
     return true;
 }
 
@@ -66,9 +66,9 @@ static bool is_moving(const double velocity[3])
 /* Add a body with an unused id. Its motion starts at its position at this tick. False when there is no memory. */
 static bool bodies_add(bodies *b, arena *memory, const octree_body *body, uint64_t tick)
 {
-    if (!make_slots(b, memory, b->items.count + 1))
+    if (!make_room_in_slots(b, memory, b->items.count + 1))
         return false;
-    const size_t slot = slot_of(b, body->id);
+    const size_t slot = find_body_slot(b, body->id);
     moving_body added = {.id = body->id, .since = tick, .moved = UINT64_MAX};
     memcpy(added.position, body->position, sizeof added.position);
     memcpy(added.origin, body->position, sizeof added.origin);
@@ -85,7 +85,7 @@ static void clear_slot(bodies *b, size_t gap)
 {
     const size_t mask = b->slot_count - 1;
     for (size_t slot = (gap + 1) & mask; b->slots[slot]; slot = (slot + 1) & mask) {
-        const size_t home = home_of(b, bodies_items(b)[b->slots[slot] - 1].id);
+        const size_t home = home_slot_of(b, bodies_items(b)[b->slots[slot] - 1].id);
         if (((slot - home) & mask) >= ((slot - gap) & mask)) {
             b->slots[gap] = b->slots[slot];
             gap = slot;
@@ -98,10 +98,10 @@ static void clear_slot(bodies *b, size_t gap)
 static void bodies_remove(bodies *b, moving_body *body)
 {
     b->movers -= is_moving(body->velocity);
-    clear_slot(b, slot_of(b, body->id));
+    clear_slot(b, find_body_slot(b, body->id));
     moving_body *last = &bodies_items(b)[b->items.count - 1];
     if (body != last) {
-        b->slots[slot_of(b, last->id)] = (uint32_t)(body - bodies_items(b)) + 1;
+        b->slots[find_body_slot(b, last->id)] = (uint32_t)(body - bodies_items(b)) + 1;
         *body = *last;
     }
     b->items.count--;
@@ -110,7 +110,7 @@ static void bodies_remove(bodies *b, moving_body *body)
 /* ---- Motion ------------------------------------------------------------------------------------------------- */
 
 /* Record that the tree stores a body at a new position from this tick on. */
-static void body_store(moving_body *body, const double to[3], uint64_t tick)
+static void store_body_position(moving_body *body, const double to[3], uint64_t tick)
 {
     if (body->moved != tick)
         memcpy(body->before, body->position, sizeof body->before);
@@ -121,7 +121,7 @@ static void body_store(moving_body *body, const double to[3], uint64_t tick)
 /* Fold a straight path into an interval: a triangle wave with period 2 * (max - min). Where the period overflows, the
  * computation uses quarters of all lengths; a path that still overflows stays at its origin. *direction is 1 for the
  * direction of the velocity, -1 for the opposite one, 0 at rest. */
-static double reflect(double origin, double velocity, double ticks, double min, double max, int *direction)
+static double reflect_path(double origin, double velocity, double ticks, double min, double max, int *direction)
 {
     const double straight = origin + velocity * ticks;
     *direction = 1;
@@ -143,11 +143,11 @@ static double reflect(double origin, double velocity, double ticks, double min, 
 
 /* Compute position and velocity on one axis, reflected at the faces of the world. At a face the velocity already points
  * back into the world. */
-static void bounce(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
+static void bounce_on_axis(const moving_body *body, const octree_box *world, double ticks, int axis, octree_body *now)
 {
     const double min = world->min[axis], max = world->max[axis];
     int direction;
-    const double at = reflect(body->origin[axis], body->velocity[axis], ticks, min, max, &direction);
+    const double at = reflect_path(body->origin[axis], body->velocity[axis], ticks, min, max, &direction);
     const double velocity = body->velocity[axis] * direction;
     const bool leaves = (at == max && velocity > 0) || (at == min && velocity < 0);
     now->position[axis] = at;
@@ -167,12 +167,12 @@ static octree_body body_at(const moving_body *body, const octree_box *world, uin
         within &= (now.position[i] > world->min[i]) & (now.position[i] < world->max[i]);
     }
     for (int i = 0; !within && i < 3; i++)
-        bounce(body, world, ticks, i, &now);
+        bounce_on_axis(body, world, ticks, i, &now);
     return now;
 }
 
 /* Restart the motion of a body at another position, with its velocity at this tick. */
-static void restart(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
+static void restart_motion(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
 {
     const octree_body now = body_at(body, world, tick);
     for (int i = 0; i < 3; i++)
@@ -184,7 +184,7 @@ static void restart(moving_body *body, const octree_box *world, const double pla
 
 /* ---- Changes of the tree ------------------------------------------------------------------------------------ */
 
-static void note_change(octree_game *game, const double place[3])
+static void record_change(octree_game *game, const double place[3])
 {
     tree_summary_record(&game->summary, &game->memory, game->tree, place);
 }
@@ -193,7 +193,7 @@ octree_status game_insert(octree_game *game, const double position[3], uint64_t 
 {
     const octree_status status = octree_insert(game->tree, position, id);
     if (status == OCTREE_OK)
-        note_change(game, position);
+        record_change(game, position);
     return status;
 }
 
@@ -201,7 +201,7 @@ static octree_status game_remove(octree_game *game, const double position[3], ui
 {
     const octree_status status = octree_remove(game->tree, position, id);
     if (status == OCTREE_OK)
-        note_change(game, position);
+        record_change(game, position);
     return status;
 }
 
@@ -210,12 +210,12 @@ octree_status game_move(octree_game *game, const double from[3], uint64_t id, co
     const octree_status status = octree_move(game->tree, from, id, to);
     if (status != OCTREE_OK)
         return status;
-    note_change(game, from);
-    note_change(game, to);
+    record_change(game, from);
+    record_change(game, to);
     return OCTREE_OK;
 }
 
-bool game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
+bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3])
 {
     const octree_refusal refusal = {id, why, {position[0], position[1], position[2]}};
     game->tick.events |= why == OCTREE_FULL ? OCTREE_EVENT_FULL : OCTREE_EVENT_REFUSED;
@@ -223,13 +223,13 @@ bool game_note_refusal(octree_game *game, uint64_t id, octree_status why, const 
 }
 
 /* Record a refusal by the tree, which is part of the game. False when there is no memory, here or in the tree. */
-static bool note_status(octree_game *game, uint64_t id, octree_status status, const double position[3])
+static bool record_status(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
-    return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_note_refusal(game, id, status, position));
+    return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_record_refusal(game, id, status, position));
 }
 
 /* The tick at which the motion of an edited body starts: edits come before the motion of their tick. */
-static uint64_t origin_tick(const octree_game *game)
+static uint64_t motion_start_tick(const octree_game *game)
 {
     return game->tick.number ? game->tick.number - 1 : 0;
 }
@@ -261,8 +261,8 @@ octree_status game_check_body(const octree_game *game, const octree_body *body)
 bool game_add_body(octree_game *game, const octree_body *body, octree_status status)
 {
     if (status == OCTREE_OK)
-        return bodies_add(&game->bodies, &game->memory, body, origin_tick(game));
-    return note_status(game, body->id, status, body->position);
+        return bodies_add(&game->bodies, &game->memory, body, motion_start_tick(game));
+    return record_status(game, body->id, status, body->position);
 }
 
 static bool insert_body(octree_game *game, const octree_body *body)
@@ -280,7 +280,7 @@ static bool remove_body(octree_game *game, uint64_t id)
     const octree_status status = body ? game_remove(game, body->position, id) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
-    return note_status(game, id, status, nowhere);
+    return record_status(game, id, status, nowhere);
 }
 
 static bool move_body(octree_game *game, uint64_t id, const double to[3])
@@ -288,10 +288,10 @@ static bool move_body(octree_game *game, uint64_t id, const double to[3])
     moving_body *body = bodies_find(&game->bodies, id);
     const octree_status status = body ? game_move(game, body->position, id, to) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK) {
-        body_store(body, to, game->tick.number);
-        restart(body, &game->session->tree.world, to, origin_tick(game));
+        store_body_position(body, to, game->tick.number);
+        restart_motion(body, &game->session->tree.world, to, motion_start_tick(game));
     }
-    return note_status(game, id, status, to);
+    return record_status(game, id, status, to);
 }
 
 static bool apply_edit(octree_game *game, const octree_edit *edit)
@@ -345,7 +345,7 @@ static void add_move(motion *m, const bodies *all, size_t index, const double to
     m->bodies[m->count++] = (uint32_t)index;
 }
 
-static void collect_motion(const octree_game *game, motion *m)
+static void collect_moves_by_velocity(const octree_game *game, motion *m)
 {
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
@@ -380,19 +380,19 @@ static bool apply_motion(octree_game *game, motion *m, bool edited)
     for (size_t i = 0; ok && i < m->count; i++) {
         moving_body *body = &bodies_items(&game->bodies)[m->bodies[i]];
         if (m->statuses[i] == OCTREE_OK) {
-            note_change(game, m->points[i].position);
-            note_change(game, m->to[i]);
-            body_store(body, m->to[i], game->tick.number);
+            record_change(game, m->points[i].position);
+            record_change(game, m->to[i]);
+            store_body_position(body, m->to[i], game->tick.number);
             if (edited)
-                restart(body, &game->session->tree.world, m->to[i], origin_tick(game));
+                restart_motion(body, &game->session->tree.world, m->to[i], motion_start_tick(game));
         }
-        ok = note_status(game, body->id, m->statuses[i], m->to[i]);
+        ok = record_status(game, body->id, m->statuses[i], m->to[i]);
     }
     return ok;
 }
 
 /* Collect moves from the first edit on, until an edit moves an unknown body or one that the run moves already. */
-static void collect_run(octree_game *game, const octree_edit *edits, size_t count, motion *m)
+static void collect_run_of_moves(octree_game *game, const octree_edit *edits, size_t count, motion *m)
 {
     const size_t run = ++game->bodies.runs;
     m->count = 0;
@@ -407,12 +407,12 @@ static void collect_run(octree_game *game, const octree_edit *edits, size_t coun
 }
 
 /* Apply edits that are all moves, in runs that move no body twice. */
-static bool apply_moves(octree_game *game, const octree_edit *edits, size_t count)
+static bool apply_move_edits(octree_game *game, const octree_edit *edits, size_t count)
 {
     motion m;
     bool ok = motion_allocate(&m, &game->memory, count);
     for (size_t done = 0; ok && done < count; done += m.count ? m.count : 1) {
-        collect_run(game, edits + done, count - done, &m);
+        collect_run_of_moves(game, edits + done, count - done, &m);
         ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done); /* the body is unknown */
     }
     motion_release(&m, &game->memory);
@@ -433,7 +433,7 @@ bool game_apply_edits(octree_game *game, const octree_input *input)
     for (size_t i = 0, done; ok && i < input->edit_count; i += done) {
         const size_t moves = count_moves(input->edits + i, input->edit_count - i);
         done = moves >= MANY ? moves : 1;
-        ok = moves >= MANY ? apply_moves(game, input->edits + i, moves) : apply_edit(game, input->edits + i);
+        ok = moves >= MANY ? apply_move_edits(game, input->edits + i, moves) : apply_edit(game, input->edits + i);
     }
     return ok;
 }
@@ -445,7 +445,7 @@ bool game_move_bodies(octree_game *game)
         return true;
     bool ok = motion_allocate(&m, &game->memory, game->bodies.movers);
     if (ok) {
-        collect_motion(game, &m);
+        collect_moves_by_velocity(game, &m);
         ok = apply_motion(game, &m, false);
     }
     motion_release(&m, &game->memory);

@@ -42,7 +42,7 @@ octree_status game_insert(octree_game *game, const double position[3], uint64_t 
 octree_status game_move(octree_game *game, const double from[3], uint64_t id, const double to[3]);
 
 /* Record a refusal in the tick. False when there is no memory. */
-bool game_note_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
+bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, const double position[3]);
 
 /* Check whether a body can be inserted: DUPLICATE (its id is in use), NOT_FINITE (its velocity), or OK. */
 octree_status game_check_body(const octree_game *game, const octree_body *body);

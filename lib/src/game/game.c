@@ -38,7 +38,7 @@ typedef struct hit_collector {
     point_collector hits;
 } hit_collector;
 
-static bool was_moved(const octree_game *game, const moving_body *body)
+static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
 {
     return body->moved == game->tick.number;
 }
@@ -47,11 +47,11 @@ static bool collect_hit(const octree_point *point, void *context)
 {
     hit_collector *c = context;
     const moving_body *body = c->game->tick.swept ? bodies_find(&c->game->bodies, point->id) : NULL;
-    return (body && was_moved(c->game, body)) || collect_point(point, &c->hits);
+    return (body && was_moved_in_tick(c->game, body)) || collect_point(point, &c->hits);
 }
 
 /* Collect points of the tree; with sweep, without the bodies that this tick has moved. */
-static bool collide_points(octree_game *game, const octree_point *self)
+static bool collect_hit_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
     const double *from = tick->swept ? tick->from : tick->attempt;
@@ -63,13 +63,13 @@ static bool collide_points(octree_game *game, const octree_point *self)
 }
 
 /* Collect the bodies that this tick has moved. */
-static bool collide_moved(octree_game *game)
+static bool collect_hit_moved_bodies(octree_game *game)
 {
     const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
     point_collector hits = {&game->memory, &game->hits, false};
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
-        if (!was_moved(game, body) || body->id == game->session->player.id)
+        if (!was_moved_in_tick(game, body) || body->id == game->session->player.id)
             continue;
         game->tick.hit_cost.points++;
         if (!sweep_touches(&box, body->before, body->position))
@@ -90,7 +90,7 @@ static bool list_hit_origins(octree_game *game)
     for (size_t i = 0; i < game->hits.count; i++) {
         const moving_body *body =
             bodies_find(&game->bodies, hits[i].id); /* not null: every point except the player's is a body */
-        const double *from = was_moved(game, body) ? body->before : hits[i].position;
+        const double *from = was_moved_in_tick(game, body) ? body->before : hits[i].position;
         if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
             return false;
     }
@@ -98,7 +98,7 @@ static bool list_hit_origins(octree_game *game)
 }
 
 /* Collect the points in the player's box into `hits`, sorted by id: at `to` or, with sweep, on the whole way there. */
-static bool collide(octree_game *game, const double to[3])
+static bool test_collision(octree_game *game, const double to[3])
 {
     octree_tick *tick = &game->tick;
     octree_point self = {.id = game->session->player.id};
@@ -106,7 +106,7 @@ static bool collide(octree_game *game, const double to[3])
     memcpy(tick->attempt, to, sizeof tick->attempt);
     tick->hit_cost = (octree_cost){0};
     game->hits.count = game->visits.count = 0;
-    const bool ok = collide_points(game, &self) && (!tick->swept || collide_moved(game));
+    const bool ok = collect_hit_points(game, &self) && (!tick->swept || collect_hit_moved_bodies(game));
     sort_points(&game->hits, 0);
     if (game->hits.count)
         tick->events |= OCTREE_EVENT_COLLIDED;
@@ -116,7 +116,7 @@ static bool collide(octree_game *game, const double to[3])
 /* ---- The player's step -------------------------------------------------------------------------------------- */
 
 /* The direction in which a key moves along an axis: 1, -1 or 0. */
-static int direction_of(char key, int axis)
+static int key_direction(char key, int axis)
 {
     return (key == "dwe"[axis]) - (key == "asf"[axis]);
 }
@@ -125,8 +125,8 @@ static int direction_of(char key, int axis)
  * bodies that move into it. */
 static bool refuse_step(octree_game *game, octree_status why, const double to[3])
 {
-    return game_note_refusal(game, game->session->player.id, why, to) &&
-           (!game->session->player.sweep || collide(game, game->tick.player));
+    return game_record_refusal(game, game->session->player.id, why, to) &&
+           (!game->session->player.sweep || test_collision(game, game->tick.player));
 }
 
 /* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. */
@@ -143,7 +143,7 @@ static bool make_step(octree_game *game, const int64_t steps[3], const double to
 }
 
 /* Store the player's position now and before the tick. A player that is a body is where edits and motion put it. */
-static void find_player(octree_game *game)
+static void update_player(octree_game *game)
 {
     octree_tick *tick = &game->tick;
     const octree_player *player = &game->session->player;
@@ -160,25 +160,25 @@ static void find_player(octree_game *game)
 /* Make the step of the tick's key, unless the collision test or the tree prevents it. */
 static bool step_player(octree_game *game)
 {
-    find_player(game);
+    update_player(game);
     if (!game->tick.has_player)
         return true;
     const octree_player *player = &game->session->player;
     if (player->kind != OCTREE_PLAYER_KEYS)
-        return collide(game, game->tick.player);
+        return test_collision(game, game->tick.player);
     int64_t steps[3];
     double to[3];
     for (int i = 0; i < 3; i++) {
-        steps[i] = game->steps[i] + direction_of(game->tick.key, i);
+        steps[i] = game->steps[i] + key_direction(game->tick.key, i);
         to[i] = player->position[i] + (double)steps[i] * player->step;
     }
     if (memcmp(steps, game->steps, sizeof steps) == 0)
-        return collide(game, game->tick.player);
+        return test_collision(game, game->tick.player);
     if (check_position(game->tree, to) != OCTREE_OK) {
         game->tick.events |= OCTREE_EVENT_REFUSED;
-        return collide(game, game->tick.player);
+        return test_collision(game, game->tick.player);
     }
-    return collide(game, to) && (game->hits.count > 0 || make_step(game, steps, to));
+    return test_collision(game, to) && (game->hits.count > 0 || make_step(game, steps, to));
 }
 
 /* ---- The end of a tick -------------------------------------------------------------------------------------- */
@@ -221,9 +221,9 @@ static bool ask_and_show(octree_game *game, const octree_input *input)
 {
     const octree_input always = session_input(game->session, OCTREE_EVERY_TICK);
     return check_foreign_nodes(game, input->foreign) && game_ask_by_key(game) &&
-           game_ask(game, input->queries, input->query_count) && game_ask(game, always.queries, always.query_count) &&
-           game_finish_asking(game) && list_shapes(game, input->shapes, input->shape_count) &&
-           list_shapes(game, always.shapes, always.shape_count);
+           game_ask_queries(game, input->queries, input->query_count) &&
+           game_ask_queries(game, always.queries, always.query_count) && game_finish_queries(game) &&
+           list_shapes(game, input->shapes, input->shape_count) && list_shapes(game, always.shapes, always.shape_count);
 }
 
 /* The tick's splits and merges, and the digest and statistics of its tree. */
@@ -243,7 +243,7 @@ static bool summarize_tree(octree_game *game)
 }
 
 /* Point the tick to the lists, which must not grow any more. */
-static void publish(octree_game *game)
+static void publish_tick(octree_game *game)
 {
 #define PUBLISH(name, shown_count, type)                                                                               \
     game->tick.name = game->name.items;                                                                                \
@@ -263,11 +263,11 @@ static octree_status finish_tick(octree_game *game, const octree_input *input)
     bool ok = true;
     game->tick.gap = input->gap ? strcpy(game->gap, input->gap->why) : NULL;
     if (game->tick.number == 0 && game->tick.has_player && !input->gap)
-        ok = collide(game, game->tick.player);
-    ok = ok && (input->gap ? game_finish_asking(game) : ask_and_show(game, input));
+        ok = test_collision(game, game->tick.player);
+    ok = ok && (input->gap ? game_finish_queries(game) : ask_and_show(game, input));
     ok = ok && summarize_tree(game) && game_list_movers(game);
     if (ok)
-        publish(game);
+        publish_tick(game);
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
@@ -286,7 +286,7 @@ static octree_status place_player(octree_game *game)
     return game_insert(game, player->position, player->id);
 }
 
-static octree_status start(octree_game *game)
+static octree_status start_game(octree_game *game)
 {
     const octree_session *session = game->session;
     octree_status status = game_check_session(session, game->tree);
@@ -296,7 +296,7 @@ static octree_status start(octree_game *game)
         status = game_load_bodies(game);
     if (status != OCTREE_OK)
         return status;
-    find_player(game);
+    update_player(game);
     const octree_input input = session_input(session, 0);
     return finish_tick(game, &input);
 }
@@ -320,7 +320,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
     }
     *made = (octree_game){.session = session, .tree = tree, .memory = memory};
     made->foreign.memory = made->judge.memory = &made->memory;
-    status = start(made);
+    status = start_game(made);
     if (status == OCTREE_OK)
         *game = made;
     else
@@ -381,7 +381,7 @@ static bool play_changes(octree_game *game, const octree_input *input)
 }
 
 /* Play one tick with the given input, or if it is null with the session's. */
-static octree_status step(octree_game *game, char key, const octree_input *given)
+static octree_status play_tick(octree_game *game, char key, const octree_input *given)
 {
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
@@ -394,7 +394,7 @@ static octree_status step(octree_game *game, char key, const octree_input *given
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, input->gap ? '.' : key);
     if (input->gap)
-        find_player(game); /* it has not moved */
+        update_player(game); /* it has not moved */
     else if (!play_changes(game, input))
         return OCTREE_NO_MEMORY;
     return finish_tick(game, input);
@@ -402,7 +402,7 @@ static octree_status step(octree_game *game, char key, const octree_input *given
 
 octree_status octree_game_step(octree_game *game, char key)
 {
-    return game ? step(game, key, NULL) : OCTREE_NULL_ARGUMENT;
+    return game ? play_tick(game, key, NULL) : OCTREE_NULL_ARGUMENT;
 }
 
 octree_status octree_game_play(octree_game *game, const octree_input *input)
@@ -410,7 +410,7 @@ octree_status octree_game_play(octree_game *game, const octree_input *input)
     if (!game || !input)
         return OCTREE_NULL_ARGUMENT;
     const octree_status status = octree_input_check(input);
-    return status == OCTREE_OK ? step(game, input->key ? input->key : '.', input) : status;
+    return status == OCTREE_OK ? play_tick(game, input->key ? input->key : '.', input) : status;
 }
 
 octree_status octree_game_ask(octree_game *game, const octree_query *queries, size_t count)
@@ -423,9 +423,9 @@ octree_status octree_game_ask(octree_game *game, const octree_query *queries, si
     if (status != OCTREE_OK)
         return status;
     game->hit_leaves.count = 0;
-    if (!game_ask(game, queries, count) || !game_finish_asking(game))
+    if (!game_ask_queries(game, queries, count) || !game_finish_queries(game))
         return OCTREE_NO_MEMORY;
-    publish(game);
+    publish_tick(game);
     return OCTREE_OK;
 }
 

@@ -10,8 +10,8 @@
 
 /* Judge what a foreign index did for a query. Its exact answer is the tick's last; `points` and `neighbors` are the
  * lengths that the lists of results had before. */
-static bool judge_foreign(octree_game *game, const octree_query *query, const octree_search *how, size_t points,
-                          size_t neighbors)
+static bool judge_foreign_query(octree_game *game, const octree_query *query, const octree_search *how, size_t points,
+                                size_t neighbors)
 {
     octree_answer *answer = (octree_answer *)game->answers.items + game->answers.count - 1;
     const bool near = octree_query_about(query->kind)->neighbors, none = answer->count == 0;
@@ -29,7 +29,7 @@ static bool judge_foreign(octree_game *game, const octree_query *query, const oc
         return false;
     if (answer->judgement.wrong)
         game->tick.events |= OCTREE_EVENT_WRONG;
-    return foreign_note_query(&game->foreign, &game->judge, &about, game->answers.count - 1);
+    return foreign_record_query(&game->foreign, &game->judge, &about, game->answers.count - 1);
 }
 
 static bool ask_in_game(octree_game *game, const octree_query *query, bool by_key)
@@ -43,13 +43,13 @@ static bool ask_in_game(octree_game *game, const octree_query *query, bool by_ke
     a.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     a.how.skip_id = game->session->player.id;
     const size_t points = game->found.count, neighbors = game->near.count;
-    const octree_status status = ask(&a, query, game->tick.player, answer);
+    const octree_status status = ask_query(&a, query, game->tick.player, answer);
     answer->by_key = by_key;
     game->tick.asked |= 1u << query->kind;
-    return status == OCTREE_OK && judge_foreign(game, query, &a.how, points, neighbors);
+    return status == OCTREE_OK && judge_foreign_query(game, query, &a.how, points, neighbors);
 }
 
-bool game_ask(octree_game *game, const octree_query *queries, size_t count)
+bool game_ask_queries(octree_game *game, const octree_query *queries, size_t count)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < count; i++)
@@ -81,7 +81,7 @@ static void assign_results(octree_game *game)
             points += answer->count;
         }
     }
-    judge_assign(&game->judge, answers, game->answers.count);
+    judge_assign_lists(&game->judge, answers, game->answers.count);
 }
 
 /* ---- Visited nodes ------------------------------------------------------------------------------------------ */
@@ -104,7 +104,7 @@ static int compare_visits(const void *a, const void *b)
     static const int weakness[OCTREE_TRACE_KINDS] = {
         [OCTREE_TRACE_VISITED] = 0, [OCTREE_TRACE_TAKEN] = 1, [OCTREE_TRACE_PRUNED] = 2};
     const octree_visit *p = a, *q = b;
-    return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : address_compare(&p->node, &q->node);
+    return p->node == q->node ? weakness[p->touch] - weakness[q->touch] : compare_addresses(&p->node, &q->node);
 }
 
 static void sort_visits(octree_game *game)
@@ -126,24 +126,24 @@ static void sort_visits(octree_game *game)
     game->visits.count = kept;
 }
 
-static bool add_leaf_of(octree_game *game, const octree_point *point)
+static bool add_leaf_of_point(octree_game *game, const octree_point *point)
 {
     const uint64_t code = morton_code(game->tree->axes, point->position);
-    const octree_address leaf = morton_address(code, path_to(game->tree, code).depth);
+    const octree_address leaf = morton_address(code, find_path(game->tree, code).depth);
     return list_push(&game->memory, &game->hit_leaves, &leaf, sizeof leaf);
 }
 
-static bool add_leaves(octree_game *game)
+static bool add_result_leaves(octree_game *game)
 {
     const octree_point *hits = game->hits.items, *found = game->found.items;
     const octree_neighbor *near = game->near.items;
     bool ok = true;
     for (size_t i = 0; ok && i < game->hits.count; i++)
-        ok = add_leaf_of(game, &hits[i]);
+        ok = add_leaf_of_point(game, &hits[i]);
     for (size_t i = 0; ok && i < game->found.count; i++)
-        ok = add_leaf_of(game, &found[i]);
+        ok = add_leaf_of_point(game, &found[i]);
     for (size_t i = 0; ok && i < game->near.count; i++)
-        ok = add_leaf_of(game, &near[i].point);
+        ok = add_leaf_of_point(game, &near[i].point);
     return ok;
 }
 
@@ -151,16 +151,16 @@ static void sort_leaves(octree_game *game)
 {
     octree_address *leaves = game->hit_leaves.items;
     size_t kept = 0;
-    list_sort(&game->hit_leaves, sizeof *leaves, address_compare);
+    list_sort(&game->hit_leaves, sizeof *leaves, compare_addresses);
     for (size_t i = 0; i < game->hit_leaves.count; i++)
         if (kept == 0 || leaves[i] != leaves[kept - 1])
             leaves[kept++] = leaves[i];
     game->hit_leaves.count = kept;
 }
 
-bool game_finish_asking(octree_game *game)
+bool game_finish_queries(octree_game *game)
 {
-    if (game->lost_visits || !add_leaves(game))
+    if (game->lost_visits || !add_result_leaves(game))
         return false;
     assign_results(game);
     sort_visits(game);

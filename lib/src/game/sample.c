@@ -132,7 +132,7 @@ bool octree_sample_parse(const char *name, octree_sample_kind *kind)
 }
 
 /* Map [-1, 1] to [min, max] without overflow. */
-static double stretch(double unit, double min, double max)
+static double map_to_interval(double unit, double min, double max)
 {
     const double x = (min / 2 + max / 2) + unit * (max / 2 - min / 2);
     return x < min ? min : x > max ? max : x;
@@ -152,6 +152,6 @@ octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree
     kinds[kind].fill(seed, count, positions);
     for (size_t n = 0; n < count; n++)
         for (int i = 0; i < 3; i++)
-            positions[n][i] = stretch(positions[n][i], box->min[i], box->max[i]);
+            positions[n][i] = map_to_interval(positions[n][i], box->min[i], box->max[i]);
     return OCTREE_OK;
 }

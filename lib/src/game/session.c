@@ -134,7 +134,7 @@ octree_status game_check_session(const octree_session *s, const octree *tree)
 /* ---- The input of a tick ------------------------------------------------------------------------------------ */
 
 /* The items of a tick; *found is their number. Null if there are none. */
-static const void *items_of(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
+static const void *find_items_of_tick(const void *items, size_t size, size_t count, uint64_t tick, size_t *found)
 {
     const size_t first = find_first_word(items, size, count, tick);
     *found = (tick < OCTREE_EVERY_TICK ? find_first_word(items, size, count, tick + 1) : count) - first;
@@ -144,17 +144,17 @@ static const void *items_of(const void *items, size_t size, size_t count, uint64
 const octree_gap *octree_session_gap(const octree_session *session, uint64_t tick)
 {
     size_t found;
-    return session ? items_of(session->gaps, sizeof *session->gaps, session->gap_count, tick, &found) : NULL;
+    return session ? find_items_of_tick(session->gaps, sizeof *session->gaps, session->gap_count, tick, &found) : NULL;
 }
 
 octree_input session_input(const octree_session *s, uint64_t tick)
 {
     octree_input input = {.gap = octree_session_gap(s, tick)};
     size_t found;
-    input.edits = items_of(s->edits, sizeof *s->edits, s->edit_count, tick, &input.edit_count);
-    input.queries = items_of(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
-    input.shapes = items_of(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
-    input.foreign = items_of(s->foreign, sizeof *s->foreign, s->foreign_count, tick, &found);
+    input.edits = find_items_of_tick(s->edits, sizeof *s->edits, s->edit_count, tick, &input.edit_count);
+    input.queries = find_items_of_tick(s->queries, sizeof *s->queries, s->query_count, tick, &input.query_count);
+    input.shapes = find_items_of_tick(s->shapes, sizeof *s->shapes, s->shape_count, tick, &input.shape_count);
+    input.foreign = find_items_of_tick(s->foreign, sizeof *s->foreign, s->foreign_count, tick, &found);
     return input;
 }
 

@@ -43,17 +43,17 @@ void tree_summary_release(tree_summary *s, arena *memory)
 
 /* ---- A subtree ---------------------------------------------------------------------------------------------- */
 
-static void add_inner(update *u, octree_address address)
+static void add_inner_node(update *u, octree_address address)
 {
     u->out_of_memory |= !list_push(u->memory, &u->to->inner, &address, sizeof address);
 }
 
 /* The subtree at this address at the last update, or null. */
-static const subtree *subtree_before(update *u, octree_address address)
+static const subtree *find_subtree_before(update *u, octree_address address)
 {
     const subtree *before = u->to->subtrees_before.items;
     const size_t count = u->to->subtrees_before.count;
-    while (u->next_before < count && address_compare(&before[u->next_before].address, &address) < 0)
+    while (u->next_before < count && compare_addresses(&before[u->next_before].address, &address) < 0)
         u->next_before++;
     return u->next_before < count && before[u->next_before].address == address ? &before[u->next_before] : NULL;
 }
@@ -70,18 +70,19 @@ static bool has_changed(update *u, octree_address address)
     return u->next_touched < count && codes[u->next_touched] - first < UINT64_C(1) << below;
 }
 
-static void keep_inner(update *u, const subtree *before)
+static void keep_inner_nodes(update *u, const subtree *before)
 {
     const octree_address *addresses = u->to->inner_before.items;
     for (size_t i = 0; i < before->inner_count; i++)
-        add_inner(u, addresses[before->first_inner + i]);
+        add_inner_node(u, addresses[before->first_inner + i]);
 }
 
-static void add_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address, bool whole);
+static void add_nodes_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address,
+                            bool whole);
 
 static void add_subtree(update *u, const node *n, octree_address address)
 {
-    const subtree *before = subtree_before(u, address);
+    const subtree *before = find_subtree_before(u, address);
     subtree *made = list_append(u->memory, &u->to->subtrees, sizeof *made);
     if (!made) {
         u->out_of_memory = true;
@@ -90,10 +91,10 @@ static void add_subtree(update *u, const node *n, octree_address address)
     const size_t first_inner = u->to->inner.count;
     if (before && !has_changed(u, address)) {
         *made = *before;
-        keep_inner(u, before);
+        keep_inner_nodes(u, before);
     } else {
         *made = (subtree){.address = address};
-        add_below(u, &made->stats, &made->sum, n, address, true);
+        add_nodes_below(u, &made->stats, &made->sum, n, address, true);
     }
     made->first_inner = first_inner;
     made->inner_count = u->to->inner.count - first_inner;
@@ -102,7 +103,8 @@ static void add_subtree(update *u, const node *n, octree_address address)
 /* ---- The whole tree ----------------------------------------------------------------------------------------- */
 
 /* Add a node and all its descendants, in pre-order. Unless `whole`, subtrees go to the list of subtrees instead. */
-static void add_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address, bool whole)
+static void add_nodes_below(update *u, octree_stats *stats, uint64_t *sum, const node *n, octree_address address,
+                            bool whole)
 {
     if (u->out_of_memory)
         return;
@@ -114,12 +116,12 @@ static void add_below(update *u, octree_stats *stats, uint64_t *sum, const node 
     *sum += digest_node(n, address);
     if (n->octants == 0)
         return;
-    add_inner(u, address);
+    add_inner_node(u, address);
     prefetch_below(n);
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8; octant++)
         if (n->octants >> octant & 1)
-            add_below(u, stats, sum, child++, address << 3 | octant, whole);
+            add_nodes_below(u, stats, sum, child++, address << 3 | octant, whole);
 }
 
 static void add_stats(octree_stats *to, const octree_stats *of)
@@ -152,13 +154,13 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
         s->subtrees_before.count = 0;
     list_sort(&s->touched, sizeof(uint64_t), compare_first_words);
     s->stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
-    add_below(&u, &s->stats, &sum, &tree->root, OCTREE_ROOT, false);
+    add_nodes_below(&u, &s->stats, &sum, &tree->root, OCTREE_ROOT, false);
     const subtree *subtrees = s->subtrees.items;
     for (size_t i = 0; i < s->subtrees.count; i++) {
         sum += subtrees[i].sum;
         add_stats(&s->stats, &subtrees[i].stats);
     }
-    s->digest = digest_of_sum(tree, sum);
+    s->digest = digest_of_tree(tree, sum);
     s->known = !u.out_of_memory;
     s->version = tree->version;
     s->capacity = tree->def.leaf_capacity;
@@ -167,11 +169,11 @@ bool tree_summary_update(tree_summary *s, arena *memory, const octree *tree)
 }
 
 /* Append the addresses of `a` that are not in `b`. */
-static bool subtract(arena *memory, const list *a, const list *b, list *out)
+static bool append_difference(arena *memory, const list *a, const list *b, list *out)
 {
     const octree_address *in_a = a->items, *in_b = b->items;
     for (size_t i = 0, j = 0; i < a->count; i++) {
-        while (j < b->count && address_compare(&in_b[j], &in_a[i]) < 0)
+        while (j < b->count && compare_addresses(&in_b[j], &in_a[i]) < 0)
             j++;
         if (j < b->count && in_b[j] == in_a[i])
             continue;
@@ -183,6 +185,6 @@ static bool subtract(arena *memory, const list *a, const list *b, list *out)
 
 bool tree_summary_compare(const tree_summary *s, arena *memory, list *splits, list *merges)
 {
-    return subtract(memory, &s->inner, &s->inner_before, splits) &&
-           subtract(memory, &s->inner_before, &s->inner, merges);
+    return append_difference(memory, &s->inner, &s->inner_before, splits) &&
+           append_difference(memory, &s->inner_before, &s->inner, merges);
 }

@@ -62,7 +62,7 @@ static octree_status check_member(const octree_query *query, const octree_query_
     return OCTREE_OK;
 }
 
-static octree_status check_answer(const octree_query *query)
+static octree_status check_foreign_answer(const octree_query *query)
 {
     if (query->answered && !query->answer && query->answer_count)
         return OCTREE_NULL_ARGUMENT;
@@ -93,7 +93,7 @@ octree_status octree_query_check(const octree_query *query)
         if (about->members & octree_query_member_at(i)->bit)
             status = check_member(query, octree_query_member_at(i));
     if (status == OCTREE_OK && query_is_judged(query))
-        status = check_answer(query);
+        status = check_foreign_answer(query);
     for (int visit = 0; status == OCTREE_OK && visit < OCTREE_NODE_VISITS; visit++)
         status = check_visits(&query->visits[visit]);
     return status;
@@ -115,7 +115,7 @@ void sort_points(list *points, size_t first)
               octree_compare_points);
 }
 
-bool keep_point(const octree_point *point, void *context)
+bool collect_unless_skipped(const octree_point *point, void *context)
 {
     asking *a = context;
     const octree_answer *asked = a->asked;
@@ -124,7 +124,7 @@ bool keep_point(const octree_point *point, void *context)
     return skipped || collect_point(point, &a->points);
 }
 
-static size_t size_of(octree_member_type type)
+static size_t size_of_member(octree_member_type type)
 {
     static const size_t sizes[] = {[OCTREE_MEMBER_BOX] = sizeof(octree_box),
                                    [OCTREE_MEMBER_POSITION] = sizeof(double[3]),
@@ -142,7 +142,8 @@ octree_answer query_to_answer(const octree_query *query, const double player[3])
                             .precision = query_is_judged(query) ? query->precision : OCTREE_DOUBLES};
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
-        memcpy((char *)&answer + member->in_answer, (const char *)query + member->in_query, size_of(member->type));
+        memcpy((char *)&answer + member->in_answer, (const char *)query + member->in_query,
+               size_of_member(member->type));
     }
     if (!query->at_player)
         return answer;
@@ -159,13 +160,13 @@ void round_answer(octree_answer *answer)
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         double *numbers = (double *)((char *)answer + member->in_answer);
-        const size_t count = member->type == OCTREE_MEMBER_COUNT ? 0 : size_of(member->type) / sizeof *numbers;
+        const size_t count = member->type == OCTREE_MEMBER_COUNT ? 0 : size_of_member(member->type) / sizeof *numbers;
         for (size_t j = 0; j < count; j++)
             numbers[j] = round_to_float(numbers[j]);
     }
 }
 
-octree_status ask(asking *a, const octree_query *query, const double player[3], octree_answer *answer)
+octree_status ask_query(asking *a, const octree_query *query, const double player[3], octree_answer *answer)
 {
     const bool neighbors = octree_query_about(query->kind)->neighbors;
     const list *found = neighbors ? a->neighbors : a->points.points;
@@ -217,7 +218,7 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
     list points = {0}, neighbors = {0};
     asking a = {tree, search_or_default(how), {&memory, &points, false}, &neighbors, NULL};
     octree_answer made;
-    status = ask(&a, query, player, &made);
+    status = ask_query(&a, query, player, &made);
     made.points = move_to_block(&memory, &points, sizeof(octree_point));
     made.neighbors = move_to_block(&memory, &neighbors, sizeof(octree_neighbor));
     if (status == OCTREE_OK && made.count && !made.points && !made.neighbors)

@@ -28,7 +28,7 @@ typedef struct asking {
 } asking;
 
 /* An octree_point_visitor with an asking as its context: collect the point unless the query skips it. */
-bool keep_point(const octree_point *point, void *context);
+bool collect_unless_skipped(const octree_point *point, void *context);
 
 /* Each kind defines ask_NAME in kind_NAME.c: ask the tree and append the result. A kind whose result is points also
  * defines contains_NAME and bound_NAME. */
@@ -66,6 +66,6 @@ octree_answer query_to_answer(const octree_query *query, const double player[3])
 void round_answer(octree_answer *answer);
 
 /* Ask a checked query. answer->count is the number of items that were appended to `a`; the pointers stay null. */
-octree_status ask(asking *a, const octree_query *query, const double player[3], octree_answer *answer);
+octree_status ask_query(asking *a, const octree_query *query, const double player[3], octree_answer *answer);
 
 #endif

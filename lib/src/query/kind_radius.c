@@ -6,7 +6,7 @@
 
 octree_status ask_radius(asking *a, octree_answer *answer)
 {
-    return octree_radius(a->tree, answer->target, answer->radius, &a->how, keep_point, a);
+    return octree_radius(a->tree, answer->target, answer->radius, &a->how, collect_unless_skipped, a);
 }
 
 bool contains_radius(const octree_answer *asked, const double position[3], double slack)

@@ -6,7 +6,7 @@
 
 octree_status ask_range(asking *a, octree_answer *answer)
 {
-    return octree_range_search(a->tree, &answer->box, &a->how, keep_point, a);
+    return octree_range_search(a->tree, &answer->box, &a->how, collect_unless_skipped, a);
 }
 
 /* Whether a - b <= length in real numbers; a and b may be infinite. */

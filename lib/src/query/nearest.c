@@ -7,7 +7,7 @@
  * Idea: depth first, nearest octant first. The textbook descent measures every node on the way down. Here the search
  * goes straight to the target's leaf by the bits of its Morton code, without measuring anything, and measures the nodes
  * of that path on the way back up, when the best distance is small and most siblings are out of reach. From the best
- * distance and the keys, nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
+ * distance and the keys, count_nodes_out_of_reach() finds how many nodes of the path need no measuring at all.
  *
  * Order of siblings: a child's squared distance is a sum of one term per axis, either that of the parent (near half) or
  * that of the splitting plane (far half). The eight sums are ordered like the subset sums of three increments, so three
@@ -45,7 +45,7 @@ typedef struct search {
 
 /* Swap two values and their labels if they are out of order. Without branches, because they would be unpredictable.
  */
-static inline void sort_two(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
+static inline void sort_two_labeled(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 {
     const double lesser = *b < *a ? *b : *a, greater = *b < *a ? *a : *b;
     const uint8_t change = (uint8_t)bits_if(*b < *a, *of_a ^ *of_b);
@@ -57,15 +57,15 @@ static inline void sort_two(double *a, double *b, uint8_t *of_a, uint8_t *of_b)
 
 /* Sort the octants by distance. The subset sums of increments a <= b <= c ascend as 0, a, b, min(c, a + b), and then
  * the complements of these in reverse order. */
-static void sort_flips(frame *f)
+static void sort_octants_by_distance(frame *f)
 {
     double a = f->squares[0][1] - f->squares[0][0];
     double b = f->squares[1][1] - f->squares[1][0];
     double c = f->squares[2][1] - f->squares[2][0];
     uint8_t bit_a = 4, bit_b = 2, bit_c = 1;
-    sort_two(&a, &b, &bit_a, &bit_b);
-    sort_two(&b, &c, &bit_b, &bit_c);
-    sort_two(&a, &b, &bit_a, &bit_b);
+    sort_two_labeled(&a, &b, &bit_a, &bit_b);
+    sort_two_labeled(&b, &c, &bit_b, &bit_c);
+    sort_two_labeled(&a, &b, &bit_a, &bit_b);
     f->flips[0] = 0;
     f->flips[1] = bit_a;
     f->flips[2] = bit_b;
@@ -86,7 +86,7 @@ static void measure_planes(const search *s, frame *f)
     }
 }
 
-static void open_child(search *s, unsigned flip, const node *child)
+static void open_child_frame(search *s, unsigned flip, const node *child)
 {
     const frame *parent = &s->frames[s->open - 1];
     frame *f = &s->frames[s->open];
@@ -101,7 +101,7 @@ static void open_child(search *s, unsigned flip, const node *child)
     f->next = 0;
     f->left = child->octants;
     measure_planes(s, f);
-    sort_flips(f);
+    sort_octants_by_distance(f);
 }
 
 static void scan_points(search *s, const octree_point *points, unsigned count)
@@ -128,7 +128,7 @@ static void scan_leaf(search *s, const node *leaf)
         scan_points(s, leaf_points(leaf) + i, leaf->count - i < SCAN_POINTS ? leaf->count - i : SCAN_POINTS);
 }
 
-static double child_square(const frame *f, unsigned flip)
+static double square_of_child(const frame *f, unsigned flip)
 {
     return (f->squares[0][flip >> 2] + f->squares[1][flip >> 1 & 1]) + f->squares[2][flip & 1];
 }
@@ -140,14 +140,14 @@ static void search_next_child(search *s)
     while (f->left) {
         const unsigned flip = f->flips[f->next], octant = f->near ^ flip;
         if (f->left >> octant & 1) {
-            if (child_square(f, flip) > s->found.node_reach)
+            if (square_of_child(f, flip) > s->found.node_reach)
                 break;
             const node *child = &children_of(f->node)[child_index(f->node, octant)];
             f->left &= ~(1u << octant);
             f->next++;
             meter_visit(&s->meter, f->address << 3 | octant);
             if (child->octants) {
-                open_child(s, flip, child);
+                open_child_frame(s, flip, child);
                 return;
             }
             scan_leaf(s, child);
@@ -181,12 +181,12 @@ static frame *open_path_node(search *s, const node *n, uint64_t code, const uint
 static void search_siblings(search *s, frame *f, unsigned depth)
 {
     const double reach = s->found.node_reach;
-    const double x = child_square(f, 4), y = child_square(f, 2), z = child_square(f, 1);
+    const double x = square_of_child(f, 4), y = square_of_child(f, 2), z = square_of_child(f, 1);
     if ((x > reach) & (y > reach) & (z > reach)) { /* one branch: three would be unpredictable */
         meter_prune(&s->meter, f->address, f->left);
         return;
     }
-    sort_flips(f);
+    sort_octants_by_distance(f);
     s->open = depth + 1;
     while (s->open > depth)
         search_next_child(s);
@@ -194,7 +194,7 @@ static void search_siblings(search *s, frame *f, unsigned depth)
 
 /* The codes of the adjacent cells of the target's cell that the search will probably visit: those within a quarter of
  * the cell's size from the target for k = 1, within half for k > 1. Returns their count. */
-static unsigned codes_beside(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
+static unsigned find_adjacent_codes(const uint32_t keys[3], unsigned depth, size_t k, uint64_t codes[3])
 {
     const uint32_t size = cell_size(depth), close = k > 1 ? size / 2 : size / 4;
     unsigned count = 0;
@@ -212,10 +212,10 @@ static unsigned codes_beside(const uint32_t keys[3], unsigned depth, size_t k, u
 }
 
 /* Prefetch the leaves adjacent to the target's leaf while that one is being loaded. */
-static void prefetch_beside(const path *p, uint64_t code, const uint32_t keys[3], size_t k)
+static void prefetch_adjacent_leaves(const path *p, uint64_t code, const uint32_t keys[3], size_t k)
 {
     uint64_t codes[3];
-    const unsigned count = codes_beside(keys, p->depth, k, codes);
+    const unsigned count = find_adjacent_codes(keys, p->depth, k, codes);
     for (unsigned i = 0; i < count; i++) {
         unsigned depth = p->depth;
         while ((codes[i] ^ code) >> 3 * (OCTREE_MAX_DEPTH - depth))
@@ -229,7 +229,7 @@ static void prefetch_beside(const path *p, uint64_t code, const uint32_t keys[3]
 }
 
 /* The keys of the target, clamped to the world. */
-static void nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
+static void find_nearest_keys(const octree *tree, const double target[3], uint32_t keys[3])
 {
     for (int i = 0; i < 3; i++) {
         const axis *a = &tree->axes[i];
@@ -240,7 +240,7 @@ static void nearest_keys(const octree *tree, const double target[3], uint32_t ke
 /* The number of nodes on the path, from the root down, whose splitting planes are all out of reach of the target: 20
  * minus the highest bit in which the keys of target - reach and target + reach differ on any axis. The reach in keys is
  * widened by the error of the keys plus two. 0 where keys are not reliable or the target is outside the world. */
-static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
+static unsigned count_nodes_out_of_reach(const search *s, const uint32_t keys[3])
 {
     const double reach = sqrt(s->found.node_reach) / s->found.metric.scale;
     uint32_t differ = 0;
@@ -256,7 +256,7 @@ static unsigned nodes_out_of_reach(const search *s, const uint32_t keys[3])
     return OCTREE_MAX_DEPTH - 1 - bits_highest(differ); /* `differ` is not 0, because low < high on every axis */
 }
 
-static void descend(search *s)
+static void search_from_root(search *s)
 {
     const octree *tree = s->tree;
     uint32_t keys[3];
@@ -271,9 +271,9 @@ static void descend(search *s)
         meter_prune_root(&s->meter);
         return;
     }
-    nearest_keys(tree, s->found.metric.target, keys);
+    find_nearest_keys(tree, s->found.metric.target, keys);
     const uint64_t code = morton_interleave(keys);
-    const path p = path_to(tree, code);
+    const path p = find_path(tree, code);
     s->meter.count.nodes += p.depth + 1;
     for (unsigned depth = 0; s->meter.how->trace && depth <= p.depth; depth++)
         meter_trace(&s->meter, morton_address(code, depth), OCTREE_TRACE_VISITED);
@@ -282,10 +282,10 @@ static void descend(search *s)
         depth++; /* the target's octant has no node: search the children of this node like those of the others */
     } else {
         leaf_prefetch(p.nodes[depth]);
-        prefetch_beside(&p, code, keys, s->found.k);
+        prefetch_adjacent_leaves(&p, code, keys, s->found.k);
         scan_leaf(s, p.nodes[depth]);
     }
-    const unsigned first_near = nodes_out_of_reach(s, keys);
+    const unsigned first_near = count_nodes_out_of_reach(s, keys);
     while (depth-- > 0)
         if (depth >= first_near)
             search_siblings(s, open_path_node(s, p.nodes[depth], code, keys, depth), depth);
@@ -306,7 +306,7 @@ static size_t search_tree(const octree *tree, const double target[3], size_t k, 
     neighbor_heap_begin(&s.found, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
     s.open = 0;
-    descend(&s);
+    search_from_root(&s);
     neighbor_heap_finish(&s.found);
     meter_report(&s.meter);
     return s.found.count;
@@ -356,8 +356,8 @@ octree_status octree_nearest(const octree *tree, const double target[3], octree_
 
 /* ---- Many targets, in the order of the tree ----------------------------------------------------------------- */
 
-static octree_status check_batch(const octree *tree, const double (*targets)[3], size_t count, const octree_search *how,
-                                 const octree_neighbor *neighbors)
+static octree_status check_batch_arguments(const octree *tree, const double (*targets)[3], size_t count,
+                                           const octree_search *how, const octree_neighbor *neighbors)
 {
     if (!tree || ((!targets || !neighbors) && count))
         return OCTREE_NULL_ARGUMENT;
@@ -384,23 +384,23 @@ typedef struct target_batch {
     octree_cost costs[TASKS_AT_MOST];
 } target_batch;
 
-static void order_share(size_t number, void *context)
+static void find_codes_of_share(size_t number, void *context)
 {
     const target_batch *b = context;
-    for (size_t i = tasks_share(b->count, b->tasks, number); i < tasks_share(b->count, b->tasks, number + 1); i++) {
+    for (size_t i = share_start(b->count, b->tasks, number); i < share_start(b->count, b->tasks, number + 1); i++) {
         uint32_t keys[3];
-        nearest_keys(b->tree, b->targets[i], keys);
+        find_nearest_keys(b->tree, b->targets[i], keys);
         b->order[i] = (morton_item){morton_interleave(keys), (uint32_t)i, MORTON_NEW};
     }
 }
 
-static void search_share(size_t number, void *context)
+static void search_targets_of_share(size_t number, void *context)
 {
     target_batch *b = context;
-    const size_t end = tasks_share(b->count, b->tasks, number + 1);
+    const size_t end = share_start(b->count, b->tasks, number + 1);
     octree_search how = b->how;
     how.cost = how.cost ? &b->costs[number] : NULL;
-    for (size_t i = tasks_share(b->count, b->tasks, number); i < end; i++) {
+    for (size_t i = share_start(b->count, b->tasks, number); i < end; i++) {
         octree_neighbor nearest;
         const uint32_t place = b->order[i].place;
         if (i + PREFETCH_AHEAD < end) {
@@ -415,13 +415,13 @@ static void search_share(size_t number, void *context)
     }
 }
 
-static void search_in_order(target_batch *b, arena *memory)
+static void search_in_morton_order(target_batch *b, arena *memory)
 {
-    tasks_run(b->tree, order_share, b->tasks, b);
+    run_tasks(b->tree, find_codes_of_share, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
     if (b->how.trace)
         b->tasks = 1; /* the caller's tracer need not be thread-safe */
-    tasks_run(b->tree, search_share, b->tasks, b);
+    run_tasks(b->tree, search_targets_of_share, b->tasks, b);
     for (unsigned i = 0; b->how.cost && i < b->tasks; i++)
         add_cost(b->how.cost, &b->costs[i]);
 }
@@ -430,7 +430,7 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
                                    const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
     const octree_search search = search_or_default(how);
-    const octree_status status = check_batch(tree, targets, count, &search, neighbors);
+    const octree_status status = check_batch_arguments(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)
         return status;
     arena memory = {.allocator = tree->def.allocator}; /* queries do not change the tree's own byte count */
@@ -440,12 +440,12 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
                       .how = search,
                       .neighbors = neighbors,
                       .found = found,
-                      .tasks = tasks_for(tree, count)};
+                      .tasks = count_tasks(tree, count)};
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
     b.order = size < SIZE_MAX ? arena_take(&memory, size) : NULL;
     if (!b.order)
         return OCTREE_NO_MEMORY;
-    search_in_order(&b, &memory);
+    search_in_morton_order(&b, &memory);
     arena_give(&memory, b.order, size);
     return OCTREE_OK;
 }

@@ -29,7 +29,7 @@ static void set_reach(neighbor_heap *h, double worst)
     h->node_reach = metric_above(worst * h->shrink);
 }
 
-static bool are_few(const neighbor_heap *h)
+static bool keeps_few(const neighbor_heap *h)
 {
     return h->k <= FEW_NEIGHBORS;
 }
@@ -51,21 +51,21 @@ static bool is_within_radius(const neighbor_heap *h, const octree_point *point, 
     return h->radius < 0 || is_within(&h->metric, h->how.mode, point, square, h->radius, h->radius_square);
 }
 
-static int compare_close(const neighbor_heap *h, const octree_point *p, const octree_point *q, double square)
+static int compare_near_tie(const neighbor_heap *h, const octree_point *p, const octree_point *q, double square)
 {
     const int order = is_trusted(h->how.mode, square) ? 0 : metric_compare(h->metric.target, p->position, q->position);
     return order ? order : octree_compare_points(p, q);
 }
 
 /* The order of the results: by distance, then by id, then by position. */
-static inline int compare(const neighbor_heap *h, const octree_point *p, double p_square, const octree_point *q,
-                          double q_square)
+static inline int compare_neighbors(const neighbor_heap *h, const octree_point *p, double p_square,
+                                    const octree_point *q, double q_square)
 {
     const bool ascend = p_square < q_square;
     const double less = ascend ? p_square : q_square, more = ascend ? q_square : p_square;
     if (h->how.mode == OCTREE_FAST ? less < more : metric_above(less) < more)
         return ascend ? -1 : 1;
-    return compare_close(h, p, q, p_square);
+    return compare_near_tie(h, p, q, p_square);
 }
 
 /* ---- Few ---------------------------------------------------------------------------------------------------- */
@@ -95,7 +95,7 @@ static double certainly_below(double key)
 
 static RARE bool is_nearer(const neighbor_heap *h, const octree_point *point, double square, unsigned place)
 {
-    return compare(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
+    return compare_neighbors(h, point, square, h->few.points[place], h->few.squares[place]) < 0;
 }
 
 /* Compare the neighbours of two keys. */
@@ -107,7 +107,7 @@ static int compare_keys(const neighbor_heap *h, double a, double b)
     return is_nearer(h, h->few.points[place], h->few.squares[place], slot_of_key(b)) ? -1 : 1;
 }
 
-static void begin_few(neighbor_heap *h)
+static void begin_few_neighbors(neighbor_heap *h)
 {
     for (int i = 0; i < FEW_FIRST; i++)
         h->few.keys[i] = -1;
@@ -150,7 +150,7 @@ static RARE void settle_last(const neighbor_heap *h, double *keys, size_t last)
     keys[last] = key;
 }
 
-static void add_to_few(neighbor_heap *h, const octree_point *point, double square)
+static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, double square)
 {
     few_neighbors *f = &h->few;
     const size_t last = FEW_FIRST - 1 + h->k;
@@ -171,7 +171,7 @@ static void add_to_few(neighbor_heap *h, const octree_point *point, double squar
 }
 
 /* Sort the neighbours exactly and store them in the caller's array. */
-static void finish_few(const neighbor_heap *h, double *keys)
+static void sort_few_neighbors(const neighbor_heap *h, double *keys)
 {
     for (size_t i = 0; i < h->count; i++) {
         const double key = keys[i];
@@ -188,11 +188,11 @@ static void finish_few(const neighbor_heap *h, double *keys)
 
 static inline int compare_items(const neighbor_heap *h, const octree_neighbor *p, const octree_neighbor *q)
 {
-    return compare(h, &p->point, p->distance, &q->point, q->distance);
+    return compare_neighbors(h, &p->point, p->distance, &q->point, q->distance);
 }
 
 /* Replace the top of the heap of `count` items by `item` and restore the heap order downwards. */
-static void sink(const neighbor_heap *h, const octree_neighbor *item, size_t count)
+static void sink_in_heap(const neighbor_heap *h, const octree_neighbor *item, size_t count)
 {
     octree_neighbor *items = h->items;
     size_t at = 0;
@@ -207,7 +207,7 @@ static void sink(const neighbor_heap *h, const octree_neighbor *item, size_t cou
 }
 
 /* Append an item at index `at` and restore the heap order upwards. */
-static void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at)
+static void rise_in_heap(const neighbor_heap *h, const octree_neighbor *item, size_t at)
 {
     octree_neighbor *items = h->items;
     for (size_t parent; at > 0 && compare_items(h, &items[parent = (at - 1) / 2], item) < 0; at = parent)
@@ -215,13 +215,13 @@ static void rise(const neighbor_heap *h, const octree_neighbor *item, size_t at)
     items[at] = *item;
 }
 
-static RARE void add_to_many(neighbor_heap *h, const octree_point *point, double square)
+static RARE void add_to_heap(neighbor_heap *h, const octree_point *point, double square)
 {
     const octree_neighbor found = {*point, square};
     if (h->count < h->k)
-        rise(h, &found, h->count++);
+        rise_in_heap(h, &found, h->count++);
     else if (compare_items(h, &found, &h->items[0]) < 0)
-        sink(h, &found, h->count);
+        sink_in_heap(h, &found, h->count);
     if (h->count == h->k)
         set_reach(h, h->items[0].distance);
 }
@@ -231,7 +231,7 @@ static void sort_heap(const neighbor_heap *h)
     for (size_t left = h->count; left-- > 1;) {
         const octree_neighbor last = h->items[left];
         h->items[left] = h->items[0];
-        sink(h, &last, left);
+        sink_in_heap(h, &last, left);
     }
 }
 
@@ -248,24 +248,24 @@ void neighbor_heap_begin(neighbor_heap *h, const octree_search *how, double radi
     h->items = room;
     h->count = 0;
     h->k = k;
-    if (are_few(h))
-        begin_few(h);
+    if (keeps_few(h))
+        begin_few_neighbors(h);
 }
 
 void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double square)
 {
     if (is_skipped(h, point) || !is_within_radius(h, point, square))
         return;
-    if (are_few(h))
-        add_to_few(h, point, square);
+    if (keeps_few(h))
+        add_to_few_neighbors(h, point, square);
     else
-        add_to_many(h, point, square);
+        add_to_heap(h, point, square);
 }
 
 void neighbor_heap_finish(neighbor_heap *h)
 {
-    if (are_few(h))
-        finish_few(h, h->few.keys + FEW_FIRST);
+    if (keeps_few(h))
+        sort_few_neighbors(h, h->few.keys + FEW_FIRST);
     else
         sort_heap(h);
     for (size_t i = 0; i < h->count; i++) {

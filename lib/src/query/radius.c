@@ -22,7 +22,7 @@ typedef struct ball {
     ball_cell cells[OCTREE_MAX_DEPTH];
 } ball;
 
-static octant_masks octant_masks_of(const ball *b, const ball_cell *c)
+static octant_masks find_octant_masks(const ball *b, const ball_cell *c)
 {
     double far[3][2];
     for (int i = 0; i < 3; i++)
@@ -49,7 +49,7 @@ static void measure_planes(const ball *b, const octree *tree, ball_cell *c)
     }
 }
 
-static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsigned octant)
+static octant_masks enter_ball_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
     ball *b = shape;
     ball_cell *c = &b->cells[depth];
@@ -65,10 +65,10 @@ static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsig
         }
     }
     measure_planes(b, tree, c);
-    return octant_masks_of(b, c);
+    return find_octant_masks(b, c);
 }
 
-static uint64_t scan(const void *shape, const octree_point *points, unsigned count)
+static uint64_t scan_ball_points(const void *shape, const octree_point *points, unsigned count)
 {
     const ball *b = shape;
     double squares[SCAN_POINTS];
@@ -115,8 +115,13 @@ static void search_ball(const octree *tree, const double center[3], double radiu
     b.square = squared(radius * tree->scale);
     b.reach = metric_above(b.square);
     b.whole = metric_below(squared(radius * tree->scale + how->epsilon * tree->scale)); /* their sum may overflow */
-    region r = {
-        .tree = tree, .shape = &b, .enter = enter, .scan = scan, .visit = visit, .context = context, .meter.how = how};
+    region r = {.tree = tree,
+                .shape = &b,
+                .enter = enter_ball_cell,
+                .scan = scan_ball_points,
+                .visit = visit,
+                .context = context,
+                .meter.how = how};
     region_search(&r, measure_root(&b, tree));
 }
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 /* The box with its faces moved out by epsilon, rounded inwards so that no point beyond epsilon counts as inside. */
-static octree_box widen(const octree_box *box, double epsilon)
+static octree_box widen_box(const octree_box *box, double epsilon)
 {
     octree_box wide;
     for (int i = 0; i < 3; i++) {
@@ -20,7 +20,7 @@ static octree_box widen(const octree_box *box, double epsilon)
 static size_t search_box(const octree *tree, const octree_box *box, const octree_search *how,
                          octree_point_visitor visit, void *context)
 {
-    const octree_box wide = widen(box, how->epsilon);
+    const octree_box wide = widen_box(box, how->epsilon);
     box_shape shape = box_shape_make(tree, box, how->epsilon > 0 ? &wide : box);
     region r = {.tree = tree,
                 .shape = &shape,
@@ -71,7 +71,7 @@ typedef struct collection {
     size_t room, count;
 } collection;
 
-static bool collect(const octree_point *point, void *context)
+static bool collect_first(const octree_point *point, void *context)
 {
     collection *c = context;
     if (c->count < c->room)
@@ -81,7 +81,7 @@ static bool collect(const octree_point *point, void *context)
 }
 
 /* Restore the heap order, greatest point on top, after the top was replaced. */
-static void sink(octree_point *heap, size_t count)
+static void sink_in_heap(octree_point *heap, size_t count)
 {
     for (size_t at = 0, child; (child = 2 * at + 1) < count; at = child) {
         if (child + 1 < count && octree_compare_points(&heap[child], &heap[child + 1]) < 0)
@@ -111,13 +111,13 @@ static bool collect_smallest(const octree_point *point, void *context)
             qsort(c->points, c->room, sizeof *c->points, compare_reversed);
     } else if (c->room > 0 && octree_compare_points(point, &c->points[0]) < 0) {
         c->points[0] = *point;
-        sink(c->points, c->room);
+        sink_in_heap(c->points, c->room);
     }
     return true;
 }
 
-static octree_status collect_points(const octree *tree, const octree_box *box, const octree_search *how,
-                                    octree_point_visitor visit, octree_point *points, size_t room, size_t *count)
+static octree_status collect_in_array(const octree *tree, const octree_box *box, const octree_search *how,
+                                      octree_point_visitor visit, octree_point *points, size_t room, size_t *count)
 {
     if (!count)
         return OCTREE_NULL_ARGUMENT;
@@ -133,13 +133,13 @@ static octree_status collect_points(const octree *tree, const octree_box *box, c
 octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
                                    octree_point *points, size_t room, size_t *count)
 {
-    return collect_points(tree, box, how, collect, points, room, count);
+    return collect_in_array(tree, box, how, collect_first, points, room, count);
 }
 
 octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
                                           octree_point *points, size_t room, size_t *count)
 {
-    const octree_status status = collect_points(tree, box, how, collect_smallest, points, room, count);
+    const octree_status status = collect_in_array(tree, box, how, collect_smallest, points, room, count);
     const size_t stored = !count ? 0 : *count < room ? *count : room;
     if (stored > 1)
         qsort(points, stored, sizeof *points, octree_compare_points);
@@ -173,7 +173,7 @@ octree_status octree_collide_search(const octree *tree, const double center[3], 
     const octree_status status = octree_collision_box(center, box_size, &box);
     if (status != OCTREE_OK)
         return status;
-    return octree_range_search(tree, &box, how, collision_visit, &(collision){self, visit, context});
+    return octree_range_search(tree, &box, how, visit_unless_self, &(collision){self, visit, context});
 }
 
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,

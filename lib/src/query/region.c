@@ -43,7 +43,7 @@ static bool visit_points_below(region *r, const node *n)
     return true;
 }
 
-static bool accept_node(region *r, const node *n, octree_address address)
+static bool take_whole_node(region *r, const node *n, octree_address address)
 {
     meter_take(&r->meter, address);
     if (r->visit)
@@ -69,14 +69,14 @@ static bool scan_leaf(region *r, const node *leaf)
     return true;
 }
 
-static bool scan_oldest(descent *d)
+static bool scan_oldest_leaf(descent *d)
 {
     return scan_leaf(d->region, d->queue[d->scanned++ % QUEUE_ROOM]);
 }
 
 static bool queue_leaf(descent *d, const node *leaf)
 {
-    const bool going = d->queued - d->scanned < QUEUE_ROOM || scan_oldest(d);
+    const bool going = d->queued - d->scanned < QUEUE_ROOM || scan_oldest_leaf(d);
     leaf_prefetch(leaf);
     d->queue[d->queued++ % QUEUE_ROOM] = leaf;
     return going;
@@ -102,7 +102,7 @@ static void open_node(descent *d, const node *n, octree_address address, unsigne
 static bool visit_node(descent *d, const node *n, octree_address address, unsigned octant, bool inside)
 {
     if (inside)
-        return accept_node(d->region, n, address);
+        return take_whole_node(d->region, n, address);
     meter_visit(&d->region->meter, address);
     if (n->octants == 0)
         return queue_leaf(d, n);
@@ -110,7 +110,7 @@ static bool visit_node(descent *d, const node *n, octree_address address, unsign
     return true;
 }
 
-static void descend(region *r, octant_masks root)
+static void descend_from_root(region *r, octant_masks root)
 {
     descent d;
     d.region = r;
@@ -127,13 +127,13 @@ static void descend(region *r, octant_masks root)
         going = visit_node(&d, child_at(f->node, octant), f->address << 3 | octant, octant, f->inside >> octant & 1);
     }
     while (going && d.scanned < d.queued)
-        going = scan_oldest(&d);
+        going = scan_oldest_leaf(&d);
 }
 
 void region_search(region *r, octant_masks root)
 {
     if (root.meets & 1)
-        descend(r, root);
+        descend_from_root(r, root);
     else
         meter_prune_root(&r->meter);
     meter_report(&r->meter);
@@ -141,7 +141,7 @@ void region_search(region *r, octant_masks root)
 
 /* ---- A closed box ------------------------------------------------------------------------------------------- */
 
-static key_box box_keys(const octree *tree, const octree_box *box)
+static key_box find_box_keys(const octree *tree, const octree_box *box)
 {
     key_box keys;
     for (int i = 0; i < 3; i++) {
@@ -154,7 +154,7 @@ static key_box box_keys(const octree *tree, const octree_box *box)
 
 /* The keys such that every cell strictly between them is inside the box. A box whose face is a plane contains the cell
  * that begins at that plane. */
-static key_box enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
+static key_box find_enclosing_keys(const octree *tree, const octree_box *box, key_box keys)
 {
     for (int i = 0; i < 3; i++)
         keys.min[i] -= keys.min[i] >= 0 && plane_at(&tree->axes[i], (uint32_t)keys.min[i]) == box->min[i];
@@ -165,8 +165,8 @@ box_shape box_shape_make(const octree *tree, const octree_box *box, const octree
 {
     box_shape s;
     s.box = box;
-    s.near = box_keys(tree, box);
-    s.whole = enclosing_keys(tree, whole, whole == box ? s.near : box_keys(tree, whole));
+    s.near = find_box_keys(tree, box);
+    s.whole = find_enclosing_keys(tree, whole, whole == box ? s.near : find_box_keys(tree, whole));
     return s;
 }
 
@@ -215,7 +215,7 @@ typedef struct twin_box {
 } twin_box;
 
 /* A mask of two bits: which of two points are in the box. */
-static inline uint64_t scan_pair(const twin_box *box, const double a[3], const double b[3])
+static inline uint64_t scan_point_pair(const twin_box *box, const double a[3], const double b[3])
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);
     const __m128d at[3] = {_mm_unpacklo_pd(xy_a, xy_b), _mm_unpackhi_pd(xy_a, xy_b),
@@ -229,7 +229,7 @@ static inline uint64_t scan_pair(const twin_box *box, const double a[3], const d
 }
 
 /* For an odd count the last pair overlaps the pair before it, so that no branch depends on the parity. */
-static uint64_t scan_pairs(const octree_box *box, const octree_point *points, unsigned count)
+static uint64_t scan_points_in_pairs(const octree_box *box, const octree_point *points, unsigned count)
 {
     twin_box twin;
     uint64_t found = 0;
@@ -238,8 +238,8 @@ static uint64_t scan_pairs(const octree_box *box, const octree_point *points, un
         twin.max[i] = _mm_set1_pd(box->max[i]);
     }
     for (unsigned i = 0; i < count - 2; i += 2)
-        found |= scan_pair(&twin, points[i].position, points[i + 1].position) << i;
-    return found | scan_pair(&twin, points[count - 2].position, points[count - 1].position) << (count - 2);
+        found |= scan_point_pair(&twin, points[i].position, points[i + 1].position) << i;
+    return found | scan_point_pair(&twin, points[count - 2].position, points[count - 1].position) << (count - 2);
 }
 #endif
 
@@ -249,7 +249,7 @@ uint64_t box_shape_scan(const void *shape, const octree_point *points, unsigned 
     uint64_t found = 0;
 #ifdef OCTREE_SSE2
     if (count > 1)
-        return scan_pairs(box, points, count);
+        return scan_points_in_pairs(box, points, count);
 #endif
     for (unsigned i = 0; i < count; i++)
         found |= (uint64_t)box_contains(box, points[i].position) << i;

@@ -50,7 +50,7 @@ bool is_text(const char *text, size_t size)
     return length < size && text[length] == 0;
 }
 
-bool collision_visit(const octree_point *point, void *context)
+bool visit_unless_self(const octree_point *point, void *context)
 {
     const collision *c = context;
     const bool is_self = c->self && c->self->id == point->id && same_position(c->self->position, point->position);

@@ -60,7 +60,7 @@ typedef struct collision {
     void *context;
 } collision;
 
-bool collision_visit(const octree_point *point, void *context);
+bool visit_unless_self(const octree_point *point, void *context);
 
 /* ---- Counts and trace ---------------------------------------------------------------------------------------- */
 

@@ -49,7 +49,7 @@ static double largest_coordinate(const axis *a)
     return larger(fabs(a->min), fabs(a->max));
 }
 
-static double scale_for(const octree *tree, const sweep *box)
+static double choose_scale(const octree *tree, const sweep *box)
 {
     double largest = box->size;
     for (int i = 0; i < 3; i++)
@@ -104,7 +104,7 @@ static bool hull_make(hull *h, const octree *tree, const sweep *box)
     if (moves[0] + moves[1] + moves[2] < 2)
         return false;
     axis_view view[3];
-    const double scale = scale_for(tree, box);
+    const double scale = choose_scale(tree, box);
     const metric end = metric_make(scale, is_subnormal_world(tree), box->to);
     h->metric = metric_make(scale, is_subnormal_world(tree), box->from);
     for (int i = 0; i < 3; i++)
@@ -153,7 +153,7 @@ typedef struct swept_shape {
     sweep box;
 } swept_shape;
 
-static octant_masks enter(void *shape, const octree *tree, unsigned depth, unsigned octant)
+static octant_masks enter_swept_cell(void *shape, const octree *tree, unsigned depth, unsigned octant)
 {
     swept_shape *s = shape;
     const octant_masks around = box_shape_enter(&s->around, tree, depth, octant);
@@ -176,7 +176,7 @@ static bool is_touched(const swept_shape *s, const double p[3])
     return certain || sweep_touches(&s->box, p, p);
 }
 
-static uint64_t scan(const void *shape, const octree_point *points, unsigned count)
+static uint64_t scan_swept_points(const void *shape, const octree_point *points, unsigned count)
 {
     const swept_shape *s = shape;
     uint64_t found = 0;
@@ -187,8 +187,8 @@ static uint64_t scan(const void *shape, const octree_point *points, unsigned cou
     return found;
 }
 
-static void search_step(const octree *tree, const sweep *box, const octree_box *around, const octree_search *how,
-                        collision *visitor)
+static void search_swept_box(const octree *tree, const sweep *box, const octree_box *around, const octree_search *how,
+                             collision *visitor)
 {
     swept_shape shape;
     shape.around = box_shape_make(tree, around, around);
@@ -197,9 +197,10 @@ static void search_step(const octree *tree, const sweep *box, const octree_box *
     region r = {
         .tree = tree,
         .shape = &shape,
-        .enter = diagonal ? enter : box_shape_enter, /* along one axis, the box around the step is the exact answer */
-        .scan = diagonal ? scan : box_shape_scan,
-        .visit = collision_visit,
+        .enter = diagonal ? enter_swept_cell
+                          : box_shape_enter, /* along one axis, the box around the step is the exact answer */
+        .scan = diagonal ? scan_swept_points : box_shape_scan,
+        .visit = visit_unless_self,
         .context = visitor,
         .meter = {.how = how},
     };
@@ -228,6 +229,6 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
         start.min[i] = fmin(start.min[i], end.min[i]);
         start.max[i] = fmax(start.max[i], end.max[i]);
     }
-    search_step(tree, &(sweep){from, to, box_size}, &start, &search, &(collision){self, visit, context});
+    search_swept_box(tree, &(sweep){from, to, box_size}, &start, &search, &(collision){self, visit, context});
     return OCTREE_OK;
 }

@@ -35,7 +35,7 @@ static void release_items(const batch *b, morton_item *items, size_t each)
 
 /* The lists of a move share one allocation. With several, malloc returns their pages to the system and page faults
  * recur with every batch. */
-static size_t list_count(const batch *b)
+static size_t shared_list_count(const batch *b)
 {
     return b->to ? 4 : 1;
 }
@@ -43,7 +43,7 @@ static size_t list_count(const batch *b)
 static bool allocate_lists(batch *b)
 {
     const size_t room = b->count + 1;
-    b->lists = allocate_items(b, list_count(b));
+    b->lists = allocate_items(b, shared_list_count(b));
     b->valid.items = b->lists;
     if (b->to && b->lists) {
         b->spare = b->lists + room;
@@ -56,20 +56,20 @@ static bool allocate_lists(batch *b)
 enum { TOGETHER = 64 }; /* positions whose codes are computed in one call */
 
 /* Check a point and, for a move, its destination. */
-static octree_status check_point(const batch *b, size_t place, uint64_t *code)
+static octree_status check_point_and_destination(const batch *b, size_t place, uint64_t *code)
 {
     const octree_status status = complete_code(b->tree, b->points[place].position, code);
-    return status == OCTREE_OK && b->to ? check_inside(b->tree, b->to[place]) : status;
+    return status == OCTREE_OK && b->to ? check_in_world(b->tree, b->to[place]) : status;
 }
 
 /* Append items for the valid points among points[first .. first + count - 1]. */
-static void collect_points(batch *b, size_t first, size_t count)
+static void collect_valid_points(batch *b, size_t first, size_t count)
 {
     uint64_t codes[TOGETHER];
     morton_codes(b->tree->axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
     for (size_t i = 0; i < count; i++) {
         const size_t place = first + i;
-        const octree_status status = check_point(b, place, &codes[i]);
+        const octree_status status = check_point_and_destination(b, place, &codes[i]);
         if (status == OCTREE_OK)
             b->valid.items[b->valid.count++] = (morton_item){codes[i], (uint32_t)place, MORTON_NEW};
         if (b->statuses)
@@ -77,40 +77,40 @@ static void collect_points(batch *b, size_t first, size_t count)
     }
 }
 
-static void collect_range(batch *b, size_t first, size_t end)
+static void collect_valid_range(batch *b, size_t first, size_t end)
 {
     for (size_t i = first; i < end; i += TOGETHER)
-        collect_points(b, i, end - i < TOGETHER ? end - i : TOGETHER);
+        collect_valid_points(b, i, end - i < TOGETHER ? end - i : TOGETHER);
 }
 
 /* The list of a part begins at the index of its first point. */
-static void collect_part(size_t number, void *context)
+static void collect_valid_part(size_t number, void *context)
 {
     division *d = context;
     batch *b = &d->parts[number].batch;
-    const size_t first = tasks_share(b->count, d->tasks, number);
+    const size_t first = share_start(b->count, d->tasks, number);
     b->valid = (span){b->valid.items + first, 0};
-    collect_range(b, first, tasks_share(b->count, d->tasks, number + 1));
+    collect_valid_range(b, first, share_start(b->count, d->tasks, number + 1));
 }
 
 /* Append the items of a part to those of the parts before it. */
-static void append_part(span *all, span part)
+static void append_part_items(span *all, span part)
 {
     if (part.count > 0 && all->items + all->count != part.items)
         memmove(all->items + all->count, part.items, part.count * sizeof *part.items);
     all->count += part.count;
 }
 
-static void collect_items(batch *b)
+static void collect_valid_items(batch *b)
 {
     division *d = b->division;
     if (!d) {
-        collect_range(b, 0, b->count);
+        collect_valid_range(b, 0, b->count);
         return;
     }
-    division_run(b, collect_part, d);
+    run_parts(b, collect_valid_part, d);
     for (unsigned i = 0; i < d->tasks; i++)
-        append_part(&b->valid, d->parts[i].batch.valid);
+        append_part_items(&b->valid, d->parts[i].batch.valid);
 }
 
 enum { LEAST_REMADE = 64 };
@@ -120,7 +120,7 @@ static bool sort_items(batch *b)
     morton_item *spare = b->spare ? b->spare : allocate_items(b, 1);
     if (!spare)
         return false;
-    const size_t unsorted = b->tree->root.count == 0 ? unsorted_count(b->tree) : 0;
+    const size_t unsorted = b->tree->root.count == 0 ? unsorted_limit(b->tree) : 0;
     const bool differ = unsorted > 0 && ids_ascend(b);
     b->repeated =
         morton_sort_tasks(b->tree, &b->tree->store.memory, b->valid.items, spare, b->valid.count, unsorted, differ);
@@ -132,7 +132,7 @@ static bool sort_items(batch *b)
 enum { LEVELS_BELOW = 6 };
 
 /* Whether full leaves are rare: they cannot refuse, or cells at the maximum depth are much smaller than the grid's. */
-static bool refuses_rarely(const octree_def *def)
+static bool rarely_refuses_points(const octree_def *def)
 {
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
@@ -140,50 +140,50 @@ static bool refuses_rarely(const octree_def *def)
 /* Decide whether a batch of moves rebuilds the tree. Rebuilding by a grid costs 170 instructions per stored point and
  * pays from a fifth of the points on; without a grid it costs 350 and pays from three tenths on (callgrind, 1e5
  * points). Without a grid, sorting also finds the points that may meet a full leaf. False when there is no memory. */
-static bool choose_remake(batch *b)
+static bool decide_remake(batch *b)
 {
     const size_t stored = b->tree->root.count;
     if (!b->to || stored < LEAST_REMADE || b->count < stored / 5)
         return true;
-    const bool ok = !refuses_rarely(&b->tree->def) || grid_choose(b, stored);
+    const bool ok = !rarely_refuses_points(&b->tree->def) || choose_grid(b, stored);
     b->remakes = b->grid > 0 || b->count >= stored / 10 * 3;
     return ok;
 }
 
-octree_status batch_begin(batch *b)
+octree_status prepare_batch(batch *b)
 {
     b->store = &b->tree->store;
-    if (!choose_remake(b))
+    if (!decide_remake(b))
         return OCTREE_NO_MEMORY;
-    division_begin(b);
-    return b->remakes ? OCTREE_OK : batch_collect(b);
+    create_division(b);
+    return b->remakes ? OCTREE_OK : collect_batch_points(b);
 }
 
 /* Find the grid cells of a share of the points. Cells replace items when an empty tree is built. */
-static void find_share(size_t number, void *context)
+static void find_cells_of_share(size_t number, void *context)
 {
     const batch *b = context;
-    const unsigned tasks = tasks_for(b->tree, b->count);
-    const size_t end = tasks_share(b->count, tasks, number + 1);
-    for (size_t i = tasks_share(b->count, tasks, number); i < end; i += GRID_TOGETHER)
+    const unsigned tasks = count_tasks(b->tree, b->count);
+    const size_t end = share_start(b->count, tasks, number + 1);
+    for (size_t i = share_start(b->count, tasks, number); i < end; i += GRID_TOGETHER)
         find_grid_cells(b, b->points + i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, b->cells + i,
                         b->statuses ? b->statuses + i : NULL);
 }
 
-octree_status batch_collect(batch *b)
+octree_status collect_batch_points(batch *b)
 {
-    if (b->inserts && b->tree->root.count == 0 && ids_ascend(b) && !grid_choose(b, b->count))
+    if (b->inserts && b->tree->root.count == 0 && ids_ascend(b) && !choose_grid(b, b->count))
         return OCTREE_NO_MEMORY;
     if (b->grid > 0) {
         b->cells = arena_take(&b->store->memory, b->count * sizeof *b->cells);
         if (!b->cells)
             return OCTREE_NO_MEMORY;
-        tasks_run(b->tree, find_share, tasks_for(b->tree, b->count), b);
+        run_tasks(b->tree, find_cells_of_share, count_tasks(b->tree, b->count), b);
         return OCTREE_OK;
     }
     if (!allocate_lists(b))
         return OCTREE_NO_MEMORY;
-    collect_items(b);
+    collect_valid_items(b);
     return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
@@ -197,15 +197,15 @@ void release_repetitions(batch *b)
     list_release(&b->tree->store.memory, &b->repetitions, sizeof(repetition));
 }
 
-void batch_end(batch *b)
+void release_batch(batch *b)
 {
     release_repetitions(b);
-    division_end(b);
-    release_items(b, b->lists, list_count(b));
+    release_division(b);
+    release_items(b, b->lists, shared_list_count(b));
     arena_give(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
 
-size_t octant_share(const morton_item *items, size_t count, unsigned depth)
+size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth)
 {
     const unsigned octant = morton_octant(items[0].code, depth);
     size_t low = 1, high = count; /* the first item in another octant is in [low, high] */
@@ -230,7 +230,7 @@ static bool item_ids_ascend(const batch *b, const morton_item *items, size_t cou
 
 /* Among items of equal code, in the caller's order, keep the first of each pair and list the others as repetitions.
  * *kept receives the number of items kept. False when there is no memory. */
-static bool drop_repeated(batch *b, morton_item *items, size_t count, size_t *kept)
+static bool drop_repeated_items(batch *b, morton_item *items, size_t count, size_t *kept)
 {
     store *st = &b->tree->store;
     node distinct;
@@ -243,7 +243,7 @@ static bool drop_repeated(batch *b, morton_item *items, size_t count, size_t *ke
         const uint32_t first = leaf_find(&distinct, point->position, point->id);
         if (first == LEAF_NONE) {
             items[distinct.count] = items[i];
-            leaf_put(&distinct, point);
+            leaf_append_in_room(&distinct, point);
             continue;
         }
         const repetition r = {items[i].place, items[first].place};
@@ -254,7 +254,7 @@ static bool drop_repeated(batch *b, morton_item *items, size_t count, size_t *ke
     return ok;
 }
 
-bool drop_repetitions(batch *b)
+bool drop_repeated_pairs(batch *b)
 {
     morton_item *items = b->valid.items;
     size_t left = 0;
@@ -262,7 +262,7 @@ bool drop_repetitions(batch *b)
         for (end = start + 1; end < b->valid.count && items[end].code == items[start].code; end++)
             ;
         kept = 1;
-        if (end - start > 1 && !drop_repeated(b, items + start, end - start, &kept))
+        if (end - start > 1 && !drop_repeated_items(b, items + start, end - start, &kept))
             return false;
         memmove(items + left, items + start, kept * sizeof *items);
     }
@@ -289,7 +289,7 @@ typedef struct visit {
 
 /* The number of sorted items in the same cell of this depth as the first one. A linear search: usually there are few.
  */
-static size_t cell_share(const batch *b, span items, unsigned depth)
+static size_t count_in_first_cell(const batch *b, span items, unsigned depth)
 {
     const unsigned below = 3 * (OCTREE_MAX_DEPTH - depth);
     size_t share = 0;
@@ -300,7 +300,7 @@ static size_t cell_share(const batch *b, span items, unsigned depth)
 
 /* Extend the path down to the leaf of the first item, store that visit in *next, and shorten the path to the deepest
  * node that also contains the item after those of the leaf. */
-static void find_next(const batch *b, path *p, unsigned top, span *items, visit *next)
+static void find_next_visit(const batch *b, path *p, unsigned top, span *items, visit *next)
 {
     const uint64_t code = items->items[0].code;
     node *n = path_end(p);
@@ -310,7 +310,7 @@ static void find_next(const batch *b, path *p, unsigned top, span *items, visit 
     }
     if (n)
         leaf_prefetch(n);
-    const size_t share = cell_share(b, *items, p->depth);
+    const size_t share = count_in_first_cell(b, *items, p->depth);
     *next = (visit){n, p->depth, {items->items, share}};
     items->items += share;
     items->count -= share;
@@ -322,7 +322,7 @@ static void find_next(const batch *b, path *p, unsigned top, span *items, visit 
 enum { LEAVES_TOGETHER = 6 }; /* leaves prefetched before the first is visited */
 
 /* Visit the leaves below a node of this depth that contain the items. */
-static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
+static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
 {
     path p = {.depth = depth};
     p.nodes[depth] = n;
@@ -330,7 +330,7 @@ static void visit_below(batch *b, node *n, unsigned depth, span items, leaf_visi
         visit next[LEAVES_TOGETHER];
         size_t count = 0;
         while (items.count > 0 && count < LEAVES_TOGETHER)
-            find_next(b, &p, depth, &items, &next[count++]);
+            find_next_visit(b, &p, depth, &items, &next[count++]);
         for (size_t i = 0; i < count; i++)
             visitor(b, next[i].node, next[i].depth, next[i].items);
     }
@@ -346,60 +346,60 @@ typedef struct visits {
 /* Make jobs of subtrees with their items, each of at most `grain` items or a single leaf. False when there is no
  * memory.
  */
-static bool gather_visits(batch *b, const node *n, unsigned depth, span items)
+static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
 {
     if (!n || !n->octants || items.count <= b->division->grain)
-        return division_add_job(b, n, (cell){.depth = depth}, (span){NULL, 0}, items);
+        return add_job(b, n, (cell){.depth = depth}, (span){NULL, 0}, items);
     span shares[8];
-    divide_items(items, depth, shares);
+    divide_items_by_octant(items, depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
-        if (shares[octant].count > 0 && !gather_visits(b, child_at(n, octant), depth + 1, shares[octant]))
+        if (shares[octant].count > 0 && !add_visit_jobs(b, child_at(n, octant), depth + 1, shares[octant]))
             return false;
     return true;
 }
 
-static span list_from(span list, size_t before)
+static span empty_list_from(span list, size_t before)
 {
     return (span){list.items ? list.items + before : NULL, 0};
 }
 
 /* The lists of a part begin at the index of its first item, so that parts do not overlap. */
-static void visit_part(size_t number, void *context)
+static void visit_leaves_of_part(size_t number, void *context)
 {
     const visits *v = context;
     const size_t first = v->division->starts[number], end = v->division->starts[number + 1];
     const job *jobs = v->division->work.jobs.items;
     batch *b = &v->division->parts[number].batch;
     const size_t before = first < end ? (size_t)(jobs[first].arriving.items - b->valid.items) : 0;
-    b->leaving = list_from(b->leaving, before);
-    b->arriving = list_from(b->arriving, before);
+    b->leaving = empty_list_from(b->leaving, before);
+    b->arriving = empty_list_from(b->arriving, before);
     b->done = 0;
     for (size_t i = first; i < end; i++) /* the nodes of the tree are not const */
-        visit_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, v->visitor);
+        visit_leaves_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, v->visitor);
 }
 
 /* False when there is no memory; then nothing was visited. */
-static bool visit_by_tasks(batch *b, leaf_visitor *visitor)
+static bool visit_leaves_by_tasks(batch *b, leaf_visitor *visitor)
 {
     division *d = b->division;
-    const bool ok = gather_visits(b, &b->tree->root, 0, b->valid);
+    const bool ok = add_visit_jobs(b, &b->tree->root, 0, b->valid);
     if (ok) {
-        division_share_jobs(d);
-        division_run(b, visit_part, &(visits){d, visitor});
+        share_jobs(d);
+        run_parts(b, visit_leaves_of_part, &(visits){d, visitor});
     }
     for (unsigned i = 0; ok && i < d->tasks; i++) {
         const batch *part = &d->parts[i].batch;
-        append_part(&b->leaving, part->leaving);
-        append_part(&b->arriving, part->arriving);
+        append_part_items(&b->leaving, part->leaving);
+        append_part_items(&b->arriving, part->arriving);
         b->done += part->done;
     }
     list_release(&b->store->memory, &d->work.jobs, sizeof(job));
     return ok;
 }
 
-void batch_visit_leaves(batch *b, leaf_visitor *visitor)
+void visit_batch_leaves(batch *b, leaf_visitor *visitor)
 {
-    if (b->valid.count == 0 || (b->division && visit_by_tasks(b, visitor)))
+    if (b->valid.count == 0 || (b->division && visit_leaves_by_tasks(b, visitor)))
         return;
-    visit_below(b, &b->tree->root, 0, b->valid, visitor);
+    visit_leaves_below(b, &b->tree->root, 0, b->valid, visitor);
 }

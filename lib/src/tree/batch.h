@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.h - many changes of a tree at once.
  *
- * The points that leave and those that arrive are sorted by Morton code. restructure() walks the tree once and makes a
- * plan: a leaf with enough room is edited later in place; any other changed node gets a successor; unchanged nodes are
- * shared. Planning allocates and may fail. Carrying out the plan cannot fail, so a batch happens completely or not.
+ * The points that leave and those that arrive are sorted by Morton code. restructure_tree() walks the tree once and
+ * makes a plan: a leaf with enough room is edited later in place; any other changed node gets a successor; unchanged
+ * nodes are shared. Planning allocates and may fail. Carrying out the plan cannot fail, so a batch happens completely
+ * or not.
  */
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
@@ -48,7 +49,7 @@ typedef struct batch {
     list patches, edits;        /* the plan */
 } batch;
 
-static inline void set_status(const batch *b, const morton_item *item, octree_status status)
+static inline void set_item_status(const batch *b, const morton_item *item, octree_status status)
 {
     if (b->statuses)
         b->statuses[item->place] = status;
@@ -72,27 +73,27 @@ static inline void prefetch_item(const batch *b, const morton_item *item)
 }
 
 /* The point of an item: an arriving one of the caller's, or a stored one. */
-static inline octree_point batch_point(const batch *b, const morton_item *item)
+static inline octree_point point_of_item(const batch *b, const morton_item *item)
 {
     return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
 }
 
 /* The number of sorted items in the same octant of a cell of this depth as the first one. */
-size_t octant_share(const morton_item *items, size_t count, unsigned depth);
+size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
 /* Cells with at most this many items become leaves, whose items need no order. */
-static inline size_t unsorted_count(const octree *tree)
+static inline size_t unsorted_limit(const octree *tree)
 {
     return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
 }
 
 /* Check all positions, set the statuses, and sort the valid points into `valid`. For a batch that `remakes` the tree,
- * the second step is left to batch_collect(). */
-octree_status batch_begin(batch *b);
-octree_status batch_collect(batch *b);
+ * the second step is left to collect_batch_points(). */
+octree_status prepare_batch(batch *b);
+octree_status collect_batch_points(batch *b);
 
 /* Returns OK, OUTSIDE or NOT_FINITE. */
-static inline octree_status check_inside(const octree *tree, const double position[3])
+static inline octree_status check_in_world(const octree *tree, const double position[3])
 {
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
 }
@@ -106,51 +107,51 @@ static inline octree_status complete_code(const octree *tree, const double posit
     return status;
 }
 
-void batch_end(batch *b);
+void release_batch(batch *b);
 
 /* Whether the ids of the batch are strictly ascending, as when a program counts them: then no pair is repeated. */
 bool ids_ascend(const batch *b);
 
 /* Store in *differ whether all ids of the batch differ: then no change depends on another, except where a leaf is full.
  * False when there is no memory. */
-bool ids_differ(const batch *b, bool *differ);
+bool check_ids_differ(const batch *b, bool *differ);
 
 /* Called with some items and their leaf, or null if their octant has no node, and the depth of its cell. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
 /* Visit the leaves of the valid items, by tasks if there are many. The lists `leaving` and `arriving` of the tasks are
  * concatenated, and `done` is summed. */
-void batch_visit_leaves(batch *b, leaf_visitor *visit);
+void visit_batch_leaves(batch *b, leaf_visitor *visit);
 
 /* Move the items that repeat an earlier pair to the list of repetitions. False when there is no memory. */
-bool drop_repetitions(batch *b);
+bool drop_repeated_pairs(batch *b);
 
 /* Set the status of all repetitions, or FULL if a full leaf refused the first of the pair. */
 void release_repetitions(batch *b);
 void set_repeated_statuses(const batch *b, octree_status status);
 
 /* Divide the items of a cell of this depth by octant. Returns a mask of the octants that have items. */
-unsigned divide_items(span all, unsigned depth, span shares[8]);
+unsigned divide_items_by_octant(span all, unsigned depth, span shares[8]);
 
 /* Whether items sorted by code all lie in one cell that cannot be divided. */
-bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
+bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
 
 /* Remove the leaving points from the tree and insert the arriving ones. An insertion that meets a full leaf under
  * OCTREE_REFUSE gets the status FULL; a move sets `overflow`. Returns OK or NO_MEMORY. The tree is unchanged on
  * NO_MEMORY, and for a move if `duplicate` or `overflow` is set. */
-octree_status restructure(batch *b);
+octree_status restructure_tree(batch *b);
 
 /* Whether moves made one after the other, in any order, might meet a full leaf in the cell: whether one indivisible
  * cell might at some time hold more points than the capacity. Also true when there is no memory to decide. */
-bool may_overflow(const batch *b, const node *old, cell c, span arriving);
+bool can_overflow(const batch *b, const node *old, cell c, span arriving);
 
 /* The same for all moves at once, from the old tree and the rebuilt one: faster, and sometimes true without need.
  * Cost: O(n) for the n points in leaves that hold more than the capacity together with their counterpart. */
-bool may_overflow_anew(const octree *tree, const node *made);
+bool can_overflow_when_rebuilt(const octree *tree, const node *made);
 
 /* Replace all stored points by the points that have grid cells or, without a grid, by the arriving ones. Errors:
  * NO_MEMORY; the tree is then unchanged, also if `overflow` is set. */
-octree_status build_anew(batch *b);
+octree_status rebuild_from_batch(batch *b);
 
 /* Move the points by rebuilding the tree. *settled becomes false if moves depend on one another; the tree is then
  * unchanged and the statuses are undefined. Errors: NO_MEMORY. */
@@ -158,6 +159,6 @@ octree_status remake_tree(batch *b, bool *settled);
 
 /* Simulate the moves one by one in the given order: set their statuses and list the points that leave and arrive in the
  * end. The tree is not changed. False when there is no memory. */
-bool resolve_moves_in_order(batch *b);
+bool simulate_moves_in_order(batch *b);
 
 #endif

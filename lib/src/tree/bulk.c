@@ -12,13 +12,13 @@
 static octree_status insert_valid_points(batch *b)
 {
     const uint32_t before = b->tree->root.count;
-    if (!drop_repetitions(b))
+    if (!drop_repeated_pairs(b))
         return OCTREE_NO_MEMORY;
     if (b->valid.count > UINT32_MAX - before)
         return OCTREE_TOO_MANY;
     b->arriving = b->valid;
     b->may_be_stored = true;
-    const octree_status status = restructure(b);
+    const octree_status status = restructure_tree(b);
     b->done = b->tree->root.count - before;
     set_repeated_statuses(b, OCTREE_DUPLICATE);
     return status;
@@ -27,14 +27,14 @@ static octree_status insert_valid_points(batch *b)
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
 /* List the items that are stored as leaving, with their index in the leaf. */
-static void find_removed(batch *b, node *leaf, unsigned depth, span items)
+static void find_removed_points(batch *b, node *leaf, unsigned depth, span items)
 {
     (void)depth;
     for (size_t i = 0; i < items.count; i++) {
         const octree_point *point = &b->points[items.items[i].place];
         const uint32_t index = leaf ? leaf_find(leaf, point->position, point->id) : LEAF_NONE;
         if (index == LEAF_NONE)
-            set_status(b, &items.items[i], OCTREE_NOT_FOUND);
+            set_item_status(b, &items.items[i], OCTREE_NOT_FOUND);
         else
             b->leaving.items[b->leaving.count++] = (morton_item){items.items[i].code, items.items[i].place, index};
     }
@@ -42,34 +42,34 @@ static void find_removed(batch *b, node *leaf, unsigned depth, span items)
 
 static octree_status remove_valid_points(batch *b)
 {
-    if (!drop_repetitions(b))
+    if (!drop_repeated_pairs(b))
         return OCTREE_NO_MEMORY;
     b->leaving.items = b->valid.items;
-    batch_visit_leaves(b, find_removed);
+    visit_batch_leaves(b, find_removed_points);
     set_repeated_statuses(b, OCTREE_NOT_FOUND);
     b->done = b->leaving.count;
-    return restructure(b);
+    return restructure_tree(b);
 }
 
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
-static bool same_bits(const double a[3], const double b[3])
+static bool have_same_bits(const double a[3], const double b[3])
 {
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-/* Overwrite a point that stays in its leaf at once, which undo_moves() reverts without memory; list others as leaving
- * and arriving. */
-static void move_found(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
+/* Overwrite a point that stays in its leaf at once, which undo_moves_in_place() reverts without memory; list others as
+ * leaving and arriving. */
+static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
 {
     const double *to = b->to[item->place];
     octree_point *stored = &leaf_points(leaf)[index];
     const uint64_t code = morton_code(b->tree->axes, to), unlike = code ^ item->code;
     if (leaf->room != LEAF_HASHED && unlike >> 3 * (OCTREE_MAX_DEPTH - depth) == 0 &&
-        same_bits(stored->position, b->points[item->place].position)) {
+        have_same_bits(stored->position, b->points[item->place].position)) {
         const uint32_t taken = leaf_find(leaf, to, stored->id);
         if (taken != LEAF_NONE && taken != index) {
-            set_status(b, item, OCTREE_DUPLICATE);
+            set_item_status(b, item, OCTREE_DUPLICATE);
             return;
         }
         memcpy(stored->position, to, sizeof stored->position);
@@ -83,7 +83,7 @@ static void move_found(batch *b, node *leaf, unsigned depth, morton_item *item, 
 
 /* Find a point in a leaf. A leaf built from a batch keeps the batch's order, so the point after the last is tried
  * first. */
-static uint32_t find_after(const node *leaf, uint32_t last, const octree_point *point)
+static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree_point *point)
 {
     const uint32_t next = last + 1; /* LEAF_NONE + 1 is 0 */
     if (!leaf)
@@ -94,27 +94,27 @@ static uint32_t find_after(const node *leaf, uint32_t last, const octree_point *
     return leaf_find(leaf, point->position, point->id);
 }
 
-static void find_moved(batch *b, node *leaf, unsigned depth, span items)
+static void find_moved_points(batch *b, node *leaf, unsigned depth, span items)
 {
     uint32_t index = LEAF_NONE;
     for (size_t i = 0; i < items.count; i++) {
         morton_item *item = &items.items[i];
-        index = find_after(leaf, index, &b->points[item->place]);
+        index = find_in_leaf_after(leaf, index, &b->points[item->place]);
         if (index == LEAF_NONE)
-            set_status(b, item, OCTREE_NOT_FOUND);
+            set_item_status(b, item, OCTREE_NOT_FOUND);
         else
-            move_found(b, leaf, depth, item, index);
+            move_found_point(b, leaf, depth, item, index);
     }
 }
 
 /* Restore the points that were overwritten in place. No node has changed since. */
-static void undo_moves(batch *b)
+static void undo_moves_in_place(batch *b)
 {
     for (size_t i = 0; i < b->valid.count; i++) {
         morton_item *item = &b->valid.items[i];
         if (item->index == MORTON_NEW)
             continue;
-        const path p = path_to(b->tree, item->code);
+        const path p = find_path(b->tree, item->code);
         memcpy(leaf_points(path_end(&p))[item->index].position, b->points[item->place].position,
                sizeof b->points->position);
         item->index = MORTON_NEW;
@@ -122,24 +122,24 @@ static void undo_moves(batch *b)
 }
 
 /* Make moves whose ids differ. *settled becomes false if they depend on one another; the tree is then unchanged. */
-static octree_status move_independent(batch *b, bool *settled)
+static octree_status make_independent_moves(batch *b, bool *settled)
 {
     b->may_be_stored = true;
-    batch_visit_leaves(b, find_moved);
+    visit_batch_leaves(b, find_moved_points);
     morton_sort_tasks(b->tree, &b->tree->store.memory, b->arriving.items, b->spare, b->arriving.count, 0, true);
-    const octree_status status = restructure(b);
+    const octree_status status = restructure_tree(b);
     *settled = !b->duplicate && !b->overflow;
     if (status != OCTREE_OK || !*settled)
-        undo_moves(b);
+        undo_moves_in_place(b);
     return status;
 }
 
-static octree_status move_in_order(batch *b)
+static octree_status make_moves_in_order(batch *b)
 {
     b->leaving.count = b->arriving.count = b->done = 0;
     b->may_be_stored = false;
     b->settled = true;
-    return resolve_moves_in_order(b) ? restructure(b) : OCTREE_NO_MEMORY;
+    return simulate_moves_in_order(b) ? restructure_tree(b) : OCTREE_NO_MEMORY;
 }
 
 static octree_status move_valid_points(batch *b)
@@ -150,13 +150,13 @@ static octree_status move_valid_points(batch *b)
         status = remake_tree(b, &settled);
         if (settled || status != OCTREE_OK)
             return status;
-        status = batch_collect(b);
-    } else if (!ids_differ(b, &settled)) {
+        status = collect_batch_points(b);
+    } else if (!check_ids_differ(b, &settled)) {
         return OCTREE_NO_MEMORY;
     } else if (settled && b->valid.count > 0) {
-        status = move_independent(b, &settled);
+        status = make_independent_moves(b, &settled);
     }
-    return settled || status != OCTREE_OK ? status : move_in_order(b);
+    return settled || status != OCTREE_OK ? status : make_moves_in_order(b);
 }
 
 /* ---- Many changes of one kind ------------------------------------------------------------------------------- */
@@ -171,11 +171,11 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
 }
 
 /* Whether the caller's array lies in a leaf of the tree. */
-static bool lies_in_leaf(const octree *tree, const octree_point *points, size_t count)
+static bool lies_in_tree_memory(const octree *tree, const octree_point *points, size_t count)
 {
     if (count == 0 || check_position(tree, points->position) != OCTREE_OK)
         return false;
-    const path p = path_to(tree, morton_code(tree->axes, points->position));
+    const path p = find_path(tree, morton_code(tree->axes, points->position));
     const node *end = path_end(&p);
     for (uint32_t i = 0; end->octants == 0 && i + count <= end->count; i++)
         if (points == &leaf_points(end)[i])
@@ -184,33 +184,33 @@ static bool lies_in_leaf(const octree *tree, const octree_point *points, size_t 
 }
 
 /* Sort the points of a batch and change the tree. */
-static octree_status change_sorted(batch *b, octree_status (*change)(batch *b))
+static octree_status change_in_morton_order(batch *b, octree_status (*change)(batch *b))
 {
-    octree_status status = batch_begin(b);
+    octree_status status = prepare_batch(b);
     if (status == OCTREE_OK)
         status = change(b);
-    batch_end(b);
+    release_batch(b);
     return status;
 }
 
-octree_status insert_sorted(batch *b)
+octree_status insert_in_morton_order(batch *b)
 {
-    return change_sorted(b, insert_valid_points);
+    return change_in_morton_order(b, insert_valid_points);
 }
 
-static octree_status change_points(batch *b, octree_change_kind kind)
+static octree_status change_by_kind(batch *b, octree_change_kind kind)
 {
     const bool few = kind != OCTREE_MOVED && are_few(b->tree, b->count);
     bool differ = false;
     switch (kind) {
     case OCTREE_INSERTED:
-        return few ? insert_few(b) : insert_sorted(b);
+        return few ? insert_few(b) : insert_in_morton_order(b);
     case OCTREE_REMOVED:
-        if (few && !ids_differ(b, &differ))
+        if (few && !check_ids_differ(b, &differ))
             return OCTREE_NO_MEMORY;
-        return differ ? remove_few(b) : change_sorted(b, remove_valid_points);
+        return differ ? remove_few(b) : change_in_morton_order(b, remove_valid_points);
     default:
-        return change_sorted(b, move_valid_points);
+        return change_in_morton_order(b, move_valid_points);
     }
 }
 
@@ -231,7 +231,7 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
     arena *memory = &b.tree->store.memory;
     const uint64_t version = b.tree->version;
     const bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
-    const size_t copies_size = lies_in_leaf(b.tree, b.points, b.count) ? b.count * sizeof *b.points : 0;
+    const size_t copies_size = lies_in_tree_memory(b.tree, b.points, b.count) ? b.count * sizeof *b.points : 0;
     const size_t statuses_size = logs && !b.statuses ? b.count * sizeof *b.statuses : 0;
     octree_point *copies = copies_size ? arena_take(memory, copies_size) : NULL;
     octree_status *statuses = statuses_size ? arena_take(memory, statuses_size) : NULL;
@@ -239,7 +239,7 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
         b.points = memcpy(copies, b.points, copies_size);
     if (statuses)
         b.statuses = statuses;
-    status = copies_size && !copies ? OCTREE_NO_MEMORY : change_points(&b, kind);
+    status = copies_size && !copies ? OCTREE_NO_MEMORY : change_by_kind(&b, kind);
     const bool changes = status == OCTREE_OK && b.done > 0;
     b.tree->version = version + changes;
     if (changes && logs && b.statuses)

@@ -12,7 +12,7 @@
 /* ---- Inserting ---------------------------------------------------------------------------------------------- */
 
 /* Add a leaf with this point to an inner node whose octant has no child. */
-static octree_status add_child(octree *tree, node *parent, unsigned octant, const octree_point *point)
+static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant, const octree_point *point)
 {
     const unsigned children = bits_count8(parent->octants), index = child_index(parent, octant);
     node leaf = {0};
@@ -40,43 +40,43 @@ typedef struct shares {
 } shares;
 
 /* The octant of a position, by comparison with the planes. */
-static unsigned octant_of(const shares *s, const double p[3])
+static unsigned find_octant(const shares *s, const double p[3])
 {
     return (unsigned)(p[0] >= s->planes[0]) << 2 | (unsigned)(p[1] >= s->planes[1]) << 1 |
            (unsigned)(p[2] >= s->planes[2]);
 }
 
-static void add_share(shares *s, const octree_point *point)
+static void count_point(shares *s, const octree_point *point)
 {
-    const unsigned octant = octant_of(s, point->position);
+    const unsigned octant = find_octant(s, point->position);
     s->counts[octant]++;
     s->mask |= (uint8_t)(1u << octant);
 }
 
-static shares count_shares(const octree *tree, cell c, const node *full, const octree_point *point)
+static shares count_points_by_octant(const octree *tree, cell c, const node *full, const octree_point *point)
 {
     shares s = {.mask = 0};
     for (int i = 0; i < 3; i++)
         s.planes[i] = plane_at(&tree->axes[i], c.low[i] + cell_size(c.depth + 1));
     for (uint32_t i = 0; i < full->count; i++)
-        add_share(&s, &leaf_points(full)[i]);
-    add_share(&s, point);
+        count_point(&s, &leaf_points(full)[i]);
+    count_point(&s, point);
     return s;
 }
 
 /* Descend from the cell of a full leaf to the first cell whose octants separate its points and the new one; true. False
  * if no divisible cell separates them; *c is then the indivisible cell that holds all. */
-static bool find_split(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
+static bool find_splitting_cell(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
 {
-    for (; may_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
-        *s = count_shares(tree, *c, full, point);
+    for (; can_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
+        *s = count_points_by_octant(tree, *c, full, point);
         if (s->mask & (s->mask - 1))
             return true;
     }
     return false;
 }
 
-static bool make_leaves(octree *tree, node *group, const shares *s)
+static bool create_leaves(octree *tree, node *group, const shares *s)
 {
     for (unsigned octant = 0; octant < 8; octant++)
         if (s->counts[octant] && !leaf_create(&tree->store, group++, s->counts[octant]))
@@ -86,7 +86,7 @@ static bool make_leaves(octree *tree, node *group, const shares *s)
 
 /* Make an inner node whose leaves hold the points of a full leaf and a new one. False when there is no memory; then
  * nothing stays allocated. */
-static bool make_split(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
+static bool make_split_node(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
     const unsigned children = bits_count8(s->mask);
     node *group = pool_take(&tree->store.nodes, children);
@@ -94,28 +94,28 @@ static bool make_split(octree *tree, node *made, const node *full, const octree_
         return false;
     memset(group, 0, children * sizeof(node));
     *made = (node){.below = group, .count = full->count + 1, .octants = s->mask};
-    if (!make_leaves(tree, group, s)) {
+    if (!create_leaves(tree, group, s)) {
         node_release(&tree->store, made);
         return false;
     }
     for (uint32_t i = 0; i < full->count; i++)
-        leaf_put(child_at(made, octant_of(s, leaf_points(full)[i].position)), &leaf_points(full)[i]);
-    leaf_put(child_at(made, octant_of(s, point->position)), point);
+        leaf_append_in_room(child_at(made, find_octant(s, leaf_points(full)[i].position)), &leaf_points(full)[i]);
+    leaf_append_in_room(child_at(made, find_octant(s, point->position)), point);
     return true;
 }
 
 /* Make a leaf beyond the capacity from the points of a full leaf and a new one. */
-static bool make_grown(octree *tree, node *made, const node *full, const octree_point *point)
+static bool make_grown_leaf(octree *tree, node *made, const node *full, const octree_point *point)
 {
     if (!leaf_create(&tree->store, made, full->count + 1))
         return false;
-    node_gather(made, full, NULL);
-    leaf_put(made, point);
+    leaf_append_all(made, full, NULL);
+    leaf_append_in_room(made, point);
     return true;
 }
 
 /* Replace `bottom`, a node of depth `from`, by a chain of single children from depth `to` down to it. */
-static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
+static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
         node *only = pool_take(&tree->store.nodes, 1);
@@ -132,33 +132,35 @@ static bool make_chain(octree *tree, node *bottom, uint64_t code, unsigned from,
 
 /* Add a point to a full leaf of this depth. The replacement is completed before it takes the leaf's place, so that a
  * shortage of memory changes nothing. */
-static octree_status split_or_grow(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth)
+static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
+                                        unsigned depth)
 {
     cell bottom = morton_cell(code, depth);
     shares s;
-    const bool splits = find_split(tree, leaf, point, &bottom, &s);
+    const bool splits = find_splitting_cell(tree, leaf, point, &bottom, &s);
     if (!splits && tree->def.full_leaf == OCTREE_REFUSE)
         return OCTREE_FULL;
     if (!splits && bottom.depth == depth)
         return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
     node made;
-    const bool enough = splits ? make_split(tree, &made, leaf, point, &s) : make_grown(tree, &made, leaf, point);
-    if (!enough || !make_chain(tree, &made, code, bottom.depth, depth))
+    const bool enough =
+        splits ? make_split_node(tree, &made, leaf, point, &s) : make_grown_leaf(tree, &made, leaf, point);
+    if (!enough || !make_parent_chain(tree, &made, code, bottom.depth, depth))
         return OCTREE_NO_MEMORY;
     leaf_release(&tree->store, leaf);
     *leaf = made;
     return OCTREE_OK;
 }
 
-static octree_status add_to_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code, unsigned depth,
-                                 bool divides)
+static octree_status insert_into_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
+                                      unsigned depth, bool divides)
 {
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
         return OCTREE_DUPLICATE;
     if (leaf->count >= tree->def.leaf_capacity && !divides)
         return OCTREE_FULL;
     if (leaf->count >= tree->def.leaf_capacity)
-        return split_or_grow(tree, leaf, point, code, depth);
+        return split_or_grow_leaf(tree, leaf, point, code, depth);
     return leaf_append(&tree->store, leaf, point) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
@@ -166,11 +168,11 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
 {
     if (tree->root.count == UINT32_MAX)
         return OCTREE_TOO_MANY;
-    path p = path_to(tree, code);
+    path p = find_path(tree, code);
     node *end = path_end(&p);
     const bool is_leaf = end->octants == 0;
-    const octree_status status = is_leaf ? add_to_leaf(tree, end, point, code, p.depth, divides)
-                                         : add_child(tree, end, morton_octant(code, p.depth), point);
+    const octree_status status = is_leaf ? insert_into_leaf(tree, end, point, code, p.depth, divides)
+                                         : add_child_leaf(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
     const unsigned inner =
@@ -198,7 +200,7 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 
 /* The depth of the highest node on the path that would fit one leaf with one point less; the leaf's own depth if none.
  */
-static unsigned merge_depth(const octree *tree, const path *p)
+static unsigned find_merge_depth(const octree *tree, const path *p)
 {
     unsigned depth = p->depth;
     while (depth > 0 && fits_leaf(tree, p->nodes[depth - 1]->count - 1))
@@ -208,14 +210,14 @@ static unsigned merge_depth(const octree *tree, const path *p)
 
 /* Allocate the leaf into which nodes merge when this point is removed; an empty leaf if none merge. False when there is
  * no memory. */
-static bool reserve_merge(octree *tree, const found_point *found, node *spare)
+static bool allocate_merged_leaf(octree *tree, const found_point *found, node *spare)
 {
-    const unsigned depth = merge_depth(tree, &found->path);
+    const unsigned depth = find_merge_depth(tree, &found->path);
     *spare = (node){.below = NULL};
     return depth == found->path.depth || leaf_create(&tree->store, spare, found->path.nodes[depth]->count - 1);
 }
 
-void drop_child(octree *tree, node *parent, node *child)
+void remove_empty_child(octree *tree, node *parent, node *child)
 {
     node *group = children_of(parent);
     const unsigned children = bits_count8(parent->octants), index = (unsigned)(child - group);
@@ -229,20 +231,20 @@ void drop_child(octree *tree, node *parent, node *child)
 }
 
 /* Remove the point. Cannot fail. Uses or frees the spare leaf. */
-static void remove_found(octree *tree, const found_point *found, node *spare)
+static void remove_found_point(octree *tree, const found_point *found, node *spare)
 {
     const path *p = &found->path;
     node *leaf = path_end(p);
-    const unsigned depth = merge_depth(tree, p);
+    const unsigned depth = find_merge_depth(tree, p);
     if (depth < p->depth) {
-        node_gather(spare, p->nodes[depth], &leaf_points(leaf)[found->index]);
+        leaf_append_all(spare, p->nodes[depth], &leaf_points(leaf)[found->index]);
         node_release(&tree->store, p->nodes[depth]);
         *p->nodes[depth] = *spare;
     } else {
         leaf_release(&tree->store, spare);
         leaf_remove(&tree->store, leaf, found->index);
         if (leaf->count == 0 && p->depth > 0)
-            drop_child(tree, p->nodes[p->depth - 1], leaf);
+            remove_empty_child(tree, p->nodes[p->depth - 1], leaf);
     }
     for (unsigned i = 0; i < depth; i++)
         p->nodes[i]->count--;
@@ -255,9 +257,9 @@ octree_status remove_point(octree *tree, const octree_point *point)
     node spare;
     if (!find_point(tree, point->position, point->id, &found))
         return OCTREE_NOT_FOUND;
-    if (!reserve_merge(tree, &found, &spare))
+    if (!allocate_merged_leaf(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
-    remove_found(tree, &found, &spare);
+    remove_found_point(tree, &found, &spare);
     return OCTREE_OK;
 }
 
@@ -281,7 +283,7 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, const 
                                         const octree_point *moved, uint64_t code)
 {
     node spare;
-    if (!reserve_merge(tree, found, &spare))
+    if (!allocate_merged_leaf(tree, found, &spare))
         return OCTREE_NO_MEMORY;
     const octree_status status = insert_point(tree, moved, code, true);
     if (status != OCTREE_OK) {
@@ -289,7 +291,7 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, const 
         return status;
     }
     find_point(tree, old->position, old->id, found); /* again: the insertion may have moved nodes in memory */
-    remove_found(tree, found, &spare);
+    remove_found_point(tree, found, &spare);
     return OCTREE_OK;
 }
 
@@ -299,7 +301,7 @@ static octree_status move_point(octree *tree, const octree_point *old, const oct
     if (!find_point(tree, old->position, old->id, &found))
         return OCTREE_NOT_FOUND;
     const uint64_t code = morton_code(tree->axes, moved->position);
-    const path p = path_to(tree, code);
+    const path p = find_path(tree, code);
     node *leaf = path_end(&p);
     if (leaf != path_end(&found.path))
         return move_to_other_leaf(tree, &found, old, moved, code);

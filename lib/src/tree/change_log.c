@@ -52,7 +52,7 @@ static bool grow_ring(change_log *log, arena *memory)
 
 /* Make room for one more change. Changes that were read may be overwritten, but only while the unread ones fill less
  * than half of the ring: a second reader that lags behind the first then still finds its changes. */
-static bool make_room(change_log *log, arena *memory)
+static bool make_room_for_change(change_log *log, arena *memory)
 {
     if (log->next - log->first < log->room)
         return true;
@@ -72,7 +72,7 @@ void change_log_append(octree *tree, octree_change_kind kind, const octree_point
         memcpy(made.to, to, sizeof made.to);
     if (atomic_exchange_explicit(&log->was_read, false, memory_order_relaxed))
         log->last_read = log->next;
-    if (log->next - log->last_read < change_log_limit(tree) && make_room(log, &tree->store.memory))
+    if (log->next - log->last_read < change_log_limit(tree) && make_room_for_change(log, &tree->store.memory))
         log->items[log->next++ & (log->room - 1)] = made;
     else
         change_log_stop(log, &tree->store.memory);

@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-void division_begin(batch *b)
+void create_division(batch *b)
 {
-    const unsigned tasks = tasks_for(b->tree, b->count);
+    const unsigned tasks = count_tasks(b->tree, b->count);
     b->division = tasks > 1 ? arena_take(&b->store->memory, sizeof *b->division) : NULL;
     if (!b->division)
         return;
@@ -15,20 +15,20 @@ void division_begin(batch *b)
     b->division->grain = b->count / tasks / 2 + 1;
 }
 
-void division_end(batch *b)
+void release_division(batch *b)
 {
     arena_give(&b->store->memory, b->division, sizeof *b->division);
     b->division = NULL;
 }
 
-void division_open(batch *b, size_t expected)
+void create_part_pools(batch *b, size_t expected)
 {
     division *d = b->division;
     store *whole = &b->tree->store;
     if (!d)
         return;
-    pool_lend(&whole->nodes);
-    pool_lend(&whole->points);
+    pool_prepare_lending(&whole->nodes);
+    pool_prepare_lending(&whole->points);
     for (unsigned i = 0; i < d->tasks; i++) {
         store *own = &d->parts[i].store;
         d->parts[i].batch = (batch){.store = own};
@@ -38,7 +38,7 @@ void division_open(batch *b, size_t expected)
     }
 }
 
-void division_close(batch *b)
+void join_part_pools(batch *b)
 {
     division *d = b->division;
     for (unsigned i = 0; d && i < d->tasks; i++) {
@@ -47,7 +47,7 @@ void division_close(batch *b)
     }
 }
 
-void division_run(batch *b, octree_task *task, void *context)
+void run_parts(batch *b, octree_task *task, void *context)
 {
     division *d = b->division;
     for (unsigned i = 0; i < d->tasks; i++) {
@@ -61,16 +61,16 @@ void division_run(batch *b, octree_task *task, void *context)
         own->duplicate = before.duplicate;
         own->overflow = before.overflow;
     }
-    tasks_run(b->tree, task, d->tasks, context);
+    run_tasks(b->tree, task, d->tasks, context);
 }
 
-bool division_add_job(batch *b, const node *old, cell c, span leaving, span arriving)
+bool add_job(batch *b, const node *old, cell c, span leaving, span arriving)
 {
     const job j = {.old = old, .cell = c, .leaving = leaving, .arriving = arriving};
     return list_push(&b->store->memory, &b->division->work.jobs, &j, sizeof j);
 }
 
-void division_share_jobs(division *d)
+void share_jobs(division *d)
 {
     const job *jobs = d->work.jobs.items;
     const size_t count = d->work.jobs.count;
@@ -79,7 +79,7 @@ void division_share_jobs(division *d)
         total += jobs[i].leaving.count + jobs[i].arriving.count;
     for (unsigned task = 0; task < d->tasks; task++) {
         d->starts[task] = next;
-        for (; next < count && sum < tasks_share(total, d->tasks, task + 1); next++)
+        for (; next < count && sum < share_start(total, d->tasks, task + 1); next++)
             sum += jobs[next].leaving.count + jobs[next].arriving.count;
     }
     d->starts[d->tasks] = count;

@@ -56,31 +56,31 @@ typedef struct division {
 } division;
 
 /* Divide a batch if it is large, there is an executor, and there is memory. */
-void division_begin(batch *b);
-void division_end(batch *b);
+void create_division(batch *b);
+void release_division(batch *b);
 
 /* Create the pools of the parts, sized for `expected` additional points in all; and join them to the tree's. */
-void division_open(batch *b, size_t expected);
-void division_close(batch *b);
+void create_part_pools(batch *b, size_t expected);
+void join_part_pools(batch *b);
 
 /* Run a task for each part. Each part becomes a copy of the batch and keeps its own plan. */
-void division_run(batch *b, octree_task *task, void *context);
+void run_parts(batch *b, octree_task *task, void *context);
 
 /* Add a job. False when there is no memory. */
-bool division_add_job(batch *b, const node *old, cell c, span leaving, span arriving);
+bool add_job(batch *b, const node *old, cell c, span leaving, span arriving);
 
 /* Set `starts`: each task gets adjacent jobs with about the same number of items. */
-void division_share_jobs(division *d);
+void share_jobs(division *d);
 
 /* Whether a node with this many items was planned by a task; and the next node that was. */
-bool is_job(const batch *b, size_t count);
-bool use_job(batch *b, node *made);
+bool is_planned_by_job(const batch *b, size_t count);
+bool take_job_result(batch *b, node *made);
 
 /* Whether items become a leaf; build the node of a cell that holds only these items; build it by tasks if there are
  * many. */
-bool becomes_leaf(const batch *b, cell c, span items);
+bool must_be_leaf(const batch *b, cell c, span items);
 bool build_node(batch *b, cell c, span items, node *made);
-bool build_divided(batch *b, cell c, span items, node *made);
+bool build_node_by_tasks(batch *b, cell c, span items, node *made);
 
 /* Make the successor of a node. False when there is no memory; *made then holds the incomplete successor. */
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made);

@@ -26,7 +26,7 @@ enum {
 bool are_few(const octree *tree, size_t count)
 {
     const uint32_t stored = tree->root.count;
-    return count > 0 && tasks_for(tree, count) == 1 && count < stored / (stored < CACHED ? FEW_OF_CACHED : FEW) &&
+    return count > 0 && count_tasks(tree, count) == 1 && count < stored / (stored < CACHED ? FEW_OF_CACHED : FEW) &&
            count <= UINT32_MAX - stored;
 }
 
@@ -42,7 +42,7 @@ typedef struct descents {
     node *nodes[OCTREE_MAX_DEPTH + 1][TOGETHER];
 } descents;
 
-static void find_codes(descents *w, const octree *tree, const octree_point *points, size_t count)
+static void find_point_codes(descents *w, const octree *tree, const octree_point *points, size_t count)
 {
     morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
     for (size_t i = 0; i < count; i++)
@@ -53,7 +53,7 @@ static void find_codes(descents *w, const octree *tree, const octree_point *poin
 static void descend_together(descents *w, octree *tree, const octree_point *points, size_t count)
 {
     size_t going = 0, left[TOGETHER];
-    find_codes(w, tree, points, count);
+    find_point_codes(w, tree, points, count);
     for (size_t i = 0; i < count; i++)
         if (w->statuses[i] == OCTREE_OK) {
             w->nodes[0][i] = &tree->root;
@@ -91,7 +91,7 @@ typedef struct insertions {
 
 /* Insert a point into the leaf at the end of its path. No node moves in memory, so that other paths stay valid. The
  * count cannot overflow: are_few() has checked it. */
-static octree_status insert_at_end(octree *tree, const octree_point *point, const descents *w, size_t i)
+static octree_status insert_at_path_end(octree *tree, const octree_point *point, const descents *w, size_t i)
 {
     node *leaf = w->nodes[w->depths[i]][i];
     if (leaf_find(leaf, point->position, point->id) != LEAF_NONE)
@@ -107,7 +107,7 @@ static octree_status insert_at_end(octree *tree, const octree_point *point, cons
 
 /* Insert up to TOGETHER points. A point whose path ends at an inner node adds a leaf, which moves nodes in memory; the
  * rest of the group then descends from the root again, point by point. */
-static octree_status insert_group(insertions *f, size_t first, size_t count)
+static octree_status insert_point_group(insertions *f, size_t first, size_t count)
 {
     descents w;
     bool moved = false;
@@ -118,7 +118,7 @@ static octree_status insert_group(insertions *f, size_t first, size_t count)
         octree_status status = w.statuses[i];
         const bool at_end = status == OCTREE_OK && !moved && !w.nodes[w.depths[i]][i]->octants;
         if (at_end)
-            status = insert_at_end(tree, &points[i], &w, i);
+            status = insert_at_path_end(tree, &points[i], &w, i);
         else if (status == OCTREE_OK)
             status = insert_point(tree, &points[i], w.codes[i], false);
         moved = moved || !at_end;
@@ -149,11 +149,11 @@ octree_status insert_few(batch *b)
     batch full = {.tree = b->tree, .points = f.full, .inserts = true};
     octree_status status = f.full && f.statuses ? OCTREE_OK : OCTREE_NO_MEMORY;
     for (size_t i = 0; status == OCTREE_OK && i < count; i += TOGETHER)
-        status = insert_group(&f, i, count - i < TOGETHER ? count - i : TOGETHER);
+        status = insert_point_group(&f, i, count - i < TOGETHER ? count - i : TOGETHER);
     if (status == OCTREE_OK && f.full_count > 0) {
         full.count = f.full_count;
         full.statuses = f.statuses + count;
-        status = insert_sorted(&full);
+        status = insert_in_morton_order(&full);
     }
     if (status != OCTREE_OK)
         undo_insertions(b, f.statuses);
@@ -187,7 +187,7 @@ typedef struct removals {
 } removals;
 
 /* Find up to TOGETHER points, and already reduce the counts of the inner nodes above them. */
-static void find_group(removals *r, size_t first, size_t count)
+static void find_point_group(removals *r, size_t first, size_t count)
 {
     descents w;
     const batch *b = r->batch;
@@ -210,17 +210,17 @@ static void find_group(removals *r, size_t first, size_t count)
     }
 }
 
-static path path_of(const removals *r, const removal *found)
+static path path_to_removal(const removals *r, const removal *found)
 {
-    return path_to(r->batch->tree, morton_code(r->batch->tree->axes, r->batch->points[found->place].position));
+    return find_path(r->batch->tree, morton_code(r->batch->tree->axes, r->batch->points[found->place].position));
 }
 
 /* Allocate the leaf for the highest node above a point that now fits one. An inner node with room != 0 already has it.
  */
-static bool plan_merging(removals *r, const removal *found)
+static bool plan_merge(removals *r, const removal *found)
 {
     store *s = &r->batch->tree->store;
-    const path p = path_of(r, found);
+    const path p = path_to_removal(r, found);
     merging m = {.at = p.nodes[0]};
     for (unsigned depth = 0; !fits_leaf(r->batch->tree, m.at->count);)
         m.at = p.nodes[++depth];
@@ -236,12 +236,12 @@ static bool plan_merging(removals *r, const removal *found)
     return true;
 }
 
-static bool plan_mergings(removals *r)
+static bool plan_merges(removals *r)
 {
     bool ok = true;
     for (size_t i = 0; ok && i < r->count; i++)
         if (r->found[i].parent && fits_leaf(r->batch->tree, r->found[i].parent->count))
-            ok = plan_merging(r, &r->found[i]);
+            ok = plan_merge(r, &r->found[i]);
     return ok;
 }
 
@@ -253,14 +253,14 @@ static void undo_removals(removals *r)
         leaf_release(&r->batch->tree->store, &mergings[i].made);
     }
     for (size_t i = 0; i < r->count; i++) {
-        const path p = path_of(r, &r->found[i]);
+        const path p = path_to_removal(r, &r->found[i]);
         for (unsigned depth = 0; depth < p.depth; depth++)
             p.nodes[depth]->count++;
     }
 }
 
 /* Remove the points from their leaves. Returns the number of leaves that became empty; these come first in `found`. */
-static size_t remove_points(removals *r)
+static size_t remove_found_points(removals *r)
 {
     size_t emptied = 0;
     for (size_t i = 0; i < r->count; i++) {
@@ -279,17 +279,17 @@ static size_t remove_points(removals *r)
 static void carry_out_removals(removals *r)
 {
     octree *tree = r->batch->tree;
-    const size_t emptied = remove_points(r);
+    const size_t emptied = remove_found_points(r);
     merging *mergings = r->mergings.items;
     for (size_t i = 0; i < r->mergings.count; i++) {
-        node_gather(&mergings[i].made, mergings[i].at, NULL);
+        leaf_append_all(&mergings[i].made, mergings[i].at, NULL);
         node_release(&tree->store, mergings[i].at);
         *mergings[i].at = mergings[i].made;
     }
     for (size_t i = 0; i < emptied; i++) {
-        const path p = path_of(r, &r->found[i]);
+        const path p = path_to_removal(r, &r->found[i]);
         if (path_end(&p)->count == 0) /* never the root, since most points stay */
-            drop_child(tree, p.nodes[p.depth - 1], path_end(&p));
+            remove_empty_child(tree, p.nodes[p.depth - 1], path_end(&p));
     }
 }
 
@@ -300,8 +300,8 @@ octree_status remove_few(batch *b)
     if (!r.found)
         return OCTREE_NO_MEMORY;
     for (size_t i = 0; i < b->count; i += TOGETHER)
-        find_group(&r, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
-    const bool ok = plan_mergings(&r);
+        find_point_group(&r, i, b->count - i < TOGETHER ? b->count - i : TOGETHER);
+    const bool ok = plan_merges(&r);
     if (ok)
         carry_out_removals(&r);
     else

@@ -15,6 +15,6 @@ octree_status insert_few(batch *b);
 octree_status remove_few(batch *b);
 
 /* Insert any number of points in Morton order (bulk.c). */
-octree_status insert_sorted(batch *b);
+octree_status insert_in_morton_order(batch *b);
 
 #endif

@@ -37,13 +37,13 @@ typedef struct filling {
     size_t crowded;                     /* count of points in crowds */
 } filling;
 
-static size_t cells_at(unsigned depth)
+static size_t cell_count_at(unsigned depth)
 {
     return (size_t)1 << 3 * depth;
 }
 
 /* Whether this many points form a leaf that is written directly. */
-static bool is_plain_leaf(const octree *tree, size_t count)
+static bool fits_direct_leaf(const octree *tree, size_t count)
 {
     return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
 }
@@ -51,12 +51,12 @@ static bool is_plain_leaf(const octree *tree, size_t count)
 /* ---- The grid -------------------------------------------------------------------------------------------------- */
 
 /* The number of sampled points in cells with more than `limit` of them, that is, with twice the points of a leaf. */
-static size_t count_crowded(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
+static size_t count_crowded_samples(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
 {
     const size_t stride = b->to ? 3 : sizeof *b->points / sizeof(double), samples = b->count / SAMPLE_STEP;
     const double *positions = b->to ? b->to[0] : b->points[0].position;
     size_t crowded = 0;
-    memset(counts, 0, cells_at(depth) * sizeof *counts);
+    memset(counts, 0, cell_count_at(depth) * sizeof *counts);
     for (size_t i = 0; i < samples; i += GRID_TOGETHER) {
         uint32_t cells[GRID_TOGETHER];
         const size_t count = samples - i < GRID_TOGETHER ? samples - i : GRID_TOGETHER;
@@ -65,24 +65,24 @@ static size_t count_crowded(const batch *b, unsigned depth, uint32_t *counts, si
             if (cells[k] != GRID_NONE)
                 counts[cells[k]]++;
     }
-    for (size_t i = 0; i < cells_at(depth); i++)
+    for (size_t i = 0; i < cell_count_at(depth); i++)
         crowded += counts[i] > limit ? counts[i] : 0;
     return crowded;
 }
 
-bool grid_choose(batch *b, size_t total)
+bool choose_grid(batch *b, size_t total)
 {
     const octree_def *def = &b->tree->def;
     const size_t room = def->leaf_capacity < POOL_MAX_UNITS ? def->leaf_capacity : POOL_MAX_UNITS;
     unsigned depth = 1;
-    while (total / 2 > room * cells_at(depth) / 3)
+    while (total / 2 > room * cell_count_at(depth) / 3)
         depth++;
-    for (; b->grid == 0 && depth <= GRID_DEEPEST && depth <= def->max_depth && cells_at(depth) <= total; depth++) {
-        const size_t size = cells_at(depth) * sizeof(uint32_t);
+    for (; b->grid == 0 && depth <= GRID_DEEPEST && depth <= def->max_depth && cell_count_at(depth) <= total; depth++) {
+        const size_t size = cell_count_at(depth) * sizeof(uint32_t);
         uint32_t *counts = arena_take(&b->store->memory, size);
         if (!counts)
             return false;
-        const size_t crowded = count_crowded(b, depth, counts, 2 * room * b->count / (total * SAMPLE_STEP) + 2);
+        const size_t crowded = count_crowded_samples(b, depth, counts, 2 * room * b->count / (total * SAMPLE_STEP) + 2);
         arena_give(&b->store->memory, counts, size);
         if (crowded <= b->count / SAMPLE_STEP / 8)
             b->grid = depth;
@@ -105,7 +105,8 @@ void find_grid_cells(const batch *b, const octree_point *points, size_t count, u
 }
 
 /* Make items for adjacent points, which are all the caller's or all copies of stored ones. Returns the number made. */
-static size_t add_items(const batch *b, size_t first, size_t count, octree_point *const *filter, morton_item *items)
+static size_t append_grid_items(const batch *b, size_t first, size_t count, octree_point *const *filter,
+                                morton_item *items)
 {
     const bool is_new = first < b->count;
     const size_t place = is_new ? first : first - b->count;
@@ -130,48 +131,48 @@ static size_t add_items(const batch *b, size_t first, size_t count, octree_point
     return made;
 }
 
-size_t grid_items(const batch *b, octree_point *const *filter, morton_item *items)
+size_t make_grid_items(const batch *b, octree_point *const *filter, morton_item *items)
 {
     const size_t total = b->count + b->stored_count;
     size_t made = 0;
     for (size_t i = 0, end; i < total; i = end) {
         const size_t most = i < b->count ? b->count : total;
         end = most - i < GRID_TOGETHER ? most : i + GRID_TOGETHER;
-        made += add_items(b, i, end - i, filter, items + made);
+        made += append_grid_items(b, i, end - i, filter, items + made);
     }
     return made;
 }
 
 /* ---- Counting ----------------------------------------------------------------------------------------------- */
 
-static void count_share(size_t number, void *context)
+static void count_points_of_share(size_t number, void *context)
 {
     const filling *f = context;
     const uint32_t *cells = f->whole->cells;
-    uint32_t *counts = f->shares + number * cells_at(f->depth);
-    const size_t end = tasks_share(f->count, f->tasks, number + 1);
-    for (size_t i = tasks_share(f->count, f->tasks, number); i < end; i++)
+    uint32_t *counts = f->shares + number * cell_count_at(f->depth);
+    const size_t end = share_start(f->count, f->tasks, number + 1);
+    for (size_t i = share_start(f->count, f->tasks, number); i < end; i++)
         if (cells[i] != GRID_NONE)
             counts[cells[i]]++;
 }
 
-static void sum_counts(filling *f)
+static void sum_cell_counts(filling *f)
 {
-    const size_t cells = cells_at(f->depth);
+    const size_t cells = cell_count_at(f->depth);
     for (size_t i = 0; i < cells; i++)
         for (unsigned task = 0; task < f->tasks; task++)
             f->counts[f->depth][i] += f->shares[task * cells + i];
     for (unsigned depth = f->depth; depth-- > 0;)
-        for (size_t i = 0; i < cells_at(depth + 1); i++)
+        for (size_t i = 0; i < cell_count_at(depth + 1); i++)
             f->counts[depth][i / 8] += f->counts[depth + 1][i];
 }
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
 /* Set where the points of a cell are written in its leaf: grid cell by grid cell, in the given order within each. */
-static void set_targets(filling *f, cell c, size_t index, octree_point *to)
+static void set_write_positions(filling *f, cell c, size_t index, octree_point *to)
 {
-    const size_t cells = cells_at(f->depth), width = cells_at(f->depth - c.depth);
+    const size_t cells = cell_count_at(f->depth), width = cell_count_at(f->depth - c.depth);
     for (size_t i = index * width; i < (index + 1) * width; i++)
         for (unsigned task = 0; task < f->tasks; task++) {
             f->next[task * cells + i] = to;
@@ -185,7 +186,7 @@ static bool needs_sorting(const filling *f, cell c, size_t index)
 {
     const octree *tree = f->whole->tree;
     const uint32_t count = f->counts[c.depth][index];
-    if (c.depth == f->depth || fits_leaf(tree, count) || !may_split(tree, c))
+    if (c.depth == f->depth || fits_leaf(tree, count) || !can_split(tree, c))
         return true;
     const uint32_t *parts = f->counts[c.depth + 1] + 8 * index;
     for (unsigned octant = 0; octant < 8 && tree->def.full_leaf == OCTREE_REFUSE; octant++)
@@ -194,9 +195,9 @@ static bool needs_sorting(const filling *f, cell c, size_t index)
     return false;
 }
 
-static bool make_node(filling *f, cell c, size_t index, node *made);
+static bool make_grid_node(filling *f, cell c, size_t index, node *made);
 
-static bool make_children(filling *f, cell c, size_t index, node *made)
+static bool make_grid_children(filling *f, cell c, size_t index, node *made)
 {
     const uint32_t *parts = f->counts[c.depth + 1] + 8 * index;
     unsigned octants = 0;
@@ -209,24 +210,24 @@ static bool make_children(filling *f, cell c, size_t index, node *made)
         return false;
     memset(group, 0, children * sizeof *group);
     for (unsigned octant = 0; octant < 8; octant++)
-        if (parts[octant] > 0 && !make_node(f, cell_child(c, octant), 8 * index + octant, group++))
+        if (parts[octant] > 0 && !make_grid_node(f, cell_child(c, octant), 8 * index + octant, group++))
             return false;
     return true;
 }
 
-static bool make_node(filling *f, cell c, size_t index, node *made)
+static bool make_grid_node(filling *f, cell c, size_t index, node *made)
 {
     batch *b = f->whole;
     const uint32_t count = f->counts[c.depth][index];
-    if (is_plain_leaf(b->tree, count)) {
+    if (fits_direct_leaf(b->tree, count)) {
         if (!leaf_create(b->store, made, count))
             return false;
         made->count = count;
-        set_targets(f, c, index, leaf_points(made));
+        set_write_positions(f, c, index, leaf_points(made));
         return true;
     }
     if (!needs_sorting(f, c, index))
-        return make_children(f, c, index, made);
+        return make_grid_children(f, c, index, made);
     const crowd found = {made, c, count};
     f->crowded += count;
     return list_push(&b->store->memory, &f->crowds, &found, sizeof found);
@@ -235,8 +236,8 @@ static bool make_node(filling *f, cell c, size_t index, node *made)
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
 /* Write points into their leaves, at their destinations if `to` is not null. */
-static void write_points(const uint32_t *cells, const octree_point *points, const double (*to)[3], size_t count,
-                         octree_point **next)
+static void write_points_to_leaves(const uint32_t *cells, const octree_point *points, const double (*to)[3],
+                                   size_t count, octree_point **next)
 {
     for (size_t i = 0; i < count; i++) {
         octree_point *at = cells[i] == GRID_NONE ? NULL : next[cells[i]];
@@ -250,28 +251,28 @@ static void write_points(const uint32_t *cells, const octree_point *points, cons
     }
 }
 
-static void write_share(size_t number, void *context)
+static void write_points_of_share(size_t number, void *context)
 {
     const filling *f = context;
     const batch *b = f->whole;
-    octree_point **next = f->next + number * cells_at(f->depth);
-    const size_t first = tasks_share(f->count, f->tasks, number), end = tasks_share(f->count, f->tasks, number + 1);
+    octree_point **next = f->next + number * cell_count_at(f->depth);
+    const size_t first = share_start(f->count, f->tasks, number), end = share_start(f->count, f->tasks, number + 1);
     const size_t middle = end < b->count     ? end
                           : first < b->count ? b->count
                                              : first; /* the end of the caller's points in this share */
     if (first < middle)
-        write_points(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
+        write_points_to_leaves(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
     if (middle < end)
-        write_points(b->cells + middle, b->stored + (middle - b->count), NULL, end - middle, next);
+        write_points_to_leaves(b->cells + middle, b->stored + (middle - b->count), NULL, end - middle, next);
 }
 
 /* Correct the counts of a node after some points were refused. Returns its count. */
-static uint32_t recount(node *n)
+static uint32_t correct_counts(node *n)
 {
     const unsigned children = bits_count8(n->octants);
     uint32_t sum = 0;
     for (unsigned i = 0; i < children; i++)
-        sum += recount(&children_of(n)[i]);
+        sum += correct_counts(&children_of(n)[i]);
     if (children > 0)
         n->count = sum;
     return n->count;
@@ -287,39 +288,39 @@ static bool build_crowds(filling *f)
     morton_item *rest = items;
     bool ok = true;
     const crowd *crowds = f->crowds.items;
-    morton_sort(items, items + f->crowded, grid_items(b, f->next, items), 0, 0);
+    morton_sort(items, items + f->crowded, make_grid_items(b, f->next, items), 0, 0);
     for (size_t i = 0; ok && i < f->crowds.count; rest += crowds[i++].count)
         ok = build_node(b, crowds[i].cell, (span){rest, crowds[i].count}, crowds[i].at);
     arena_give(&b->store->memory, items, size);
     return ok;
 }
 
-static bool build_tree(filling *f, node *made)
+static bool build_tree_from_counts(filling *f, node *made)
 {
     const octree *tree = f->whole->tree;
-    tasks_run(tree, count_share, f->tasks, f);
-    sum_counts(f);
+    run_tasks(tree, count_points_of_share, f->tasks, f);
+    sum_cell_counts(f);
     if (f->counts[0][0] == 0)
         return true;
-    if (!make_node(f, root_cell(), 0, made))
+    if (!make_grid_node(f, root_cell(), 0, made))
         return false;
-    tasks_run(tree, write_share, f->tasks, f);
+    run_tasks(tree, write_points_of_share, f->tasks, f);
     if (!build_crowds(f))
         return false;
     if (f->crowded > 0)
-        recount(made);
+        correct_counts(made);
     return true;
 }
 
-bool grid_fill(batch *b, node *made)
+bool build_from_grid(batch *b, node *made)
 {
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
-    const size_t cells = cells_at(f.depth),
+    const size_t cells = cell_count_at(f.depth),
                  most = f.count / cells + 1; /* bounds the tables by the size of the points */
-    f.tasks = tasks_for(b->tree, f.count);
+    f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
-    const size_t size = (cells_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;
+    const size_t size = (cell_count_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;
     const size_t next_size = f.tasks * cells * sizeof *f.next;
     f.shares = arena_take(memory, size);
     f.next = arena_take(memory, next_size);
@@ -329,8 +330,8 @@ bool grid_fill(batch *b, node *made)
         memset(f.next, 0, next_size);
         f.counts[f.depth] = f.shares + f.tasks * cells;
         for (unsigned depth = f.depth; depth-- > 0;)
-            f.counts[depth] = f.counts[depth + 1] + cells_at(depth + 1);
-        ok = build_tree(&f, made);
+            f.counts[depth] = f.counts[depth + 1] + cell_count_at(depth + 1);
+        ok = build_tree_from_counts(&f, made);
     }
     list_release(memory, &f.crowds, sizeof(crowd));
     arena_give(memory, f.shares, size);

@@ -12,7 +12,7 @@ enum { GRID_TOGETHER = 64 }; /* positions whose cells are computed in one call *
 
 /* Set b->grid to the depth of a grid for `total` points with the distribution of the batch's points after their
  * changes, or leave it 0 if a sample shows that they are not spread evenly. False when there is no memory. */
-bool grid_choose(batch *b, size_t total);
+bool choose_grid(batch *b, size_t total);
 
 /* Find the cells of adjacent points in the grid of the batch; GRID_NONE for a point outside the world. `statuses` may
  * be null; else it receives OK, or why a point has no cell. */
@@ -21,10 +21,10 @@ void find_grid_cells(const batch *b, const octree_point *points, size_t count, u
 
 /* Make items for the points of the batch and of `stored` that have a cell. Returns the number of items. If `filter` is
  * not null, only cells with a null entry in it count. */
-size_t grid_items(const batch *b, octree_point *const *filter, morton_item *items);
+size_t make_grid_items(const batch *b, octree_point *const *filter, morton_item *items);
 
 /* Build the root of a tree of the points that have cells; all ids differ. False when there is no memory; *made then
  * holds the incomplete tree. Cost: O(count). */
-bool grid_fill(batch *b, node *made);
+bool build_from_grid(batch *b, node *made);
 
 #endif

@@ -15,14 +15,14 @@ typedef struct hashed_header {
     uint64_t size; /* of the whole block, in bytes */
 } hashed_header;
 
-static hashed_header *header_of(const octree_point *points)
+static hashed_header *hashed_header_of(const octree_point *points)
 {
     return (hashed_header *)(uintptr_t)points - 1;
 }
 
-static uint32_t *slots_of(const octree_point *points)
+static uint32_t *hash_slots_of(const octree_point *points)
 {
-    return (uint32_t *)(uintptr_t)(points + header_of(points)->room);
+    return (uint32_t *)(uintptr_t)(points + hashed_header_of(points)->room);
 }
 
 static uint32_t home_slot(const octree_point *points, const double position[3], uint64_t id)
@@ -30,10 +30,10 @@ static uint32_t home_slot(const octree_point *points, const double position[3], 
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, id);
     for (int i = 0; i < 3; i++)
         digest = octree_digest_double(digest, position[i]);
-    return (uint32_t)digest & header_of(points)->mask;
+    return (uint32_t)digest & hashed_header_of(points)->mask;
 }
 
-static octree_point *hashed_create(arena *memory, uint32_t room)
+static octree_point *create_hashed_block(arena *memory, uint32_t room)
 {
     if (room > HASHED_MAX_ROOM)
         return NULL;
@@ -48,20 +48,20 @@ static octree_point *hashed_create(arena *memory, uint32_t room)
         return NULL;
     *header = (hashed_header){.room = room, .mask = (uint32_t)(slots - 1), .size = size};
     octree_point *points = (octree_point *)(header + 1);
-    memset(slots_of(points), 0, (size_t)slots * sizeof(uint32_t));
+    memset(hash_slots_of(points), 0, (size_t)slots * sizeof(uint32_t));
     return points;
 }
 
-static void hashed_release(arena *memory, octree_point *points)
+static void release_hashed_block(arena *memory, octree_point *points)
 {
-    arena_give(memory, header_of(points), (size_t)header_of(points)->size);
+    arena_give(memory, hashed_header_of(points), (size_t)hashed_header_of(points)->size);
 }
 
 /* The slot of a pair, or the empty one where the search ends. */
-static uint32_t slot_of(const octree_point *points, const double position[3], uint64_t id)
+static uint32_t find_slot(const octree_point *points, const double position[3], uint64_t id)
 {
-    const uint32_t *slots = slots_of(points);
-    const uint32_t mask = header_of(points)->mask;
+    const uint32_t *slots = hash_slots_of(points);
+    const uint32_t mask = hashed_header_of(points)->mask;
     uint32_t slot = home_slot(points, position, id);
     for (; slots[slot]; slot = (slot + 1) & mask) {
         const octree_point *point = &points[slots[slot] - 1];
@@ -74,15 +74,15 @@ static uint32_t slot_of(const octree_point *points, const double position[3], ui
 uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t id)
 {
     const octree_point *points = leaf_points(leaf);
-    return slots_of(points)[slot_of(points, position, id)] - 1;
+    return hash_slots_of(points)[find_slot(points, position, id)] - 1;
 }
 
 /* Empty a slot and close the gap: later entries of the run move up, unless that would place them before their home
  * slot. */
 static void clear_slot(octree_point *points, uint32_t gap)
 {
-    uint32_t *slots = slots_of(points);
-    const uint32_t mask = header_of(points)->mask;
+    uint32_t *slots = hash_slots_of(points);
+    const uint32_t mask = hashed_header_of(points)->mask;
     for (uint32_t slot = (gap + 1) & mask; slots[slot]; slot = (slot + 1) & mask) {
         const octree_point *point = &points[slots[slot] - 1];
         const uint32_t home = home_slot(points, point->position, point->id);
@@ -94,21 +94,21 @@ static void clear_slot(octree_point *points, uint32_t gap)
     slots[gap] = 0;
 }
 
-static void hashed_remove(octree_point *points, uint32_t count, uint32_t index)
+static void remove_from_hashed(octree_point *points, uint32_t count, uint32_t index)
 {
-    clear_slot(points, slot_of(points, points[index].position, points[index].id));
+    clear_slot(points, find_slot(points, points[index].position, points[index].id));
     const uint32_t last = count - 1;
     if (index == last)
         return;
-    const uint32_t slot = slot_of(points, points[last].position, points[last].id);
+    const uint32_t slot = find_slot(points, points[last].position, points[last].id);
     points[index] = points[last];
-    slots_of(points)[slot] = index + 1;
+    hash_slots_of(points)[slot] = index + 1;
 }
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
 /* Block sizes grow by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
-unsigned leaf_room(uint32_t count)
+unsigned leaf_block_room(uint32_t count)
 {
     const unsigned step = count <= 4 ? 1 : count <= 8 ? 2 : count <= 32 ? 4 : 8;
     return (count + step - 1) / step * step;
@@ -125,10 +125,10 @@ bool leaf_create(store *s, node *leaf, uint32_t count)
     if (count == 0)
         return true;
     if (count > POOL_MAX_UNITS) {
-        leaf->below = hashed_create(&s->memory, count);
+        leaf->below = create_hashed_block(&s->memory, count);
         leaf->room = LEAF_HASHED;
     } else {
-        leaf->room = (uint8_t)leaf_room(count);
+        leaf->room = (uint8_t)leaf_block_room(count);
         leaf->below = pool_take(&s->points, leaf->room);
     }
     return leaf->below != NULL;
@@ -139,17 +139,17 @@ void leaf_release(store *s, const node *leaf)
     if (!leaf->below)
         return;
     if (is_hashed(leaf))
-        hashed_release(&s->memory, leaf->below);
+        release_hashed_block(&s->memory, leaf->below);
     else
         pool_give(&s->points, leaf->below, leaf->room);
 }
 
-static uint32_t room_of(const node *leaf)
+static uint32_t current_room(const node *leaf)
 {
-    return is_hashed(leaf) ? header_of(leaf->below)->room : leaf->room;
+    return is_hashed(leaf) ? hashed_header_of(leaf->below)->room : leaf->room;
 }
 
-static void gather_leaf(node *leaf, const node *from, const octree_point *except)
+static void append_leaf_points(node *leaf, const node *from, const octree_point *except)
 {
     if (!except && !is_hashed(leaf) && from->count > 0) {
         memcpy(leaf_points(leaf) + leaf->count, leaf_points(from), from->count * sizeof(octree_point));
@@ -158,23 +158,23 @@ static void gather_leaf(node *leaf, const node *from, const octree_point *except
     }
     for (uint32_t i = 0; i < from->count; i++)
         if (&leaf_points(from)[i] != except)
-            leaf_put(leaf, &leaf_points(from)[i]);
+            leaf_append_in_room(leaf, &leaf_points(from)[i]);
 }
 
-void leaf_put_hashed(node *leaf, const octree_point *point)
+void leaf_append_hashed(node *leaf, const octree_point *point)
 {
     octree_point *points = leaf_points(leaf);
     points[leaf->count] = *point;
-    slots_of(points)[slot_of(points, point->position, point->id)] = ++leaf->count;
+    hash_slots_of(points)[find_slot(points, point->position, point->id)] = ++leaf->count;
 }
 
 /* Move the points into a new block with room for `count`. False when there is no memory. */
-static bool change_room(store *s, node *leaf, uint32_t count)
+static bool change_leaf_room(store *s, node *leaf, uint32_t count)
 {
     node moved;
     if (!leaf_create(s, &moved, count))
         return false;
-    gather_leaf(&moved, leaf, NULL);
+    append_leaf_points(&moved, leaf, NULL);
     leaf_release(s, leaf);
     *leaf = moved;
     return true;
@@ -182,30 +182,30 @@ static bool change_room(store *s, node *leaf, uint32_t count)
 
 bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
-    if (leaf->count == room_of(leaf)) {
+    if (leaf->count == current_room(leaf)) {
         /* A hashed leaf doubles its room, so that all copying is linear in the number of insertions. */
         /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
         const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
-        if (!change_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
+        if (!change_leaf_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
             return false;
     }
-    leaf_put(leaf, point);
+    leaf_append_in_room(leaf, point);
     return true;
 }
 
 void leaf_remove(store *s, node *leaf, uint32_t index)
 {
     if (is_hashed(leaf)) {
-        hashed_remove(leaf->below, leaf->count, index);
+        remove_from_hashed(leaf->below, leaf->count, index);
         leaf->count--;
-        if (leaf->count < header_of(leaf->below)->room / 4)
-            change_room(s, leaf, leaf->count); /* without memory the leaf keeps its room */
+        if (leaf->count < hashed_header_of(leaf->below)->room / 4)
+            change_leaf_room(s, leaf, leaf->count); /* without memory the leaf keeps its room */
         return;
     }
     octree_point *points = leaf_points(leaf);
     leaf->count--;
     points[index] = points[leaf->count];
-    const unsigned room = leaf_room(leaf->count);
+    const unsigned room = leaf_block_room(leaf->count);
     pool_give(&s->points, points + room, leaf->room - room);
     leaf->room = (uint8_t)room;
     if (room == 0)
@@ -218,17 +218,17 @@ void leaf_replace(node *leaf, uint32_t index, const octree_point *point)
         leaf_points(leaf)[index] = *point;
         return;
     }
-    hashed_remove(leaf->below, leaf->count--, index);
-    leaf_put_hashed(leaf, point);
+    remove_from_hashed(leaf->below, leaf->count--, index);
+    leaf_append_hashed(leaf, point);
 }
 
-void node_gather(node *leaf, const node *from, const octree_point *except)
+void leaf_append_all(node *leaf, const node *from, const octree_point *except)
 {
     const unsigned children = bits_count8(from->octants);
     for (unsigned i = children; i-- > 0;)
-        node_gather(leaf, &children_of(from)[i], except);
+        leaf_append_all(leaf, &children_of(from)[i], except);
     if (children == 0)
-        gather_leaf(leaf, from, except);
+        append_leaf_points(leaf, from, except);
 }
 
 octree_point *node_copy_points(const node *n, octree_point *to)

@@ -100,7 +100,7 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
 }
 
 /* The room of the block that is allocated for `count` points, at most POOL_MAX_UNITS. */
-unsigned leaf_room(uint32_t count);
+unsigned leaf_block_room(uint32_t count);
 
 /* Make an empty leaf with room for `count` points. False when there is no memory. */
 bool leaf_create(store *s, node *leaf, uint32_t count);
@@ -110,11 +110,11 @@ void leaf_release(store *s, const node *leaf);
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
 /* The same for a leaf that has room. Cannot fail. */
-void leaf_put_hashed(node *leaf, const octree_point *point);
-static inline void leaf_put(node *leaf, const octree_point *point)
+void leaf_append_hashed(node *leaf, const octree_point *point);
+static inline void leaf_append_in_room(node *leaf, const octree_point *point)
 {
     if (leaf->room == LEAF_HASHED)
-        leaf_put_hashed(leaf, point);
+        leaf_append_hashed(leaf, point);
     else
         leaf_points(leaf)[leaf->count++] = *point;
 }
@@ -126,7 +126,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index);
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
 /* Append all points in and below a node, except one (may be null), to a leaf that has room for them. */
-void node_gather(node *leaf, const node *from, const octree_point *except);
+void leaf_append_all(node *leaf, const node *from, const octree_point *except);
 
 /* Copy the points in and below a node, in the order of their leaves. Returns the end of the copies. */
 octree_point *node_copy_points(const node *n, octree_point *to);

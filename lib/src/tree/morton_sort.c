@@ -49,7 +49,7 @@ static bool contains_code(const morton_item *items, size_t count, uint64_t code)
 
 /* Whether two of up to MORTON_UNSORTED items have equal codes. Items are compared only if 12 bits of a multiplicative
  * hash (Knuth) collide in the filter, which is rare. */
-static bool has_repetition(const morton_item *items, size_t count)
+static bool has_equal_codes(const morton_item *items, size_t count)
 {
     uint64_t filter[(1u << 12) / 64] = {0};
     for (size_t i = 0; i < count; i++) {
@@ -63,9 +63,9 @@ static bool has_repetition(const morton_item *items, size_t count)
 }
 
 /* End the recursion at a cell with `left` levels below it: sort its few items, or leave them unsorted. */
-static void finish_cell(sorter *s, morton_item *items, size_t count, unsigned left)
+static void sort_small_cell(sorter *s, morton_item *items, size_t count, unsigned left)
 {
-    if (left > 0 && count <= s->unsorted && (s->differ || !has_repetition(items, count)))
+    if (left > 0 && count <= s->unsorted && (s->differ || !has_equal_codes(items, count)))
         return;
     s->repeated = true;
     if (left > 0)
@@ -73,7 +73,7 @@ static void finish_cell(sorter *s, morton_item *items, size_t count, unsigned le
 }
 
 /* The number of levels that leave few items in each cell. */
-static unsigned levels_for(const sorter *s, size_t count, unsigned left)
+static unsigned choose_levels(const sorter *s, size_t count, unsigned left)
 {
     const size_t wanted = s->unsorted > 4 ? s->unsorted : 4;
     unsigned levels = 1;
@@ -84,8 +84,8 @@ static unsigned levels_for(const sorter *s, size_t count, unsigned left)
 
 /* Distribute the items by digit. On entry ends[d] is the count of items with digit d; on return it is the end of their
  * range in `to`. */
-static void scatter(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
-                    uint32_t ends[])
+static void scatter_by_digit(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
+                             uint32_t ends[])
 {
     uint32_t next = 0;
     for (unsigned digit = 0; digit < digits; digit++) {
@@ -98,39 +98,40 @@ static void scatter(const morton_item *from, morton_item *to, size_t count, unsi
 }
 
 /* Sort the items of a cell with `left` levels below it. The result is in `items` if in_place, else in `other`. */
-static void sort(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
-                 uint32_t ends[])
+static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
+                      uint32_t ends[])
 {
     if (left == 0 || count <= FEW || count <= s->unsorted) {
-        finish_cell(s, items, count, left);
+        sort_small_cell(s, items, count, left);
         if (!in_place)
             memcpy(other, items, count * sizeof *items);
         return;
     }
-    const unsigned levels = levels_for(s, count, left), digits = 1u << 3 * levels, shift = 3 * (left - levels);
+    const unsigned levels = choose_levels(s, count, left), digits = 1u << 3 * levels, shift = 3 * (left - levels);
     memset(ends, 0, digits * sizeof *ends);
     for (size_t i = 0; i < count; i++)
         ends[items[i].code >> shift & (digits - 1)]++;
     if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all in one cell */
-        sort(s, items, other, count, left - levels, in_place, ends);
+        sort_cell(s, items, other, count, left - levels, in_place, ends);
         return;
     }
-    scatter(items, other, count, shift, digits, ends);
+    scatter_by_digit(items, other, count, shift, digits, ends);
     for (uint32_t digit = 0, start = 0; digit < digits; start = ends[digit++])
         if (ends[digit] > start)
-            sort(s, other + start, items + start, ends[digit] - start, left - levels, !in_place, ends + digits);
+            sort_cell(s, other + start, items + start, ends[digit] - start, left - levels, !in_place, ends + digits);
 }
 
-static void sort_alone(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place)
+static void sort_on_this_thread(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left,
+                                bool in_place)
 {
     uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* one section for each level of the recursion */
-    sort(s, items, other, count, left, in_place, ends);
+    sort_cell(s, items, other, count, left, in_place, ends);
 }
 
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted)
 {
     sorter s = {.unsorted = unsorted};
-    sort_alone(&s, items, spare, count, OCTREE_MAX_DEPTH - depth, true);
+    sort_on_this_thread(&s, items, spare, count, OCTREE_MAX_DEPTH - depth, true);
     return s.repeated;
 }
 
@@ -163,19 +164,19 @@ static void count_digits(size_t number, void *context)
     const pass *p = context;
     uint32_t *counts = p->counts[number];
     memset(counts, 0, sizeof p->counts[number]);
-    for (size_t i = tasks_share(p->count, p->tasks, number); i < tasks_share(p->count, p->tasks, number + 1); i++)
+    for (size_t i = share_start(p->count, p->tasks, number); i < share_start(p->count, p->tasks, number + 1); i++)
         counts[digit_of(p, &p->from[i])]++;
 }
 
-static void scatter_share(size_t number, void *context)
+static void scatter_items_of_share(size_t number, void *context)
 {
     const pass *p = context;
     uint32_t *next = p->counts[number];
-    for (size_t i = tasks_share(p->count, p->tasks, number); i < tasks_share(p->count, p->tasks, number + 1); i++)
+    for (size_t i = share_start(p->count, p->tasks, number); i < share_start(p->count, p->tasks, number + 1); i++)
         p->to[next[digit_of(p, &p->from[i])]++] = p->from[i];
 }
 
-static void sum_digits(pass *p)
+static void sum_digit_counts(pass *p)
 {
     uint32_t next = 0;
     p->ends[0] = 0;
@@ -190,10 +191,10 @@ static void sum_digits(pass *p)
 }
 
 /* Whether a cell is so large that it is sorted by a parallel pass of its own. */
-static bool is_large(const pass *p, unsigned digit)
+static bool is_large_cell(const pass *p, unsigned digit)
 {
     const size_t large = p->count / 8;
-    return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > large && tasks_for(p->sorter.tree, large) > 1;
+    return p->left > 0 && p->ends[digit + 1] - p->ends[digit] > large && count_tasks(p->sorter.tree, large) > 1;
 }
 
 static void sort_cells(size_t number, void *context)
@@ -203,44 +204,44 @@ static void sort_cells(size_t number, void *context)
     sorter s = p->sorter;
     for (unsigned digit = p->cells[number]; digit < p->cells[number + 1]; digit++) {
         const size_t start = p->ends[digit], count = p->ends[digit + 1] - start;
-        if (count > 0 && !is_large(p, digit))
-            sort(&s, p->to + start, p->from + start, count, p->left, p->in_place, ends);
+        if (count > 0 && !is_large_cell(p, digit))
+            sort_cell(&s, p->to + start, p->from + start, count, p->left, p->in_place, ends);
     }
     p->repeated[number] = s.repeated;
 }
 
-static void assign_cells(pass *p)
+static void assign_cells_to_tasks(pass *p)
 {
     unsigned digit = 0;
     for (unsigned task = 0; task < p->tasks; task++) {
         p->cells[task] = digit;
-        while (digit < DIGITS && p->ends[digit + 1] <= tasks_share(p->count, p->tasks, task + 1))
+        while (digit < DIGITS && p->ends[digit + 1] <= share_start(p->count, p->tasks, task + 1))
             digit++;
     }
     p->cells[p->tasks] = DIGITS;
 }
 
-/* sort() by tasks; on the calling thread if there is no memory for the counts. */
+/* sort_cell() by tasks; on the calling thread if there is no memory for the counts. */
 static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place)
 {
     pass p = {.sorter = *s, .from = items, .to = other, .count = count, .left = left - LEVELS, .in_place = !in_place};
-    p.tasks = tasks_for(s->tree, count);
+    p.tasks = count_tasks(s->tree, count);
     p.shift = 3 * p.left;
     p.counts = arena_take(s->memory, p.tasks * sizeof *p.counts);
     if (!p.counts) {
-        sort_alone(s, items, other, count, left, in_place);
+        sort_on_this_thread(s, items, other, count, left, in_place);
         return;
     }
-    tasks_run(s->tree, count_digits, p.tasks, &p);
-    sum_digits(&p);
-    tasks_run(s->tree, scatter_share, p.tasks, &p);
+    run_tasks(s->tree, count_digits, p.tasks, &p);
+    sum_digit_counts(&p);
+    run_tasks(s->tree, scatter_items_of_share, p.tasks, &p);
     arena_give(s->memory, p.counts, p.tasks * sizeof *p.counts);
-    assign_cells(&p);
-    tasks_run(s->tree, sort_cells, p.tasks, &p);
+    assign_cells_to_tasks(&p);
+    run_tasks(s->tree, sort_cells, p.tasks, &p);
     for (unsigned task = 0; task < p.tasks; task++)
         s->repeated |= p.repeated[task];
     for (unsigned digit = 0; digit < DIGITS; digit++)
-        if (is_large(&p, digit))
+        if (is_large_cell(&p, digit))
             sort_by_tasks(s, other + p.ends[digit], items + p.ends[digit], p.ends[digit + 1] - p.ends[digit], p.left,
                           p.in_place);
 }
@@ -249,6 +250,7 @@ bool morton_sort_tasks(const octree *tree, arena *memory, morton_item *items, mo
                        size_t unsorted, bool differ)
 {
     sorter s = {.tree = tree, .memory = memory, .unsorted = unsorted, .differ = differ};
-    (tasks_for(tree, count) == 1 ? sort_alone : sort_by_tasks)(&s, items, spare, count, OCTREE_MAX_DEPTH, true);
+    (count_tasks(tree, count) == 1 ? sort_on_this_thread : sort_by_tasks)(&s, items, spare, count, OCTREE_MAX_DEPTH,
+                                                                          true);
     return s.repeated;
 }

@@ -11,7 +11,8 @@
  * the hash tables: leaf_find() gives the index of a pair or cell. Each move is then O(1). At the end
  * the table shows which stored points leave and which points arrive, and restructure.c makes the change.
  *
- * Cost: about 250 bytes a move, so may_overflow() and may_overflow_anew() first rule out full leaves where they can.
+ * Cost: about 250 bytes a move, so can_overflow() and can_overflow_when_rebuilt() first rule out full leaves where they
+ * can.
  */
 #include "batch.h"
 
@@ -37,7 +38,7 @@ typedef struct simulation {
     uint32_t *counts; /* the current number of points in each of these cells; null if no leaf refuses a point */
 } simulation;
 
-static uint32_t stored_index(const octree *tree, const octree_point *point)
+static uint32_t find_stored_index(const octree *tree, const octree_point *point)
 {
     found_point found;
     return find_point(tree, point->position, point->id, &found) ? found.index : MORTON_NEW;
@@ -49,16 +50,16 @@ static uint32_t find_or_add(node *table, const octree_point *point)
     const uint32_t index = leaf_find(table, point->position, point->id);
     if (index != LEAF_NONE)
         return index;
-    leaf_put(table, point);
+    leaf_append_in_room(table, point);
     return table->count - 1;
 }
 
-static pair *find_pair(simulation *r, const octree_point *point)
+static pair *find_or_add_pair(simulation *r, const octree_point *point)
 {
     const octree *tree = r->batch->tree;
     const uint32_t known = r->points.count, at = find_or_add(&r->points, point);
     if (at == known) {
-        const uint32_t index = stored_index(tree, point);
+        const uint32_t index = find_stored_index(tree, point);
         r->pairs[at] =
             (pair){morton_code(tree->axes, point->position), index == MORTON_NEW ? NO_OWNER : FIRST_OWNER, index};
     }
@@ -66,18 +67,18 @@ static pair *find_pair(simulation *r, const octree_point *point)
 }
 
 /* The indivisible cell that contains a code. */
-static octree_address smallest_cell(const octree *tree, uint64_t code)
+static octree_address find_indivisible_cell(const octree *tree, uint64_t code)
 {
     cell c = root_cell();
-    while (may_split(tree, c))
+    while (can_split(tree, c))
         c = cell_child(c, morton_octant(code, c.depth));
     return morton_address(code, c.depth);
 }
 
-static uint32_t stored_count(const octree *tree, uint64_t code, octree_address cell)
+static uint32_t count_stored_in_cell(const octree *tree, uint64_t code, octree_address cell)
 {
     const unsigned shift = 3 * (OCTREE_MAX_DEPTH - octree_address_depth(cell));
-    const path p = path_to(tree, code);
+    const path p = find_path(tree, code);
     const node *leaf = path_end(&p);
     uint32_t count = 0;
     for (uint32_t i = 0; leaf->octants == 0 && i < leaf->count; i++)
@@ -85,22 +86,22 @@ static uint32_t stored_count(const octree *tree, uint64_t code, octree_address c
     return count;
 }
 
-static uint32_t *count_of_cell(simulation *r, uint64_t code)
+static uint32_t *find_or_add_cell_count(simulation *r, uint64_t code)
 {
-    const octree_address cell = smallest_cell(r->batch->tree, code);
+    const octree_address cell = find_indivisible_cell(r->batch->tree, code);
     const uint32_t known = r->cells.count, at = find_or_add(&r->cells, &(octree_point){.id = cell});
     if (at == known)
-        r->counts[at] = stored_count(r->batch->tree, code, cell);
+        r->counts[at] = count_stored_in_cell(r->batch->tree, code, cell);
     return &r->counts[at];
 }
 
 /* Move the count of a point from one indivisible cell to another. False if the destination is full: a full leaf that
  * cannot split holds the points of one indivisible cell only. */
-static bool enter_cell(simulation *r, uint64_t from, uint64_t to)
+static bool move_between_cells(simulation *r, uint64_t from, uint64_t to)
 {
     if (!r->counts)
         return true;
-    uint32_t *left = count_of_cell(r, from), *entered = count_of_cell(r, to);
+    uint32_t *left = find_or_add_cell_count(r, from), *entered = find_or_add_cell_count(r, to);
     if (entered != left && *entered >= r->batch->tree->def.leaf_capacity)
         return false;
     --*left;
@@ -108,16 +109,16 @@ static bool enter_cell(simulation *r, uint64_t from, uint64_t to)
     return true;
 }
 
-static octree_status move_one(simulation *r, uint32_t place)
+static octree_status simulate_move(simulation *r, uint32_t place)
 {
     const octree_point *from = &r->batch->points[place];
     const octree_point moved = arriving_point(r->batch, &(morton_item){.place = place});
-    pair *left = find_pair(r, from), *entered = find_pair(r, &moved);
+    pair *left = find_or_add_pair(r, from), *entered = find_or_add_pair(r, &moved);
     if (left->owner == NO_OWNER)
         return OCTREE_NOT_FOUND;
     if (entered != left && entered->owner != NO_OWNER)
         return OCTREE_DUPLICATE;
-    if (!enter_cell(r, left->code, entered->code))
+    if (!move_between_cells(r, left->code, entered->code))
         return OCTREE_FULL;
     left->owner = NO_OWNER;
     entered->owner = place;
@@ -131,7 +132,7 @@ static int compare_places(const void *a, const void *b)
 }
 
 /* List the stored points that leave and the points that arrive, from the final owners of the pairs. */
-static void list_changes(const simulation *r)
+static void list_leaving_and_arriving(const simulation *r)
 {
     batch *b = r->batch;
     for (size_t i = 0; i < r->points.count; i++) {
@@ -145,20 +146,20 @@ static void list_changes(const simulation *r)
     morton_sort(b->arriving.items, b->spare, b->arriving.count, 0, 0);
 }
 
-static void simulate(simulation *r)
+static void simulate_all_moves(simulation *r)
 {
     batch *b = r->batch;
     morton_item *items = b->valid.items;
     qsort(items, b->valid.count, sizeof *items, compare_places);
     for (size_t i = 0; i < b->valid.count; i++) {
-        const octree_status status = move_one(r, items[i].place);
-        set_status(b, &items[i], status);
+        const octree_status status = simulate_move(r, items[i].place);
+        set_item_status(b, &items[i], status);
         b->done += status == OCTREE_OK;
     }
-    list_changes(r);
+    list_leaving_and_arriving(r);
 }
 
-bool resolve_moves_in_order(batch *b)
+bool simulate_moves_in_order(batch *b)
 {
     store *s = &b->tree->store;
     const size_t count = 2 * b->valid.count + 1;
@@ -169,7 +170,7 @@ bool resolve_moves_in_order(batch *b)
                     leaf_create(s, &r.points, (uint32_t)count) &&
                     (!refuses || leaf_create(s, &r.cells, (uint32_t)count));
     if (ok)
-        simulate(&r);
+        simulate_all_moves(&r);
     leaf_release(s, &r.points);
     leaf_release(s, &r.cells);
     arena_give(&s->memory, r.pairs, count * sizeof *r.pairs);
@@ -181,7 +182,7 @@ bool resolve_moves_in_order(batch *b)
 
 /* Whether one indivisible cell of a leaf has more than the capacity of codes among its points, the origins of moves and
  * the destinations of moves. */
-static bool may_overfill(const batch *b, const node *leaf, cell c, span arriving)
+static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arriving)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
     const uint64_t first = morton_interleave(c.low);
@@ -202,23 +203,23 @@ static bool may_overfill(const batch *b, const node *leaf, cell c, span arriving
     morton_sort(all, all + sum, sum, c.depth, 0);
     bool crowded = false;
     for (size_t i = 0; !crowded && i + capacity < sum; i++)
-        crowded = inseparable(b->tree, c, all + i, capacity + 1);
+        crowded = is_inseparable(b->tree, c, all + i, capacity + 1);
     arena_give(memory, all, room);
     return crowded;
 }
 
-bool may_overflow(const batch *b, const node *old, cell c, span arriving)
+bool can_overflow(const batch *b, const node *old, cell c, span arriving)
 {
     static const node empty = {0};
     if (b->tree->def.full_leaf != OCTREE_REFUSE || arriving.count == 0 || b->settled)
         return false;
     if (!old->octants)
-        return !fits_leaf(b->tree, old->count + arriving.count) && may_overfill(b, old, c, arriving);
+        return !fits_leaf(b->tree, old->count + arriving.count) && can_overfill_leaf(b, old, c, arriving);
     span shares[8];
-    divide_items(arriving, c.depth, shares);
+    divide_items_by_octant(arriving, c.depth, shares);
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *child = child_at(old, octant);
-        if (may_overflow(b, child ? child : &empty, cell_child(c, octant), shares[octant]))
+        if (can_overflow(b, child ? child : &empty, cell_child(c, octant), shares[octant]))
             return true;
     }
     return false;
@@ -246,7 +247,7 @@ static bool are_close(const octree_point *a, const octree_point *b, const double
 
 /* An upper bound of the number of points in one indivisible cell, among 2 * half points: of two points that are not
  * close at most one counts. */
-static size_t pairs_bound(const octree_point *points, uint32_t half, const double distance[3])
+static size_t bound_of_pairs(const octree_point *points, uint32_t half, const double distance[3])
 {
     size_t most = half;
     for (uint32_t i = 0; i < half; i++)
@@ -255,37 +256,37 @@ static size_t pairs_bound(const octree_point *points, uint32_t half, const doubl
 }
 
 /* The same bound for the points of two leaves together. */
-static size_t cell_bound(const node *old, const node *made, const double distance[3])
+static size_t bound_of_leaves(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);
     const uint32_t odd = old->count % 2, made_odd = made->count % 2;
-    size_t most = pairs_bound(before + odd, old->count / 2, distance) + pairs_bound(after, made->count / 2, distance) +
-                  (odd | made_odd);
+    size_t most = bound_of_pairs(before + odd, old->count / 2, distance) +
+                  bound_of_pairs(after, made->count / 2, distance) + (odd | made_odd);
     if (odd && made_odd)
         most += are_close(&before[0], &after[made->count - 1], distance);
     return most;
 }
 
-static bool may_overflow_pair(const octree *tree, const node *old, const node *made, const double distance[3])
+static bool can_overflow_in_nodes(const octree *tree, const node *old, const node *made, const double distance[3])
 {
     if (fits_leaf(tree, (size_t)old->count + made->count))
         return false;
     if (old->octants == 0 && made->octants == 0)
-        return !fits_leaf(tree, cell_bound(old, made, distance));
+        return !fits_leaf(tree, bound_of_leaves(old, made, distance));
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *before = old->octants ? child_at(old, octant) : old;
         const node *after = made->octants ? child_at(made, octant) : made;
-        if (before && after && may_overflow_pair(tree, before, after, distance))
+        if (before && after && can_overflow_in_nodes(tree, before, after, distance))
             return true;
     }
     return false;
 }
 
-bool may_overflow_anew(const octree *tree, const node *made)
+bool can_overflow_when_rebuilt(const octree *tree, const node *made)
 {
     double distance[3];
     if (tree->def.full_leaf != OCTREE_REFUSE)
         return false;
     separating_distance(tree, distance);
-    return may_overflow_pair(tree, &tree->root, made, distance);
+    return can_overflow_in_nodes(tree, &tree->root, made, distance);
 }

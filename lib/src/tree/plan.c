@@ -21,46 +21,46 @@
 /* ---- Jobs: the nodes that tasks plan ------------------------------------------------------------------------ */
 
 /* List the jobs of build_node() in its order. False when there is no memory. */
-static bool gather_builds(batch *b, cell c, span items)
+static bool add_build_jobs(batch *b, cell c, span items)
 {
     if (items.count <= b->division->grain)
-        return division_add_job(b, NULL, c, (span){NULL, 0}, items);
-    if (becomes_leaf(b, c, items))
+        return add_job(b, NULL, c, (span){NULL, 0}, items);
+    if (must_be_leaf(b, c, items))
         return true;
     span shares[8];
-    divide_items(items, c.depth, shares);
+    divide_items_by_octant(items, c.depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
-        if (shares[octant].count > 0 && !gather_builds(b, cell_child(c, octant), shares[octant]))
+        if (shares[octant].count > 0 && !add_build_jobs(b, cell_child(c, octant), shares[octant]))
             return false;
     return true;
 }
 
 /* List the jobs of change_node() in its order. A leaf with very many arriving items is divided later, by
- * build_divided(). False when there is no memory. */
-static bool gather_changes(batch *b, const node *old, cell c, span leaving, span arriving)
+ * build_node_by_tasks(). False when there is no memory. */
+static bool add_change_jobs(batch *b, const node *old, cell c, span leaving, span arriving)
 {
     static const node empty = {0};
     const size_t count = leaving.count + arriving.count;
     if (count == 0 || (arriving.count == 0 && leaving.count == old->count))
         return true;
     if (count <= b->division->grain)
-        return division_add_job(b, old, c, leaving, arriving);
+        return add_job(b, old, c, leaving, arriving);
     if (leaving.count == old->count)
-        return gather_builds(b, c, arriving);
+        return add_build_jobs(b, c, arriving);
     if (!old->octants || fits_leaf(b->tree, old->count - leaving.count + arriving.count))
         return true;
     span out[8], in[8];
-    divide_items(leaving, c.depth, out);
-    divide_items(arriving, c.depth, in);
+    divide_items_by_octant(leaving, c.depth, out);
+    divide_items_by_octant(arriving, c.depth, in);
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *child = child_at(old, octant);
-        if (!gather_changes(b, child ? child : &empty, cell_child(c, octant), out[octant], in[octant]))
+        if (!add_change_jobs(b, child ? child : &empty, cell_child(c, octant), out[octant], in[octant]))
             return false;
     }
     return true;
 }
 
-static void plan_jobs(size_t number, void *context)
+static void plan_jobs_of_part(size_t number, void *context)
 {
     division *d = context;
     batch *b = &d->parts[number].batch;
@@ -75,7 +75,7 @@ static void plan_jobs(size_t number, void *context)
 }
 
 /* Release the results of the jobs that were not used, and the list. */
-static void drop_jobs(batch *b)
+static void release_jobs(batch *b)
 {
     static const node none = {0};
     job_list *work = &b->division->work;
@@ -91,23 +91,23 @@ static bool run_jobs(batch *b)
 {
     job_list *work = &b->division->work;
     const job *jobs = work->jobs.items;
-    division_share_jobs(b->division);
-    division_run(b, plan_jobs, b->division);
+    share_jobs(b->division);
+    run_parts(b, plan_jobs_of_part, b->division);
     work->ready = true;
     for (size_t i = 0; i < work->jobs.count; i++)
         work->ready = work->ready && jobs[i].ok;
     if (work->ready)
         return true;
-    drop_jobs(b);
+    release_jobs(b);
     return false;
 }
 
-bool is_job(const batch *b, size_t count)
+bool is_planned_by_job(const batch *b, size_t count)
 {
     return b->division && b->division->work.ready && count <= b->division->grain;
 }
 
-bool use_job(batch *b, node *made)
+bool take_job_result(batch *b, node *made)
 {
     job_list *work = &b->division->work;
     *made = ((const job *)work->jobs.items)[work->next++].made;
@@ -115,14 +115,14 @@ bool use_job(batch *b, node *made)
 }
 
 /* The jobs of one large leaf run while the list of the whole tree is set aside. */
-bool build_divided(batch *b, cell c, span items, node *made)
+bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 {
     if (!b->division)
         return build_node(b, c, items, made);
     const job_list outer = b->division->work;
     b->division->work = (job_list){.ready = false};
-    const bool ok = gather_builds(b, c, items) && run_jobs(b) && build_node(b, c, items, made);
-    drop_jobs(b);
+    const bool ok = add_build_jobs(b, c, items) && run_jobs(b) && build_node(b, c, items, made);
+    release_jobs(b);
     b->division->work = outer;
     return ok;
 }
@@ -131,7 +131,7 @@ bool build_divided(batch *b, cell c, span items, node *made)
 
 /* Edit a leaf in place. Arriving points first overwrite leaving ones, then are appended. If more leave than arrive, the
  * last points fill the gaps. */
-static void apply_edit(batch *b, const edit *e)
+static void apply_leaf_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;
     size_t taken = 0;
@@ -149,7 +149,7 @@ static void apply_plan(batch *b)
 {
     const edit *edits = b->edits.items;
     for (size_t i = 0; i < b->edits.count; i++)
-        apply_edit(b, &edits[i]);
+        apply_leaf_edit(b, &edits[i]);
     const patch *patches = b->patches.items;
     for (size_t i = 0; i < b->patches.count; i++) {
         const node old = *patches[i].at;
@@ -158,43 +158,43 @@ static void apply_plan(batch *b)
     }
 }
 
-static void apply_part(size_t number, void *context)
+static void apply_plan_of_part(size_t number, void *context)
 {
     apply_plan(&((division *)context)->parts[number].batch);
 }
 
-static void drop_plan(batch *b)
+static void release_planned_nodes(batch *b)
 {
     const patch *patches = b->patches.items;
     for (size_t i = 0; i < b->patches.count; i++)
         node_release_unshared(b->store, &patches[i].made, patches[i].at);
 }
 
-static void release_plan(batch *b)
+static void release_plan_lists(batch *b)
 {
     list_release(&b->store->memory, &b->patches, sizeof(patch));
     list_release(&b->store->memory, &b->edits, sizeof(edit));
 }
 
 /* Apply or drop the plans. Those of the parts come first: their nodes lie below those of the batch's own plan. */
-static void finish_plan(batch *b, bool succeeds)
+static void apply_or_drop_plan(batch *b, bool succeeds)
 {
     division *d = b->division;
     if (d && succeeds)
-        tasks_run(b->tree, apply_part, d->tasks, d);
+        run_tasks(b->tree, apply_plan_of_part, d->tasks, d);
     for (unsigned i = 0; d && i < d->tasks; i++) {
         if (!succeeds)
-            drop_plan(&d->parts[i].batch);
-        release_plan(&d->parts[i].batch);
+            release_planned_nodes(&d->parts[i].batch);
+        release_plan_lists(&d->parts[i].batch);
     }
     if (succeeds)
         apply_plan(b);
     else
-        drop_plan(b);
-    release_plan(b);
+        release_planned_nodes(b);
+    release_plan_lists(b);
 }
 
-static void gather_flags(batch *b)
+static void combine_part_flags(batch *b)
 {
     for (unsigned i = 0; b->division && i < b->division->tasks; i++) {
         b->duplicate |= b->division->parts[i].batch.duplicate;
@@ -205,19 +205,19 @@ static void gather_flags(batch *b)
 /* ---- Building anew -------------------------------------------------------------------------------------- */
 
 /* Build a tree in new pools, densely packed, and replace the old one if it succeeds. */
-octree_status build_anew(batch *b)
+octree_status rebuild_from_batch(batch *b)
 {
     octree *tree = b->tree;
     const pool old_nodes = tree->store.nodes, old_points = tree->store.points;
     node made = {0};
-    b->overflow = b->to && !b->grid && may_overflow(b, &tree->root, root_cell(), b->arriving);
+    b->overflow = b->to && !b->grid && can_overflow(b, &tree->root, root_cell(), b->arriving);
     if (b->overflow)
         return OCTREE_OK;
     store_init(&tree->store);
-    division_open(b, b->arriving.count);
-    const bool ok = b->grid ? grid_fill(b, &made) : build_divided(b, root_cell(), b->arriving, &made);
-    division_close(b);
-    b->overflow = b->overflow || (ok && b->to && b->grid && may_overflow_anew(tree, &made));
+    create_part_pools(b, b->arriving.count);
+    const bool ok = b->grid ? build_from_grid(b, &made) : build_node_by_tasks(b, root_cell(), b->arriving, &made);
+    join_part_pools(b);
+    b->overflow = b->overflow || (ok && b->to && b->grid && can_overflow_when_rebuilt(tree, &made));
     const bool succeeds = ok && !b->overflow;
     const pool nodes = tree->store.nodes, points = tree->store.points;
     if (succeeds) {
@@ -238,28 +238,28 @@ static bool make_plan(batch *b)
 {
     octree *tree = b->tree;
     node made = {0};
-    if (b->division && !(gather_changes(b, &tree->root, root_cell(), b->leaving, b->arriving) && run_jobs(b))) {
-        drop_jobs(b);
+    if (b->division && !(add_change_jobs(b, &tree->root, root_cell(), b->leaving, b->arriving) && run_jobs(b))) {
+        release_jobs(b);
         return false;
     }
     bool ok = change_node(b, &tree->root, root_cell(), b->leaving, b->arriving, &made);
     if (b->division)
-        drop_jobs(b);
+        release_jobs(b);
     if (!ok)
         node_release_unshared(&tree->store, &made, &tree->root);
-    gather_flags(b);
+    combine_part_flags(b);
     return ok && plan_patch(b, &tree->root, &made);
 }
 
-octree_status restructure(batch *b)
+octree_status restructure_tree(batch *b)
 {
     b->duplicate = b->overflow = false;
     const size_t stored = b->tree->root.count;
     if (b->grid || (stored > 0 && b->leaving.count == stored && b->arriving.count == stored))
-        return build_anew(b);
-    division_open(b, b->arriving.count > b->leaving.count ? b->arriving.count - b->leaving.count : 0);
+        return rebuild_from_batch(b);
+    create_part_pools(b, b->arriving.count > b->leaving.count ? b->arriving.count - b->leaving.count : 0);
     const bool ok = make_plan(b);
-    finish_plan(b, ok && !(b->to && (b->duplicate || b->overflow)));
-    division_close(b);
+    apply_or_drop_plan(b, ok && !(b->to && (b->duplicate || b->overflow)));
+    join_part_pools(b);
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }

@@ -71,7 +71,7 @@ axis axis_make(double min, double max)
     return a;
 }
 
-double plane_precise(const axis *a, double t)
+double plane_at_precisely(const axis *a, double t)
 {
     double sum[2];
     add_exactly(a->center[0], a->half[0] * t, sum);
@@ -80,7 +80,7 @@ double plane_precise(const axis *a, double t)
 }
 
 /* Binary search for the largest key whose plane is at most x. */
-static uint32_t key_search(const axis *a, double x)
+static uint32_t search_key(const axis *a, double x)
 {
     uint32_t key = 0;
     for (uint32_t half = PLANE_GRID / 2; half > 0; half /= 2)
@@ -93,9 +93,9 @@ static uint32_t key_search(const axis *a, double x)
  * wide or with an overflowing extent the guess is useless, and a binary search finds the key. */
 uint32_t plane_key_near(const axis *a, double x)
 {
-    const double guess = plane_guess(a, x);
+    const double guess = plane_guess_key(a, x);
     if (!(a->keys_per_unit > 0 && a->guess_error < 1 && guess < (double)PLANE_GRID)) /* the guess is never negative */
-        return key_search(a, x);
+        return search_key(a, x);
     uint32_t key = (uint32_t)guess;
     const double fraction = guess - (double)key;
     if (fraction > a->guess_error && fraction < 1 - a->guess_error)
@@ -115,7 +115,7 @@ static inline __m128i spread_step(__m128i x, int shift, uint64_t mask)
     return _mm_and_si128(_mm_or_si128(x, _mm_slli_epi64(x, shift)), _mm_set1_epi64x((long long)mask));
 }
 
-static inline __m128i spread_both(__m128i x)
+static inline __m128i spread_two(__m128i x)
 {
     x = spread_step(x, 32, UINT64_C(0x001f00000000ffff));
     x = spread_step(x, 16, UINT64_C(0x001f0000ff0000ff));
@@ -125,7 +125,7 @@ static inline __m128i spread_both(__m128i x)
 }
 
 /* The same for numbers of at most 8 bits. */
-static inline __m128i spread_short(__m128i x)
+static inline __m128i spread_two_bytes(__m128i x)
 {
     x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
     x = spread_step(x, 4, UINT64_C(0x10c30c30c30c30c3));
@@ -138,7 +138,7 @@ typedef struct axis_pair {
     __m128i sure_from, sure_last;
 } axis_pair;
 
-static inline void pair_axes(const axis axes[3], axis_pair pairs[3])
+static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
 {
     for (int i = 0; i < 3; i++)
         pairs[i] = (axis_pair){_mm_set1_pd(axes[i].min), _mm_set1_pd(axes[i].keys_per_unit),
@@ -160,7 +160,7 @@ static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m12
 }
 
 /* All ones where the highest bit is set. */
-static inline __m128i all_if_unsure(__m128i unsure)
+static inline __m128i all_ones_if_unsure(__m128i unsure)
 {
     return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
 }
@@ -171,9 +171,9 @@ static inline void codes_of_two(const axis_pair axes[3], const double *p, const 
     __m128i sums = _mm_setzero_si128(), unsure = sums;
     for (int i = 0; i < 3; i++) {
         const __m128i fixed = fixed_of_two(&axes[i], p[i], q[i], &unsure);
-        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_both(_mm_srli_epi64(fixed, PLANE_FRACTION)));
+        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_two(_mm_srli_epi64(fixed, PLANE_FRACTION)));
     }
-    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_if_unsure(unsure)));
+    _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_ones_if_unsure(unsure)));
 }
 
 /* The same for grid cells, from the most significant bits of each key. */
@@ -184,9 +184,9 @@ static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const d
     __m128i sums = _mm_setzero_si128(), unsure = sums;
     for (int i = 0; i < 3; i++) {
         const __m128i fixed = fixed_of_two(&axes[i], p[i], q[i], &unsure);
-        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_short(_mm_srl_epi64(fixed, shift)));
+        sums = _mm_or_si128(_mm_slli_epi64(sums, 1), spread_two_bytes(_mm_srl_epi64(fixed, shift)));
     }
-    const __m128i both = _mm_or_si128(sums, all_if_unsure(unsure));
+    const __m128i both = _mm_or_si128(sums, all_ones_if_unsure(unsure));
     _mm_storel_epi64((__m128i *)cells, _mm_shuffle_epi32(both, _MM_SHUFFLE(3, 3, 2, 0)));
 }
 
@@ -205,7 +205,7 @@ static inline uint64_t code_if_sure(const axis axes[3], const double p[3])
 
 typedef axis axis_pair;
 
-static inline void pair_axes(const axis axes[3], axis_pair pairs[3])
+static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
 {
     memcpy(pairs, axes, 3 * sizeof *pairs);
 }
@@ -230,7 +230,7 @@ void morton_codes(const axis axes[3], const double *positions, size_t stride, si
 {
     axis_pair pairs[3];
     uint64_t last[2];
-    pair_axes(axes, pairs);
+    duplicate_axes(axes, pairs);
     for (; count >= 2; count -= 2, codes += 2, positions += 2 * stride)
         codes_of_two(pairs, positions, positions + stride, codes);
     if (count > 0) {
@@ -244,7 +244,7 @@ void grid_cells(const axis axes[3], unsigned depth, const double *positions, siz
 {
     axis_pair pairs[3];
     uint32_t last[2];
-    pair_axes(axes, pairs);
+    duplicate_axes(axes, pairs);
     for (; count >= 2; count -= 2, cells += 2, positions += 2 * stride)
         cells_of_two(pairs, depth, positions, positions + stride, cells);
     if (count > 0) {
@@ -284,7 +284,7 @@ bool cell_divisible(const axis axes[3], cell c)
 
 /* ---- Addresses ---------------------------------------------------------------------------------------------- */
 
-int address_compare(const void *a, const void *b)
+int compare_addresses(const void *a, const void *b)
 {
     const octree_address p = *(const octree_address *)a, q = *(const octree_address *)b;
     const uint64_t p_corner = p << (63 - bits_highest(p)), q_corner = q << (63 - bits_highest(q));

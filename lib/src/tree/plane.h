@@ -31,12 +31,12 @@ typedef struct axis {
 axis axis_make(double min, double max);
 
 /* The plane at center + half * t for t in -1 .. 1, computed from all terms. */
-double plane_precise(const axis *a, double t);
+double plane_at_precisely(const axis *a, double t);
 
 /* The same, from the first terms where they suffice, clamped to the world. Not for the world's own faces. */
 static inline double plane_inside(const axis *a, double t)
 {
-    const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_precise(a, t);
+    const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_at_precisely(a, t);
     if (!(plane < a->max))
         return a->max;
     return plane > a->min ? plane : a->min;
@@ -51,7 +51,7 @@ static inline double plane_at(const axis *a, uint32_t k)
 }
 
 /* The key of a coordinate as a real number, except for rounding. */
-static inline double plane_guess(const axis *a, double x)
+static inline double plane_guess_key(const axis *a, double x)
 {
     const double above = x - a->min;
     return (a->subnormal ? subnormal_count(above) : above) * a->keys_per_unit;
@@ -177,7 +177,7 @@ static inline uint64_t morton_of_address(octree_address address)
 }
 
 /* For qsort: addresses in the order in which octree_walk() visits nodes, parents first. */
-int address_compare(const void *a, const void *b);
+int compare_addresses(const void *a, const void *b);
 
 /* Whether a word is a valid address: the position of its leading 1 is a multiple of three. */
 bool is_address(octree_address address);

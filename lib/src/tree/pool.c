@@ -101,7 +101,7 @@ void pool_release(pool *p)
     pool_init(p, p->memory, p->unit);
 }
 
-static void push_block(pool *p, void *block, unsigned units)
+static void add_free_block(pool *p, void *block, unsigned units)
 {
     if (units == 0)
         return;
@@ -114,7 +114,7 @@ static void push_block(pool *p, void *block, unsigned units)
     p->free_units += units;
 }
 
-static void *pop_block(pool *p, unsigned units)
+static void *take_first_free_block(pool *p, unsigned units)
 {
     struct free_block *block = p->free_blocks[units - 1];
     p->free_blocks[units - 1] = block->next;
@@ -127,20 +127,20 @@ static void *pop_block(pool *p, unsigned units)
 void pool_give(pool *p, void *block, unsigned units)
 {
     p->freed_units += units;
-    push_block(p, block, units);
+    add_free_block(p, block, units);
 }
 
-static uint64_t *bits_of(struct slab *slab)
+static uint64_t *unit_bits_of(struct slab *slab)
 {
     return (uint64_t *)(slab + 1);
 }
 
-static size_t words_for(size_t units)
+static size_t bit_words_for(size_t units)
 {
     return (units + 63) / 64;
 }
 
-static bool lies_in(const pool *p, const struct slab *slab, const void *block)
+static bool is_in_slab(const pool *p, const struct slab *slab, const void *block)
 {
     const uintptr_t first = (uintptr_t)slab->first, at = (uintptr_t)block;
     return at >= first && at - first < slab->units * p->unit;
@@ -167,13 +167,13 @@ static struct slab **sort_slabs(pool *p)
 }
 
 /* The slab that contains a block; `guess` is that of the previous block, which is usually the same. */
-static struct slab *slab_of(const pool *p, struct slab **sorted, const void *block, struct slab *guess)
+static struct slab *find_slab(const pool *p, struct slab **sorted, const void *block, struct slab *guess)
 {
-    if (lies_in(p, guess, block))
+    if (is_in_slab(p, guess, block))
         return guess;
     if (!sorted) {
         struct slab *slab = p->slabs;
-        while (!lies_in(p, slab, block))
+        while (!is_in_slab(p, slab, block))
             slab = slab->next;
         return slab;
     }
@@ -198,34 +198,34 @@ static void mark_units(uint64_t *bits, size_t first, unsigned units)
         bits[first / 64 + 1] |= mask >> (64 - shift);
 }
 
-static void mark_free(pool *p, struct slab **sorted)
+static void mark_free_blocks(pool *p, struct slab **sorted)
 {
     struct slab *slab = p->slabs;
     for (unsigned units = 1; units <= POOL_MAX_UNITS; units++)
         while (p->free_blocks[units - 1]) {
-            const unsigned char *block = pop_block(p, units);
-            slab = slab_of(p, sorted, block, slab);
-            mark_units(bits_of(slab), (size_t)(block - slab->first) / p->unit, units);
+            const unsigned char *block = take_first_free_block(p, units);
+            slab = find_slab(p, sorted, block, slab);
+            mark_units(unit_bits_of(slab), (size_t)(block - slab->first) / p->unit, units);
         }
 }
 
 /* The marks of 64 units from `unit` on; 0 beyond the last unit. */
-static uint64_t marks_from(struct slab *slab, size_t unit)
+static uint64_t read_marks(struct slab *slab, size_t unit)
 {
-    const uint64_t *bits = bits_of(slab) + unit / 64;
+    const uint64_t *bits = unit_bits_of(slab) + unit / 64;
     const unsigned shift = unit % 64;
-    const bool more = shift > 0 && unit / 64 + 1 < words_for(slab->units);
+    const bool more = shift > 0 && unit / 64 + 1 < bit_words_for(slab->units);
     return bits[0] >> shift | (more ? bits[1] << (64 - shift) : 0);
 }
 
 /* Add the runs of marked units of a slab to the free lists, in blocks of at most POOL_MAX_UNITS. */
-static void push_runs(pool *p, struct slab *slab)
+static void add_free_runs(pool *p, struct slab *slab)
 {
     for (size_t unit = 0; unit < slab->units;) {
-        const uint64_t marks = marks_from(slab, unit);
+        const uint64_t marks = read_marks(slab, unit);
         const unsigned used = marks ? bits_lowest(marks) : 64;
         const unsigned run = used ? 0 : ~marks ? bits_lowest(~marks) : POOL_MAX_UNITS;
-        push_block(p, slab->first + unit * p->unit, run);
+        add_free_block(p, slab->first + unit * p->unit, run);
         unit += used + run;
     }
 }
@@ -235,10 +235,10 @@ static void join_free_blocks(pool *p)
 {
     struct slab **sorted = sort_slabs(p);
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
-        memset(bits_of(slab), 0, words_for(slab->units) * sizeof(uint64_t));
-    mark_free(p, sorted);
+        memset(unit_bits_of(slab), 0, bit_words_for(slab->units) * sizeof(uint64_t));
+    mark_free_blocks(p, sorted);
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
-        push_runs(p, slab);
+        add_free_runs(p, slab);
     p->freed_units = 0;
     arena_give(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
@@ -257,13 +257,13 @@ static size_t next_slab_bytes(const pool *p)
 static bool add_slab(pool *p)
 {
     const size_t units = next_slab_bytes(p) / p->unit;
-    const size_t header = sizeof(struct slab) + words_for(units) * sizeof(uint64_t);
+    const size_t header = sizeof(struct slab) + bit_words_for(units) * sizeof(uint64_t);
     const size_t size = header + CACHE_LINE + units * p->unit;
     struct slab *slab = arena_take(p->memory, size);
     if (!slab)
         return false;
-    push_block(p, p->fresh,
-               (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, otherwise no slab would be needed */
+    add_free_block(p, p->fresh,
+                   (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, otherwise no slab would be needed */
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
     *slab =
@@ -276,20 +276,20 @@ static bool add_slab(pool *p)
     return true;
 }
 
-static void *take_free(pool *p, unsigned units)
+static void *take_free_block(pool *p, unsigned units)
 {
     const uint64_t large_enough = p->available >> (units - 1) << (units - 1);
     if (!large_enough)
         return NULL;
     const unsigned found = bits_lowest(large_enough) + 1;
-    unsigned char *block = pop_block(p, found);
-    push_block(p, block + units * p->unit, found - units);
+    unsigned char *block = take_first_free_block(p, found);
+    add_free_block(p, block + units * p->unit, found - units);
     return block;
 }
 
 /* Whether to join free blocks: an eighth of the pool is free, and half of that was freed since the last time. Joining
  * takes time in proportion to the free blocks, so its amortized cost per freed block is constant. */
-static bool worth_joining(const pool *p)
+static bool is_worth_joining(const pool *p)
 {
     return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
@@ -298,19 +298,19 @@ static bool worth_joining(const pool *p)
 static void *borrow_block(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
-    void *block = take_free(p->lender, units);
+    void *block = take_free_block(p->lender, units);
     arena_unlock(p->memory->shared);
     return block;
 }
 
 void *pool_take(pool *p, unsigned units)
 {
-    void *block = take_free(p, units);
+    void *block = take_free_block(p, units);
     if (!block && p->borrows) {
         block = borrow_block(p, units);
-    } else if (!block && !p->lender && p->fresh_units < units && worth_joining(p)) {
+    } else if (!block && !p->lender && p->fresh_units < units && is_worth_joining(p)) {
         join_free_blocks(p);
-        block = take_free(p, units);
+        block = take_free_block(p, units);
     }
     if (block)
         return block;
@@ -338,21 +338,21 @@ void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units)
 }
 
 /* Move the unused units of the newest slab to the free lists, in an order such that its first units are used first. */
-static void free_fresh(pool *p)
+static void free_unused_units(pool *p)
 {
     while (p->fresh_units > 0) {
         const unsigned rest = (unsigned)(p->fresh_units % POOL_MAX_UNITS), units = rest ? rest : POOL_MAX_UNITS;
         p->fresh_units -= units;
-        push_block(p, p->fresh + p->fresh_units * p->unit, units);
+        add_free_block(p, p->fresh + p->fresh_units * p->unit, units);
     }
 }
 
-void pool_lend(pool *p)
+void pool_prepare_lending(pool *p)
 {
     if (!is_much_free(p))
         return;
-    free_fresh(p);
-    if (worth_joining(p))
+    free_unused_units(p);
+    if (is_worth_joining(p))
         join_free_blocks(p);
 }
 
@@ -371,7 +371,7 @@ static void join_slabs(pool *lender, pool *p)
 
 void pool_join(pool *lender, pool *p)
 {
-    free_fresh(p);
+    free_unused_units(p);
     join_slabs(lender, p);
     for (unsigned i = 0; i < POOL_MAX_UNITS; i++) {
         if (!p->free_blocks[i])

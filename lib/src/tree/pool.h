@@ -77,7 +77,7 @@ void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units);
 void pool_join(pool *lender, pool *p);
 
 /* Prepare a pool for borrowing: if much of it is free, move all of that into the free lists. */
-void pool_lend(pool *p);
+void pool_prepare_lending(pool *p);
 
 /* A growing array. */
 typedef struct list {

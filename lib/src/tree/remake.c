@@ -59,7 +59,7 @@ bool ids_ascend(const batch *b)
 }
 
 /* The slot of an id in a hash table, or the empty slot where it would be. */
-static size_t find_slot(const id_table *t, const octree_point *points, uint64_t id)
+static size_t find_id_slot(const id_table *t, const octree_point *points, uint64_t id)
 {
     size_t slot = (size_t)((id ^ id >> 32) * UINT64_C(0x9e3779b97f4a7c15) >> 16) & (t->slot_count - 1);
     while (t->places[slot] && points[t->places[slot] - 1].id != id)
@@ -68,33 +68,33 @@ static size_t find_slot(const id_table *t, const octree_point *points, uint64_t 
 }
 
 /* The entry for the stored point of an id; null if no move has this id. */
-static inline const octree_point *_Atomic *stored_slot(const id_table *t, const octree_point *points, uint64_t id)
+static inline const octree_point *_Atomic *find_stored_entry(const id_table *t, const octree_point *points, uint64_t id)
 {
     size_t slot = (size_t)(id - t->least);
     bool has_move = t->bits && id - t->least < t->slot_count && (t->bits[slot / 64] >> slot % 64 & 1);
     if (!t->bits) {
-        slot = find_slot(t, points, id);
+        slot = find_id_slot(t, points, id);
         has_move = t->places[slot] != 0;
     }
     return has_move ? &t->stored[slot - t->first] : NULL;
 }
 
-static size_t bits_size(const id_table *t)
+static size_t bit_map_size(const id_table *t)
 {
     return (t->slot_count / 64 + 1) * sizeof *t->bits;
 }
 
-static void release_table(arena *memory, id_table *t)
+static void release_id_table(arena *memory, id_table *t)
 {
     arena_give(memory, (void *)t->stored, t->stored_count * sizeof *t->stored);
-    arena_give(memory, t->bits, bits_size(t));
+    arena_give(memory, t->bits, bit_map_size(t));
     arena_give(memory, t->places, t->slot_count * sizeof *t->places);
     *t = (id_table){0};
 }
 
 /* Set the bits of all ids, within a range around the first id. False if an id is outside. *differ becomes false if an
  * id occurs twice before that. */
-static bool set_bits(const batch *b, id_table *t, bool *differ)
+static bool set_id_bits(const batch *b, id_table *t, bool *differ)
 {
     size_t least = SIZE_MAX, most = 0;
     for (size_t i = 0; i < b->count; i++) {
@@ -112,10 +112,10 @@ static bool set_bits(const batch *b, id_table *t, bool *differ)
 }
 
 /* Enter all ids into the hash table. False if two are equal. */
-static bool set_places(const batch *b, id_table *t)
+static bool hash_ids(const batch *b, id_table *t)
 {
     for (size_t i = 0; i < b->count; i++) {
-        const size_t slot = find_slot(t, b->points, b->points[i].id);
+        const size_t slot = find_id_slot(t, b->points, b->points[i].id);
         if (t->places[slot])
             return false;
         t->places[slot] = (uint32_t)i + 1;
@@ -132,14 +132,14 @@ static bool enter_ids(const batch *b, id_table *t, size_t reach, bool *differ)
     arena *memory = &b->tree->store.memory;
     t->least = b->points[0].id - reach / 2 * b->count; /* modulo 2^64 */
     t->slot_count = reach * b->count;
-    t->bits = arena_take(memory, bits_size(t));
+    t->bits = arena_take(memory, bit_map_size(t));
     if (!t->bits)
         return false;
-    memset(t->bits, 0, bits_size(t));
+    memset(t->bits, 0, bit_map_size(t));
     *differ = true;
-    if (set_bits(b, t, differ) || !*differ)
+    if (set_id_bits(b, t, differ) || !*differ)
         return true;
-    release_table(memory, t);
+    release_id_table(memory, t);
     t->slot_count = 64;
     while (t->slot_count < 2 * b->count)
         t->slot_count *= 2;
@@ -147,22 +147,22 @@ static bool enter_ids(const batch *b, id_table *t, size_t reach, bool *differ)
     if (!t->places)
         return false;
     memset(t->places, 0, t->slot_count * sizeof *t->places);
-    *differ = set_places(b, t);
+    *differ = hash_ids(b, t);
     t->stored_count = t->slot_count;
     return true;
 }
 
-bool ids_differ(const batch *b, bool *differ)
+bool check_ids_differ(const batch *b, bool *differ)
 {
     id_table t = {0};
     *differ = ids_ascend(b);
     const bool ok = *differ || enter_ids(b, &t, 64, differ);
-    release_table(&b->tree->store.memory, &t);
+    release_id_table(&b->tree->store.memory, &t);
     return ok;
 }
 
 /* Make the table of all moves. False when there is no memory. *differ becomes false if two moves have the same id. */
-static bool make_table(const batch *b, id_table *t, bool *differ)
+static bool make_move_table(const batch *b, id_table *t, bool *differ)
 {
     if (!enter_ids(b, t, 8, differ))
         return false;
@@ -177,18 +177,18 @@ static bool make_table(const batch *b, id_table *t, bool *differ)
 /* ---- The stored points -------------------------------------------------------------------------------------- */
 
 /* Find the grid cells of staying points. */
-static void add_cells(const remake *r, size_t first, size_t count)
+static void find_staying_cells(const remake *r, size_t first, size_t count)
 {
     find_grid_cells(r->whole, r->staying + first, count, r->cells + r->count + first, NULL);
 }
 
-static void sort_out_leaf(const remake *r, const node *leaf, findings *f)
+static void separate_moving_in_leaf(const remake *r, const node *leaf, findings *f)
 {
     const id_table ids = r->ids; /* a local copy, which the compiler knows not to change through the stores below */
     const octree_point *moves = r->whole->points;
     for (uint32_t i = 0; i < leaf->count; i++) {
         const octree_point *point = &leaf_points(leaf)[i];
-        const octree_point *_Atomic *stored = stored_slot(&ids, moves, point->id);
+        const octree_point *_Atomic *stored = find_stored_entry(&ids, moves, point->id);
         if (stored)
             atomic_store_explicit(stored, point, memory_order_relaxed);
         else
@@ -197,27 +197,27 @@ static void sort_out_leaf(const remake *r, const node *leaf, findings *f)
     f->looked_up += leaf->count;
 }
 
-static void sort_out_below(const remake *r, const node *n, findings *f)
+static void separate_moving_below(const remake *r, const node *n, findings *f)
 {
     const unsigned children = bits_count8(n->octants);
     for (unsigned i = 0; i < children; i++) {
         if (i + 1 < children && !children_of(n)[i + 1].octants)
             leaf_prefetch(&children_of(n)[i + 1]);
-        sort_out_below(r, &children_of(n)[i], f);
+        separate_moving_below(r, &children_of(n)[i], f);
     }
     if (children == 0)
-        sort_out_leaf(r, n, f);
+        separate_moving_in_leaf(r, n, f);
 }
 
-static void sort_out_share(size_t number, void *context)
+static void separate_moving_of_share(size_t number, void *context)
 {
     remake *r = context;
     const subtree *s = first_subtree(&r->stored, number), *end = first_subtree(&r->stored, number + 1);
     findings *f = &r->found[number];
     *f = (findings){.first = s < end ? s->before : 0};
     for (; s < end; s++)
-        sort_out_below(r, s->node, f);
-    add_cells(r, f->first, f->stay);
+        separate_moving_below(r, s->node, f);
+    find_staying_cells(r, f->first, f->stay);
     for (size_t at = f->stay; at < f->looked_up; at++)
         r->cells[r->count + f->first + at] = GRID_NONE;
 }
@@ -225,11 +225,11 @@ static void sort_out_share(size_t number, void *context)
 /* ---- The moves ---------------------------------------------------------------------------------------------- */
 
 /* The status of an invalid move. */
-static octree_status refusal(const batch *b, size_t place)
+static octree_status find_move_error(const batch *b, size_t place)
 {
-    octree_status status = check_inside(b->tree, b->points[place].position);
+    octree_status status = check_in_world(b->tree, b->points[place].position);
     if (status == OCTREE_OK)
-        status = check_inside(b->tree, b->to[place]);
+        status = check_in_world(b->tree, b->to[place]);
     return status == OCTREE_OK ? OCTREE_NOT_FOUND : status;
 }
 
@@ -241,20 +241,20 @@ static bool is_valid_move(const remake *r, size_t place, const octree_point *sto
         return false;
     if (*to != GRID_NONE)
         return true;
-    if (check_inside(b->tree, b->to[place]) != OCTREE_OK)
+    if (check_in_world(b->tree, b->to[place]) != OCTREE_OK)
         return false;
     *to = b->grid ? grid_cell(b->tree->axes, b->grid, b->to[place]) : 0;
     return true;
 }
 
 /* Check a group of moves. Their stored points are prefetched first, so that cache misses overlap. */
-static void move_group(const remake *r, size_t first, size_t count, findings *f)
+static void check_move_group(const remake *r, size_t first, size_t count, findings *f)
 {
     const batch *b = r->whole;
     const octree_point *stored[GRID_TOGETHER];
     for (size_t i = 0; i < count; i++) {
         stored[i] =
-            atomic_load_explicit(stored_slot(&r->ids, b->points, b->points[first + i].id), memory_order_relaxed);
+            atomic_load_explicit(find_stored_entry(&r->ids, b->points, b->points[first + i].id), memory_order_relaxed);
         if (stored[i])
             prefetch(stored[i]);
     }
@@ -270,34 +270,35 @@ static void move_group(const remake *r, size_t first, size_t count, findings *f)
         if (!made)
             r->cells[place] = GRID_NONE;
         if (b->statuses)
-            b->statuses[place] = made ? OCTREE_OK : refusal(b, place);
+            b->statuses[place] = made ? OCTREE_OK : find_move_error(b, place);
     }
 }
 
-static void move_share(size_t number, void *context)
+static void check_moves_of_share(size_t number, void *context)
 {
     remake *r = context;
-    const size_t end = tasks_share(r->count, r->move_tasks, number + 1);
-    for (size_t i = tasks_share(r->count, r->move_tasks, number); i < end; i += GRID_TOGETHER)
-        move_group(r, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, &r->found[number]);
+    const size_t end = share_start(r->count, r->move_tasks, number + 1);
+    for (size_t i = share_start(r->count, r->move_tasks, number); i < end; i += GRID_TOGETHER)
+        check_move_group(r, i, end - i < GRID_TOGETHER ? end - i : GRID_TOGETHER, &r->found[number]);
 }
 
 /* ---- The new tree ------------------------------------------------------------------------------------------ */
 
 /* Add the stored points of invalid moves to the staying ones, in the parts of tasks that have room. */
-static void keep_stored(remake *r)
+static void keep_points_of_invalid_moves(remake *r)
 {
     unsigned task = 0;
     for (size_t i = 0; i < r->count; i++) {
         const batch *b = r->whole;
-        const octree_point *point = r->cells[i] == GRID_NONE ? *stored_slot(&r->ids, b->points, b->points[i].id) : NULL;
+        const octree_point *point =
+            r->cells[i] == GRID_NONE ? *find_stored_entry(&r->ids, b->points, b->points[i].id) : NULL;
         if (!point)
             continue;
         while (r->found[task].stay == r->found[task].looked_up)
             task++;
         const size_t at = r->found[task].first + r->found[task].stay++;
         r->staying[at] = *point;
-        add_cells(r, at, 1);
+        find_staying_cells(r, at, 1);
     }
 }
 
@@ -305,18 +306,18 @@ static void keep_stored(remake *r)
 static octree_status sort_and_build(batch *b, size_t total)
 {
     arena *memory = &b->store->memory;
-    const size_t unsorted = b->tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_count(b->tree);
+    const size_t unsorted = b->tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_limit(b->tree);
     morton_item *lists = arena_take(memory, 2 * total * sizeof *lists);
     if (!lists)
         return OCTREE_NO_MEMORY;
-    b->arriving = (span){lists, grid_items(b, NULL, lists)};
+    b->arriving = (span){lists, make_grid_items(b, NULL, lists)};
     morton_sort_tasks(b->tree, memory, lists, lists + total, total, unsorted, true);
-    const octree_status status = build_anew(b);
+    const octree_status status = rebuild_from_batch(b);
     arena_give(memory, lists, 2 * total * sizeof *lists);
     return status;
 }
 
-static octree_status build_moved(remake *r, bool *settled)
+static octree_status build_moved_tree(remake *r, bool *settled)
 {
     const batch *whole = r->whole;
     const size_t total = whole->tree->root.count;
@@ -331,8 +332,8 @@ static octree_status build_moved(remake *r, bool *settled)
                .cells = r->cells,
                .grid = r->whole->grid};
     if (whole->done < r->count)
-        keep_stored(r);
-    octree_status status = b.grid ? build_anew(&b) : OCTREE_OK;
+        keep_points_of_invalid_moves(r);
+    octree_status status = b.grid ? rebuild_from_batch(&b) : OCTREE_OK;
     if (status == OCTREE_OK && (b.grid == 0 || b.overflow)) {
         b.grid = 0;
         status = sort_and_build(&b, total);
@@ -341,19 +342,19 @@ static octree_status build_moved(remake *r, bool *settled)
     return status;
 }
 
-static octree_status move_and_build(remake *r, bool *settled)
+static octree_status check_moves_and_build(remake *r, bool *settled)
 {
     batch *b = r->whole;
     size_t looked_up = 0, stay = 0, seen = 0;
-    if (!make_table(b, &r->ids, settled))
+    if (!make_move_table(b, &r->ids, settled))
         return OCTREE_NO_MEMORY;
     if (!*settled)
         return OCTREE_OK;
     divide_tree(&r->stored, b->tree, NULL, NULL);
-    r->move_tasks = tasks_for(b->tree, r->count);
+    r->move_tasks = count_tasks(b->tree, r->count);
     memset(r->found, 0, sizeof r->found);
-    tasks_run(b->tree, sort_out_share, r->stored.tasks, r);
-    tasks_run(b->tree, move_share, r->move_tasks, r);
+    run_tasks(b->tree, separate_moving_of_share, r->stored.tasks, r);
+    run_tasks(b->tree, check_moves_of_share, r->move_tasks, r);
     b->done = 0;
     for (unsigned i = 0; i < TASKS_AT_MOST; i++) {
         looked_up += r->found[i].looked_up;
@@ -362,7 +363,7 @@ static octree_status move_and_build(remake *r, bool *settled)
         b->done += r->found[i].moved;
     }
     *settled = looked_up - stay == seen; /* otherwise an id that moves is stored twice */
-    return *settled && b->done > 0 ? build_moved(r, settled) : OCTREE_OK;
+    return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }
 
 octree_status remake_tree(batch *b, bool *settled)
@@ -380,11 +381,11 @@ octree_status remake_tree(batch *b, bool *settled)
     r->staying = arena_take(memory, stored * sizeof *r->staying);
     r->cells = arena_take(memory, cells);
     if (r->staying && r->cells)
-        status = move_and_build(r, settled);
+        status = check_moves_and_build(r, settled);
     b->grid = 0;
     arena_give(memory, r->staying, stored * sizeof *r->staying);
     arena_give(memory, r->cells, cells);
-    release_table(memory, &r->ids);
+    release_id_table(memory, &r->ids);
     arena_give(memory, r, sizeof *r);
     return status;
 }

@@ -20,14 +20,14 @@
 
 /* ---- Dividing items -------------------------------------------------------------------------------------------- */
 
-unsigned divide_items(span all, unsigned depth, span shares[8])
+unsigned divide_items_by_octant(span all, unsigned depth, span shares[8])
 {
     unsigned octants = 0;
     for (unsigned octant = 0; octant < 8; octant++)
         shares[octant] = (span){all.items, 0};
     while (all.count > 0) {
         const unsigned octant = morton_octant(all.items[0].code, depth);
-        const size_t count = octant_share(all.items, all.count, depth);
+        const size_t count = count_in_first_octant(all.items, all.count, depth);
         shares[octant] = (span){all.items, count};
         octants |= 1u << octant;
         all.items += count;
@@ -62,7 +62,7 @@ static void sort_by_index(span s)
 
 /* Order: stored points first, then the caller's in the given order, so that a leaf refuses the same points as single
  * insertions would. */
-static int compare_places(const void *a, const void *b)
+static int compare_insertion_order(const void *a, const void *b)
 {
     const morton_item *p = a, *q = b;
     const int p_new = p->index == MORTON_NEW, q_new = q->index == MORTON_NEW;
@@ -70,12 +70,12 @@ static int compare_places(const void *a, const void *b)
 }
 
 /* Make a leaf of the items. Under OCTREE_REFUSE it takes as many as the capacity and refuses the others. */
-static bool make_leaf(batch *b, span items, node *made)
+static bool make_leaf_of_items(batch *b, span items, node *made)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
     size_t taken = items.count;
     if (items.count > capacity && b->tree->def.full_leaf == OCTREE_REFUSE) {
-        qsort(items.items, items.count, sizeof *items.items, compare_places);
+        qsort(items.items, items.count, sizeof *items.items, compare_insertion_order);
         taken = capacity;
         b->overflow = b->to != NULL;
     }
@@ -89,32 +89,32 @@ static bool make_leaf(batch *b, span items, node *made)
             prefetch(&b->stored[item->index]);
     }
     for (size_t i = 0; i < taken; i++) {
-        const octree_point point = batch_point(b, &items.items[i]);
-        leaf_put(made, &point);
+        const octree_point point = point_of_item(b, &items.items[i]);
+        leaf_append_in_room(made, &point);
     }
     for (size_t i = taken; i < items.count; i++)
-        set_status(b, &items.items[i], OCTREE_FULL);
+        set_item_status(b, &items.items[i], OCTREE_FULL);
     return true;
 }
 
 /* Copy the points of a leaf except the leaving ones, which are sorted by index. */
-static void put_staying(node *made, const node *leaf, span leaving)
+static void append_staying(node *made, const node *leaf, span leaving)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
         if (leaving.count > 0 && leaving.items->index == i) {
             leaving.items++;
             leaving.count--;
         } else {
-            leaf_put(made, &leaf_points(leaf)[i]);
+            leaf_append_in_room(made, &leaf_points(leaf)[i]);
         }
     }
 }
 
-static void put_arriving(batch *b, node *made, span arriving)
+static void append_arriving(batch *b, node *made, span arriving)
 {
     for (size_t i = 0; i < arriving.count; i++) {
         const octree_point point = arriving_point(b, &arriving.items[i]);
-        leaf_put(made, &point);
+        leaf_append_in_room(made, &point);
     }
 }
 
@@ -122,19 +122,19 @@ static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, 
 {
     if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
-    put_staying(made, old, leaving);
-    put_arriving(b, made, arriving);
+    append_staying(made, old, leaving);
+    append_arriving(b, made, arriving);
     return true;
 }
 
 /* Plan to edit a leaf in place: its block has room for the resulting points. */
-static bool plan_edit(batch *b, const node *old, span leaving, span arriving, node *made)
+static bool plan_leaf_edit(batch *b, const node *old, span leaving, span arriving, node *made)
 {
     edit *e = list_append(&b->store->memory, &b->edits, sizeof *e);
     if (!e)
         return false;
     const uint32_t count = (uint32_t)(old->count - leaving.count + arriving.count);
-    const unsigned needed = leaf_room(count);
+    const unsigned needed = leaf_block_room(count);
     made->count = count;
     made->room = needed < old->room ? (uint8_t)needed : old->room;
     *e = (edit){leaf_points(old), old->count, old->room, made->room, leaving, arriving};
@@ -143,10 +143,10 @@ static bool plan_edit(batch *b, const node *old, span leaving, span arriving, no
 
 /* ---- Making nodes ------------------------------------------------------------------------------------------- */
 
-bool inseparable(const octree *tree, cell c, const morton_item *items, size_t count)
+bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t count)
 {
     const uint64_t unlike = items[0].code ^ items[count - 1].code;
-    for (; may_split(tree, c); c = cell_child(c, morton_octant(items[0].code, c.depth)))
+    for (; can_split(tree, c); c = cell_child(c, morton_octant(items[0].code, c.depth)))
         if (morton_octant(unlike, c.depth) != 0)
             return false;
     return true;
@@ -157,24 +157,24 @@ static bool build_children(batch *b, cell c, span items, node *made);
 
 /* Under OCTREE_REFUSE inseparable items stay in one leaf, which refuses those beyond its capacity: nodes never split
  * for refused points. Separable items fill more than one leaf, so that the split is needed. */
-bool becomes_leaf(const batch *b, cell c, span items)
+bool must_be_leaf(const batch *b, cell c, span items)
 {
     const octree_def *def = &b->tree->def;
-    return items.count <= def->leaf_capacity || !may_split(b->tree, c) ||
-           (def->full_leaf == OCTREE_REFUSE && inseparable(b->tree, c, items.items, items.count));
+    return items.count <= def->leaf_capacity || !can_split(b->tree, c) ||
+           (def->full_leaf == OCTREE_REFUSE && is_inseparable(b->tree, c, items.items, items.count));
 }
 
 bool build_node(batch *b, cell c, span items, node *made)
 {
-    if (is_job(b, items.count))
-        return use_job(b, made);
-    return becomes_leaf(b, c, items) ? make_leaf(b, items, made) : build_children(b, c, items, made);
+    if (is_planned_by_job(b, items.count))
+        return take_job_result(b, made);
+    return must_be_leaf(b, c, items) ? make_leaf_of_items(b, items, made) : build_children(b, c, items, made);
 }
 
 static bool build_children(batch *b, cell c, span items, node *made)
 {
     span shares[8];
-    const unsigned octants = divide_items(items, c.depth, shares), children = bits_count8(octants);
+    const unsigned octants = divide_items_by_octant(items, c.depth, shares), children = bits_count8(octants);
     node *group = pool_take(&b->store->nodes, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
@@ -210,10 +210,10 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
     }
     if (arriving.count > 0)
         memcpy(all + count, arriving.items, arriving.count * sizeof *all);
-    if (may_split(b->tree, c))
-        morton_sort(all, all + sum, sum, c.depth, unsorted_count(b->tree));
+    if (can_split(b->tree, c))
+        morton_sort(all, all + sum, sum, c.depth, unsorted_limit(b->tree));
     b->stored = leaf_points(old);
-    const bool ok = build_divided(b, c, (span){all, sum}, made);
+    const bool ok = build_node_by_tasks(b, c, (span){all, sum}, made);
     arena_give(&b->store->memory, all, room);
     return ok;
 }
@@ -234,7 +234,7 @@ static bool is_leaving(span leaving, uint32_t index)
 }
 
 /* Drop the arriving items that the leaf already holds and that do not leave it. */
-static void drop_stored(batch *b, const node *leaf, span leaving, span *arriving)
+static void drop_already_stored(batch *b, const node *leaf, span leaving, span *arriving)
 {
     size_t left = 0;
     for (size_t i = 0; i < arriving->count; i++) {
@@ -243,7 +243,7 @@ static void drop_stored(batch *b, const node *leaf, span leaving, span *arriving
         if (index == LEAF_NONE || is_leaving(leaving, index)) {
             arriving->items[left++] = arriving->items[i];
         } else {
-            set_status(b, &arriving->items[i], OCTREE_DUPLICATE);
+            set_item_status(b, &arriving->items[i], OCTREE_DUPLICATE);
             b->duplicate = true;
         }
     }
@@ -251,52 +251,52 @@ static void drop_stored(batch *b, const node *leaf, span leaving, span *arriving
 }
 
 /* Set `overflow` if arriving points, moved one by one in some order, may meet a full leaf. */
-static void find_overflow(batch *b, const node *old, cell c, span arriving)
+static void note_overflow(batch *b, const node *old, cell c, span arriving)
 {
-    b->overflow = b->overflow || (b->to && may_overflow(b, old, c, arriving));
+    b->overflow = b->overflow || (b->to && can_overflow(b, old, c, arriving));
 }
 
 static bool change_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     sort_by_index(leaving);
     if (b->may_be_stored && arriving.count > 0)
-        drop_stored(b, old, leaving, &arriving);
+        drop_already_stored(b, old, leaving, &arriving);
     if (leaving.count + arriving.count == 0)
         return true;
-    find_overflow(b, old, c, arriving);
+    note_overflow(b, old, c, arriving);
     const size_t count = old->count - leaving.count + arriving.count;
     if (!fits_leaf(b->tree, count))
         return divide_leaf(b, old, c, leaving, arriving, made);
     if (old->room != LEAF_HASHED && count <= old->room)
-        return plan_edit(b, old, leaving, arriving, made);
+        return plan_leaf_edit(b, old, leaving, arriving, made);
     return remake_leaf(b, old, leaving, arriving, made);
 }
 
 /* Copy the staying points in and below a node into a leaf. */
-static void gather_staying(const node *old, unsigned depth, span leaving, node *made)
+static void append_staying_below(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {
         sort_by_index(leaving);
-        put_staying(made, old, leaving);
+        append_staying(made, old, leaving);
         return;
     }
     span shares[8];
-    divide_items(leaving, depth, shares);
+    divide_items_by_octant(leaving, depth, shares);
     for (unsigned octant = 0; octant < 8; octant++)
         if (old->octants >> octant & 1)
-            gather_staying(child_at(old, octant), depth + 1, shares[octant], made);
+            append_staying_below(child_at(old, octant), depth + 1, shares[octant], made);
 }
 
 /* Merge a node whose points fit one leaf. */
-static bool merge(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
+static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
-    find_overflow(b, old, c, arriving);
+    note_overflow(b, old, c, arriving);
     if (!leaf_create(b->store, made, (uint32_t)(old->count - leaving.count + arriving.count)))
         return false;
-    gather_staying(old, c.depth, leaving, made);
+    append_staying_below(old, c.depth, leaving, made);
     if (b->may_be_stored)
-        drop_stored(b, made, (span){NULL, 0}, &arriving);
-    put_arriving(b, made, arriving);
+        drop_already_stored(b, made, (span){NULL, 0}, &arriving);
+    append_arriving(b, made, arriving);
     return true;
 }
 
@@ -344,7 +344,7 @@ static bool change_same_children(batch *b, const node *old, cell c, const span l
 }
 
 /* Prefetch the leaves in which items arrive, and the first of these items. */
-static void prefetch_leaves(const batch *b, const node *parent, const span arriving[8])
+static void prefetch_arrival_leaves(const batch *b, const node *parent, const span arriving[8])
 {
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *child = arriving[octant].count > 0 ? child_at(parent, octant) : NULL;
@@ -359,12 +359,12 @@ static void prefetch_leaves(const batch *b, const node *parent, const span arriv
 static bool change_children(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     span out[8], in[8];
-    divide_items(leaving, c.depth, out);
-    unsigned octants = divide_items(arriving, c.depth, in);
+    divide_items_by_octant(leaving, c.depth, out);
+    unsigned octants = divide_items_by_octant(arriving, c.depth, in);
     for (unsigned octant = 0; octant < 8; octant++)
         if ((old->octants >> octant & 1) && child_at(old, octant)->count > out[octant].count)
             octants |= 1u << octant;
-    prefetch_leaves(b, old, in);
+    prefetch_arrival_leaves(b, old, in);
     if (octants == old->octants)
         return change_same_children(b, old, c, out, in, made);
     const unsigned children = bits_count8(octants);
@@ -386,15 +386,15 @@ bool change_node(batch *b, const node *old, cell c, span leaving, span arriving,
     *made = is_emptied ? (node){0} : *old;
     if (arriving.count == 0 && (is_emptied || leaving.count == 0))
         return true;
-    if (is_job(b, leaving.count + arriving.count))
-        return use_job(b, made);
+    if (is_planned_by_job(b, leaving.count + arriving.count))
+        return take_job_result(b, made);
     if (is_emptied) {
-        find_overflow(b, old, c, arriving);
+        note_overflow(b, old, c, arriving);
         return build_node(b, c, arriving, made);
     }
     if (!old->octants)
         return change_leaf(b, old, c, leaving, arriving, made);
     if (fits_leaf(b->tree, old->count - leaving.count + arriving.count))
-        return merge(b, old, c, leaving, arriving, made);
+        return merge_into_leaf(b, old, c, leaving, arriving, made);
     return change_children(b, old, c, leaving, arriving, made);
 }

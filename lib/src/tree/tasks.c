@@ -8,7 +8,7 @@
 #define OCTREE_LEAST_SHARE 1024 /* the least number of points per task */
 #endif
 
-unsigned tasks_for(const octree *tree, size_t points)
+unsigned count_tasks(const octree *tree, size_t points)
 {
     const size_t tasks = tree->def.executor.run ? points / OCTREE_LEAST_SHARE : 0;
     return tasks < 1 ? 1 : tasks < TASKS_AT_MOST ? (unsigned)tasks : TASKS_AT_MOST;
@@ -29,7 +29,7 @@ static void run_task(size_t number, void *context)
     all->done[number] = true;
 }
 
-void tasks_run(const octree *tree, octree_task *task, unsigned count, void *context)
+void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context)
 {
     const octree_executor *executor = &tree->def.executor;
     tasks all = {task, context, {false}};
@@ -60,7 +60,7 @@ static void divide_subtree(forest *f, size_t at)
 void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *context)
 {
     f->tree = tree;
-    f->tasks = tasks_for(tree, tree->root.count);
+    f->tasks = count_tasks(tree, tree->root.count);
     f->count = 1;
     f->subtrees[0] = (subtree){&tree->root, OCTREE_ROOT, root_cell(), 0};
     const size_t share = f->tasks == 1 ? SIZE_MAX : tree->root.count / f->tasks / 2 + 1;
@@ -76,7 +76,7 @@ void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *cont
 
 const subtree *first_subtree(const forest *f, size_t number)
 {
-    const size_t before = tasks_share(f->tree->root.count, f->tasks, number);
+    const size_t before = share_start(f->tree->root.count, f->tasks, number);
     const subtree *first = f->subtrees;
     while (first < f->subtrees + f->count && first->before < before)
         first++;

@@ -11,14 +11,14 @@
 enum { TASKS_AT_MOST = 64 };
 
 /* The number of tasks for work on this many points; 1 without an executor. */
-unsigned tasks_for(const octree *tree, size_t points);
+unsigned count_tasks(const octree *tree, size_t points);
 
 /* Run a task for each number below `count`. A task that the executor does not run, or runs on a thread whose
  * floating-point mode is not the default, runs on the calling thread at the end. */
-void tasks_run(const octree *tree, octree_task *task, unsigned count, void *context);
+void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context);
 
 /* The index of the first of `things` in the share of a task; the share ends where the next begins. */
-static inline size_t tasks_share(size_t things, unsigned tasks, size_t number)
+static inline size_t share_start(size_t things, unsigned tasks, size_t number)
 {
     const size_t more = things % tasks;
     return things / tasks * number + (number < more ? number : more);

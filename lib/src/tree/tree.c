@@ -22,7 +22,7 @@ octree_def octree_def_default(void)
     };
 }
 
-static octree_status check_def(const octree_def *def)
+static octree_status check_definition(const octree_def *def)
 {
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
@@ -38,7 +38,7 @@ static octree_status check_def(const octree_def *def)
     return OCTREE_OK;
 }
 
-static octree_def clamp_def(octree_def def)
+static octree_def clamp_definition(octree_def def)
 {
     if (def.leaf_capacity == OCTREE_AUTO)
         def.leaf_capacity = octree_def_default().leaf_capacity; /* until the tree has points */
@@ -58,14 +58,14 @@ octree_status octree_create(const octree_def *def, octree **tree)
     *tree = NULL;
     if (!def)
         return OCTREE_NULL_ARGUMENT;
-    const octree_status status = check_def(def);
+    const octree_status status = check_definition(def);
     if (status != OCTREE_OK)
         return status;
-    arena memory = {.allocator = clamp_def(*def).allocator};
+    arena memory = {.allocator = clamp_definition(*def).allocator};
     octree *made = arena_take(&memory, sizeof *made);
     if (!made)
         return OCTREE_NO_MEMORY;
-    *made = (octree){.def = clamp_def(*def), .store.memory = memory, .scale = metric_scale(&def->world)};
+    *made = (octree){.def = clamp_definition(*def), .store.memory = memory, .scale = metric_scale(&def->world)};
     made->tuning = (tuning){NULL, octree_mix_default(), TUNE_LEAST};
     if (def->leaf_capacity == OCTREE_AUTO)
         made->tuning.choose = octree_tune;
@@ -124,7 +124,7 @@ void tune_if_due(octree *tree)
 /* ---- Rebuilding --------------------------------------------------------------------------------------------- */
 
 /* Insert all points into an empty tree. Returns OUTSIDE or FULL if one of them does not fit. */
-static octree_status insert_all(octree *tree, const octree_point *points, size_t count)
+static octree_status insert_all_points(octree *tree, const octree_point *points, size_t count)
 {
     size_t inserted;
     for (size_t i = 0; i < count; i++)
@@ -148,7 +148,7 @@ static void swap_contents(octree *tree, octree *other)
     other->store.nodes.memory = other->store.points.memory = &other->store.memory;
 }
 
-octree_status rebuild(octree *tree, const octree_def *def)
+octree_status rebuild_tree(octree *tree, const octree_def *def)
 {
     octree *other;
     octree_status status = octree_create(def, &other);
@@ -159,7 +159,7 @@ octree_status rebuild(octree *tree, const octree_def *def)
     status = OCTREE_NO_MEMORY;
     if (points) {
         node_copy_points(&tree->root, points);
-        status = insert_all(other, points, count);
+        status = insert_all_points(other, points, count);
     }
     arena_give(&other->store.memory, points, size);
     if (status == OCTREE_OK)
@@ -174,12 +174,12 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
         return OCTREE_NULL_ARGUMENT;
     octree_def def = tree->def;
     def.world = *world;
-    return rebuild(tree, &def);
+    return rebuild_tree(tree, &def);
 }
 
 octree_status octree_compact(octree *tree)
 {
-    return tree ? rebuild(tree, &tree->def) : OCTREE_NULL_ARGUMENT;
+    return tree ? rebuild_tree(tree, &tree->def) : OCTREE_NULL_ARGUMENT;
 }
 
 /* ---- Finding ------------------------------------------------------------------------------------------------ */
@@ -195,7 +195,7 @@ octree_status check_position(const octree *tree, const double position[3])
     return is_finite(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
 }
 
-path path_to(const octree *tree, uint64_t code)
+path find_path(const octree *tree, uint64_t code)
 {
     /* const is cast away here only: callers that change nodes have a tree that is not const. */
     path p;
@@ -211,7 +211,7 @@ path path_to(const octree *tree, uint64_t code)
 
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found)
 {
-    found->path = path_to(tree, morton_code(tree->axes, position));
+    found->path = find_path(tree, morton_code(tree->axes, position));
     const node *end = path_end(&found->path);
     if (end->octants)
         return false;
@@ -224,7 +224,7 @@ octree_status octree_find(const octree *tree, const double position[3], uint64_t
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
-    const path p = path_to(tree, morton_code(tree->axes, position));
+    const path p = find_path(tree, morton_code(tree->axes, position));
     const node *leaf = path_end(&p);
     leaf_prefetch(leaf->octants ? &(node){0} : leaf);
     bool found = false;

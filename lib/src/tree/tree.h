@@ -37,7 +37,7 @@ static inline bool is_subnormal_world(const octree *tree)
 }
 
 /* Whether a full leaf in this cell splits, rather than refuses or grows. */
-static inline bool may_split(const octree *tree, cell c)
+static inline bool can_split(const octree *tree, cell c)
 {
     return c.depth < tree->def.max_depth && cell_divisible(tree->axes, c);
 }
@@ -60,14 +60,14 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
 octree_status remove_point(octree *tree, const octree_point *point);
 
 /* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
-void drop_child(octree *tree, node *parent, node *child);
+void remove_empty_child(octree *tree, node *parent, node *child);
 
 /* Choose the capacity if it is due after an insertion. Without memory it stays the same. */
 void tune_if_due(octree *tree);
 
 /* Rebuild the tree with another definition. Errors: those of octree_create, OUTSIDE, FULL, NO_MEMORY; the tree is then
  * unchanged. */
-octree_status rebuild(octree *tree, const octree_def *def);
+octree_status rebuild_tree(octree *tree, const octree_def *def);
 
 /* The existing nodes from the root towards a code. The last one is a leaf, or an inner node without a child in the
  * code's octant. */
@@ -76,7 +76,7 @@ typedef struct path {
     unsigned depth; /* of the last node */
 } path;
 
-path path_to(const octree *tree, uint64_t code);
+path find_path(const octree *tree, uint64_t code);
 
 static inline node *path_end(const path *p)
 {

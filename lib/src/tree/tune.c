@@ -22,7 +22,7 @@
  * caches, 32, 23 and less than 1 ns beyond them. */
 static const double inner_weight = 30, leaf_weight = 20, point_weight = 1;
 
-static double weighted_cost(const octree_cost *cost)
+static double weigh_cost(const octree_cost *cost)
 {
     return inner_weight * (double)(cost->nodes - cost->leaves) + leaf_weight * (double)cost->leaves +
            point_weight * (double)cost->points;
@@ -36,7 +36,7 @@ enum { LEAST_CAPACITY = 4, MOST_CAPACITY = 256 };
  * it. The larger the cells, the fewer are sampled. */
 enum { LEAST_CELL = 4096, MOST_CELL = 32768, TARGETS = 128 };
 
-static size_t cell_points(const octree_mix *mix)
+static size_t choose_cell_points(const octree_mix *mix)
 {
     const size_t most = mix->k > mix->hits ? mix->k : mix->hits;
     return most >= MOST_CELL / 16 ? MOST_CELL : most <= LEAST_CELL / 16 ? LEAST_CELL : 16 * most;
@@ -50,7 +50,7 @@ typedef struct sample {
     double extents[TARGETS];    /* half the side of each target's range */
 } sample;
 
-static bool add_point(const octree_point *point, void *context)
+static bool add_sample_point(const octree_point *point, void *context)
 {
     sample *s = context;
     if (s->count < s->room)
@@ -67,7 +67,7 @@ typedef struct cell_picker {
 } cell_picker;
 
 /* Copy a selected cell, with the points on its upper faces, which belong to its neighbours. */
-static octree_walk_order copy_cell(const octree_node *seen, void *context)
+static octree_walk_order copy_selected_cell(const octree_node *seen, void *context)
 {
     cell_picker *p = context;
     if (!seen->leaf && seen->count > p->cell)
@@ -75,18 +75,19 @@ static octree_walk_order copy_cell(const octree_node *seen, void *context)
     const size_t before = p->points_before;
     p->points_before += seen->count;
     if (before / p->step != p->points_before / p->step)
-        octree_range(p->tree, &seen->box, add_point, p->sample);
+        octree_range(p->tree, &seen->box, add_sample_point, p->sample);
     return OCTREE_WALK_SKIP;
 }
 
 static bool make_sample(sample *s, octree *tree)
 {
-    const size_t count = octree_count(tree), cell = cell_points(&s->mix);
+    const size_t count = octree_count(tree), cell = choose_cell_points(&s->mix);
     s->room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL;
     s->points = arena_take(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
-    octree_walk(tree, copy_cell, &(cell_picker){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
+    octree_walk(tree, copy_selected_cell,
+                &(cell_picker){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
     qsort(s->points, s->count, sizeof *s->points,
           octree_compare_points); /* makes the sample independent of the order in leaves */
     return true;
@@ -142,12 +143,12 @@ static void add_nodes_below(octree_cost *cost, const node *n)
         add_nodes_below(cost, &children_of(n)[i]);
 }
 
-static void add_taken(octree_address address, octree_trace_kind touch, void *context)
+static void count_taken_nodes(octree_address address, octree_trace_kind touch, void *context)
 {
     range_cost *r = context;
     if (touch != OCTREE_TRACE_TAKEN)
         return;
-    const path p = path_to(r->trial, morton_of_address(address));
+    const path p = find_path(r->trial, morton_of_address(address));
     add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
 }
 
@@ -163,21 +164,22 @@ static octree_cost cost_of_range(const octree *trial, const octree_point *target
     range_cost r = {.trial = trial};
     octree_box box;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
-        octree_range_search(trial, &box, &(octree_search){.cost = &r.all, .trace = add_taken, .trace_context = &r},
+        octree_range_search(trial, &box,
+                            &(octree_search){.cost = &r.all, .trace = count_taken_nodes, .trace_context = &r},
                             accept_point, NULL);
     return r.all;
 }
 
 /* The cost of the mix in a trial tree. */
-static double mix_cost(const sample *s, const octree *trial)
+static double cost_of_mix(const sample *s, const octree *trial)
 {
     double sum = 0;
     for (size_t i = 0; i < TARGETS; i++) {
         const octree_point *target = target_of(s, i);
         const octree_cost change = cost_of_change(trial, target), nearest = cost_of_nearest(s, trial, target);
         const octree_cost range = cost_of_range(trial, target, s->extents[i]);
-        sum += s->mix.changes * weighted_cost(&change) + s->mix.nearest * weighted_cost(&nearest) +
-               s->mix.ranges * weighted_cost(&range);
+        sum += s->mix.changes * weigh_cost(&change) + s->mix.nearest * weigh_cost(&nearest) +
+               s->mix.ranges * weigh_cost(&range);
     }
     return sum;
 }
@@ -191,7 +193,7 @@ static octree_status try_capacity(sample *s, octree_def def, double *cost)
     if (status == OCTREE_OK && def.leaf_capacity == LEAST_CAPACITY)
         status = measure_ranges(s, trial);
     if (status == OCTREE_OK)
-        *cost = mix_cost(s, trial);
+        *cost = cost_of_mix(s, trial);
     octree_destroy(trial);
     return status;
 }
@@ -263,7 +265,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
     if (status == OCTREE_OK && octree_count(tree) > 0)
         status = choose_by_sample(tree, &asked, &def.leaf_capacity);
     if (status == OCTREE_OK && def.leaf_capacity != tree->def.leaf_capacity)
-        status = rebuild(tree, &def);
+        status = rebuild_tree(tree, &def);
     if (status == OCTREE_OK)
         tree->tuning.mix = asked;
     return status;

@@ -5,7 +5,7 @@
 #include "float_rules.h"
 #include "tasks.h"
 
-static octree_node describe(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
+static octree_node describe_node(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
 {
     return (octree_node){
         .address = address,
@@ -38,7 +38,7 @@ static void prefetch_children(const node *n)
 }
 
 /* The splitting planes of a cell. */
-static inline void find_middle(const octree *tree, cell c, double middle[3])
+static inline void find_splitting_planes(const octree *tree, cell c, double middle[3])
 {
     for (int i = 0; i < 3; i++)
         middle[i] = plane_at(&tree->axes[i], c.low[i] + cell_size(c.depth + 1));
@@ -53,21 +53,21 @@ static inline octree_box octant_box(const octree_box *box, const double middle[3
 }
 
 /* Visit a node and the nodes below it. False when the visitor has stopped the walk. */
-static bool walk_below(walk *w, const node *n, octree_address address, cell c, const octree_box *box)
+static bool walk_subtree(walk *w, const node *n, octree_address address, cell c, const octree_box *box)
 {
-    const octree_node description = describe(n, address, c.depth, box);
+    const octree_node description = describe_node(n, address, c.depth, box);
     const octree_walk_order order = w->visit(&description, w->context);
     if (order != OCTREE_WALK_ON || !n->octants)
         return order != OCTREE_WALK_STOP;
     prefetch_children(n);
     double middle[3];
-    find_middle(w->tree, c, middle);
+    find_splitting_planes(w->tree, c, middle);
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8; octant++) {
         if (!(n->octants >> octant & 1))
             continue;
         const octree_box below = octant_box(box, middle, octant);
-        if (!walk_below(w, child++, address << 3 | octant, cell_child(c, octant), &below))
+        if (!walk_subtree(w, child++, address << 3 | octant, cell_child(c, octant), &below))
             return false;
     }
     return true;
@@ -79,16 +79,16 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    walk_below(&(walk){.tree = tree, .visit = visit, .context = context}, &tree->root, OCTREE_ROOT, root_cell(),
-               &tree->def.world);
+    walk_subtree(&(walk){.tree = tree, .visit = visit, .context = context}, &tree->root, OCTREE_ROOT, root_cell(),
+                 &tree->def.world);
     return OCTREE_OK;
 }
 
 /* Describe the node at a depth of the path to a code. */
-static octree_node describe_on(const octree *tree, const path *p, uint64_t code, unsigned depth)
+static octree_node describe_path_node(const octree *tree, const path *p, uint64_t code, unsigned depth)
 {
     const octree_box bounds = cell_bounds(tree->axes, morton_cell(code, depth));
-    return describe(p->nodes[depth], morton_address(code, depth), depth, &bounds);
+    return describe_node(p->nodes[depth], morton_address(code, depth), depth, &bounds);
 }
 
 octree_status octree_node_at(const octree *tree, octree_address address, octree_node *result)
@@ -101,10 +101,10 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
         return OCTREE_NOT_FOUND;
     const unsigned depth = octree_address_depth(address);
     const uint64_t code = morton_of_address(address);
-    const path p = path_to(tree, code);
+    const path p = find_path(tree, code);
     if (p.depth < depth)
         return OCTREE_NOT_FOUND;
-    *result = describe_on(tree, &p, code, depth);
+    *result = describe_path_node(tree, &p, code, depth);
     return OCTREE_OK;
 }
 
@@ -114,14 +114,14 @@ octree_status octree_locate(const octree *tree, const double position[3], octree
     if (status != OCTREE_OK)
         return status;
     const uint64_t code = morton_code(tree->axes, position);
-    const path p = path_to(tree, code);
-    *result = describe_on(tree, &p, code, p.depth);
+    const path p = find_path(tree, code);
+    *result = describe_path_node(tree, &p, code, p.depth);
     return OCTREE_OK;
 }
 
 /* ---- The validator ------------------------------------------------------------------------------------------ */
 
-static const char *check_inner(const octree *tree, const node *n, cell c)
+static const char *check_inner_node(const octree *tree, const node *n, cell c)
 {
     uint64_t below = 0;
     const unsigned children = bits_count8(n->octants);
@@ -134,7 +134,7 @@ static const char *check_inner(const octree *tree, const node *n, cell c)
         return "a node's count is not the sum of its children's";
     if (fits_leaf(tree, n->count))
         return "an inner node would fit one leaf";
-    if (!may_split(tree, c))
+    if (!can_split(tree, c))
         return "an inner node is deeper than the tree allows";
     return NULL;
 }
@@ -164,7 +164,7 @@ static bool is_repeated(const node *n, uint32_t index)
 static const char *check_leaf(const octree *tree, const node *n, cell c, const octree_box *bounds)
 {
     const octree_box box = points_box(*bounds, c);
-    if (!fits_leaf(tree, n->count) && may_split(tree, c))
+    if (!fits_leaf(tree, n->count) && can_split(tree, c))
         return "a leaf that could split is over its capacity";
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
         return "a leaf is over its capacity under OCTREE_REFUSE";
@@ -187,28 +187,28 @@ typedef struct validation {
 
 /* Check a node and the nodes below it, in the order of octree_walk() but without a visitor, whose calls would double
  * the time. */
-static void check_below(validation *v, const node *n, octree_address address, cell c, const octree_box *box)
+static void check_subtree(validation *v, const node *n, octree_address address, cell c, const octree_box *box)
 {
-    v->broken = n->octants ? check_inner(v->tree, n, c) : check_leaf(v->tree, n, c, box);
+    v->broken = n->octants ? check_inner_node(v->tree, n, c) : check_leaf(v->tree, n, c, box);
     v->where = address;
     if (v->broken || !n->octants)
         return;
     prefetch_children(n);
     double middle[3];
-    find_middle(v->tree, c, middle);
+    find_splitting_planes(v->tree, c, middle);
     const node *child = children_of(n);
     for (unsigned octant = 0; octant < 8 && !v->broken; octant++) {
         if (!(n->octants >> octant & 1))
             continue;
         const octree_box below = octant_box(box, middle, octant);
-        check_below(v, child++, address << 3 | octant, cell_child(c, octant), &below);
+        check_subtree(v, child++, address << 3 | octant, cell_child(c, octant), &below);
     }
 }
 
 /* Keep the violation that comes first in the order of the walk. */
-static void keep_first(validation *first, const char *broken, octree_address where)
+static void keep_first_violation(validation *first, const char *broken, octree_address where)
 {
-    if (broken && (!first->broken || address_compare(&where, &first->where) < 0)) {
+    if (broken && (!first->broken || compare_addresses(&where, &first->where) < 0)) {
         first->broken = broken;
         first->where = where;
     }
@@ -222,15 +222,15 @@ typedef struct reading {
 } reading;
 
 /* Returns false for a node that violates an invariant: its children may be invalid pointers. */
-static bool check_opened(const subtree *s, void *context)
+static bool check_divided_node(const subtree *s, void *context)
 {
     reading *r = context;
-    const char *broken = check_inner(r->forest.tree, s->node, s->cell);
-    keep_first(&r->first[r->forest.tasks], broken, s->address);
+    const char *broken = check_inner_node(r->forest.tree, s->node, s->cell);
+    keep_first_violation(&r->first[r->forest.tasks], broken, s->address);
     return !broken;
 }
 
-static void check_share(size_t number, void *context)
+static void check_subtrees_of_share(size_t number, void *context)
 {
     reading *r = context;
     const octree *tree = r->forest.tree;
@@ -238,8 +238,8 @@ static void check_share(size_t number, void *context)
     for (const subtree *s = first_subtree(&r->forest, number); s < end; s++) {
         const octree_box box = cell_bounds(tree->axes, s->cell);
         validation v = {.tree = tree};
-        check_below(&v, s->node, s->address, s->cell, &box);
-        keep_first(&r->first[number], v.broken, v.where);
+        check_subtree(&v, s->node, s->address, s->cell, &box);
+        keep_first_violation(&r->first[number], v.broken, v.where);
     }
 }
 
@@ -251,11 +251,11 @@ const char *octree_check(const octree *tree, octree_address *where)
         return octree_status_text(OCTREE_FLOAT_MODE);
     reading r;
     memset(r.first, 0, sizeof r.first);
-    divide_tree(&r.forest, tree, check_opened, &r);
-    tasks_run(tree, check_share, r.forest.tasks, &r);
+    divide_tree(&r.forest, tree, check_divided_node, &r);
+    run_tasks(tree, check_subtrees_of_share, r.forest.tasks, &r);
     validation *first = &r.first[r.forest.tasks];
     for (unsigned i = 0; i < r.forest.tasks; i++)
-        keep_first(first, r.first[i].broken, r.first[i].where);
+        keep_first_violation(first, r.first[i].broken, r.first[i].where);
     if (first->broken && where)
         *where = first->where;
     return first->broken;
@@ -275,14 +275,14 @@ void count_node(octree_stats *stats, const node *n, unsigned depth)
     }
 }
 
-static void count_below(octree_stats *stats, const node *n, unsigned depth)
+static void count_nodes_below(octree_stats *stats, const node *n, unsigned depth)
 {
     const unsigned children = bits_count8(n->octants);
     const node *child = children_of(n);
     for (unsigned i = 0; i < children; i++, child++) {
         count_node(stats, child, depth + 1);
         if (child->octants)
-            count_below(stats, child, depth + 1);
+            count_nodes_below(stats, child, depth + 1);
     }
 }
 
@@ -294,7 +294,7 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats)
         return OCTREE_FLOAT_MODE;
     *stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
     count_node(stats, &tree->root, 0);
-    count_below(stats, &tree->root, 0);
+    count_nodes_below(stats, &tree->root, 0);
     return OCTREE_OK;
 }
 
@@ -314,7 +314,7 @@ uint64_t digest_node(const node *n, octree_address address)
 }
 
 /* The sum of the digests of an inner node and the nodes below it. */
-static uint64_t digest_below(const node *n, octree_address address)
+static uint64_t sum_digests_below(const node *n, octree_address address)
 {
     uint64_t sum = digest_node(n, address);
     const node *child = children_of(n);
@@ -323,13 +323,13 @@ static uint64_t digest_below(const node *n, octree_address address)
         if (!(n->octants >> octant & 1))
             continue;
         const octree_address at = address << 3 | octant;
-        sum += child->octants ? digest_below(child, at) : digest_node(child, at);
+        sum += child->octants ? sum_digests_below(child, at) : digest_node(child, at);
         child++;
     }
     return sum;
 }
 
-uint64_t digest_of_sum(const octree *tree, uint64_t sum)
+uint64_t digest_of_tree(const octree *tree, uint64_t sum)
 {
     uint64_t digest = octree_digest_word(OCTREE_DIGEST_START, sum);
     digest = octree_digest_word(digest, tree->def.leaf_capacity);
@@ -341,19 +341,19 @@ uint64_t digest_of_sum(const octree *tree, uint64_t sum)
     return digest;
 }
 
-static bool digest_opened(const subtree *s, void *context)
+static bool digest_divided_node(const subtree *s, void *context)
 {
     reading *r = context;
     r->sums[r->forest.tasks] += digest_node(s->node, s->address);
     return true;
 }
 
-static void digest_share(size_t number, void *context)
+static void digest_subtrees_of_share(size_t number, void *context)
 {
     reading *r = context;
     const subtree *end = first_subtree(&r->forest, number + 1);
     for (const subtree *s = first_subtree(&r->forest, number); s < end; s++)
-        r->sums[number] += s->node->octants ? digest_below(s->node, s->address) : digest_node(s->node, s->address);
+        r->sums[number] += s->node->octants ? sum_digests_below(s->node, s->address) : digest_node(s->node, s->address);
 }
 
 uint64_t octree_digest(const octree *tree)
@@ -362,10 +362,10 @@ uint64_t octree_digest(const octree *tree)
         return 0;
     reading r;
     memset(r.sums, 0, sizeof r.sums);
-    divide_tree(&r.forest, tree, digest_opened, &r);
-    tasks_run(tree, digest_share, r.forest.tasks, &r);
+    divide_tree(&r.forest, tree, digest_divided_node, &r);
+    run_tasks(tree, digest_subtrees_of_share, r.forest.tasks, &r);
     uint64_t sum = 0;
     for (unsigned i = 0; i <= r.forest.tasks; i++)
         sum += r.sums[i];
-    return digest_of_sum(tree, sum);
+    return digest_of_tree(tree, sum);
 }
