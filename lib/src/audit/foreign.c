@@ -68,8 +68,10 @@ static octree_status list_keys(arena *memory, const octree_foreign_tree *tree, l
     if (!sorted)
         list_sort(keys, sizeof *items, foreign_compare_keys);
     for (size_t i = 1; i < keys->count; i++)
-        if (items[i].id == items[i - 1].id)
-            return *fault = items[i].place, OCTREE_DUPLICATE;
+        if (items[i].id == items[i - 1].id) {
+            *fault = items[i].place;
+            return OCTREE_DUPLICATE;
+        }
     return OCTREE_OK;
 }
 
@@ -155,10 +157,11 @@ static bool copy_nodes(foreign *f, const octree_foreign_tree *tree)
     size_t ids = 0;
     for (size_t i = 0; i < tree->node_count; i++)
         ids += tree->nodes[i].has_points ? tree->nodes[i].points.count : 0;
-    f->size = tree->node_count * sizeof *tree->nodes + ids * sizeof(uint64_t);
-    f->nodes = f->size ? arena_take(f->memory, f->size) : NULL;
+    const size_t size = tree->node_count * sizeof *tree->nodes + ids * sizeof(uint64_t);
+    f->nodes = size ? arena_take(f->memory, size) : NULL;
+    f->size = f->nodes ? size : 0;
     if (!f->nodes)
-        return f->size == 0 || (f->size = 0, false);
+        return size == 0;
     uint64_t *room = (uint64_t *)(f->nodes + tree->node_count);
     for (size_t i = 0; i < tree->node_count; i++) {
         octree_foreign_node *node = &f->nodes[i];
@@ -193,7 +196,7 @@ static uint64_t digest_foreign_node(uint64_t digest, const octree_foreign_node *
 static bool find_node_kind(foreign *f, octree_foreign_place *place)
 {
     const char(*kinds)[OCTREE_NODE_KIND] = f->kinds.items;
-    const size_t last = place->kind; /* of the node before: usually the same kind */
+    const size_t last = place->kind; /* the kind of the node before, which is usually the same */
     place->kind = 0;
     if (last < f->kinds.count && strcmp(kinds[last], place->node->kind) == 0)
         place->kind = (unsigned)last;
@@ -209,28 +212,22 @@ static bool find_node_kind(foreign *f, octree_foreign_place *place)
 }
 
 /* Add the points of all descendants to each node: start at each leaf and go on to a parent when its last child is done.
- * False when there is no memory. */
-static bool sum_points_below(foreign *f)
+ */
+static void sum_points_below(foreign *f)
 {
     octree_foreign_place *places = f->places.items;
-    list pending = {0}; /* size_t, by node index: the number of children that are not done */
-    bool whole = true;
-    for (size_t i = 0; whole && i < f->places.count; i++)
-        whole = list_push(f->memory, &pending, &(size_t){0}, sizeof(size_t));
-    size_t *children = pending.items;
-    for (size_t i = 0; whole && i < f->places.count; i++)
+    foreign_mark *marks = f->marks.items;
+    for (size_t i = 0; i < f->places.count; i++)
         if (places[i].parent != SIZE_MAX)
-            children[places[i].parent]++;
-    for (size_t i = 0; whole && i < f->places.count; i++)
+            marks[places[i].parent].pending++;
+    for (size_t i = 0; i < f->places.count; i++)
         for (size_t at = places[i].leaf ? i : SIZE_MAX; at != SIZE_MAX;) {
             const size_t parent = places[at].parent;
             places[at].points += places[at].node->points.count;
             if (parent != SIZE_MAX)
                 places[parent].points += places[at].points;
-            at = parent != SIZE_MAX && --children[parent] == 0 ? parent : SIZE_MAX;
+            at = parent != SIZE_MAX && --marks[parent].pending == 0 ? parent : SIZE_MAX;
         }
-    list_release(f->memory, &pending, sizeof(size_t));
-    return whole;
 }
 
 octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
@@ -259,7 +256,8 @@ octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
         state->leaf_count += places[i].leaf;
         state->depth = places[i].depth > state->depth ? places[i].depth : state->depth;
     }
-    return sum_points_below(f) ? OCTREE_OK : OCTREE_NO_MEMORY;
+    sum_points_below(f);
+    return OCTREE_OK;
 }
 
 void foreign_release(foreign *f)

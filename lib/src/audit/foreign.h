@@ -31,6 +31,7 @@ typedef struct foreign_mark {
     uint64_t query; /* the other members count only if this is foreign.query */
     octree_node_visit visit;
     bool reported;
+    size_t pending; /* only in foreign_install(): the number of children whose points are not summed yet */
 } foreign_mark;
 
 /* The current nodes and what is known of them. Valid when all zero but `memory`: there are no nodes yet. */
@@ -38,20 +39,20 @@ typedef struct foreign {
     arena *memory;
     octree_foreign_state state; /* what a tick shows; foreign_publish() sets its pointers */
     octree_foreign_node *nodes; /* a copy, in one block with the ids of their points */
-    size_t size;                /* of the block, in bytes */
+    size_t size;                /* the size of this block in bytes */
     list places;                /* octree_foreign_place, in the order of the nodes */
-    list keys;                  /* foreign_key, by id */
-    list marks;                 /* foreign_mark, by node index */
-    list holdings;              /* foreign_holding, by point and then by node index */
-    list kinds;                 /* char[OCTREE_NODE_KIND] */
+    list keys;                  /* foreign_key, sorted by id */
+    list marks;                 /* foreign_mark, one for each node */
+    list holdings;              /* foreign_holding, sorted by point and then by node index */
+    list kinds;                 /* char[OCTREE_NODE_KIND]: the names of the kinds of nodes */
     list repeated;              /* foreign_holding: points that a node lists more than once */
-    list wrong;                 /* octree_wrong_node */
+    list wrong;                 /* octree_wrong_node: the faults of the tick */
     list visits;                /* size_t: the nodes that the tick's queries name, some several times */
     list unlisted;              /* unlisted_point: points that no node lists, by id */
     size_t standing;            /* the number of first faults that do not come from queries */
     size_t standing_counts[OCTREE_WRONG_NODE_KINDS];
     uint64_t query;   /* the number of queries that named nodes so far */
-    uint64_t version; /* of the tree for which the standing faults were found */
+    uint64_t version; /* the version of the tree for which the standing faults were found */
     bool checked;
 } foreign;
 
@@ -78,7 +79,7 @@ bool foreign_check(foreign *f, const audited_points *points);
 
 /* Record which nodes a query named, and what is wrong with that. `answer` is the index of the query's answer among
  * those of the tick. False when there is no memory. */
-bool foreign_record_query(foreign *f, judge *j, const judging *about, size_t answer);
+bool foreign_record_query(foreign *f, judge *j, const judged_query *about, size_t answer);
 
 /* Set the pointers and counts of f->state. The lists must not grow any more. */
 void foreign_publish(foreign *f);

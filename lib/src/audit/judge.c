@@ -28,13 +28,13 @@ const char *octree_wrong_name(octree_wrong_kind wrong)
 
 typedef struct judge_state {
     judge *judge;
-    const judging *about;
+    const judged_query *about;
     octree_judgement *made;
-    octree_answer asked; /* what is asked, rounded to floats where the foreign index promises floats */
+    octree_answer asked; /* the query's members, rounded to floats where the foreign index promises floats */
     bool rounds;
     metric metric;
     list *collected; /* where a search puts the points that it finds */
-    bool failed;     /* out of memory */
+    bool failed;     /* there was no memory */
 } judge_state;
 
 static bool finds_neighbors(const judge_state *s)
@@ -45,7 +45,7 @@ static bool finds_neighbors(const judge_state *s)
 /* ---- Positions ---------------------------------------------------------------------------------------------- */
 
 /* Start judging a query. The state stays where it is: judged points refer to its target. */
-static void begin_judging(judge_state *s, judge *j, const judging *about, octree_judgement *made)
+static void begin_judging(judge_state *s, judge *j, const judged_query *about, octree_judgement *made)
 {
     const octree *tree = about->points->tree;
     *s = (judge_state){.judge = j, .about = about, .made = made, .asked = *about->answer};
@@ -53,7 +53,7 @@ static void begin_judging(judge_state *s, judge *j, const judging *about, octree
     if (s->rounds)
         round_answer(&s->asked);
     s->metric = metric_make(tree->scale, is_subnormal_world(tree), s->asked.target);
-    j->named.count = j->truth.count = 0;
+    j->foreign.count = j->exact.count = 0;
 }
 
 static judged_point judge_point(const judge_state *s, const octree_point *point)
@@ -84,7 +84,7 @@ static int compare_ids(const void *a, const void *b)
     return (p->point.id > q->point.id) - (p->point.id < q->point.id);
 }
 
-/* By the real distances. Squares decide where they are surely apart. */
+/* Compare real distances to the target. Squares in doubles decide where they are surely apart. */
 static int compare_distances(const judged_point *a, const judged_point *b)
 {
     if (a->square > metric_above(b->square))
@@ -144,10 +144,10 @@ static void list_foreign_answer(judge_state *s)
         if (is_skipped(s, &p))
             record_wrong(s, OCTREE_WRONG_SKIPPED, point.id);
         else
-            append_judged_point(s, &j->named, &p);
+            append_judged_point(s, &j->foreign, &p);
     }
-    list_sort(&j->named, sizeof(judged_point), compare_ids);
-    remove_duplicates(s, &j->named);
+    list_sort(&j->foreign, sizeof(judged_point), compare_ids);
+    remove_duplicates(s, &j->foreign);
 }
 
 /* ---- The exact answer --------------------------------------------------------------------------------------- */
@@ -155,11 +155,11 @@ static void list_foreign_answer(judge_state *s)
 /* The exact answer for positions as they are: the game has asked it already. */
 static void list_exact_answer(judge_state *s)
 {
-    const judging *about = s->about;
+    const judged_query *about = s->about;
     for (size_t i = 0; !s->failed && i < about->answer->count; i++) {
         judged_point p =
             judge_point(s, about->exact_points ? &about->exact_points[i] : &about->exact_neighbors[i].point);
-        append_judged_point(s, &s->judge->truth, &p);
+        append_judged_point(s, &s->judge->exact, &p);
     }
 }
 
@@ -200,31 +200,32 @@ static void collect_nearest(judge_state *s, double slack)
 {
     const octree_answer *answer = s->about->answer;
     const double *target = s->asked.target;
-    list *truth = &s->judge->truth;
+    list *exact = &s->judge->exact;
     const size_t count = answer->count, k = answer->k;
     double radius =
         count && count == k ? metric_distance(target, s->about->exact_neighbors[count - 1].point.position) : 0;
     if (k >= octree_count(s->about->points->tree))
         radius = DBL_MAX;
     for (radius += slack; !s->failed; radius *= 2) {
-        truth->count = 0;
+        exact->count = 0;
         radius = radius < DBL_MAX ? radius : DBL_MAX;
         collect_ball(s, radius, slack);
-        list_sort(truth, sizeof(judged_point), compare_ranks);
-        const judged_point *found = truth->items;
+        list_sort(exact, sizeof(judged_point), compare_ranks);
+        const judged_point *found = exact->items;
         if (k == 0 || radius == DBL_MAX ||
-            (truth->count >= k && metric_compare_radius(target, found[k - 1].at, radius) <= 0))
+            (exact->count >= k && metric_compare_radius(target, found[k - 1].at, radius) <= 0))
             break;
     }
-    truth->count = truth->count < k ? truth->count : k;
+    exact->count = exact->count < k ? exact->count : k;
 }
 
 /* The exact answer for positions rounded to floats. */
 static void list_rounded_exact_answer(judge_state *s)
 {
     const octree *tree = s->about->points->tree;
-    const double slack = 2 * largest_rounding(tree); /* a distance in space: above the square root of 3 times that */
-    s->collected = &s->judge->truth;
+    const double slack =
+        2 * largest_rounding(tree); /* in space a point moves by up to sqrt(3) times the largest rounding on an axis */
+    s->collected = &s->judge->exact;
     if (finds_neighbors(s)) {
         collect_nearest(s, slack);
     } else {
@@ -239,7 +240,7 @@ static void find_exact_answer(judge_state *s)
         list_rounded_exact_answer(s);
     else
         list_exact_answer(s);
-    s->made->expected = s->judge->truth.count;
+    s->made->expected = s->judge->exact.count;
 }
 
 /* ---- Regions ------------------------------------------------------------------------------------------------ */
@@ -268,9 +269,9 @@ static void list_difference(judge_state *s, const list *from, const list *withou
 static void judge_region(judge_state *s)
 {
     judge *j = s->judge;
-    list_sort(&j->truth, sizeof(judged_point), compare_ids);
-    list_difference(s, &j->truth, &j->named, 0, &s->made->missing_count);
-    list_difference(s, &j->named, &j->truth, s->asked.epsilon, &s->made->extra_count);
+    list_sort(&j->exact, sizeof(judged_point), compare_ids);
+    list_difference(s, &j->exact, &j->foreign, 0, &s->made->missing_count);
+    list_difference(s, &j->foreign, &j->exact, s->asked.epsilon, &s->made->extra_count);
     if (s->made->missing_count)
         record_wrong(s, OCTREE_WRONG_MISSING, 0);
     if (s->made->extra_count)
@@ -288,17 +289,17 @@ static bool is_too_far(const judge_state *s, const judged_point *a, const judged
     return a->square > metric_above(factor * factor * (b->square + 0x1p-999));
 }
 
-static void judge_ranks(judge_state *s, const judged_point *named, const judged_point *truth, size_t count)
+static void judge_ranks(judge_state *s, const judged_point *foreign, const judged_point *exact, size_t count)
 {
     octree_judgement *made = s->made;
     made->ratio = count == 0 && made->expected > 0 ? INFINITY : 1;
     for (size_t i = 0; i < count; i++) {
-        if (compare_distances(&named[i], &truth[i]) <= 0)
+        if (compare_distances(&foreign[i], &exact[i]) <= 0)
             continue;
         const double ratio =
-            metric_distance(named[i].at, s->asked.target) / metric_distance(truth[i].at, s->asked.target);
+            metric_distance(foreign[i].at, s->asked.target) / metric_distance(exact[i].at, s->asked.target);
         made->ratio = ratio > made->ratio ? ratio : made->ratio;
-        if (made->rank == 0 && is_too_far(s, &named[i], &truth[i]))
+        if (made->rank == 0 && is_too_far(s, &foreign[i], &exact[i]))
             made->rank = i + 1;
     }
     if (made->rank)
@@ -311,33 +312,33 @@ static void list_wrong_neighbors(judge_state *s)
 {
     const judge *j = s->judge;
     octree_judgement *made = s->made;
-    const judged_point *truth = j->truth.items, *named = j->named.items;
-    const judged_point *last = j->truth.count ? &truth[j->truth.count - 1] : NULL;
+    const judged_point *exact = j->exact.items, *foreign = j->foreign.items;
+    const judged_point *last = j->exact.count ? &exact[j->exact.count - 1] : NULL;
     size_t in_reach = 0;
-    while (last && in_reach < j->named.count && compare_distances(&named[in_reach], last) <= 0)
+    while (last && in_reach < j->foreign.count && compare_distances(&foreign[in_reach], last) <= 0)
         in_reach++;
-    for (size_t i = 0, n = 0; !s->failed && i < j->truth.count; i++) {
-        while (n < in_reach && compare_ranks(&named[n], &truth[i]) < 0)
+    for (size_t i = 0, n = 0; !s->failed && i < j->exact.count; i++) {
+        while (n < in_reach && compare_ranks(&foreign[n], &exact[i]) < 0)
             n++;
-        const bool lacks = n == in_reach || named[n].point.id != truth[i].point.id;
-        const bool needed = compare_distances(&truth[i], last) < 0 || made->missing_count + in_reach < j->truth.count;
+        const bool lacks = n == in_reach || foreign[n].point.id != exact[i].point.id;
+        const bool needed = compare_distances(&exact[i], last) < 0 || made->missing_count + in_reach < j->exact.count;
         if (lacks && needed)
-            list_wrong_point(s, &truth[i], &made->missing_count);
+            list_wrong_point(s, &exact[i], &made->missing_count);
     }
-    for (size_t i = in_reach; !s->failed && i < j->named.count; i++)
-        if (!last || is_too_far(s, &named[i], last))
-            list_wrong_point(s, &named[i], &made->extra_count);
+    for (size_t i = in_reach; !s->failed && i < j->foreign.count; i++)
+        if (!last || is_too_far(s, &foreign[i], last))
+            list_wrong_point(s, &foreign[i], &made->extra_count);
 }
 
 static void judge_neighbors(judge_state *s, size_t given)
 {
     judge *j = s->judge;
-    const size_t named = j->named.count, truth = j->truth.count, ranks = named < truth ? named : truth;
-    list_sort(&j->named, sizeof(judged_point), compare_ranks);
-    judge_ranks(s, j->named.items, j->truth.items, ranks);
-    if (given != truth)
+    const size_t foreign = j->foreign.count, exact = j->exact.count, ranks = foreign < exact ? foreign : exact;
+    list_sort(&j->foreign, sizeof(judged_point), compare_ranks);
+    judge_ranks(s, j->foreign.items, j->exact.items, ranks);
+    if (given != exact)
         record_wrong(s, OCTREE_WRONG_COUNT, 0);
-    if (named != truth && s->made->rank == 0)
+    if (foreign != exact && s->made->rank == 0)
         s->made->rank = ranks + 1;
     if (s->made->wrong)
         list_wrong_neighbors(s);
@@ -354,7 +355,7 @@ static void compare_lists(judge_state *s, size_t given)
         judge_region(s);
 }
 
-bool judge_answer(judge *j, const judging *about, octree_judgement *made)
+bool judge_answer(judge *j, const judged_query *about, octree_judgement *made)
 {
     judge_state s;
     *made = (octree_judgement){.judged = true, .given_count = about->query->answer_count};
@@ -381,11 +382,11 @@ static void remove_lost_points(list *l, point_test *is_lost, void *context)
  * neighbour. */
 static void list_possible_neighbors(judge_state *s)
 {
-    const list *truth = &s->judge->truth;
-    const judged_point *last = (const judged_point *)truth->items + truth->count - 1;
+    const list *exact = &s->judge->exact;
+    const judged_point *last = (const judged_point *)exact->items + exact->count - 1;
     const double distance = metric_distance(s->asked.target, last->at);
     const double factor = (1 + s->asked.epsilon) * (1 + 0x1p-40);
-    s->collected = &s->judge->named;
+    s->collected = &s->judge->foreign;
     s->collected->count = 0;
     collect_ball(s, distance < DBL_MAX / factor ? distance * factor : DBL_MAX,
                  s->rounds ? 2 * largest_rounding(s->about->points->tree) : 0x1p-1000);
@@ -394,32 +395,32 @@ static void list_possible_neighbors(judge_state *s)
 /* Make the best answer without the lost points: the nearest others, or all others of the region. */
 static void list_best_answer(judge_state *s, point_test *is_lost, void *context)
 {
-    list *named = &s->judge->named;
-    const list *truth = &s->judge->truth;
+    list *foreign = &s->judge->foreign;
+    const list *exact = &s->judge->exact;
     if (!finds_neighbors(s)) {
-        list_sort(named, sizeof(judged_point), compare_ids);
+        list_sort(foreign, sizeof(judged_point), compare_ids);
         return;
     }
     list_possible_neighbors(s);
-    remove_lost_points(named, is_lost, context);
-    list_sort(named, sizeof(judged_point), compare_ranks);
-    named->count = named->count < truth->count ? named->count : truth->count;
+    remove_lost_points(foreign, is_lost, context);
+    list_sort(foreign, sizeof(judged_point), compare_ranks);
+    foreign->count = foreign->count < exact->count ? foreign->count : exact->count;
 }
 
-bool judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context)
+bool judge_without(judge *j, const judged_query *about, point_test *is_lost, point_visit *report, void *context)
 {
     octree_judgement made = {.judged = true};
     judge_state s;
     const size_t listed = j->wrong.count;
     begin_judging(&s, j, about, &made);
     find_exact_answer(&s);
-    for (size_t i = 0; i < j->truth.count; i++)
-        append_judged_point(&s, &j->named, (const judged_point *)j->truth.items + i);
-    remove_lost_points(&j->named, is_lost, context);
-    if (s.failed || j->named.count == j->truth.count)
+    for (size_t i = 0; i < j->exact.count; i++)
+        append_judged_point(&s, &j->foreign, (const judged_point *)j->exact.items + i);
+    remove_lost_points(&j->foreign, is_lost, context);
+    if (s.failed || j->foreign.count == j->exact.count)
         return !s.failed;
     list_best_answer(&s, is_lost, context);
-    compare_lists(&s, j->named.count);
+    compare_lists(&s, j->foreign.count);
     const octree_point *missed = j->wrong.items; /* only lost points: the others are the best there are */
     for (size_t i = 0; !s.failed && made.wrong && i < made.missing_count; i++)
         s.failed = !report(&missed[listed + i], context);
@@ -448,6 +449,6 @@ void judge_release(judge *j)
 {
     list_release(j->memory, &j->given, sizeof(uint64_t));
     list_release(j->memory, &j->wrong, sizeof(octree_point));
-    list_release(j->memory, &j->named, sizeof(judged_point));
-    list_release(j->memory, &j->truth, sizeof(judged_point));
+    list_release(j->memory, &j->foreign, sizeof(judged_point));
+    list_release(j->memory, &j->exact, sizeof(judged_point));
 }

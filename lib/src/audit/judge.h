@@ -29,16 +29,16 @@ typedef struct judged_point {
 /* What a tick's judgements list, and buffers that they share. The owner empties `given` and `wrong` before a tick. */
 typedef struct judge {
     arena *memory;
-    list given; /* uint64_t: the ids of all foreign answers, one answer after another */
-    list wrong; /* octree_point: the missed and then the extra points of each answer */
-    list named; /* judged_point: the foreign answer that is compared */
-    list truth; /* judged_point: the exact answer that is compared */
+    list given;   /* uint64_t: the ids of all foreign answers, one answer after another */
+    list wrong;   /* octree_point: the missed and then the extra points of each answer */
+    list foreign; /* judged_point: the foreign answer that is compared */
+    list exact;   /* judged_point: the exact answer that is compared */
 } judge;
 
 void judge_release(judge *j);
 
 /* One query with its exact answer. */
-typedef struct judging {
+typedef struct judged_query {
     const audited_points *points;
     const octree_query *query;
     const octree_answer *answer;      /* its members and epsilon; its result is in the next two */
@@ -46,11 +46,11 @@ typedef struct judging {
     const octree_neighbor *exact_neighbors;
     octree_skip skip; /* that is in force: the query's, or the one that leaves out the player */
     uint64_t skip_id;
-} judging;
+} judged_query;
 
 /* Judge the foreign answer of a query. False when there is no memory. Cost: O(m log m) for m points of both answers;
  * with OCTREE_FLOATS also one or more searches for the points that rounding may bring into the answer. */
-bool judge_answer(judge *j, const judging *about, octree_judgement *made);
+bool judge_answer(judge *j, const judged_query *about, octree_judgement *made);
 
 typedef bool point_test(const octree_point *point, void *context);
 typedef bool point_visit(const octree_point *point, void *context);
@@ -58,7 +58,7 @@ typedef bool point_visit(const octree_point *point, void *context);
 /* Judge the best answer that leaves out all points for which `is_lost` is true. If even this answer is wrong, call
  * `report` for each lost point that it misses. False when there is no memory or `report` returned false. Cost: that of
  * judge_answer(), and where an exact neighbour is lost a search of a ball that contains them all. */
-bool judge_without(judge *j, const judging *about, point_test *is_lost, point_visit *report, void *context);
+bool judge_without(judge *j, const judged_query *about, point_test *is_lost, point_visit *report, void *context);
 
 /* Point the judgements of these answers to their parts of `given` and `wrong`, which must not grow any more. */
 void judge_assign_lists(const judge *j, octree_answer *answers, size_t count);

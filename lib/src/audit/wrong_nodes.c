@@ -99,28 +99,28 @@ static bool is_within_parent(const octree_foreign_node *child, const octree_fore
 static bool check_boxes_in_parents(foreign *f)
 {
     const octree_foreign_place *places = places_of(f);
-    bool whole = true;
-    for (size_t i = 0; whole && i < f->places.count; i++)
+    bool ok = true;
+    for (size_t i = 0; ok && i < f->places.count; i++)
         if (places[i].parent != SIZE_MAX && !is_within_parent(places[i].node, places[places[i].parent].node))
-            whole = report_wrong_node(f, i, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_PARENT});
-    return whole;
+            ok = report_wrong_node(f, i, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_PARENT});
+    return ok;
 }
 
 /* Check the points that a node lists. */
 static bool check_listed_points(foreign *f, const audited_points *points, size_t place)
 {
     const octree_foreign_node *node = places_of(f)[place].node;
-    bool whole = true;
-    for (size_t i = 0; whole && i < node->points.count; i++) {
+    bool ok = true;
+    for (size_t i = 0; ok && i < node->points.count; i++) {
         octree_point point;
         const uint64_t id = node->points.ids[i];
         if (!points->find(points->context, id, &point))
-            whole = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
+            ok = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_POINT, .point = id});
         else if (!foreign_node_contains(node, point.position))
-            whole = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
-        whole = whole && list_push(f->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
+            ok = report_wrong_node(f, place, (octree_wrong_node){.kind = OCTREE_NODE_OUTSIDE_POINT, .point = id});
+        ok = ok && list_push(f->memory, &f->holdings, &(foreign_holding){id, place}, sizeof(foreign_holding));
     }
-    return whole;
+    return ok;
 }
 
 static bool is_same_holding(const foreign_holding *a, const foreign_holding *b)
@@ -138,17 +138,17 @@ static int compare_by_place(const void *a, const void *b)
 static bool report_repeated(foreign *f)
 {
     const foreign_holding *items = f->holdings.items;
-    bool whole = true;
+    bool ok = true;
     f->repeated.count = 0;
-    for (size_t i = 1; whole && i < f->holdings.count; i++)
+    for (size_t i = 1; ok && i < f->holdings.count; i++)
         if (is_same_holding(&items[i], &items[i - 1]) && !(i > 1 && is_same_holding(&items[i], &items[i - 2])))
-            whole = list_push(f->memory, &f->repeated, &items[i], sizeof *items);
+            ok = list_push(f->memory, &f->repeated, &items[i], sizeof *items);
     const foreign_holding *repeated = f->repeated.items;
     list_sort(&f->repeated, sizeof *repeated, compare_by_place);
-    for (size_t i = 0; whole && i < f->repeated.count; i++)
-        whole = report_wrong_node(f, repeated[i].place,
-                                  (octree_wrong_node){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
-    return whole;
+    for (size_t i = 0; ok && i < f->repeated.count; i++)
+        ok = report_wrong_node(f, repeated[i].place,
+                               (octree_wrong_node){.kind = OCTREE_NODE_REPEATED_POINT, .point = repeated[i].id});
+    return ok;
 }
 
 static bool is_listed(const foreign *f, uint64_t point)
@@ -236,12 +236,12 @@ static bool find_lost_points(foreign *f, const audited_points *points)
     const unlisted_point *unlisted = f->unlisted.items;
     list_sort(&f->unlisted, sizeof *unlisted, compare_first_words);
     mark_points_in_boxes(&search);
-    bool whole = !search.failed;
-    for (size_t i = 0; whole && search.lost > 0 && i < f->unlisted.count; i++)
+    bool ok = !search.failed;
+    for (size_t i = 0; ok && search.lost > 0 && i < f->unlisted.count; i++)
         if (!unlisted[i].held)
-            whole = report_wrong_node(f, SIZE_MAX,
-                                      (octree_wrong_node){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
-    return whole;
+            ok = report_wrong_node(f, SIZE_MAX,
+                                   (octree_wrong_node){.kind = OCTREE_NODE_LOST_POINT, .point = unlisted[i].id});
+    return ok;
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -271,11 +271,11 @@ static bool find_standing_faults(foreign *f, const audited_points *points)
     f->wrong.count = f->holdings.count = 0;
     for (size_t i = 0; i < f->places.count; i++)
         places_of(f)[i].wrong = 0;
-    bool whole = check_boxes_in_parents(f);
-    for (size_t i = 0; whole && i < f->places.count; i++)
-        whole = check_listed_points(f, points, i);
+    bool ok = check_boxes_in_parents(f);
+    for (size_t i = 0; ok && i < f->places.count; i++)
+        ok = check_listed_points(f, points, i);
     list_sort(&f->holdings, sizeof(foreign_holding), foreign_compare_keys);
-    f->checked = whole && report_repeated(f) && find_lost_points(f, points);
+    f->checked = ok && report_repeated(f) && find_lost_points(f, points);
     f->standing = f->wrong.count;
     memcpy(f->standing_counts, state->wrong, sizeof state->wrong);
     f->version = octree_version(points->tree);
@@ -377,15 +377,15 @@ static bool report_pruned(const octree_point *point, void *context)
     return true;
 }
 
-bool foreign_record_query(foreign *f, judge *j, const judging *about, size_t answer)
+bool foreign_record_query(foreign *f, judge *j, const judged_query *about, size_t answer)
 {
     const octree_query *query = about->query;
     node_query q = {f, about->points, answer};
-    bool whole = true;
+    bool ok = true;
     f->query++;
     for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
-        for (size_t i = 0; whole && i < query->visits[visit].count; i++)
-            whole = record_node_visit(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
+        for (size_t i = 0; ok && i < query->visits[visit].count; i++)
+            ok = record_node_visit(&q, (octree_node_visit)visit, query->visits[visit].ids[i]);
     const bool prunes = query->visits[OCTREE_NODE_PRUNED].count > 0;
-    return whole && (!prunes || judge_without(j, about, is_pruned, report_pruned, &q));
+    return ok && (!prunes || judge_without(j, about, is_pruned, report_pruned, &q));
 }

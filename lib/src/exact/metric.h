@@ -13,8 +13,8 @@
 #include "octree/types.h"
 
 typedef struct metric {
-    double target[3]; /* unscaled */
-    double scaled[3]; /* times scale */
+    double target[3]; /* not scaled */
+    double scaled[3]; /* the target times `scale` */
     double scale;
     double grain; /* scale * 2^-1074 in a world of subnormal coordinates, else 0 */
 } metric;

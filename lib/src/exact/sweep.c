@@ -30,7 +30,7 @@ static ends ends_on_axis(const sweep *box, const double from[3], const double to
 /* The interval of contact so far, in doubles. */
 typedef struct moments {
     double enter, leave; /* the latest enter and the earliest leave of all axes */
-    double error;        /* an error bound for both */
+    double error;        /* an error bound for `enter` and `leave` */
 } moments;
 
 /* For an axis without motion: 1 if the point is within the size, 0 if not, -1 if doubles do not decide. The error

@@ -19,9 +19,9 @@ typedef struct moving_body {
 } moving_body;
 
 typedef struct bodies {
-    list items;        /* moving_body */
+    list items;        /* a list of moving_body */
     uint32_t *slots;   /* index + 1 by hash of id, or 0; open addressing with linear probing */
-    size_t slot_count; /* a power of two, or 0 */
+    size_t slot_count; /* the length of `slots`: a power of two, or 0 */
     size_t movers;     /* the number of bodies whose velocity is not zero */
     size_t runs;       /* the number of runs of edits so far that move bodies */
 } bodies;

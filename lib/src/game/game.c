@@ -58,7 +58,7 @@ static bool collect_hit_points(octree_game *game, const octree_point *self)
     const octree_search how = game_search(game, &game->tick.hit_cost);
     hit_collector found = {game, {&game->memory, &game->hits, false}};
     octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size, self, &how, collect_hit,
-                         &found); /* with valid arguments, which cannot fail */
+                         &found); /* cannot fail: the arguments are valid */
     return !found.hits.failed;
 }
 
@@ -394,7 +394,7 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, input->gap ? '.' : key);
     if (input->gap)
-        update_player(game); /* it has not moved */
+        update_player(game); /* in a gap the player does not move */
     else if (!play_changes(game, input))
         return OCTREE_NO_MEMORY;
     return finish_tick(game, input);

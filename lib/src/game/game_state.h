@@ -24,8 +24,8 @@
 #define GAME_LISTS(X)                                                                                                  \
     GAME_SHOWN_LISTS(X)                                                                                                \
     X(hit_from, none, double[3])                                                                                       \
-    X(found, none, octree_point)                                                                                       \
-    X(near, none, octree_neighbor)
+    X(found_points, none, octree_point)                                                                                \
+    X(found_neighbors, none, octree_neighbor)
 
 struct octree_game {
     const octree_session *session;

@@ -16,14 +16,14 @@ static bool judge_foreign_query(octree_game *game, const octree_query *query, co
     octree_answer *answer = (octree_answer *)game->answers.items + game->answers.count - 1;
     const bool near = octree_query_about(query->kind)->neighbors, none = answer->count == 0;
     const audited_points all = game_audited_points(game);
-    const judging about = {.points = &all,
-                           .query = query,
-                           .answer = answer,
-                           .exact_points = near || none ? NULL : (const octree_point *)game->found.items + points,
-                           .exact_neighbors =
-                               near && !none ? (const octree_neighbor *)game->near.items + neighbors : NULL,
-                           .skip = near ? how->skip : query->skip,
-                           .skip_id = near ? how->skip_id : query->skip_id};
+    const judged_query about = {
+        .points = &all,
+        .query = query,
+        .answer = answer,
+        .exact_points = near || none ? NULL : (const octree_point *)game->found_points.items + points,
+        .exact_neighbors = near && !none ? (const octree_neighbor *)game->found_neighbors.items + neighbors : NULL,
+        .skip = near ? how->skip : query->skip,
+        .skip_id = near ? how->skip_id : query->skip_id};
     game->tick.judged |= query->answered;
     if (query->answered && !judge_answer(&game->judge, &about, &answer->judgement))
         return false;
@@ -39,14 +39,15 @@ static bool ask_in_game(octree_game *game, const octree_query *query, bool by_ke
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return false;
-    asking a = {game->tree, game_search(game, NULL), {&game->memory, &game->found, false}, &game->near, NULL};
-    a.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
-    a.how.skip_id = game->session->player.id;
-    const size_t points = game->found.count, neighbors = game->near.count;
-    const octree_status status = ask_query(&a, query, game->tick.player, answer);
+    query_run run = {
+        game->tree, game_search(game, NULL), {&game->memory, &game->found_points, false}, &game->found_neighbors, NULL};
+    run.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
+    run.how.skip_id = game->session->player.id;
+    const size_t points = game->found_points.count, neighbors = game->found_neighbors.count;
+    const octree_status status = ask_query(&run, query, game->tick.player, answer);
     answer->by_key = by_key;
     game->tick.asked |= 1u << query->kind;
-    return status == OCTREE_OK && judge_foreign_query(game, query, &a.how, points, neighbors);
+    return status == OCTREE_OK && judge_foreign_query(game, query, &run.how, points, neighbors);
 }
 
 bool game_ask_queries(octree_game *game, const octree_query *queries, size_t count)
@@ -66,8 +67,8 @@ bool game_ask_by_key(octree_game *game)
 /* Point each answer to its part of the lists, which must not grow any more. */
 static void assign_results(octree_game *game)
 {
-    const octree_point *points = game->found.items;
-    const octree_neighbor *neighbors = game->near.items;
+    const octree_point *points = game->found_points.items;
+    const octree_neighbor *neighbors = game->found_neighbors.items;
     octree_answer *answers = game->answers.items;
     for (size_t i = 0; i < game->answers.count; i++) {
         octree_answer *answer = &answers[i];
@@ -98,7 +99,7 @@ octree_search game_search(octree_game *game, octree_cost *cost)
     return (octree_search){.cost = cost, .trace = record_visit, .trace_context = game};
 }
 
-/* By node, and for one node by strength: visited, taken whole, pruned. */
+/* Compare by node; for one node the order is visited, taken whole, pruned. */
 static int compare_visits(const void *a, const void *b)
 {
     static const int weakness[OCTREE_TRACE_KINDS] = {
@@ -135,14 +136,14 @@ static bool add_leaf_of_point(octree_game *game, const octree_point *point)
 
 static bool add_result_leaves(octree_game *game)
 {
-    const octree_point *hits = game->hits.items, *found = game->found.items;
-    const octree_neighbor *near = game->near.items;
+    const octree_point *hits = game->hits.items, *found = game->found_points.items;
+    const octree_neighbor *near = game->found_neighbors.items;
     bool ok = true;
     for (size_t i = 0; ok && i < game->hits.count; i++)
         ok = add_leaf_of_point(game, &hits[i]);
-    for (size_t i = 0; ok && i < game->found.count; i++)
+    for (size_t i = 0; ok && i < game->found_points.count; i++)
         ok = add_leaf_of_point(game, &found[i]);
-    for (size_t i = 0; ok && i < game->near.count; i++)
+    for (size_t i = 0; ok && i < game->found_neighbors.count; i++)
         ok = add_leaf_of_point(game, &near[i].point);
     return ok;
 }

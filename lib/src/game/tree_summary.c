@@ -8,9 +8,9 @@
 /* A subtree of SUBTREE_POINTS points or fewer whose parent has more, or a leaf. */
 typedef struct subtree {
     octree_address address;
-    size_t first_inner, inner_count; /* in the list of inner nodes */
+    size_t first_inner, inner_count; /* its part of the list of inner nodes */
     octree_stats stats;
-    uint64_t sum; /* of digest_node() */
+    uint64_t sum; /* the sum of digest_node() of its nodes */
 } subtree;
 
 /* An update in progress. It walks the tree in pre-order, which is the order of all lists, so each list needs one index.

@@ -117,11 +117,11 @@ void sort_points(list *points, size_t first)
 
 bool collect_unless_skipped(const octree_point *point, void *context)
 {
-    asking *a = context;
-    const octree_answer *asked = a->asked;
+    query_run *run = context;
+    const octree_answer *asked = run->asked;
     const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
                          (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target));
-    return skipped || collect_point(point, &a->points);
+    return skipped || collect_point(point, &run->points);
 }
 
 static size_t size_of_member(octree_member_type type)
@@ -166,28 +166,28 @@ void round_answer(octree_answer *answer)
     }
 }
 
-octree_status ask_query(asking *a, const octree_query *query, const double player[3], octree_answer *answer)
+octree_status ask_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer)
 {
     const bool neighbors = octree_query_about(query->kind)->neighbors;
-    const list *found = neighbors ? a->neighbors : a->points.points;
+    const list *found = neighbors ? run->neighbors : run->points.points;
     const size_t first = found->count;
     *answer = query_to_answer(query, player);
-    a->asked = answer;
-    a->how.cost = &answer->cost;
+    run->asked = answer;
+    run->how.cost = &answer->cost;
     if (query->skip != OCTREE_SKIP_NONE) {
-        a->how.skip = query->skip;
-        a->how.skip_id = query->skip_id;
+        run->how.skip = query->skip;
+        run->how.skip_id = query->skip_id;
     }
     if (query_is_judged(query))
-        a->how.epsilon = 0; /* the exact answer judges; epsilon is what the foreign answer may deviate by */
+        run->how.epsilon = 0; /* the exact answer judges; epsilon is what the foreign answer may deviate by */
     else if (query->epsilon > 0)
-        a->how.epsilon = query->epsilon;
-    octree_status status = query_rules_of(query->kind)->ask(a, answer);
-    if (a->points.failed)
+        run->how.epsilon = query->epsilon;
+    octree_status status = query_rules_of(query->kind)->ask(run, answer);
+    if (run->points.failed)
         status = OCTREE_NO_MEMORY;
     answer->count = found->count - first;
     if (status == OCTREE_OK && !neighbors)
-        sort_points(a->points.points, first);
+        sort_points(run->points.points, first);
     return status;
 }
 
@@ -216,9 +216,9 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
         return status;
     arena memory = {.allocator = tree->def.allocator};
     list points = {0}, neighbors = {0};
-    asking a = {tree, search_or_default(how), {&memory, &points, false}, &neighbors, NULL};
+    query_run run = {tree, search_or_default(how), {&memory, &points, false}, &neighbors, NULL};
     octree_answer made;
-    status = ask_query(&a, query, player, &made);
+    status = ask_query(&run, query, player, &made);
     made.points = move_to_block(&memory, &points, sizeof(octree_point));
     made.neighbors = move_to_block(&memory, &neighbors, sizeof(octree_neighbor));
     if (status == OCTREE_OK && made.count && !made.points && !made.neighbors)

@@ -19,28 +19,28 @@ bool collect_point(const octree_point *point, void *context);
 void sort_points(list *points, size_t first);
 
 /* A query that is being asked, and the lists that its result is appended to. */
-typedef struct asking {
+typedef struct query_run {
     const octree *tree;
     octree_search how;
     point_collector points;
-    list *neighbors; /* octree_neighbor */
+    list *neighbors; /* a list of octree_neighbor */
     const octree_answer *asked;
-} asking;
+} query_run;
 
-/* An octree_point_visitor with an asking as its context: collect the point unless the query skips it. */
+/* An octree_point_visitor with a query_run as its context: collect the point unless the query skips it. */
 bool collect_unless_skipped(const octree_point *point, void *context);
 
 /* Each kind defines ask_NAME in kind_NAME.c: ask the tree and append the result. A kind whose result is points also
  * defines contains_NAME and bound_NAME. */
 #define QUERY_RULE_TYPES(kind, name, ...)                                                                              \
-    octree_status ask_##name(asking *a, octree_answer *answer);                                                        \
+    octree_status ask_##name(query_run *run, octree_answer *answer);                                                   \
     bool contains_##name(const octree_answer *asked, const double position[3], double slack);                          \
     octree_box bound_##name(const octree_answer *asked, double slack);
 OCTREE_QUERY_MAP(QUERY_RULE_TYPES)
 #undef QUERY_RULE_TYPES
 
 typedef struct query_rules {
-    octree_status (*ask)(asking *a, octree_answer *answer);
+    octree_status (*ask)(query_run *run, octree_answer *answer);
 
     /* Whether a position is in the region or within `slack` >= 0 of it. Real numbers decide, whatever the world and the
      * size of the region; for slack > 0 the limit may be rounded up. Null where the result is neighbours. */
@@ -65,7 +65,8 @@ octree_answer query_to_answer(const octree_query *query, const double player[3])
 /* Round all positions and lengths of an answer's members to floats. */
 void round_answer(octree_answer *answer);
 
-/* Ask a checked query. answer->count is the number of items that were appended to `a`; the pointers stay null. */
-octree_status ask_query(asking *a, const octree_query *query, const double player[3], octree_answer *answer);
+/* Ask a checked query. answer->count is the number of items that were appended to the lists of the run; the pointers
+ * stay null. */
+octree_status ask_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer);
 
 #endif

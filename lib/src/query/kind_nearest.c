@@ -3,22 +3,22 @@
 #include "kind.h"
 #include "octree/octree.h"
 
-octree_status ask_knearest(asking *a, octree_answer *answer)
+octree_status ask_knearest(query_run *run, octree_answer *answer)
 {
-    const size_t first = a->neighbors->count, all = octree_count(a->tree);
+    const size_t first = run->neighbors->count, all = octree_count(run->tree);
     const size_t k = answer->k < all ? answer->k : all;
-    while (a->neighbors->count < first + k)
-        if (!list_append(a->points.memory, a->neighbors, sizeof(octree_neighbor)))
+    while (run->neighbors->count < first + k)
+        if (!list_append(run->points.memory, run->neighbors, sizeof(octree_neighbor)))
             return OCTREE_NO_MEMORY;
-    octree_neighbor *neighbors = k ? (octree_neighbor *)a->neighbors->items + first : NULL;
+    octree_neighbor *neighbors = k ? (octree_neighbor *)run->neighbors->items + first : NULL;
     size_t found;
-    const octree_status status = octree_nearest_k(a->tree, answer->target, k, &a->how, neighbors, &found);
-    a->neighbors->count = first + found;
+    const octree_status status = octree_nearest_k(run->tree, answer->target, k, &run->how, neighbors, &found);
+    run->neighbors->count = first + found;
     return status;
 }
 
-octree_status ask_nearest(asking *a, octree_answer *answer)
+octree_status ask_nearest(query_run *run, octree_answer *answer)
 {
     answer->k = 1;
-    return ask_knearest(a, answer);
+    return ask_knearest(run, answer);
 }

@@ -4,9 +4,9 @@
 #include "kind.h"
 #include "search.h"
 
-octree_status ask_radius(asking *a, octree_answer *answer)
+octree_status ask_radius(query_run *run, octree_answer *answer)
 {
-    return octree_radius(a->tree, answer->target, answer->radius, &a->how, collect_unless_skipped, a);
+    return octree_radius(run->tree, answer->target, answer->radius, &run->how, collect_unless_skipped, run);
 }
 
 bool contains_radius(const octree_answer *asked, const double position[3], double slack)

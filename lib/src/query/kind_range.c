@@ -4,9 +4,9 @@
 #include "kind.h"
 #include "search.h"
 
-octree_status ask_range(asking *a, octree_answer *answer)
+octree_status ask_range(query_run *run, octree_answer *answer)
 {
-    return octree_range_search(a->tree, &answer->box, &a->how, collect_unless_skipped, a);
+    return octree_range_search(run->tree, &answer->box, &run->how, collect_unless_skipped, run);
 }
 
 /* Whether a - b <= length in real numbers; a and b may be infinite. */

@@ -29,8 +29,8 @@ typedef struct frame {
     double center[3];     /* of its cell, in units in which the world extends from -1 to 1 */
     double squares[3][2]; /* squared distance of a child on each axis: [axis][0: near half, 1: far half] */
     uint8_t near;         /* the nearest octant */
-    uint8_t flips[8];     /* octant ^ near, in order of distance */
-    uint8_t next;         /* index of the next flip */
+    uint8_t flips[8];     /* octant ^ near of each child, in order of distance */
+    uint8_t next;         /* index of the next element of `flips` */
     uint8_t left;         /* mask of the octants not yet searched */
 } frame;
 
@@ -38,9 +38,9 @@ typedef struct search {
     const octree *tree;
     neighbor_heap found;
     meter meter;
-    double root_squares[3];         /* from the target to the world on each axis */
+    double root_squares[3];         /* squared distance from the target to the world on each axis */
     unsigned open;                  /* count of open frames; the innermost has depth open - 1 */
-    frame frames[OCTREE_MAX_DEPTH]; /* by depth */
+    frame frames[OCTREE_MAX_DEPTH]; /* frames[d] is the frame of depth d */
 } search;
 
 /* Swap two values and their labels if they are out of order. Without branches, because they would be unpredictable.
@@ -434,13 +434,7 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     if (status != OCTREE_OK || count == 0)
         return status;
     arena memory = {.allocator = tree->def.allocator}; /* queries do not change the tree's own byte count */
-    target_batch b = {.tree = tree,
-                      .targets = targets,
-                      .count = count,
-                      .how = search,
-                      .neighbors = neighbors,
-                      .found = found,
-                      .tasks = count_tasks(tree, count)};
+    target_batch b = {tree, targets, count, search, neighbors, found, .tasks = count_tasks(tree, count)};
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
     b.order = size < SIZE_MAX ? arena_take(&memory, size) : NULL;
     if (!b.order)

@@ -20,14 +20,14 @@
        */
 typedef struct few_neighbors {
     double keys[FEW_FIRST + FEW_NEIGHBORS];
-    double squares[FEW_NEIGHBORS]; /* by slot */
+    double squares[FEW_NEIGHBORS]; /* indexed by slot, like `points` */
     const octree_point *points[FEW_NEIGHBORS];
 } few_neighbors;
 
 typedef struct neighbor_heap {
     metric metric;
     octree_search how;
-    double radius; /* negative: no limit */
+    double radius; /* negative: the distance is not limited */
     double radius_square;
     double
         shrink; /* 1 / (1 + epsilon)^2, rounded up: the factor of the farthest square beyond which nodes are pruned */

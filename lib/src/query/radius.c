@@ -5,9 +5,9 @@
 /* Squared distances from the ball's centre to the parts of a cell, axis by axis. Values of the lower and upper half are
  * indexed by 0 and 1, because branches would be unpredictable. */
 typedef struct ball_cell {
-    double center[3];  /* of the cell, from -1 to 1 in the world */
+    double center[3];  /* of the cell, in units in which the world extends from -1 to 1 */
     double near[3];    /* to the nearest place of the cell */
-    double ends[3][2]; /* to its lower plane and to its upper one */
+    double ends[3][2]; /* to the lower plane of the cell and to the upper one */
     double middle[3];  /* to the plane that splits the cell */
     double half[3][2]; /* to the nearest place of its lower half and of its upper one */
 } ball_cell;
@@ -15,8 +15,8 @@ typedef struct ball_cell {
 typedef struct ball {
     metric metric;
     octree_mode mode;
-    double radius; /* unscaled */
-    double square; /* of the scaled radius */
+    double radius; /* not scaled */
+    double square; /* the square of the scaled radius */
     double reach;  /* a point or cell with a greater square is outside the ball */
     double whole;  /* a cell with a smaller square is inside the ball of radius + epsilon */
     ball_cell cells[OCTREE_MAX_DEPTH];
@@ -42,7 +42,7 @@ static void measure_planes(const ball *b, const octree *tree, ball_cell *c)
     for (int i = 0; i < 3; i++) {
         const double plane = metric_scaled(&b->metric, plane_inside(&tree->axes[i], c->center[i]));
         const double beyond = b->metric.scaled[i] - plane;
-        const bool above = beyond >= 0; /* the centre is */
+        const bool above = beyond >= 0; /* the ball's centre is above the plane */
         c->middle[i] = beyond * beyond;
         c->half[i][above] = c->near[i];
         c->half[i][!above] = c->middle[i];
@@ -114,14 +114,10 @@ static void search_ball(const octree *tree, const double center[3], double radiu
     b.radius = radius;
     b.square = squared(radius * tree->scale);
     b.reach = metric_above(b.square);
-    b.whole = metric_below(squared(radius * tree->scale + how->epsilon * tree->scale)); /* their sum may overflow */
-    region r = {.tree = tree,
-                .shape = &b,
-                .enter = enter_ball_cell,
-                .scan = scan_ball_points,
-                .visit = visit,
-                .context = context,
-                .meter.how = how};
+    b.whole = metric_below(
+        squared(radius * tree->scale +
+                how->epsilon * tree->scale)); /* scaled before they are added: the sum of the lengths may overflow */
+    region r = {tree, &b, enter_ball_cell, scan_ball_points, visit, context, .meter.how = how};
     region_search(&r, measure_root(&b, tree));
 }
 

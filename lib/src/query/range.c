@@ -22,13 +22,7 @@ static size_t search_box(const octree *tree, const octree_box *box, const octree
 {
     const octree_box wide = widen_box(box, how->epsilon);
     box_shape shape = box_shape_make(tree, box, how->epsilon > 0 ? &wide : box);
-    region r = {.tree = tree,
-                .shape = &shape,
-                .enter = box_shape_enter,
-                .scan = box_shape_scan,
-                .visit = visit,
-                .context = context,
-                .meter.how = how};
+    region r = {tree, &shape, box_shape_enter, box_shape_scan, visit, context, .meter.how = how};
     region_search(&r, box_shape_root(&shape, tree));
     return r.count;
 }

@@ -18,7 +18,7 @@ typedef struct descent {
     region *region;
     unsigned depth;
     frame frames[OCTREE_MAX_DEPTH + 1];
-    unsigned queued, scanned; /* counts of leaves */
+    unsigned queued, scanned; /* the numbers of leaves put into the queue and scanned so far */
     const node *queue[QUEUE_ROOM];
 } descent;
 
@@ -214,7 +214,7 @@ typedef struct twin_box {
     __m128d min[3], max[3];
 } twin_box;
 
-/* A mask of two bits: which of two points are in the box. */
+/* A mask of two bits: whether each of two points is in the box. */
 static inline uint64_t scan_point_pair(const twin_box *box, const double a[3], const double b[3])
 {
     const __m128d xy_a = _mm_loadu_pd(a), xy_b = _mm_loadu_pd(b);

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-#define SCAN_POINTS 64 /* points of a leaf that are compared in one call */
+#define SCAN_POINTS 64 /* the number of points of a leaf that are compared in one call */
 
 /* *how, or the default options for null. */
 octree_search search_or_default(const octree_search *how);
@@ -53,9 +53,9 @@ static inline bool is_within(const metric *m, octree_mode mode, const octree_poi
     return metric_compare_radius(m->target, point->position, radius) <= 0;
 }
 
-/* A visitor that skips the colliding point itself. */
+/* A visitor's context: call `visit` for all points but one. */
 typedef struct collision {
-    const octree_point *self; /* may be null */
+    const octree_point *self; /* the colliding point, which is skipped; may be null */
     octree_point_visitor visit;
     void *context;
 } collision;

@@ -31,14 +31,14 @@
 /* Two parallel faces, whose normal lies in the plane of the axes i and j. */
 typedef struct hull_faces {
     int i, j;
-    double step_i, step_j;       /* d */
+    double step_i, step_j;       /* the components of the step d on these axes */
     double lowest;               /* side() of the world's lowest corner */
     double per_key_i, per_key_j; /* the decrease of side() per key on axis i, its increase per key on axis j */
     double reach, whole;         /* R plus the error band; R minus the band, possibly negative */
 } hull_faces;
 
 typedef struct hull {
-    metric metric; /* relative to a */
+    metric metric; /* of the start of the step, a */
     hull_faces faces[3];
     unsigned face_count; /* 1 for a step along two axes, 3 for a step along three */
 } hull;
@@ -127,7 +127,7 @@ static octant_masks hull_octants(const hull *h, const int32_t low[3], unsigned d
         const hull_faces *f = &h->faces[k];
         const double middle = f->lowest + (low[f->j] + half) * f->per_key_j - (low[f->i] + half) * f->per_key_i;
         const double x = f->per_key_i * quarter, y = f->per_key_j * quarter, grown = fabs(x) + fabs(y);
-        for (int column = 0; column < 4; column++) { /* a column of two octants */
+        for (int column = 0; column < 4; column++) { /* the two octants that differ on the third axis only */
             const int upper_i = column >> 1, upper_j = column & 1;
             const unsigned octants = octants_beside[f->i][upper_i] & octants_beside[f->j][upper_j];
             const double side = fabs((middle + (upper_j ? y : -y)) - (upper_i ? x : -x));
@@ -194,16 +194,11 @@ static void search_swept_box(const octree *tree, const sweep *box, const octree_
     shape.around = box_shape_make(tree, around, around);
     shape.box = *box;
     const bool diagonal = hull_make(&shape.hull, tree, box);
-    region r = {
-        .tree = tree,
-        .shape = &shape,
-        .enter = diagonal ? enter_swept_cell
-                          : box_shape_enter, /* along one axis, the box around the step is the exact answer */
-        .scan = diagonal ? scan_swept_points : box_shape_scan,
-        .visit = visit_unless_self,
-        .context = visitor,
-        .meter = {.how = how},
-    };
+    region r = {tree, &shape, enter_swept_cell, scan_swept_points, visit_unless_self, visitor, .meter.how = how};
+    if (!diagonal) { /* along one axis, the box around the step is the exact answer */
+        r.enter = box_shape_enter;
+        r.scan = box_shape_scan;
+    }
     octant_masks root = box_shape_root(&shape.around, tree);
     if (diagonal)
         root.inside = 0;

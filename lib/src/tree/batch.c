@@ -53,7 +53,7 @@ static bool allocate_lists(batch *b)
     return b->lists != NULL;
 }
 
-enum { TOGETHER = 64 }; /* positions whose codes are computed in one call */
+enum { TOGETHER = 64 }; /* the number of positions whose codes are computed in one call */
 
 /* Check a point and, for a move, its destination. */
 static octree_status check_point_and_destination(const batch *b, size_t place, uint64_t *code)
@@ -187,7 +187,7 @@ octree_status collect_batch_points(batch *b)
     return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-/* A point that repeats an earlier one of the batch, and that one, by their indices. */
+/* A point that repeats an earlier point of the batch: the indices of both. */
 typedef struct repetition {
     uint32_t place, first;
 } repetition;
@@ -219,7 +219,7 @@ size_t count_in_first_octant(const morton_item *items, size_t count, unsigned de
     return low;
 }
 
-/* ids_ascend() for some items. */
+/* Whether the ids of the items' points are strictly ascending. */
 static bool item_ids_ascend(const batch *b, const morton_item *items, size_t count)
 {
     for (size_t i = 1; i < count; i++)
@@ -319,9 +319,9 @@ static void find_next_visit(const batch *b, path *p, unsigned top, span *items, 
         p->depth--;
 }
 
-enum { LEAVES_TOGETHER = 6 }; /* leaves prefetched before the first is visited */
+enum { LEAVES_TOGETHER = 6 }; /* the number of leaves prefetched before the first is visited */
 
-/* Visit the leaves below a node of this depth that contain the items. */
+/* Visit the leaves that contain the items, below a node of this depth. */
 static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
 {
     path p = {.depth = depth};
@@ -374,11 +374,11 @@ static void visit_leaves_of_part(size_t number, void *context)
     b->leaving = empty_list_from(b->leaving, before);
     b->arriving = empty_list_from(b->arriving, before);
     b->done = 0;
-    for (size_t i = first; i < end; i++) /* the nodes of the tree are not const */
+    for (size_t i = first; i < end; i++) /* const is cast away: the nodes of the tree are not const */
         visit_leaves_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, v->visitor);
 }
 
-/* False when there is no memory; then nothing was visited. */
+/* Visit the leaves of all items. False when there is no memory; then nothing was visited. */
 static bool visit_leaves_by_tasks(batch *b, leaf_visitor *visitor)
 {
     division *d = b->division;

@@ -22,10 +22,10 @@ typedef struct batch {
     octree *tree;
     store *store;               /* the allocator of nodes and points: the tree's, or a task's */
     struct division *division;  /* the division into tasks; null: none */
-    const octree_point *points; /* the caller's */
+    const octree_point *points; /* the caller's array */
     const double (*to)[3];      /* destinations of a move, else null */
     size_t count;
-    octree_status *statuses; /* the caller's, one for each point; may be null */
+    octree_status *statuses; /* the caller's array, one for each point; may be null */
     size_t done;             /* count of points changed */
 
     span valid;         /* the points with valid positions */
@@ -37,16 +37,16 @@ typedef struct batch {
     list repetitions;
 
     bool inserts;               /* the batch only inserts: an empty tree may be built by a grid */
-    bool remakes;               /* many points move: rebuild the tree; `valid` is empty at first */
+    bool remakes;               /* many points move, so the tree is rebuilt; `valid` is empty at first */
     bool settled;               /* the moves have their final statuses, and none meets a full leaf */
-    bool may_be_stored;         /* check whether an arriving pair is already stored */
-    bool duplicate;             /* such a pair was found */
+    bool may_be_stored;         /* an arriving pair may already be stored: check it */
+    bool duplicate;             /* an arriving pair is already stored */
     bool overflow;              /* a moved point may meet a full leaf under OCTREE_REFUSE */
     const octree_point *stored; /* the stored points that items refer to by index */
-    size_t stored_count;        /* count of stored points in `cells`, after the batch's points */
-    uint32_t *cells;            /* grid cells of the points, in place of items (grid_fill.h) */
-    unsigned grid;              /* depth of the grid; 0: no grid */
-    list patches, edits;        /* the plan */
+    size_t stored_count; /* the number of stored points whose cells follow those of the batch's points in `cells` */
+    uint32_t *cells;     /* grid cells of the points, in place of items (grid_fill.h) */
+    unsigned grid;       /* depth of the grid; 0: no grid */
+    list patches, edits; /* the plan: nodes to replace, leaves to edit (division.h) */
 } batch;
 
 static inline void set_item_status(const batch *b, const morton_item *item, octree_status status)
@@ -72,7 +72,7 @@ static inline void prefetch_item(const batch *b, const morton_item *item)
         prefetch(&b->to[item->place]);
 }
 
-/* The point of an item: an arriving one of the caller's, or a stored one. */
+/* The point of an item: an arriving point of the caller, or a stored point. */
 static inline octree_point point_of_item(const batch *b, const morton_item *item)
 {
     return item->index == MORTON_NEW ? arriving_point(b, item) : b->stored[item->index];
@@ -92,7 +92,7 @@ static inline size_t unsorted_limit(const octree *tree)
 octree_status prepare_batch(batch *b);
 octree_status collect_batch_points(batch *b);
 
-/* Returns OK, OUTSIDE or NOT_FINITE. */
+/* Check whether a position is in the world. Returns OK, OUTSIDE or NOT_FINITE. */
 static inline octree_status check_in_world(const octree *tree, const double position[3])
 {
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
@@ -116,7 +116,7 @@ bool ids_ascend(const batch *b);
  * False when there is no memory. */
 bool check_ids_differ(const batch *b, bool *differ);
 
-/* Called with some items and their leaf, or null if their octant has no node, and the depth of its cell. */
+/* Called with items, the leaf of their cell (null if the octant has no node), and the depth of the cell. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
 /* Visit the leaves of the valid items, by tasks if there are many. The lists `leaving` and `arriving` of the tasks are

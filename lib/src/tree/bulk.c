@@ -26,7 +26,7 @@ static octree_status insert_valid_points(batch *b)
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* List the items that are stored as leaving, with their index in the leaf. */
+/* List the items whose points are stored as leaving, with their indices in the leaf. */
 static void find_removed_points(batch *b, node *leaf, unsigned depth, span items)
 {
     (void)depth;
@@ -170,7 +170,7 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
     return b->count < UINT32_MAX ? OCTREE_OK : OCTREE_TOO_MANY;
 }
 
-/* Whether the caller's array lies in a leaf of the tree. */
+/* Whether the caller's array is part of a leaf: octree_node.points is such an array. */
 static bool lies_in_tree_memory(const octree *tree, const octree_point *points, size_t count)
 {
     if (count == 0 || check_position(tree, points->position) != OCTREE_OK)

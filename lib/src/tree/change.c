@@ -39,7 +39,7 @@ typedef struct shares {
     uint8_t mask;
 } shares;
 
-/* The octant of a position, by comparison with the planes. */
+/* Find the octant of a position by comparing it with the planes. */
 static unsigned find_octant(const shares *s, const double p[3])
 {
     return (unsigned)(p[0] >= s->planes[0]) << 2 | (unsigned)(p[1] >= s->planes[1]) << 1 |

@@ -39,7 +39,7 @@ void change_log_stop(change_log *log, arena *memory)
 static bool grow_ring(change_log *log, arena *memory)
 {
     const size_t room = log->room ? 2 * log->room : 16;
-    octree_change *items = arena_take(memory, room * sizeof *items); /* no overflow, as in list_append() */
+    octree_change *items = arena_take(memory, room * sizeof *items); /* cannot overflow: see list_append() */
     if (!items)
         return false;
     for (uint64_t i = log->first; i < log->next; i++)

@@ -14,13 +14,13 @@
 
 typedef struct change_log {
     /* Written by readers, concurrently with other readers and with queries: */
-    atomic_size_t name;   /* given by the first reader; 0: the log is off */
-    atomic_bool was_read; /* since the last change */
+    atomic_size_t name;   /* the log's name, given by the first reader; 0: the log is off */
+    atomic_bool was_read; /* a reader has read the log since the last change */
     /* Written by changes of the tree only. Changes are numbered from 0 on; number i is at items[i % room]. */
-    uint64_t first, next; /* the oldest stored change, and the next one */
+    uint64_t first, next; /* the numbers of the oldest stored change and of the next change */
     uint64_t last_read;   /* `next` at the time of the last read */
     octree_change *items;
-    size_t room; /* 0, or a power of two */
+    size_t room; /* the length of `items`: 0, or a power of two */
 } change_log;
 
 static inline bool change_log_is_on(const change_log *log)

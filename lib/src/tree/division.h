@@ -16,7 +16,7 @@
 /* Work of a task on one node: to plan its successor before its parent is planned, or to visit the leaves below it. */
 typedef struct job {
     const node *old; /* null: build a node from the arriving items */
-    cell cell;       /* for a visit only its depth */
+    cell cell;       /* of a visit only the depth is set */
     span leaving, arriving;
     node made;
     bool ok;
@@ -25,7 +25,7 @@ typedef struct job {
 typedef struct job_list {
     list jobs;   /* in the order in which planning reaches their nodes */
     size_t next; /* index of the next job whose result is used */
-    bool ready;  /* all jobs are done */
+    bool ready;  /* all jobs are done, so that results can be used */
 } job_list;
 
 /* A node that is replaced when the plan is carried out. */
@@ -37,14 +37,14 @@ typedef struct patch {
 /* A leaf that is edited in place when the plan is carried out. */
 typedef struct edit {
     octree_point *points;
-    uint32_t count;          /* before */
-    uint8_t room, room_left; /* before and after, in points */
+    uint32_t count;          /* points before the edit */
+    uint8_t room, room_left; /* the capacity of the block before and after the edit, in points */
     span leaving, arriving;
 } edit;
 
 typedef struct part {
     batch batch;
-    store store; /* its own pools, while a batch is restructured */
+    store store; /* the part's own pools, while a batch is restructured */
 } part;
 
 typedef struct division {
@@ -59,7 +59,7 @@ typedef struct division {
 void create_division(batch *b);
 void release_division(batch *b);
 
-/* Create the pools of the parts, sized for `expected` additional points in all; and join them to the tree's. */
+/* Create the pools of the parts, sized for `expected` additional points in all. Afterwards join them to the tree's. */
 void create_part_pools(batch *b, size_t expected);
 void join_part_pools(batch *b);
 
@@ -72,7 +72,8 @@ bool add_job(batch *b, const node *old, cell c, span leaving, span arriving);
 /* Set `starts`: each task gets adjacent jobs with about the same number of items. */
 void share_jobs(division *d);
 
-/* Whether a node with this many items was planned by a task; and the next node that was. */
+/* Whether a job has planned a node with this many items. If so, take_job_result() stores that node; jobs are taken in
+ * order. */
 bool is_planned_by_job(const batch *b, size_t count);
 bool take_job_result(batch *b, node *made);
 

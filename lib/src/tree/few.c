@@ -19,8 +19,8 @@
 
 enum {
     CACHED = 300000,   /* trees with fewer points fit a processor's caches, where sorting gains less */
-    FEW = 20,          /* few: less than a twentieth of the stored points */
-    FEW_OF_CACHED = 8, /* the same for a tree that fits the caches: less than an eighth */
+    FEW = 20,          /* in larger trees, few points are less than a twentieth of the stored ones */
+    FEW_OF_CACHED = 8, /* in trees that fit the caches, less than an eighth */
 };
 
 bool are_few(const octree *tree, size_t count)
@@ -85,7 +85,7 @@ static void descend_together(descents *w, octree *tree, const octree_point *poin
 typedef struct insertions {
     batch *batch;
     octree_point *full;      /* points that met a full leaf */
-    octree_status *statuses; /* of all points, then of the full ones */
+    octree_status *statuses; /* the statuses of all points, then those of the points in `full` */
     size_t full_count;
 } insertions;
 
@@ -186,7 +186,7 @@ typedef struct removals {
     list mergings;
 } removals;
 
-/* Find up to TOGETHER points, and already reduce the counts of the inner nodes above them. */
+/* Find up to TOGETHER points. Reduces the counts of the inner nodes above them, as if the points were removed. */
 static void find_point_group(removals *r, size_t first, size_t count)
 {
     descents w;
@@ -266,7 +266,8 @@ static size_t remove_found_points(removals *r)
     for (size_t i = 0; i < r->count; i++) {
         removal *it = &r->found[i];
         const octree_point *point = &r->batch->points[it->place];
-        if (it->index >= it->leaf->count) /* it was the last point and has moved into a removed one's place */
+        if (it->index >=
+            it->leaf->count) /* it was the last point of the leaf and has moved into the place of a removed point */
             it->index = leaf_find(it->leaf, point->position, point->id);
         leaf_remove(&r->batch->tree->store, it->leaf, it->index);
         if (it->leaf->count == 0)
@@ -275,7 +276,7 @@ static size_t remove_found_points(removals *r)
     return emptied;
 }
 
-/* Cannot fail. */
+/* Change the tree as planned. Cannot fail. */
 static void carry_out_removals(removals *r)
 {
     octree *tree = r->batch->tree;

@@ -28,13 +28,13 @@ typedef struct crowd {
 
 typedef struct filling {
     batch *whole;
-    size_t count; /* points of the batch and copies of stored ones */
+    size_t count; /* the number of points of the batch and of copied stored points */
     unsigned depth, tasks;
     uint32_t *counts[GRID_DEEPEST + 1]; /* for each depth, the number of points in each cell */
     uint32_t *shares;                   /* for each task, the number of its points in each cell of the grid */
     octree_point **next;                /* for each task and cell, where its next point is written; null in a crowd */
     list crowds;                        /* in Morton order */
-    size_t crowded;                     /* count of points in crowds */
+    size_t crowded;                     /* the number of points in crowds */
 } filling;
 
 static size_t cell_count_at(unsigned depth)
@@ -317,7 +317,7 @@ bool build_from_grid(batch *b, node *made)
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
     const size_t cells = cell_count_at(f.depth),
-                 most = f.count / cells + 1; /* bounds the tables by the size of the points */
+                 most = f.count / cells + 1; /* so that the tables are not larger than the points */
     f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
     const size_t size = (cell_count_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;

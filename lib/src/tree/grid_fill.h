@@ -8,7 +8,7 @@
 /* The cell of a point that is not part of the tree. */
 #define GRID_NONE GRID_UNSURE
 
-enum { GRID_TOGETHER = 64 }; /* positions whose cells are computed in one call */
+enum { GRID_TOGETHER = 64 }; /* the number of positions whose cells are computed in one call */
 
 /* Set b->grid to the depth of a grid for `total` points with the distribution of the batch's points after their
  * changes, or leave it 0 if a sample shows that they are not spread evenly. False when there is no memory. */

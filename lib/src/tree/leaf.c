@@ -12,7 +12,7 @@
 typedef struct hashed_header {
     uint32_t room;
     uint32_t mask; /* slots - 1; slots are a power of two, at least twice the room */
-    uint64_t size; /* of the whole block, in bytes */
+    uint64_t size; /* the size of the whole block in bytes */
 } hashed_header;
 
 static hashed_header *hashed_header_of(const octree_point *points)
@@ -251,9 +251,8 @@ void node_release_unshared(store *s, const node *n, const node *other)
         return;
     }
     const node *child = children_of(n);
-    for (unsigned octant = 0; octant < 8; octant++) {
-        if (!(n->octants >> octant & 1))
-            continue;
+    for (unsigned left = n->octants; left; left &= left - 1) {
+        const unsigned octant = bits_lowest(left);
         const node *counterpart = child_at(other, octant);
         node_release_unshared(s, child++, counterpart ? counterpart : &none);
     }

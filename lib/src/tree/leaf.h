@@ -13,7 +13,7 @@
 
 typedef struct node {
     void *below;     /* inner: struct node[], the children by octant; leaf: octree_point[], null if empty */
-    uint32_t count;  /* points in and below */
+    uint32_t count;  /* the number of points in and below the node */
     uint8_t octants; /* bit mask of the octants that have a child; 0 for a leaf */
     uint8_t room;    /* leaf: the capacity of its block in points, or LEAF_HASHED */
 } node;
@@ -27,7 +27,7 @@ typedef struct node {
 /* The memory of a tree. */
 typedef struct store {
     arena memory;
-    pool nodes; /* groups of siblings */
+    pool nodes; /* the groups of sibling nodes */
     pool points;
 } store;
 
@@ -109,7 +109,7 @@ void leaf_release(store *s, const node *leaf);
 /* Append a pair that the leaf does not hold yet. False when there is no memory; the leaf is then unchanged. */
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
-/* The same for a leaf that has room. Cannot fail. */
+/* Append a pair that the leaf does not hold yet, to a leaf that has room. Cannot fail. */
 void leaf_append_hashed(node *leaf, const octree_point *point);
 static inline void leaf_append_in_room(node *leaf, const octree_point *point)
 {
@@ -131,10 +131,10 @@ void leaf_append_all(node *leaf, const node *from, const octree_point *except);
 /* Copy the points in and below a node, in the order of their leaves. Returns the end of the copies. */
 octree_point *node_copy_points(const node *n, octree_point *to);
 
-/* Free the children or points of a node and everything below it; the caller owns the node itself. */
+/* Free the children or points of a node and everything below; the caller owns the node itself. */
 void node_release(store *s, const node *n);
 
-/* The same, except the blocks that are shared with another version of the node in the same cell. */
+/* The same, but keep the blocks that another version of the node, `other`, uses as well. */
 void node_release_unshared(store *s, const node *n, const node *other);
 
 #endif

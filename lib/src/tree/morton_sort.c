@@ -21,7 +21,7 @@
 #define LEVELS 3 /* the greatest number of tree levels per pass: 8^3 buckets */
 
 typedef struct sorter {
-    const octree *tree; /* only to sort by tasks, like `memory` */
+    const octree *tree; /* set only to sort by tasks, like `memory` */
     arena *memory;
     size_t unsorted; /* cells of at most this many items stay unsorted */
     bool differ;     /* no two items are the same point, so that equal codes need not be adjacent */
@@ -111,7 +111,7 @@ static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t 
     memset(ends, 0, digits * sizeof *ends);
     for (size_t i = 0; i < count; i++)
         ends[items[i].code >> shift & (digits - 1)]++;
-    if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all in one cell */
+    if (ends[items[0].code >> shift & (digits - 1)] == count) { /* all items are in one cell */
         sort_cell(s, items, other, count, left - levels, in_place, ends);
         return;
     }
@@ -147,7 +147,7 @@ typedef struct pass {
     size_t count;
     unsigned tasks;
     unsigned left;                     /* levels below the cells */
-    unsigned shift;                    /* of the digit in a code */
+    unsigned shift;                    /* the position of the digit in a code, in bits */
     bool in_place;                     /* sort the cells in place in `to` */
     size_t ends[DIGITS + 1];           /* cell d spans ends[d] .. ends[d + 1] */
     unsigned cells[TASKS_AT_MOST + 1]; /* the first cell of each task */

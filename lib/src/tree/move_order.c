@@ -27,7 +27,7 @@
 typedef struct pair {
     uint64_t code;
     uint32_t owner; /* index of the move whose point is here, NO_OWNER, or FIRST_OWNER for the point stored at first */
-    uint32_t index; /* in its leaf at first; MORTON_NEW if it was not stored */
+    uint32_t index; /* index in the leaf at first; MORTON_NEW if the pair was not stored */
 } pair;
 
 typedef struct simulation {
@@ -255,7 +255,7 @@ static size_t bound_of_pairs(const octree_point *points, uint32_t half, const do
     return most;
 }
 
-/* The same bound for the points of two leaves together. */
+/* The bound of bound_of_pairs() for the points of two leaves together. */
 static size_t bound_of_leaves(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);

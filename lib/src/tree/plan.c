@@ -135,7 +135,7 @@ static void apply_leaf_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;
     size_t taken = 0;
-    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last gap on, so that the last point never leaves itself */
+    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last gap on: then the last point is never a leaving one */
         octree_point *gap = &e->points[e->leaving.items[i].index];
         *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
     }

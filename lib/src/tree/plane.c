@@ -42,7 +42,7 @@ static void set_certain_range(axis *a)
     const double error = a->guess_error * (double)(UINT64_C(1) << PLANE_FRACTION) + 2;
     const int64_t fraction = INT64_C(1) << PLANE_FRACTION;
     memcpy(&a->sure_from, &first, sizeof first);
-    if (a->subnormal || !(2 * error < (double)fraction)) /* or NaN */
+    if (a->subnormal || !(2 * error < (double)fraction)) /* also if `error` is NaN */
         return;
     a->sure_from += (uint64_t)error;
     a->sure_span = (uint64_t)(fraction - 2 * (int64_t)error);
@@ -109,7 +109,7 @@ uint32_t plane_key_near(const axis *a, double x)
 
 #ifdef OCTREE_SSE2
 
-/* bits_spread() of two words. */
+/* One step of bits_spread() for two words at once. */
 static inline __m128i spread_step(__m128i x, int shift, uint64_t mask)
 {
     return _mm_and_si128(_mm_or_si128(x, _mm_slli_epi64(x, shift)), _mm_set1_epi64x((long long)mask));
@@ -146,7 +146,7 @@ static inline void duplicate_axes(const axis axes[3], axis_pair pairs[3])
                                _mm_set1_epi64x((long long)(axes[i].sure_span - 1))};
 }
 
-/* plane_fixed() and plane_unsure() of two coordinates. */
+/* Compute plane_fixed() and plane_unsure() of two coordinates at once. */
 static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m128i *unsure)
 {
     const __m128i fraction = _mm_set1_epi64x((long long)PLANE_FRACTION_MASK);
@@ -159,7 +159,7 @@ static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m12
     return fixed;
 }
 
-/* All ones where the highest bit is set. */
+/* Each half of the result is all ones if its highest bit is set, else 0. */
 static inline __m128i all_ones_if_unsure(__m128i unsure)
 {
     return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
@@ -176,7 +176,8 @@ static inline void codes_of_two(const axis_pair axes[3], const double *p, const 
     _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_ones_if_unsure(unsure)));
 }
 
-/* The same for grid cells, from the most significant bits of each key. */
+/* The grid cells of two positions, from the most significant bits of each key; GRID_UNSURE where a guess is not
+ * certain. */
 static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const double *p, const double *q,
                                 uint32_t cells[2])
 {

@@ -20,9 +20,9 @@ typedef struct axis {
     double unit;          /* a power of two: the unit of the terms below */
     double center[2];     /* (min + max) / 2 as an unevaluated sum */
     double half[3];       /* (max - min) / 2 as an unevaluated sum; the first term has 31 bits */
-    bool plain;           /* the first terms alone are exact */
+    bool plain;           /* the first terms of `center` and `half` alone are exact */
     bool subnormal;       /* all coordinates and their differences are subnormal */
-    double keys_per_unit; /* rounded; may be 0 or infinite in extreme worlds */
+    double keys_per_unit; /* grid planes per unit of length, rounded; may be 0 or infinite in extreme worlds */
     double guess_error;   /* error bound of a guessed key, in keys; may be infinite or NaN */
     uint64_t sure_from;   /* fixed point: offset from a plane to the first certain guess above it */
     uint64_t sure_span;   /* fixed point: length of the range of certain guesses; 0 if none is certain */
@@ -135,7 +135,7 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
     return morton_interleave(keys);
 }
 
-/* Not a code: a position whose guessed keys are not certain, or which is outside the world. */
+/* In place of a code: the guessed keys of the position are not certain, or it is outside the world. */
 #define MORTON_UNSURE UINT64_MAX
 
 /* The Morton codes of `count` positions, `stride` doubles apart. Positions without a certain code get MORTON_UNSURE;
@@ -162,7 +162,8 @@ static inline unsigned morton_octant(uint64_t code, unsigned depth)
     return (unsigned)(code >> (3 * (OCTREE_MAX_DEPTH - 1 - depth))) & 7;
 }
 
-/* The cell of this depth that contains a code; its address; and the lowest code of the cell at an address. */
+/* Three conversions: the cell of a depth that contains a code, the address of this cell, and the lowest code of the
+ * cell at an address. */
 cell morton_cell(uint64_t code, unsigned depth);
 
 static inline octree_address morton_address(uint64_t code, unsigned depth)

@@ -26,7 +26,7 @@
 /* The header of a slab. One bit per unit follows, used while free blocks are joined, then the units. */
 struct slab {
     struct slab *next;
-    size_t size; /* bytes in all */
+    size_t size; /* the size of the whole slab in bytes */
     size_t units;
     unsigned char *first; /* the first unit, aligned to a cache line */
 };

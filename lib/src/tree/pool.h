@@ -19,7 +19,7 @@
 typedef struct arena {
     octree_allocator allocator;
     size_t bytes;
-    struct arena *shared; /* of a task: the tree's arena; else null */
+    struct arena *shared; /* in the arena of a task: the tree's arena; else null */
     atomic_flag busy;     /* the lock */
 } arena;
 
@@ -35,7 +35,7 @@ static inline void arena_unlock(arena *a)
     atomic_flag_clear_explicit(&a->busy, memory_order_release);
 }
 
-/* malloc and free. */
+/* An allocator that calls malloc and free. */
 octree_allocator default_allocator(void);
 
 /* Allocate memory; null when there is none. Release it with the same size; null is allowed. */
@@ -47,16 +47,16 @@ typedef struct pool {
     size_t unit; /* size in bytes, at least that of a pointer */
     struct slab *slabs;
     size_t slab_count;
-    size_t expected;      /* units needed at first; 0: unknown */
+    size_t expected;      /* the number of units needed at first; 0: unknown */
     unsigned char *fresh; /* units of the newest slab that were never allocated */
     size_t fresh_units;
     size_t total_units;
-    size_t free_units;  /* in the free lists */
+    size_t free_units;  /* the number of units in the free lists */
     size_t freed_units; /* units freed since free blocks were last joined */
     uint64_t available; /* bit u - 1 is set if free_blocks[u - 1] is not empty */
     struct free_block *free_blocks[POOL_MAX_UNITS];
     struct free_block *last_free[POOL_MAX_UNITS]; /* the last block of each list that is not empty */
-    struct pool *lender;                          /* of a task: the tree's pool; else null */
+    struct pool *lender;                          /* in the pool of a task: the tree's pool; else null */
     bool borrows;                                 /* borrow from the lender before growing */
 } pool;
 

@@ -321,16 +321,11 @@ static octree_status build_moved_tree(remake *r, bool *settled)
 {
     const batch *whole = r->whole;
     const size_t total = whole->tree->root.count;
-    batch b = {.tree = whole->tree,
-               .store = whole->store,
-               .division = whole->division,
-               .points = whole->points,
-               .to = whole->to,
-               .count = whole->count,
-               .stored = r->staying,
-               .stored_count = total,
-               .cells = r->cells,
-               .grid = r->whole->grid};
+    batch b = *whole;
+    b.statuses = NULL; /* they are complete */
+    b.stored = r->staying;
+    b.stored_count = total;
+    b.cells = r->cells;
     if (whole->done < r->count)
         keep_points_of_invalid_moves(r);
     octree_status status = b.grid ? rebuild_from_batch(&b) : OCTREE_OK;

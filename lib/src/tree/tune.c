@@ -152,21 +152,14 @@ static void count_taken_nodes(octree_address address, octree_trace_kind touch, v
     add_nodes_below(&r->all, p.nodes[octree_address_depth(address)]);
 }
 
-static bool accept_point(const octree_point *point, void *context)
-{
-    (void)point;
-    (void)context;
-    return true;
-}
-
 static octree_cost cost_of_range(const octree *trial, const octree_point *target, double extent)
 {
     range_cost r = {.trial = trial};
+    const octree_search how = {.cost = &r.all, .trace = count_taken_nodes, .trace_context = &r};
     octree_box box;
+    size_t found;
     if (octree_collision_box(target->position, extent, &box) == OCTREE_OK)
-        octree_range_search(trial, &box,
-                            &(octree_search){.cost = &r.all, .trace = count_taken_nodes, .trace_context = &r},
-                            accept_point, NULL);
+        octree_range_collect(trial, &box, &how, NULL, 0, &found);
     return r.all;
 }
 

@@ -63,9 +63,8 @@ static bool walk_subtree(walk *w, const node *n, octree_address address, cell c,
     double middle[3];
     find_splitting_planes(w->tree, c, middle);
     const node *child = children_of(n);
-    for (unsigned octant = 0; octant < 8; octant++) {
-        if (!(n->octants >> octant & 1))
-            continue;
+    for (unsigned left = n->octants; left; left &= left - 1) {
+        const unsigned octant = bits_lowest(left);
         const octree_box below = octant_box(box, middle, octant);
         if (!walk_subtree(w, child++, address << 3 | octant, cell_child(c, octant), &below))
             return false;
@@ -181,7 +180,7 @@ static const char *check_leaf(const octree *tree, const node *n, cell c, const o
 
 typedef struct validation {
     const octree *tree;
-    const char *broken; /* the sentence of the first violation; null: none */
+    const char *broken; /* a sentence about the first violation; null: there is none */
     octree_address where;
 } validation;
 
@@ -197,9 +196,8 @@ static void check_subtree(validation *v, const node *n, octree_address address, 
     double middle[3];
     find_splitting_planes(v->tree, c, middle);
     const node *child = children_of(n);
-    for (unsigned octant = 0; octant < 8 && !v->broken; octant++) {
-        if (!(n->octants >> octant & 1))
-            continue;
+    for (unsigned left = n->octants; left && !v->broken; left &= left - 1) {
+        const unsigned octant = bits_lowest(left);
         const octree_box below = octant_box(box, middle, octant);
         check_subtree(v, child++, address << 3 | octant, cell_child(c, octant), &below);
     }
@@ -217,8 +215,8 @@ static void keep_first_violation(validation *first, const char *broken, octree_a
 /* A tree whose nodes are read by tasks. */
 typedef struct reading {
     forest forest;
-    validation first[TASKS_AT_MOST + 1]; /* of each task, and of the nodes above the subtrees */
-    uint64_t sums[TASKS_AT_MOST + 1];    /* likewise */
+    validation first[TASKS_AT_MOST + 1]; /* the first violation of each task, and of the nodes above the subtrees */
+    uint64_t sums[TASKS_AT_MOST + 1];    /* the sums of digests of each task, and of the nodes above the subtrees */
 } reading;
 
 /* Returns false for a node that violates an invariant: its children may be invalid pointers. */
@@ -319,9 +317,8 @@ static uint64_t sum_digests_below(const node *n, octree_address address)
     uint64_t sum = digest_node(n, address);
     const node *child = children_of(n);
     prefetch_below(n);
-    for (unsigned octant = 0; octant < 8; octant++) {
-        if (!(n->octants >> octant & 1))
-            continue;
+    for (unsigned left = n->octants; left; left &= left - 1) {
+        const unsigned octant = bits_lowest(left);
         const octree_address at = address << 3 | octant;
         sum += child->octants ? sum_digests_below(child, at) : digest_node(child, at);
         child++;
