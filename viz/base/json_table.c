@@ -12,6 +12,7 @@
 #include "octree/types.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- Members ------------------------------------------------------------------------------------------------ */
@@ -49,7 +50,7 @@ static bool read_member(json_reader *r, json_t *object, const json_place *at, co
         return false;
     if (row->given)
         *(bool *)((char *)into + row->given) = true;
-    return true;
+    return !row->check || row->check(r, &place, into);
 }
 
 /* Returns the row after the version, or the first row if the table has no version. */
@@ -79,12 +80,25 @@ bool json_read_members(json_reader *r, json_t *object, const json_place *at, con
     return true;
 }
 
+bool json_has_bits(const void *bytes, size_t size)
+{
+    for (size_t i = 0; i < size; i++)
+        if (((const unsigned char *)bytes)[i])
+            return true;
+    return false;
+}
+
+static bool is_set(const json_member *row, const void *structure)
+{
+    const char *from = structure;
+    return (!row->given || *(const bool *)(from + row->given)) && (!row->is_set || row->is_set(structure)) &&
+           (row->nonzero_size == 0 || json_has_bits(from + row->nonzero, row->nonzero_size));
+}
+
 void json_write_members(json_writer *w, const json_member *table, const void *from)
 {
     for (; table->name; table++) {
-        const void *value = (const char *)from + table->offset;
-        const bool set = (!table->codec->is_set || table->codec->is_set(value)) &&
-                         (!table->given || *(const bool *)((const char *)from + table->given));
+        const bool set = is_set(table, from);
         if (!table->codec->write || !(set || table->nullable))
             continue;
         if (table->line)
@@ -92,7 +106,7 @@ void json_write_members(json_writer *w, const json_member *table, const void *fr
         json_write_key(w, table->name);
         w->row = table;
         if (set)
-            table->codec->write(w, value);
+            table->codec->write(w, (const char *)from + table->offset);
         else
             json_write_null(w);
     }
@@ -115,7 +129,7 @@ static void write_object(json_writer *w, const void *from)
     json_write_object(w, w->row->members, from);
 }
 
-const json_codec json_structure = {read_object, write_object, NULL};
+const json_codec json_structure = {read_object, write_object};
 
 bool json_read_elements(json_reader *r, json_t *list, const json_place *at, const char *expected, json_read_value *read,
                         void *into)
@@ -135,6 +149,18 @@ json_counted json_counted_at(const void *from)
     memcpy(&list, from, sizeof list);
     return list;
 }
+
+static void write_structures(json_writer *w, const void *from)
+{
+    const json_member *row = w->row;
+    const json_counted list = json_counted_at(from);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < list.count; i++)
+        json_write_object(w, row->members, (const char *)list.items + i * row->size);
+    json_write_end_array(w);
+}
+
+const json_codec json_structures = {NULL, write_structures};
 
 /* ---- Kinds and choices -------------------------------------------------------------------------------------- */
 
@@ -184,7 +210,7 @@ const char *json_list_names(json_name *names, char *text, size_t size)
     return text;
 }
 
-static bool read_choice(json_reader *r, json_t *value, const json_place *at, void *into)
+bool json_read_choice(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     json_name *names = r->row->names;
     const int found = json_find_name(names, json_string_value(value));
@@ -202,13 +228,35 @@ static void write_choice(json_writer *w, const void *from)
     json_write_string(w, w->row->names(*(const int *)from));
 }
 
-static bool is_later(const void *from)
+const json_codec json_choice = {json_read_choice, write_choice};
+
+static bool read_set_name(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return *(const int *)from != 0;
+    const int found = json_find_name(r->row->names, json_string_value(value));
+    if (found >= 0)
+        *(unsigned *)into |= 1U << found;
+    return found >= 0 || json_expected(r, value, at, r->row->advice);
 }
 
-const json_codec json_choice = {read_choice, write_choice, NULL};
-const json_codec json_later_choice = {read_choice, write_choice, is_later};
+static bool read_set(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    *(unsigned *)into = 0;
+    return json_read_elements(r, value, at, r->row->about, read_set_name, into);
+}
+
+static void write_set(json_writer *w, const void *from)
+{
+    json_name *names = w->row->names;
+    json_write_begin_array(w);
+    for (int i = 0; names(i); i++)
+        if (*(const unsigned *)from >> i & 1)
+            json_write_string(w, names(i));
+    json_write_end_array(w);
+}
+
+const json_codec json_set = {read_set, write_set};
+
+/* ---- Texts and switches ------------------------------------------------------------------------------------- */
 
 static bool read_constant(json_reader *r, json_t *value, const json_place *at, void *into)
 {
@@ -225,7 +273,34 @@ static void write_constant(json_writer *w, const void *from)
     json_write_string(w, w->row->about);
 }
 
-const json_codec json_constant = {read_constant, write_constant, NULL};
+const json_codec json_constant = {read_constant, write_constant};
+
+static bool read_label(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const char *text = json_string_value(value), *what = r->row->about;
+    const size_t length = text ? strlen(text) : 0, most = r->row->size - 1;
+    if (!text)
+        return json_expected(r, value, at, "a text");
+    for (size_t i = 0; i < length; i++)
+        if (text[i] < ' ' || text[i] > '~')
+            return json_fail(r, at, "%s must be printable ASCII, and byte %zu is not", what, i + 1);
+    if (length > most)
+        return json_fail(r, at, "%s has at most %zu characters, not %zu", what, most, length);
+    memcpy(into, text, length + 1);
+    return true;
+}
+
+static void write_label(json_writer *w, const void *from)
+{
+    json_write_string(w, from);
+}
+
+const json_codec json_label = {read_label, write_label};
+
+void json_write_text(json_writer *w, const void *from)
+{
+    json_write_string(w, *(const char *const *)from);
+}
 
 static bool read_bool(json_reader *r, json_t *value, const json_place *at, void *into)
 {
@@ -238,12 +313,7 @@ static void write_bool(json_writer *w, const void *from)
     json_write_bool(w, *(const bool *)from);
 }
 
-static bool is_true(const void *from)
-{
-    return *(const bool *)from;
-}
-
-const json_codec json_bool = {read_bool, write_bool, is_true};
+const json_codec json_bool = {read_bool, write_bool};
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------ */
 
@@ -282,91 +352,154 @@ static void write_version(json_writer *w, const void *from)
     json_write_integer(w, (uint64_t)w->row->max);
 }
 
-const json_codec json_version = {read_version, write_version, NULL};
+const json_codec json_version = {read_version, write_version};
 
-bool json_read_uint64(json_reader *r, json_t *value, const json_place *at, void *into)
+/* Whether a codec's whole number has 64 bits; else it has 32. */
+static bool is_wide(const json_codec *codec)
 {
-    return json_read_whole(r, value, at, r->row->min, r->row->max, into);
+    return codec == &json_uint64 || (codec == &json_size && sizeof(size_t) == sizeof(uint64_t));
 }
 
-static bool read_size(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_whole(json_reader *r, json_t *value, const json_place *at, void *into)
 {
+    const json_member *row = r->row;
     uint64_t number = 0;
-    const bool done = json_read_uint64(r, value, at, &number);
-    if (done)
-        *(size_t *)into = (size_t)number;
-    return done;
-}
-
-bool json_read_int(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    uint64_t number = 0;
-    const bool done = json_read_uint64(r, value, at, &number);
-    if (done)
-        *(int *)into = (int)number;
-    return done;
+    if (!json_read_whole(r, value, at, row->min, row->max, &number))
+        return false;
+    if (is_wide(row->codec))
+        memcpy(into, &number, sizeof number);
+    else
+        memcpy(into, &(uint32_t){(uint32_t)number}, sizeof(uint32_t));
+    return true;
 }
 
 /* Writes at most row->max, so that the value can be read again. A row that is only written has max 0. */
-void json_write_uint64(json_writer *w, const void *from)
+static void write_whole(json_writer *w, const void *from)
 {
-    const uint64_t number = *(const uint64_t *)from, max = (uint64_t)w->row->max;
+    const uint64_t max = (uint64_t)w->row->max;
+    uint64_t number;
+    uint32_t narrow;
+    memcpy(&narrow, from, sizeof narrow);
+    number = narrow;
+    if (is_wide(w->row->codec))
+        memcpy(&number, from, sizeof number);
     json_write_integer(w, max == 0 || number < max ? number : max);
 }
 
-static void write_size(json_writer *w, const void *from)
+const json_codec json_uint64 = {read_whole, write_whole};
+const json_codec json_size = {read_whole, write_whole};
+const json_codec json_int = {read_whole, write_whole};
+
+static bool read_int_element(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    json_write_uint64(w, &(uint64_t){*(const size_t *)from});
+    uint64_t number = 0;
+    if (!json_read_whole(r, value, at, r->row->min, r->row->max, &number))
+        return false;
+    ((int *)into)[at->index] = (int)number;
+    return true;
 }
 
-static void write_int(json_writer *w, const void *from)
+static bool read_ints(json_reader *r, json_t *list, const json_place *at, void *into)
 {
-    json_write_uint64(w, &(uint64_t){(unsigned)*(const int *)from});
+    return json_array_size(list) == r->row->size
+               ? json_read_elements(r, list, at, r->row->about, read_int_element, into)
+               : json_expected(r, list, at, r->row->about);
 }
 
-const json_codec json_uint64 = {json_read_uint64, json_write_uint64, NULL};
-const json_codec json_size = {read_size, write_size, NULL};
-const json_codec json_int = {json_read_int, write_int, NULL};
-
-bool json_read_number(json_reader *r, json_t *value, const json_place *at, void *into)
+static void write_ints(json_writer *w, const void *from)
 {
-    *(double *)into = json_real_value(value);
-    return json_is_real(value) || json_expected(r, value, at, "a number");
+    json_write_begin_array(w);
+    for (size_t i = 0; i < w->row->size; i++)
+        json_write_number(w, ((const int *)from)[i]);
+    json_write_end_array(w);
 }
 
-bool json_read_positive(json_reader *r, json_t *value, const json_place *at, void *into)
+const json_codec json_ints = {read_ints, write_ints};
+
+bool json_read_id(json_reader *r, const json_t *list, const json_place *at, size_t i, uint64_t *id)
+{
+    return json_read_whole(r, json_array_get(list, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, id);
+}
+
+static bool read_ids(json_reader *r, json_t *list, const json_place *at, void *into)
+{
+    const size_t count = json_array_size(list);
+    json_counted found = json_counted_at(into);
+    if (!json_is_array(list))
+        return json_expected(r, list, at, "a list of ids");
+    uint64_t *ids = found.items ? (uint64_t *)found.items : malloc((count > 0 ? count : 1) * sizeof *ids);
+    if (!ids)
+        return json_fail(r, at, "out of memory for %zu ids", count);
+    found = (json_counted){ids, count};
+    memcpy(into, &found, sizeof found);
+    for (size_t i = 0; i < count; i++)
+        if (!json_read_id(r, list, at, i, &ids[i]))
+            return false;
+    return true;
+}
+
+static void write_ids(json_writer *w, const void *from)
+{
+    const json_counted list = json_counted_at(from);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < list.count; i++)
+        json_write_integer(w, ((const uint64_t *)list.items)[i]);
+    json_write_end_array(w);
+}
+
+const json_codec json_ids = {read_ids, write_ids};
+
+/* With row->max above row->min, these are the limits of the number. */
+static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    const json_member *row = r->row;
+    const double number = *(double *)into = json_real_value(value);
+    char what[80] = "a number";
+    if (row->min < row->max)
+        snprintf(what, sizeof what, "a number from %g to %g", row->min, row->max);
+    return (json_is_real(value) && (row->min == row->max || (number >= row->min && number <= row->max))) ||
+           json_expected(r, value, at, what);
+}
+
+static bool read_positive(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(double *)into = json_real_value(value);
     return (json_is_real(value) && *(double *)into >= 0) ||
            json_expected(r, value, at, "a number that is not negative");
 }
 
-static bool read_interval(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    char what[80];
-    const double number = *(double *)into = json_real_value(value);
-    snprintf(what, sizeof what, "a number from %g to %g", r->row->min, r->row->max);
-    return (json_is_real(value) && number >= r->row->min && number <= r->row->max) || json_expected(r, value, at, what);
-}
-
-void json_write_double(json_writer *w, const void *from)
+static void write_number(json_writer *w, const void *from)
 {
     json_write_number(w, *(const double *)from);
 }
 
-const json_codec json_number = {json_read_number, json_write_double, NULL};
-const json_codec json_positive = {json_read_positive, json_write_double, NULL};
-const json_codec json_interval = {read_interval, json_write_double, NULL};
+const json_codec json_number = {read_number, write_number};
+const json_codec json_positive = {read_positive, write_number};
 
 /* ---- Vectors ------------------------------------------------------------------------------------------------ */
 
 bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at, size_t first, size_t count,
                        double *into)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!json_read_number(r, json_array_get(list, first + i), &(json_place){at, NULL, first + i}, &into[i]))
-            return false;
+    for (size_t i = first; i < first + count; i++, into++) {
+        const json_t *value = json_array_get(list, i);
+        *into = json_real_value(value);
+        if (!json_is_real(value))
+            return json_expected(r, value, &(json_place){at, NULL, i}, "a number");
+    }
     return true;
+}
+
+static bool read_numbers(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    if (json_array_size(value) != r->row->size)
+        return json_expected(r, value, at, r->row->about);
+    return json_read_numbers(r, value, at, 0, r->row->size, into);
+}
+
+static void write_numbers(json_writer *w, const void *from)
+{
+    json_write_numbers(w, from, w->row->size);
 }
 
 bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -376,20 +509,13 @@ bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void 
     return json_read_numbers(r, value, at, 0, 3, into);
 }
 
-void json_write_vector(json_writer *w, const void *from)
+static void write_vector(json_writer *w, const void *from)
 {
     json_write_numbers(w, from, 3);
 }
 
-/* Compares bits, because -0 must be written to be read back unchanged. */
-static bool has_bits(const void *from)
-{
-    static const double zero[3];
-    return memcmp(from, zero, sizeof zero) != 0;
-}
-
-const json_codec json_vector = {json_read_vector, json_write_vector, NULL};
-const json_codec json_nonzero_vector = {json_read_vector, json_write_vector, has_bits};
+const json_codec json_numbers = {read_numbers, write_numbers};
+const json_codec json_vector = {json_read_vector, write_vector};
 
 static const json_member corners[] = {
     {"min", &json_vector, offsetof(octree_box, min), .required = true},
@@ -413,4 +539,4 @@ void json_write_box(json_writer *w, const void *from)
     json_write_object(w, corners, from);
 }
 
-const json_codec json_box = {json_read_box, json_write_box, NULL};
+const json_codec json_box = {json_read_box, json_write_box};

@@ -14,9 +14,8 @@ typedef bool json_read_value(json_reader *r, json_t *value, const json_place *at
 typedef void json_write_value(json_writer *w, const void *from);
 
 typedef struct json_codec {
-    json_read_value *read;
-    json_write_value *write;          /* null: the member is read but never written */
-    bool (*is_set)(const void *from); /* false: the member is left out; null: it is always written */
+    json_read_value *read;   /* null: the member is written but never read */
+    json_write_value *write; /* null: the member is read but never written */
 } json_codec;
 
 /* Returns the n-th name of a list; null: n is beyond the last. */
@@ -25,17 +24,26 @@ typedef const char *json_name(int n);
 typedef struct json_member {
     const char *name; /* null ends a table */
     const json_codec *codec;
-    size_t offset;                     /* of the value in the structure */
-    size_t given;                      /* offset of a bool that reading sets and writing asks; 0: none */
-    bool required;                     /* reading fails without it */
+    size_t offset;                /* of the value in the structure */
+    size_t given;                 /* offset of a bool that reading sets and writing asks; 0: none */
+    size_t nonzero, nonzero_size; /* bytes of the structure; the member is left out while all are 0: see JSON_IF() */
+    bool (*is_set)(const void *structure); /* false: the member is left out; null: it is always written */
+    bool (*check)(json_reader *r, const json_place *at, void *structure); /* called when the value has been read; false
+                                                                             with an error; null: nothing to check */
+    bool required;                                                        /* reading fails without it */
     bool nullable;                     /* null stands for a value that is not set, instead of leaving the member out */
     bool line;                         /* written on a line of its own */
     double min, max;                   /* limits of numbers */
-    json_name *names;                  /* names of a choice */
-    const struct json_member *members; /* members of an object */
-    const void *about;                 /* the text of a constant, or other data of the codec */
-    const char *advice;                /* of a version: what to do with an older file; null: film it again */
+    size_t size;                       /* the count of numbers; the bytes of a label or of a structure in a list */
+    json_name *names;                  /* names of a choice or a set */
+    const struct json_member *members; /* members of an object, or of each object in a list */
+    const void *about;                 /* the text of a constant, what a list or label is in errors, or other data */
+    const char *advice;                /* of a version: what to do with an older file; null: film it again. Of a set:
+                                          what an element is in errors */
 } json_member;
+
+/* The member is written only if a field of the structure is not zero. */
+#define JSON_IF(type, field) .nonzero = offsetof(type, field), .nonzero_size = sizeof(((const type *)NULL)->field)
 
 /* A codec that only one row uses. */
 #define JSON_CODEC(...)                                                                                                \
@@ -69,6 +77,9 @@ typedef struct json_counted {
 } json_counted;
 json_counted json_counted_at(const void *from);
 
+/* Whether any byte is not zero. */
+bool json_has_bits(const void *bytes, size_t size);
+
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
 /* Write all names, separated by commas and cut to `size`. Returns `text`. */
@@ -77,27 +88,35 @@ const char *json_list_names(json_name *names, char *text, size_t size);
 /* Read a whole number from min to max. */
 bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, double min, double max, uint64_t *into);
 
+/* Read element `i` of an array as an id. */
+bool json_read_id(json_reader *r, const json_t *list, const json_place *at, size_t i, uint64_t *id);
+
 /* Read `count` numbers of an array, from element `first` on. */
 bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at, size_t first, size_t count,
                        double *into);
 
-/* Building blocks for codecs: double, double of at least 0, double[3], octree_box with min at most max. */
-json_read_value json_read_number, json_read_positive, json_read_vector, json_read_box;
-json_read_value json_read_uint64, json_read_int;
-json_write_value json_write_double, json_write_vector, json_write_box, json_write_uint64;
+/* Building blocks for codecs: an index into row->names, double[3], octree_box with min at most max, const char *. */
+json_read_value json_read_choice, json_read_vector, json_read_box;
+json_write_value json_write_box, json_write_text;
 
-extern const json_codec json_uint64, json_size, json_int; /* whole numbers from row->min to row->max */
-extern const json_codec json_number, json_positive;       /* double */
-extern const json_codec json_interval;                    /* double from row->min to row->max */
-extern const json_codec json_constant;                    /* the text row->about and no other */
-extern const json_codec json_version;                     /* the format version of a file, row->max, and no other;
-                                                             row->about names the file in errors: "recording" */
-extern const json_codec json_bool;                        /* bool, left out if false */
-extern const json_codec json_choice;                      /* enumeration: index into row->names */
-extern const json_codec json_later_choice;                /* the same, left out if it is the first */
-extern const json_codec json_vector;                      /* double[3] */
-extern const json_codec json_nonzero_vector;              /* the same, left out if all its bits are 0 */
-extern const json_codec json_box;                         /* octree_box */
-extern const json_codec json_structure;                   /* a structure of row->members */
+extern const json_codec json_uint64, json_size, json_int; /* whole numbers from row->min to row->max; an int is never
+                                                             negative */
+extern const json_codec json_ints;                        /* row->size such ints */
+extern const json_codec json_ids;        /* json_counted of uint64_t; reading fills the array, or allocates it if it is
+                                            null */
+extern const json_codec json_number;     /* double; from row->min to row->max if these differ */
+extern const json_codec json_positive;   /* double of at least 0 */
+extern const json_codec json_numbers;    /* row->size doubles */
+extern const json_codec json_vector;     /* double[3] */
+extern const json_codec json_box;        /* octree_box */
+extern const json_codec json_constant;   /* the text row->about and no other */
+extern const json_codec json_label;      /* char[row->size]: printable ASCII with its final zero */
+extern const json_codec json_version;    /* the format version of a file, row->max, and no other; row->about names the
+                                            file in errors: "recording" */
+extern const json_codec json_bool;       /* bool */
+extern const json_codec json_choice;     /* enumeration: index into row->names */
+extern const json_codec json_set;        /* unsigned: bit 1 << index into row->names */
+extern const json_codec json_structure;  /* a structure of row->members */
+extern const json_codec json_structures; /* json_counted of structures of row->size bytes; only written */
 
 #endif

@@ -82,11 +82,6 @@ static bool read_at_player(json_reader *r, json_t *value, const json_place *at, 
     return is_player(value) ? read_player(r, at, into) : json_expected(r, value, at, "\"player\"");
 }
 
-static bool is_at_player(const void *from)
-{
-    return ((const octree_query *)from)->at_player;
-}
-
 /* "skip" is an id, or this word for all points exactly at the target. */
 static const char coincident[] = "coincident";
 
@@ -101,7 +96,7 @@ static bool read_skip(json_reader *r, json_t *value, const json_place *at, void 
                                        octree_query_about(query->kind)->region);
     if (json_is_string(value))
         return json_expected(r, value, at, has_target ? "an id or \"coincident\"" : "an id");
-    return json_read_uint64(r, value, at, &query->skip_id);
+    return json_read_whole(r, value, at, 0, JSON_LARGEST_WHOLE, &query->skip_id);
 }
 
 static void write_skip(json_writer *w, const void *from)
@@ -111,70 +106,6 @@ static void write_skip(json_writer *w, const void *from)
         json_write_string(w, coincident);
     else
         json_write_integer(w, query->skip_id);
-}
-
-static bool has_skip(const void *from)
-{
-    return ((const octree_query *)from)->skip != OCTREE_SKIP_NONE;
-}
-
-bool session_read_ids(json_reader *r, json_t *value, const json_place *at, const uint64_t **ids, size_t *count)
-{
-    if (!json_is_array(value))
-        return json_expected(r, value, at, "a list of ids");
-    const size_t size = json_array_size(value);
-    uint64_t *made = malloc((size > 0 ? size : 1) * sizeof *made);
-    if (!made)
-        return json_fail(r, at, "out of memory for %zu ids", size);
-    *ids = made;
-    *count = size;
-    for (size_t i = 0; i < size; i++)
-        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, &made[i]))
-            return false;
-    return true;
-}
-
-/* Read the ids that the foreign index answered. The session owns them. */
-static bool read_answer(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    octree_query *query = into;
-    query->answered = true;
-    return session_read_ids(r, value, at, &query->answer, &query->answer_count);
-}
-
-/* Read the ids of the nodes that the foreign index visited, pruned or hit. */
-static bool read_visits(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    octree_ids *visit = into;
-    return session_read_ids(r, value, at, &visit->ids, &visit->count);
-}
-
-static void write_visits(json_writer *w, const void *from)
-{
-    const octree_ids *visit = from;
-    json_write_begin_array(w);
-    for (size_t i = 0; i < visit->count; i++)
-        json_write_integer(w, visit->ids[i]);
-    json_write_end_array(w);
-}
-
-static bool has_visits(const void *from)
-{
-    return ((const octree_ids *)from)->count > 0;
-}
-
-static void write_answer(json_writer *w, const void *from)
-{
-    const octree_query *query = from;
-    json_write_begin_array(w);
-    for (size_t i = 0; i < query->answer_count; i++)
-        json_write_integer(w, query->answer[i]);
-    json_write_end_array(w);
-}
-
-static bool is_answered(const void *from)
-{
-    return ((const octree_query *)from)->answered;
 }
 
 static const char *precision_name(int n)
@@ -187,29 +118,22 @@ static bool uses_precision(const octree_query *query)
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
-/* Read the mode. "answer" and "pruned" come before it in the table, so they have been read. */
-static bool read_mode(json_reader *r, json_t *value, const json_place *at, void *into)
+/* "answer" and "pruned" come before the mode in the table, so they have been read. */
+static bool check_mode(json_reader *r, const json_place *at, void *structure)
 {
-    octree_query *query = into;
-    if (!uses_precision(query))
-        return json_fail(r, at, "\"mode\" needs an \"answer\" or \"pruned\", and this query has neither");
-    return json_choice.read(r, value, at, &query->precision);
+    return uses_precision(structure) ||
+           json_fail(r, at, "\"mode\" needs an \"answer\" or \"pruned\", and this query has neither");
 }
 
-static void write_mode(json_writer *w, const void *from)
+static bool has_mode(const void *structure)
 {
-    json_write_string(w, octree_precision_name(((const octree_query *)from)->precision));
+    return uses_precision(structure) && ((const octree_query *)structure)->precision != OCTREE_DOUBLES;
 }
 
-static bool has_mode(const void *from)
+/* An epsilon of -0 is left out, too. */
+static bool has_epsilon(const void *structure)
 {
-    const octree_query *query = from;
-    return uses_precision(query) && query->precision != OCTREE_DOUBLES;
-}
-
-static bool is_above_zero(const void *from)
-{
-    return *(const double *)from > 0;
+    return ((const octree_query *)structure)->epsilon > 0;
 }
 
 static const char *query_name(int n)
@@ -224,7 +148,7 @@ static json_member query_member(const octree_query_member_traits *member)
                                                [OCTREE_MEMBER_POSITION] = &json_vector,
                                                [OCTREE_MEMBER_COUNT] = &json_size,
                                                [OCTREE_MEMBER_LENGTH] = &json_positive};
-    static const json_codec target = {read_target, write_target, NULL};
+    static const json_codec target = {read_target, write_target};
     json_member row = {member->key, codecs[member->type], member->in_query, .required = true, .max = UINT32_MAX};
     if (member->bit == OCTREE_QUERY_HAS_TARGET) {
         row.codec = &target;
@@ -233,21 +157,25 @@ static json_member query_member(const octree_query_member_traits *member)
     return row;
 }
 
-static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target, is_at_player), .offset = 0};
+static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target),
+                                          JSON_IF(octree_query, at_player)};
+
+#define QUERY(member) offsetof(octree_query, member)
+#define VISITS(name, kind)                                                                                             \
+    {                                                                                                                  \
+        name, &json_ids, QUERY(visits[kind]), JSON_IF(octree_query, visits[kind].count)                                \
+    }
 
 /* The members of every kind of query. */
-static const json_member skip_member = {"skip", JSON_CODEC(read_skip, write_skip, has_skip), .max = JSON_LARGEST_WHOLE};
-static const json_member epsilon_member = {"epsilon", JSON_CODEC(json_read_positive, json_write_double, is_above_zero),
-                                           .offset = offsetof(octree_query, epsilon)};
-
-static const json_member answer_member = {"answer", JSON_CODEC(read_answer, write_answer, is_answered), .offset = 0};
-#define VISITS(name, how)                                                                                              \
-    {                                                                                                                  \
-        name, JSON_CODEC(read_visits, write_visits, has_visits), .offset = offsetof(octree_query, visits[how])         \
-    }
-static const json_member visit_members[OCTREE_NODE_VISITS] = {
-    VISITS("visited", OCTREE_NODE_VISITED), VISITS("pruned", OCTREE_NODE_PRUNED), VISITS("hit", OCTREE_NODE_HIT)};
-static const json_member mode_member = {"mode", JSON_CODEC(read_mode, write_mode, has_mode), .names = precision_name};
+static const json_member general_members[] = {
+    {"skip", JSON_CODEC(read_skip, write_skip), .offset = 0, JSON_IF(octree_query, skip)},
+    {"epsilon", &json_positive, QUERY(epsilon), .is_set = has_epsilon},
+    {"answer", &json_ids, QUERY(answer), .given = QUERY(answered)},
+    VISITS("visited", OCTREE_NODE_VISITED),
+    VISITS("pruned", OCTREE_NODE_PRUNED),
+    VISITS("hit", OCTREE_NODE_HIT),
+    {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
+};
 
 /* Fill the table with the members of a kind of query, as its traits list them. A box without a target can be relative
  * to the player. */
@@ -266,29 +194,7 @@ static void list_query_members(int kind, json_member table[MOST_MEMBERS])
     }
     if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))
         table[count++] = box_at_player;
-    table[count++] = skip_member;
-    table[count++] = epsilon_member;
-    table[count++] = answer_member;
-    for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
-        table[count++] = visit_members[visit];
-    table[count] = mode_member;
-}
-
-/* ---- Texts -------------------------------------------------------------------------------------------------- */
-
-bool session_read_text(json_reader *r, json_t *value, const json_place *at, const char *what, size_t room, char *into)
-{
-    const char *text = json_string_value(value);
-    if (!text)
-        return json_expected(r, value, at, "a text");
-    const size_t length = strlen(text);
-    for (size_t i = 0; i < length; i++)
-        if (text[i] < ' ' || text[i] > '~')
-            return json_fail(r, at, "%s must be printable ASCII, and byte %zu is not", what, i + 1);
-    if (length >= room)
-        return json_fail(r, at, "%s has at most %zu characters, not %zu", what, room - 1, length);
-    memcpy(into, text, length + 1);
-    return true;
+    memcpy(table + count, general_members, sizeof general_members);
 }
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------- */
@@ -331,23 +237,13 @@ static void write_segment(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-static bool read_text(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    return session_read_text(r, value, at, "a label", OCTREE_SHAPE_TEXT, into);
-}
-
-static void write_text(json_writer *w, const void *from)
-{
-    json_write_string(w, from);
-}
-
 /* The members of each kind of shape, the naming member first. */
 static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
-    [OCTREE_SHAPE_BOX] = {{"box", JSON_CODEC(read_shape_box, write_shape_box, NULL), .required = true}},
-    [OCTREE_SHAPE_SEGMENT] = {{"segment", JSON_CODEC(read_segment, write_segment, NULL), .required = true}},
+    [OCTREE_SHAPE_BOX] = {{"box", JSON_CODEC(read_shape_box, write_shape_box), .required = true}},
+    [OCTREE_SHAPE_SEGMENT] = {{"segment", JSON_CODEC(read_segment, write_segment), .required = true}},
     [OCTREE_SHAPE_POINT] = {{"point", &json_vector, offsetof(octree_shape, at), .required = true}},
-    [OCTREE_SHAPE_LABEL] = {{"label", JSON_CODEC(read_text, write_text, NULL), offsetof(octree_shape, text),
-                             .required = true},
+    [OCTREE_SHAPE_LABEL] = {{"label", &json_label, offsetof(octree_shape, text), .size = OCTREE_SHAPE_TEXT,
+                             .about = "a label", .required = true},
                             {"at", &json_vector, offsetof(octree_shape, at), .required = true}},
 };
 
@@ -425,9 +321,4 @@ static void write_items(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-static bool has_items(const void *from)
-{
-    return json_counted_at(from).count > 0;
-}
-
-const json_codec session_items_codec = {read_items, write_items, has_items};
+const json_codec session_items_codec = {read_items, write_items};

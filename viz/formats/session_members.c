@@ -40,15 +40,14 @@ void session_set_world(session_loader *s, const octree_box *world)
     set_default_player(&session->player, world);
 }
 
-static bool read_world(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_world(json_reader *r, const json_place *at, void *structure)
 {
-    const octree_box *world = into;
-    if (!json_read_box(r, value, at, into))
-        return false;
+    octree_session *session = &((session_header *)structure)->session;
+    const octree_box *world = &session->tree.world;
     for (int i = 0; i < 3; i++)
         if (world->min[i] == world->max[i])
             return json_fail(r, at, "min must be below max on every axis, but is not on %c", "xyz"[i]);
-    set_default_player(&get_loader(r)->header.session.player, world);
+    set_default_player(&session->player, world);
     return true;
 }
 
@@ -67,37 +66,31 @@ static const json_member tree_members[] = {
 
 /* ---- Player ------------------------------------------------------------------------------------------------- */
 
-static bool read_position(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_position(json_reader *r, const json_place *at, void *structure)
 {
     const session_loader *s = get_loader(r);
     const octree_box *world = &s->header.session.tree.world;
     const char *whose = s->points.count > 0 ? " that was computed from the points" : "";
-    const double *position = into;
-    if (!json_read_vector(r, value, at, into))
-        return false;
+    const double *position = ((const octree_player *)structure)->position;
     for (int i = 0; i < 3; i++)
         if (position[i] < world->min[i] || position[i] > world->max[i])
             return json_fail(r, at, "the player is outside the world%s on %c", whose, "xyz"[i]);
     return true;
 }
 
-/* Read the step, and set the default box size that follows from it; "box_size" is read later. */
-static bool read_step(json_reader *r, json_t *value, const json_place *at, void *into)
+/* The default box size follows from the step; "box_size" is read later. */
+static bool follow_step(json_reader *r, const json_place *at, void *structure)
 {
-    octree_player *player = &get_loader(r)->header.session.player;
-    if (!json_read_positive(r, value, at, into))
-        return false;
+    octree_player *player = structure;
+    (void)r, (void)at;
     player->box_size = default_box_size(player->step);
     return true;
 }
 
 static bool read_is_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    bool is_body;
-    if (!json_bool.read(r, value, at, &is_body))
-        return false;
-    *(octree_player_kind *)into = is_body ? OCTREE_PLAYER_BODY : OCTREE_PLAYER_KEYS;
-    return true;
+    *(octree_player_kind *)into = json_is_true(value) ? OCTREE_PLAYER_BODY : OCTREE_PLAYER_KEYS;
+    return json_is_boolean(value) || json_expected(r, value, at, "true or false");
 }
 
 static void write_is_body(json_writer *w, const void *from)
@@ -106,23 +99,20 @@ static void write_is_body(json_writer *w, const void *from)
     json_write_bool(w, true);
 }
 
-static bool is_body(const void *from)
-{
-    return *(const octree_player_kind *)from == OCTREE_PLAYER_BODY;
-}
-
 #define ID "id", &json_uint64, offsetof(octree_player, id), .max = JSON_LARGEST_WHOLE
-#define BODY "body", JSON_CODEC(read_is_body, write_is_body, is_body), .offset = offsetof(octree_player, kind)
+#define BODY                                                                                                           \
+    "body", JSON_CODEC(read_is_body, write_is_body), .offset = offsetof(octree_player, kind),                          \
+                                                     JSON_IF(octree_player, kind)
 #define BOX_SIZE "box_size", &json_positive, .offset = offsetof(octree_player, box_size)
-#define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep)
+#define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep), JSON_IF(octree_player, sweep)
 
 /* A player that is a body has no position and step: it is the point with its id. */
 static const json_member body_player_members[] = {{ID}, {BODY}, {BOX_SIZE}, {SWEEP}, {0}};
 static const json_member player_members[] = {
     {ID},
     {BODY},
-    {"position", JSON_CODEC(read_position, json_write_vector, NULL), .offset = offsetof(octree_player, position)},
-    {"step", JSON_CODEC(read_step, json_write_double, NULL), .offset = offsetof(octree_player, step)},
+    {"position", &json_vector, offsetof(octree_player, position), .check = check_position},
+    {"step", &json_positive, offsetof(octree_player, step), .check = follow_step},
     {BOX_SIZE},
     {SWEEP},
     {0},
@@ -173,30 +163,16 @@ static bool read_keys(json_reader *r, json_t *value, const json_place *at, void 
     return *copy || json_fail(r, at, "out of memory");
 }
 
-static void write_keys(json_writer *w, const void *from)
+static bool note_end(json_reader *r, const json_place *at, void *structure)
 {
-    json_write_string(w, *(const char *const *)from);
-}
-
-static bool has_keys(const void *from)
-{
-    return *(const char *const *)from;
-}
-
-static bool read_ticks(json_reader *r, json_t *value, const json_place *at, void *into)
-{
+    (void)at, (void)structure;
     get_loader(r)->ends = true;
-    return json_read_uint64(r, value, at, into);
+    return true;
 }
 
-static bool has_end(const void *from)
+static bool has_end(const void *structure)
 {
-    return *(const uint64_t *)from != SESSION_ENDLESS;
-}
-
-static bool has_unplayed(const void *from)
-{
-    return *(const uint64_t *)from > 0;
+    return ((const session_header *)structure)->session.ticks != SESSION_ENDLESS;
 }
 
 /* The most ticks from one object to the next. All ticks between them are played and filmed, and a greater distance is
@@ -212,22 +188,20 @@ static bool is_too_far(const session_loader *s, uint64_t tick)
     return !s->ends && tick > last && tick - last > MOST_TICKS_BETWEEN && tick > (keys ? strlen(keys) : 0);
 }
 
-static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_number(json_reader *r, const json_place *at, void *structure)
 {
     session_loader *s = get_loader(r);
-    uint64_t *tick = into;
-    if (!json_read_uint64(r, value, at, tick))
-        return false;
-    if (s->tick != OCTREE_EVERY_TICK && *tick <= s->tick)
-        return json_fail(r, at, "tick %" PRIu64 " follows tick %" PRIu64 "; ticks must ascend", *tick, s->tick);
-    if (is_too_far(s, *tick))
+    const uint64_t tick = ((const session_tick *)structure)->tick;
+    if (s->tick != OCTREE_EVERY_TICK && tick <= s->tick)
+        return json_fail(r, at, "tick %" PRIu64 " follows tick %" PRIu64 "; ticks must ascend", tick, s->tick);
+    if (is_too_far(s, tick))
         return json_fail(r, at,
                          "tick %" PRIu64 " is more than %d ticks after the object before it, and all ticks between "
                          "them would be played; if this is intended, add \"ticks\" to the header",
-                         *tick, MOST_TICKS_BETWEEN);
-    s->tick = *tick;
+                         tick, MOST_TICKS_BETWEEN);
+    s->tick = tick;
     if (!s->ends)
-        s->header.session.ticks = *tick;
+        s->header.session.ticks = tick;
     return true;
 }
 
@@ -236,26 +210,18 @@ static bool read_number(json_reader *r, json_t *value, const json_place *at, voi
 static bool read_gap(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = get_loader(r);
-    octree_gap gap = {.tick = s->tick};
+    octree_gap *gap = session_append(r, at, &s->lists[SESSION_GAPS], sizeof *gap);
     (void)into;
-    if (!session_read_text(r, value, at, "the reason of a gap", sizeof gap.why, gap.why))
+    if (!gap)
         return false;
-    if (!*gap.why)
-        return json_fail(r, at, "the reason of a gap must not be empty");
-    octree_gap *added = session_append(r, at, &s->lists[SESSION_GAPS], sizeof gap);
-    if (added)
-        *added = gap;
-    return added;
+    gap->tick = s->tick;
+    return json_label.read(r, value, at, gap->why) &&
+           (*gap->why || json_fail(r, at, "the reason of a gap must not be empty"));
 }
 
 static void write_gap(json_writer *w, const void *from)
 {
     json_write_string(w, (*(const octree_gap *const *)from)->why);
-}
-
-static bool is_gap(const void *from)
-{
-    return *(const octree_gap *const *)from;
 }
 
 /* ---- The objects of a file ---------------------------------------------------------------------------------- */
@@ -275,19 +241,21 @@ const json_member session_header_members[] = {
     {"octreel", &json_constant, .required = true, .about = "session"},
     {"version", &json_version, .required = true, .max = 2, .about = "session",
      .advice = "rename \"nodes\" to \"foreign_nodes\" and set \"version\": 2"},
-    {"world", JSON_CODEC(read_world, json_write_box, NULL), HEADER(session.tree.world)},
+    {"world", &json_box, HEADER(session.tree.world), .check = check_world},
     {"tree", &json_structure, HEADER(session.tree), .members = tree_members},
-    {"player", JSON_CODEC(read_player, write_player, NULL), HEADER(session.player)},
-    {"keys", JSON_CODEC(read_keys, write_keys, has_keys), HEADER(session.keys)},
-    {"ticks", JSON_CODEC(read_ticks, json_write_uint64, has_end), HEADER(session.ticks), .max = SESSION_LAST_TICK},
-    {"unplayed", JSON_CODEC(json_read_uint64, json_write_uint64, has_unplayed), HEADER(session.unplayed),
-     .max = SESSION_LAST_TICK},
-    {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries},
-    {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes},
-    {"foreign_nodes", &session_nodes_codec, HEADER(standing.foreign)},
+    {"player", JSON_CODEC(read_player, write_player), HEADER(session.player)},
+    {"keys", JSON_CODEC(read_keys, json_write_text), HEADER(session.keys), JSON_IF(session_header, session.keys)},
+    {"ticks", &json_uint64, HEADER(session.ticks), .max = SESSION_LAST_TICK, .is_set = has_end, .check = note_end},
+    {"unplayed", &json_uint64, HEADER(session.unplayed), .max = SESSION_LAST_TICK,
+     JSON_IF(session_header, session.unplayed)},
+    {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries,
+     JSON_IF(session_header, standing.query_count)},
+    {"shapes", &session_items_codec, HEADER(standing.shapes), .about = &session_shapes,
+     JSON_IF(session_header, standing.shape_count)},
+    {"foreign_nodes", &session_nodes_codec, HEADER(standing.foreign), JSON_IF(session_header, standing.foreign)},
     {"sampled", &json_structure, HEADER(session.sampled), .given = offsetof(session_header, session.sampled.known),
      .members = session_sampled_members},
-    {"columns", &session_columns_codec, HEADER(values)},
+    {"columns", &session_columns_codec, HEADER(values), .is_set = session_has_columns},
     {"points", &session_points_codec, HEADER(session)},
     {"velocities", &session_velocities_codec, HEADER(session)},
     {0},
@@ -296,11 +264,15 @@ const json_member session_header_members[] = {
 #define TICK(where) .offset = offsetof(session_tick, where)
 
 const json_member session_tick_members[] = {
-    {"tick", JSON_CODEC(read_number, json_write_uint64, NULL), TICK(tick), .required = true, .max = SESSION_LAST_TICK},
-    {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits},
-    {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries},
-    {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes},
-    {"foreign_nodes", &session_nodes_codec, TICK(input.foreign)},
-    {"gap", JSON_CODEC(read_gap, write_gap, is_gap), TICK(input.gap)},
+    {"tick", &json_uint64, TICK(tick), .required = true, .max = SESSION_LAST_TICK, .check = check_number},
+    {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits,
+     JSON_IF(session_tick, input.edit_count)},
+    {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries,
+     JSON_IF(session_tick, input.query_count)},
+    {"shapes", &session_items_codec, TICK(input.shapes), .about = &session_shapes,
+     JSON_IF(session_tick, input.shape_count)},
+    {"foreign_nodes", &session_nodes_codec, TICK(input.foreign), JSON_IF(session_tick, input.foreign)},
+    {"gap", JSON_CODEC(read_gap, write_gap), TICK(input.gap), .about = "the reason of a gap", .size = OCTREE_GAP_TEXT,
+     JSON_IF(session_tick, input.gap)},
     {0},
 };

@@ -108,6 +108,7 @@ extern const json_codec session_body_codec, session_insert_codec;
 
 /* The names of the columns that rows of points have after the id. */
 extern const json_codec session_columns_codec;
+bool session_has_columns(const void *header);
 
 /* Read one value of a row of points; JSON null means a missing value. */
 bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into);
@@ -124,13 +125,6 @@ void session_release_listed(session_values *values);
 
 /* Check that the game knows every key. False with the reason if not. */
 bool session_check_keys(const char *keys, octreel_error *error);
-
-/* Read printable ASCII text into a buffer of `room` bytes, which includes the final zero. Errors call it `what`, such
- * as "a label". */
-bool session_read_text(json_reader *r, json_t *value, const json_place *at, const char *what, size_t room, char *into);
-
-/* Read a list of ids into a new array, to be freed with free(). */
-bool session_read_ids(json_reader *r, json_t *value, const json_place *at, const uint64_t **ids, size_t *count);
 
 /* Add an item to a list and return it, not initialized; null with an error if there is no memory. */
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size);

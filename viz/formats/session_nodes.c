@@ -46,60 +46,22 @@ void foreign_tree_release(octree_foreign_tree *tree)
 
 /* ---- One node ----------------------------------------------------------------------------------------------- */
 
-/* Read the ids into the block of the tree, to which points->ids already points. */
-static bool read_points(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    octree_ids *points = into;
-    uint64_t *room = (uint64_t *)points->ids;
-    if (!json_is_array(value))
-        return json_expected(r, value, at, "a list of ids");
-    points->count = json_array_size(value);
-    for (size_t i = 0; i < points->count; i++)
-        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, &room[i]))
-            return false;
-    return true;
-}
-
-static void write_points(json_writer *w, const void *from)
-{
-    const octree_ids *points = from;
-    json_write_begin_array(w);
-    for (size_t i = 0; i < points->count; i++)
-        json_write_integer(w, points->ids[i]);
-    json_write_end_array(w);
-}
-
-static bool read_kind(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    return session_read_text(r, value, at, "a node's kind", OCTREE_NODE_KIND, into);
-}
-
-static void write_kind(json_writer *w, const void *from)
-{
-    json_write_string(w, from);
-}
-
-static bool has_kind(const void *from)
-{
-    return *(const char *)from;
-}
-
 static const char *precision_name(int n)
 {
     return octree_precision_name((octree_precision)n);
 }
 
-#define IN_NODE(member) .offset = offsetof(octree_foreign_node, member)
-#define GIVEN(flag) .given = offsetof(octree_foreign_node, flag)
+#define NODE(member) offsetof(octree_foreign_node, member)
 
 static const json_member node_members[] = {
-    {"id", &json_uint64, IN_NODE(id), .required = true, .max = JSON_LARGEST_WHOLE},
-    {"parent", &json_uint64, IN_NODE(parent), GIVEN(has_parent), .max = JSON_LARGEST_WHOLE},
-    {"box", &json_box, IN_NODE(box), .required = true},
-    {"depth", &json_int, IN_NODE(depth), GIVEN(has_depth), .max = INT32_MAX},
-    {"points", JSON_CODEC(read_points, write_points, NULL), IN_NODE(points), GIVEN(has_points)},
-    {"kind", JSON_CODEC(read_kind, write_kind, has_kind), IN_NODE(kind)},
-    {"mode", &json_later_choice, IN_NODE(precision), .names = precision_name},
+    {"id", &json_uint64, NODE(id), .required = true, .max = JSON_LARGEST_WHOLE},
+    {"parent", &json_uint64, NODE(parent), .given = NODE(has_parent), .max = JSON_LARGEST_WHOLE},
+    {"box", &json_box, NODE(box), .required = true},
+    {"depth", &json_int, NODE(depth), .given = NODE(has_depth), .max = INT32_MAX},
+    {"points", &json_ids, NODE(points), .given = NODE(has_points)},
+    {"kind", &json_label, NODE(kind), .size = OCTREE_NODE_KIND, .about = "a node's kind",
+     JSON_IF(octree_foreign_node, kind[0])},
+    {"mode", &json_choice, NODE(precision), .names = precision_name, JSON_IF(octree_foreign_node, precision)},
     {0},
 };
 
@@ -168,6 +130,7 @@ static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void
     return read_tree(r, value, at, tree);
 }
 
+/* Nodes that apply from tick 0 on are written in the object of tick 0, not in the header. */
 static void write_nodes(json_writer *w, const void *from)
 {
     const octree_foreign_tree *tree = *(const octree_foreign_tree *const *)from;
@@ -177,10 +140,4 @@ static void write_nodes(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* Nodes that apply from tick 0 on are written in the object of tick 0, not in the header. */
-static bool has_nodes(const void *from)
-{
-    return *(const octree_foreign_tree *const *)from;
-}
-
-const json_codec session_nodes_codec = {read_nodes, write_nodes, has_nodes};
+const json_codec session_nodes_codec = {read_nodes, write_nodes};

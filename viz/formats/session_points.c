@@ -53,9 +53,7 @@ static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_b
                              values->column_count
                                  ? "a point [x, y, z], [x, y, z, id], or this with a value for each of \"columns\""
                                  : "a point [x, y, z] or [x, y, z, id]");
-    if (!json_read_numbers(r, row, at, 0, 3, body->position) ||
-        (size > 3 &&
-         !json_read_whole(r, json_array_get(row, 3), &(json_place){at, NULL, 3}, 0, JSON_LARGEST_WHOLE, &body->id)))
+    if (!json_read_numbers(r, row, at, 0, 3, body->position) || (size > 3 && !json_read_id(r, row, at, 3, &body->id)))
         return false;
     for (size_t i = 4; i < size; i++)
         if (!session_read_column(r, json_array_get(row, i), &(json_place){at, NULL, i},
@@ -274,7 +272,7 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
 static const json_member file_members[] = {
-    {"file", JSON_CODEC(read_file, NULL, NULL), .required = true},
+    {"file", JSON_CODEC(read_file, NULL), .required = true},
     {0},
 };
 
@@ -293,7 +291,7 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
 /* Points without velocity are written short; -0 counts as a velocity. */
 static void write_point(json_writer *w, const octree_body *body)
 {
-    if (json_nonzero_vector.is_set(body->velocity)) {
+    if (json_has_bits(body->velocity, sizeof body->velocity)) {
         session_body_codec.write(w, body);
         return;
     }
@@ -317,7 +315,7 @@ static void write_points(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-const json_codec session_points_codec = {read_points, write_points, NULL};
+const json_codec session_points_codec = {read_points, write_points};
 
 /* ---- Velocities --------------------------------------------------------------------------------------------- */
 
@@ -335,7 +333,7 @@ static bool read_velocity(json_reader *r, json_t *row, const json_place *at, voi
     uint64_t id;
     if (json_array_size(row) != 4)
         return json_expected(r, row, at, "[id, vx, vy, vz]");
-    if (!json_read_whole(r, json_array_get(row, 0), &(json_place){at, NULL, 0}, 0, JSON_LARGEST_WHOLE, &id))
+    if (!json_read_id(r, row, at, 0, &id))
         return false;
     const uint32_t place = hash_map_find(&points->ids, &by_id, s->bodies, &id);
     if (place == HASH_MAP_NONE)
@@ -384,4 +382,4 @@ static bool read_velocities(json_reader *r, json_t *value, const json_place *at,
     return json_expected(r, value, at, "a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": ...}");
 }
 
-const json_codec session_velocities_codec = {read_velocities, NULL, NULL};
+const json_codec session_velocities_codec = {read_velocities, NULL};

@@ -44,13 +44,12 @@ static void write_color(json_writer *w, const void *from)
 
 static bool read_intensity(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    double number;
-    float *intensity = into;
-    if (!json_read_number(r, value, at, &number))
-        return false;
+    const double number = json_real_value(value);
+    if (!json_is_real(value))
+        return json_expected(r, value, at, "a number");
     if (fabs(number) > FLT_MAX)
         return json_fail(r, at, "the intensity does not fit into a float");
-    *intensity = (float)number;
+    *(float *)into = (float)number;
     return true;
 }
 
@@ -190,10 +189,11 @@ typedef struct valued_body {
 
 #define ID "id", &json_uint64, offsetof(valued_body, body.id), .max = JSON_LARGEST_WHOLE
 #define POSITION "position", &json_vector, offsetof(valued_body, body.position), .required = true
-#define VELOCITY "velocity", &json_nonzero_vector, .offset = offsetof(valued_body, body.velocity)
+#define VELOCITY                                                                                                       \
+    "velocity", &json_vector, .offset = offsetof(valued_body, body.velocity), JSON_IF(valued_body, body.velocity)
 #define VALUE(name, read, write, kind, field)                                                                          \
-    name, JSON_CODEC(read, write, NULL), .offset = offsetof(valued_body, value.field),                                 \
-                                         .given = offsetof(valued_body, value.has[kind])
+    name, JSON_CODEC(read, write), .offset = offsetof(valued_body, value.field),                                       \
+                                   .given = offsetof(valued_body, value.has[kind])
 #define COLOR VALUE("color", read_color, write_color, POINT_COLOR, color)
 #define INTENSITY VALUE("intensity", read_intensity, write_intensity, POINT_INTENSITY, intensity)
 #define CLASS VALUE("class", read_class, write_class, POINT_CLASS, class)
@@ -229,8 +229,8 @@ static void write_body(json_writer *w, const void *from)
     json_write_object(w, session_body_members, &valued);
 }
 
-const json_codec session_body_codec = {read_body, write_body, NULL};
-const json_codec session_insert_codec = {read_insert, write_body, NULL};
+const json_codec session_body_codec = {read_body, write_body};
+const json_codec session_insert_codec = {read_insert, write_body};
 
 /* ---- Points as rows ----------------------------------------------------------------------------------------- */
 
@@ -271,13 +271,12 @@ static void write_columns(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-static bool has_columns(const void *from)
+bool session_has_columns(const void *header)
 {
-    const point_values *const *values = from;
-    return point_values_kinds(*values) != 0;
+    return point_values_kinds(((const session_header *)header)->values) != 0;
 }
 
-const json_codec session_columns_codec = {read_columns, write_columns, has_columns};
+const json_codec session_columns_codec = {read_columns, write_columns};
 
 bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into)
 {

@@ -13,12 +13,26 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
     return text;
 }
 
-/* ---- Values ------------------------------------------------------------------------------------------------- */
+/* Members that are only written have a codec without a reader. */
+#define WRITE(how) JSON_CODEC(NULL, how)
 
-static void write_unsigned(json_writer *w, const void *from)
+/* Names of enumerations and of bits, as functions of an int. */
+#define NAMES(names, name_of, type)                                                                                    \
+    static const char *names(int n)                                                                                    \
+    {                                                                                                                  \
+        return name_of((type)n);                                                                                       \
+    }
+NAMES(precision_name, octree_precision_name, octree_precision)
+NAMES(status_name, octree_status_name, octree_status)
+NAMES(wrong_name, octree_wrong_name, octree_wrong_kind)
+NAMES(wrong_node_name, octree_wrong_node_name, octree_wrong_node_kind)
+
+static const char *event_name(int n)
 {
-    json_write_integer(w, *(const unsigned *)from);
+    return octree_event_name(1u << n);
 }
+
+/* ---- Values ------------------------------------------------------------------------------------------------- */
 
 static void write_digest(json_writer *w, const void *from)
 {
@@ -26,18 +40,14 @@ static void write_digest(json_writer *w, const void *from)
     json_write_string(w, digest_print(*(const uint64_t *)from, text));
 }
 
-static void write_point_ids(json_writer *w, const octree_point *points, size_t count)
-{
-    json_write_begin_array(w);
-    for (size_t i = 0; i < count; i++)
-        json_write_integer(w, points[i].id);
-    json_write_end_array(w);
-}
-
-static void write_ids(json_writer *w, const void *from)
+/* Write the ids of points. */
+static void write_points(json_writer *w, const void *from)
 {
     const json_counted points = json_counted_at(from);
-    write_point_ids(w, points.items, points.count);
+    json_write_begin_array(w);
+    for (size_t i = 0; i < points.count; i++)
+        json_write_integer(w, ((const octree_point *)points.items)[i].id);
+    json_write_end_array(w);
 }
 
 static void write_addresses(json_writer *w, const void *from)
@@ -55,7 +65,7 @@ static void write_nodes(json_writer *w, const void *from)
 {
     const json_counted addresses = json_counted_at(from);
     uint64_t digest = OCTREE_DIGEST_START;
-    if (addresses.count <= TICK_LISTED) {
+    if (addresses.count <= TICK_LISTED || ((const tick_extras *)w->context)->whole) {
         write_addresses(w, from);
         return;
     }
@@ -68,17 +78,12 @@ static void write_nodes(json_writer *w, const void *from)
     json_write_end_object(w);
 }
 
-static bool has_count(const void *from)
-{
-    return *(const uint64_t *)from > 0;
-}
-
 static const json_member cost_members[] = {
     {"nodes", &json_uint64, .offset = offsetof(octree_cost, nodes)},
     {"leaves", &json_uint64, .offset = offsetof(octree_cost, leaves)},
     {"points", &json_uint64, .offset = offsetof(octree_cost, points)},
     {"pruned", &json_uint64, .offset = offsetof(octree_cost, pruned)},
-    {"taken", JSON_CODEC(NULL, json_write_uint64, has_count), .offset = offsetof(octree_cost, taken)},
+    {"taken", &json_uint64, .offset = offsetof(octree_cost, taken), JSON_IF(octree_cost, taken)},
     {0},
 };
 
@@ -89,120 +94,67 @@ static const json_member neighbor_members[] = {
     {0},
 };
 
-/* ---- Members that read several fields of the tick ----------------------------------------------------------- */
-
-static void write_key(json_writer *w, const void *from)
-{
-    const char key[2] = {*(const char *)from, 0};
-    if (key[0])
-        json_write_string(w, key);
-    else
-        json_write_null(w);
-}
-
-/* Write a position of the player; null if the tick has no player. */
-static void write_player_position(json_writer *w, const octree_tick *tick, const double place[3])
-{
-    if (tick->has_player)
-        json_write_numbers(w, place, 3);
-    else
-        json_write_null(w);
-}
-
-static void write_player(json_writer *w, const void *from)
-{
-    const octree_tick *tick = from;
-    write_player_position(w, tick, tick->player);
-}
-
-static void write_attempt(json_writer *w, const void *from)
-{
-    const octree_tick *tick = from;
-    write_player_position(w, tick, tick->attempt);
-}
-
-static void write_events(json_writer *w, const void *from)
-{
-    const unsigned events = *(const unsigned *)from;
-    json_write_begin_array(w);
-    for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        if (events >> i & 1)
-            json_write_string(w, octree_event_name(1u << i));
-    json_write_end_array(w);
-}
-
-static void write_gap(json_writer *w, const void *from)
-{
-    json_write_string(w, *(const char *const *)from);
-}
-
-static void write_refusals(json_writer *w, const void *from)
-{
-    const octree_tick *tick = from;
-    json_write_begin_array(w);
-    for (size_t i = 0; i < tick->refusal_count; i++) {
-        json_write_begin_object(w);
-        json_member_integer(w, "id", tick->refusals[i].id);
-        json_member_text(w, "why", octree_status_name(tick->refusals[i].why));
-        json_member_vector(w, "position", tick->refusals[i].position);
-        json_write_end_object(w);
-    }
-    json_write_end_array(w);
-}
+static const json_member refusal_members[] = {
+    {"id", &json_uint64, .offset = offsetof(octree_refusal, id)},
+    {"why", &json_choice, .offset = offsetof(octree_refusal, why), .names = status_name},
+    {"position", &json_vector, .offset = offsetof(octree_refusal, position)},
+    {0},
+};
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-/* Write neighbours. If the query asks for several, they are a list; otherwise the one neighbour's members are members
- * of the answer, or "id" is null if there is none. */
-static void write_neighbors(json_writer *w, const octree_answer *answer, bool several)
+static bool has_wrong_id(const void *structure)
 {
-    if (!several && answer->count > 0) {
+    const octree_judgement *judgement = &((const octree_answer *)structure)->judgement;
+    return judgement->wrong && judgement->wrong <= OCTREE_WRONG_SKIPPED;
+}
+
+static bool has_neighbors(const void *structure)
+{
+    return octree_query_about(((const octree_answer *)structure)->kind)->neighbors;
+}
+
+#define JUDGED(member) .offset = offsetof(octree_answer, judgement.member)
+
+/* The answer of the foreign index and the judgement of it. */
+static const json_member judgement_members[] = {
+    {"answer", &json_ids, JUDGED(given)},
+    {"mode", &json_choice, .offset = offsetof(octree_answer, precision), .names = precision_name,
+     JSON_IF(octree_answer, precision)},
+    {"wrong", &json_choice, JUDGED(wrong), .names = wrong_name},
+    {"wrong_id", &json_uint64, JUDGED(wrong_id), .is_set = has_wrong_id},
+    {"expected", &json_size, JUDGED(expected)},
+    {"missing", WRITE(write_points), JUDGED(missing), JSON_IF(octree_answer, judgement.missing_count)},
+    {"extra", WRITE(write_points), JUDGED(extra), JSON_IF(octree_answer, judgement.extra_count)},
+    {"rank", &json_size, JUDGED(rank), JSON_IF(octree_answer, judgement.rank)},
+    {"ratio", &json_number, JUDGED(ratio), .is_set = has_neighbors},
+    {0},
+};
+
+static const json_member last_answer_members[] = {
+    {"cost", &json_structure, .offset = offsetof(octree_answer, cost), .members = cost_members},
+    {"judged", &json_structure, .offset = 0, .given = offsetof(octree_answer, judgement.judged),
+     .members = judgement_members},
+    {0},
+};
+
+/* If the query asks for several neighbours, they are a list; otherwise the members of the one neighbour are members of
+ * the answer, or "id" is null if there is none. */
+static void write_result(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
+{
+    static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
+    if (!about->neighbors) {
+        json_write_key(w, "ids");
+        write_points(w, &(json_counted){answer->points, answer->count});
+    } else if (about->members & OCTREE_QUERY_HAS_K) {
+        json_write_key(w, "neighbors");
+        w->row = &list;
+        json_structures.write(w, &(json_counted){answer->neighbors, answer->count});
+    } else if (answer->count > 0) {
         json_write_members(w, neighbor_members, answer->neighbors);
-        return;
+    } else {
+        json_member_text(w, "id", NULL);
     }
-    json_write_key(w, several ? "neighbors" : "id");
-    if (!several) {
-        json_write_null(w);
-        return;
-    }
-    json_write_begin_array(w);
-    for (size_t i = 0; i < answer->count; i++)
-        json_write_object(w, neighbor_members, &answer->neighbors[i]);
-    json_write_end_array(w);
-}
-
-static void write_points_if_any(json_writer *w, const char *key, const octree_point *points, size_t count)
-{
-    if (count == 0)
-        return;
-    json_write_key(w, key);
-    write_point_ids(w, points, count);
-}
-
-/* Write the answer of the foreign index and the judgement of it; nothing if the query has no foreign answer. */
-static void write_judgement(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
-{
-    const octree_judgement *judgement = &answer->judgement;
-    if (!judgement->judged)
-        return;
-    json_member_begin_object(w, "judged");
-    json_member_begin_array(w, "answer");
-    for (size_t i = 0; i < judgement->given_count; i++)
-        json_write_integer(w, judgement->given[i]);
-    json_write_end_array(w);
-    if (answer->precision != OCTREE_DOUBLES)
-        json_member_text(w, "mode", octree_precision_name(answer->precision));
-    json_member_text(w, "wrong", octree_wrong_name(judgement->wrong));
-    if (judgement->wrong && judgement->wrong <= OCTREE_WRONG_SKIPPED)
-        json_member_integer(w, "wrong_id", judgement->wrong_id);
-    json_member_integer(w, "expected", judgement->expected);
-    write_points_if_any(w, "missing", judgement->missing, judgement->missing_count);
-    write_points_if_any(w, "extra", judgement->extra, judgement->extra_count);
-    if (judgement->rank)
-        json_member_integer(w, "rank", judgement->rank);
-    if (about->neighbors)
-        json_member_number(w, "ratio", judgement->ratio);
-    json_write_end_object(w);
 }
 
 void tick_write_parameters(json_writer *w, const octree_answer *answer)
@@ -233,8 +185,11 @@ void tick_write_parameters(json_writer *w, const octree_answer *answer)
     }
 }
 
-static void write_answer(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
+void tick_write_answer(json_writer *w, const octree_answer *answer)
 {
+    const octree_query_traits *about = octree_query_about(answer->kind);
+    json_write_begin_object(w);
+    json_member_begin_object(w, about->name);
     tick_write_parameters(w, answer);
     if (answer->skip == OCTREE_SKIP_ID)
         json_member_integer(w, "skip", answer->skip_id);
@@ -242,23 +197,8 @@ static void write_answer(json_writer *w, const octree_answer *answer, const octr
         json_member_text(w, "skip", "coincident");
     if (answer->epsilon > 0)
         json_member_number(w, "epsilon", answer->epsilon);
-    if (about->neighbors) {
-        write_neighbors(w, answer, about->members & OCTREE_QUERY_HAS_K);
-    } else {
-        json_write_key(w, "ids");
-        write_point_ids(w, answer->points, answer->count);
-    }
-    json_write_key(w, "cost");
-    json_write_object(w, cost_members, &answer->cost);
-    write_judgement(w, answer, about);
-}
-
-void tick_write_answer(json_writer *w, const octree_answer *answer)
-{
-    const octree_query_traits *about = octree_query_about(answer->kind);
-    json_write_begin_object(w);
-    json_member_begin_object(w, about->name);
-    write_answer(w, answer, about);
+    write_result(w, answer, about);
+    json_write_members(w, last_answer_members, answer);
     json_write_end_object(w);
     json_write_end_object(w);
 }
@@ -274,127 +214,123 @@ static void write_answers(json_writer *w, const void *from)
 
 /* ---- Foreign nodes ----------------------------------------------------------------------------------------- */
 
-static bool has_foreign(const void *from)
+static bool names_node(const void *structure)
 {
-    return ((const octree_tick *)from)->foreign.given;
+    return ((const octree_wrong_node *)structure)->kind != OCTREE_NODE_LOST_POINT;
 }
 
-static void write_wrong_node(json_writer *w, const octree_wrong_node *fault)
+static bool names_point(const void *structure)
 {
-    json_write_begin_object(w);
-    json_member_text(w, "wrong", octree_wrong_node_name(fault->kind));
-    if (fault->kind != OCTREE_NODE_LOST_POINT)
-        json_member_integer(w, "node", fault->node);
-    if (fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE)
-        json_member_integer(w, "point", fault->point);
-    if (fault->kind == OCTREE_NODE_PRUNED_POINT || fault->kind == OCTREE_NODE_UNKNOWN_NODE)
-        json_member_integer(w, "answer", fault->answer);
-    json_write_end_object(w);
+    const octree_wrong_node_kind kind = ((const octree_wrong_node *)structure)->kind;
+    return kind != OCTREE_NODE_OUTSIDE_PARENT && kind != OCTREE_NODE_UNKNOWN_NODE;
 }
+
+static bool names_answer(const void *structure)
+{
+    const octree_wrong_node_kind kind = ((const octree_wrong_node *)structure)->kind;
+    return kind == OCTREE_NODE_PRUNED_POINT || kind == OCTREE_NODE_UNKNOWN_NODE;
+}
+
+static const json_member wrong_node_members[] = {
+    {"wrong", &json_choice, .offset = offsetof(octree_wrong_node, kind), .names = wrong_node_name},
+    {"node", &json_uint64, .offset = offsetof(octree_wrong_node, node), .is_set = names_node},
+    {"point", &json_uint64, .offset = offsetof(octree_wrong_node, point), .is_set = names_point},
+    {"answer", &json_size, .offset = offsetof(octree_wrong_node, answer), .is_set = names_answer},
+    {0},
+};
 
 /* Write the number of wrong findings, in total and of each kind, and the first of them. */
-static void write_wrong_nodes(json_writer *w, const octree_foreign_state *foreign)
+static void write_wrong_nodes(json_writer *w, const void *from)
 {
-    json_member_begin_object(w, "wrong");
+    const octree_foreign_state *foreign = from;
+    json_write_begin_object(w);
     json_member_integer(w, "count", foreign->wrong_count);
     for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
         if (foreign->wrong[kind])
-            json_member_integer(w, octree_wrong_node_name((octree_wrong_node_kind)kind), foreign->wrong[kind]);
+            json_member_integer(w, wrong_node_name(kind), foreign->wrong[kind]);
     json_member_begin_array(w, "first");
     for (size_t i = 0; i < foreign->listed_count; i++)
-        write_wrong_node(w, &foreign->listed[i]);
+        json_write_object(w, wrong_node_members, &foreign->listed[i]);
     json_write_end_array(w);
     json_write_end_object(w);
 }
 
-static void write_foreign(json_writer *w, const void *from)
-{
-    const octree_foreign_state *foreign = &((const octree_tick *)from)->foreign;
-    json_write_begin_object(w);
-    json_member_integer(w, "count", foreign->node_count);
-    json_member_integer(w, "leaves", foreign->leaf_count);
-    json_member_integer(w, "depth", foreign->depth);
-    json_write_key(w, "digest");
-    write_digest(w, &foreign->digest);
-    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
-        json_member_integer(w, octree_node_visit_name((octree_node_visit)met), foreign->visits[met]);
-    write_wrong_nodes(w, foreign);
-    json_write_end_object(w);
-}
+#define FOREIGN(member) .offset = offsetof(octree_foreign_state, member)
+
+static const json_member foreign_members[] = {
+    {"count", &json_size, FOREIGN(node_count)},
+    {"leaves", &json_size, FOREIGN(leaf_count)},
+    {"depth", &json_int, FOREIGN(depth)},
+    {"digest", WRITE(write_digest), FOREIGN(digest)},
+    {"visited", &json_size, FOREIGN(visits[OCTREE_NODE_VISITED])},
+    {"pruned", &json_size, FOREIGN(visits[OCTREE_NODE_PRUNED])},
+    {"hit", &json_size, FOREIGN(visits[OCTREE_NODE_HIT])},
+    {"wrong", WRITE(write_wrong_nodes), .offset = 0},
+    {0},
+};
 
 /* ---- The line ----------------------------------------------------------------------------------------------- */
 
+static void write_key(json_writer *w, const void *from)
+{
+    const char key[2] = {*(const char *)from, 0};
+    if (key[0])
+        json_write_string(w, key);
+    else
+        json_write_null(w);
+}
+
+#define TICK(member) .offset = offsetof(octree_tick, member)
+
 /* The numbers of nodes that all queries of the tick visited, took whole and pruned, and of leaves with points found. */
 static const json_member visit_members[] = {
-    {"visited", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_VISITED])},
-    {"taken", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_TAKEN])},
-    {"pruned", &json_size, .offset = offsetof(octree_tick, touched[OCTREE_TRACE_PRUNED])},
-    {"hit", &json_size, .offset = offsetof(octree_tick, hit_leaf_count)},
+    {"visited", &json_size, TICK(touched[OCTREE_TRACE_VISITED])},
+    {"taken", &json_size, TICK(touched[OCTREE_TRACE_TAKEN])},
+    {"pruned", &json_size, TICK(touched[OCTREE_TRACE_PRUNED])},
+    {"hit", &json_size, TICK(hit_leaf_count)},
     {0},
 };
 
 static const json_member tree_members[] = {
-    {"points", &json_size, .offset = offsetof(octree_tick, stats.points)},
-    {"nodes", &json_size, .offset = offsetof(octree_tick, stats.nodes)},
-    {"leaves", &json_size, .offset = offsetof(octree_tick, stats.leaves)},
-    {"depth", JSON_CODEC(NULL, write_unsigned, NULL), .offset = offsetof(octree_tick, stats.depth)},
-    {"digest", JSON_CODEC(NULL, write_digest, NULL), .offset = offsetof(octree_tick, tree_digest)},
-    {0},
+    {"points", &json_size, TICK(stats.points)},         {"nodes", &json_size, TICK(stats.nodes)},
+    {"leaves", &json_size, TICK(stats.leaves)},         {"depth", &json_int, TICK(stats.depth)},
+    {"digest", WRITE(write_digest), TICK(tree_digest)}, {0},
 };
 
-/* A line has three parts: line_members, then one of the two tables of splits and merges, then last_members. */
+/* The positions of the player are null if the tick has no player. */
 static const json_member line_members[] = {
-    {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
-    {"key", JSON_CODEC(NULL, write_key, NULL), .offset = offsetof(octree_tick, key)},
-    {"player", JSON_CODEC(NULL, write_player, NULL), .offset = 0},
-    {"events", JSON_CODEC(NULL, write_events, NULL), .offset = offsetof(octree_tick, events)},
-    {"from", &json_vector, .offset = offsetof(octree_tick, from), .given = offsetof(octree_tick, swept)},
-    {"attempt", JSON_CODEC(NULL, write_attempt, NULL), .offset = 0},
-    {"hits", JSON_CODEC(NULL, write_ids, NULL), .offset = offsetof(octree_tick, hits)},
-    {"hit_cost", &json_structure, .offset = offsetof(octree_tick, hit_cost), .members = cost_members},
-    {"answers", JSON_CODEC(NULL, write_answers, NULL), .offset = 0},
+    {"tick", &json_uint64, TICK(number)},
+    {"key", WRITE(write_key), TICK(key)},
+    {"player", &json_vector, TICK(player), .given = offsetof(octree_tick, has_player), .nullable = true},
+    {"events", &json_set, TICK(events), .names = event_name},
+    {"from", &json_vector, TICK(from), .given = offsetof(octree_tick, swept)},
+    {"attempt", &json_vector, TICK(attempt), .given = offsetof(octree_tick, has_player), .nullable = true},
+    {"hits", WRITE(write_points), TICK(hits)},
+    {"hit_cost", &json_structure, TICK(hit_cost), .members = cost_members},
+    {"answers", WRITE(write_answers), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
-    {"foreign_nodes", JSON_CODEC(NULL, write_foreign, has_foreign), .offset = 0},
-    {"refusals", JSON_CODEC(NULL, write_refusals, NULL), .offset = 0},
-    {0},
-};
-
-static const json_member node_members[] = {
-    {"splits", JSON_CODEC(NULL, write_nodes, NULL), .offset = offsetof(octree_tick, splits)},
-    {"merges", JSON_CODEC(NULL, write_nodes, NULL), .offset = offsetof(octree_tick, merges)},
-    {0},
-};
-
-static const json_member listed_node_members[] = {
-    {"splits", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, splits)},
-    {"merges", JSON_CODEC(NULL, write_addresses, NULL), .offset = offsetof(octree_tick, merges)},
-    {0},
-};
-
-static const json_member last_members[] = {
+    {"foreign_nodes", &json_structure, TICK(foreign), .given = offsetof(octree_tick, foreign.given),
+     .members = foreign_members},
+    {"refusals", &json_structures, TICK(refusals), .size = sizeof(octree_refusal), .members = refusal_members},
+    {"splits", WRITE(write_nodes), TICK(splits)},
+    {"merges", WRITE(write_nodes), TICK(merges)},
     {"tree", &json_structure, .offset = 0, .members = tree_members},
     {0},
 };
 
 /* The members of a tick that is a gap. */
 static const json_member gap_members[] = {
-    {"tick", &json_uint64, .offset = offsetof(octree_tick, number)},
-    {"gap", JSON_CODEC(NULL, write_gap, NULL), .offset = offsetof(octree_tick, gap)},
+    {"tick", &json_uint64, TICK(number)},
+    {"gap", WRITE(json_write_text), TICK(gap)},
     {0},
 };
 
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
 {
-    json_writer writer = {.out = out}, *w = &writer;
+    json_writer writer = {.out = out, .context = extras}, *w = &writer;
     char digest[DIGEST_TEXT];
     json_write_begin_object(w);
-    if (tick->gap) {
-        json_write_members(w, gap_members, tick);
-    } else {
-        json_write_members(w, line_members, tick);
-        json_write_members(w, extras->whole ? listed_node_members : node_members, tick);
-        json_write_members(w, last_members, tick);
-    }
+    json_write_members(w, tick->gap ? gap_members : line_members, tick);
     if (extras->frame) {
         json_member_text(w, "frame", extras->frame);
         json_member_text(w, "scene", digest_print(extras->scene_digest, digest));

@@ -99,16 +99,6 @@ static bool parse_switch(const view_option *option, const char *text, view *v, o
     return true;
 }
 
-static bool read_switch(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    return json_bool.read(r, value, at, into);
-}
-
-static void write_switch(json_writer *w, const void *from)
-{
-    json_write_bool(w, *(const bool *)from);
-}
-
 static bool parse_whole(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *at = text;
@@ -117,12 +107,17 @@ static bool parse_whole(const view_option *option, const char *text, view *v, oc
     return true;
 }
 
-static bool parse_number(const view_option *option, const char *text, view *v, octreel_error *error)
+/* Read numbers separated by commas. The limits of the member, if it has any, hold for a single number. */
+static bool parse_numbers(const view_option *option, const char *text, view *v, octreel_error *error)
 {
-    double value;
-    if (!numbers_parse(text, &value, 1) || !(value >= option->member.min && value <= option->member.max))
+    const json_member *m = &option->member;
+    const size_t count = m->size ? m->size : 1;
+    double numbers[3];
+    if (!numbers_parse(text, numbers, count) || (m->min < m->max && !(*numbers >= m->min && *numbers <= m->max)))
         return refuse_value(option, text, error);
-    *(double *)value_of(option, v) = value;
+    memcpy(value_of(option, v), numbers, count * sizeof *numbers);
+    if (m->given)
+        *(bool *)((char *)v + m->given) = true;
     return true;
 }
 
@@ -139,35 +134,6 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
     return true;
 }
 
-/* Read a list of two whole numbers. */
-static bool read_pair(json_reader *r, json_t *value, const json_place *at, const char *expected, uint64_t pair[2])
-{
-    if (json_array_size(value) != 2)
-        return json_expected(r, value, at, expected);
-    for (size_t i = 0; i < 2; i++)
-        if (!json_read_whole(r, json_array_get(value, i), &(json_place){at, NULL, i}, r->row->min, r->row->max,
-                             &pair[i]))
-            return false;
-    return true;
-}
-
-static bool read_size(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    view *v = into;
-    uint64_t size[2];
-    if (!read_pair(r, value, at, "a width and a height in pixels as in [1280, 720]", size))
-        return false;
-    v->width = (int)size[0];
-    v->height = (int)size[1];
-    return true;
-}
-
-static void write_size(json_writer *w, const void *from)
-{
-    const view *v = from;
-    json_write_numbers(w, (double[]){v->width, v->height}, 2);
-}
-
 /* ---- Camera ------------------------------------------------------------------------------------------------- */
 
 static bool parse_camera_from(const view_option *option, const char *text, view *v, octreel_error *error)
@@ -182,11 +148,6 @@ static bool parse_camera_from(const view_option *option, const char *text, view 
     return recording_read(text, v, &every, error);
 }
 
-static bool read_fit(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    return json_choice.read(r, value, at, into);
-}
-
 static void write_fit(json_writer *w, const void *from)
 {
     json_write_string(w, fit_at(*(const view_fit *)from == FIT_WORLD ? FIT_WORLD : FIT_POINTS));
@@ -194,63 +155,23 @@ static void write_fit(json_writer *w, const void *from)
 
 #define MOST_TURN 360 /* degrees */
 
-static bool is_look(const double look[2])
+static bool is_look(double azimuth, double elevation)
 {
-    return fabs(look[0]) <= MOST_TURN && fabs(look[1]) <= 90;
+    return fabs(azimuth) <= MOST_TURN && fabs(elevation) <= 90;
 }
 
 static bool parse_look(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     double look[2];
-    if (!numbers_parse(text, look, 2) || !is_look(look))
-        return refuse_value(option, text, error);
-    v->look.given = true;
-    v->look.azimuth = look[0];
-    v->look.elevation = look[1];
-    return true;
+    return numbers_parse(text, look, 2) && is_look(look[0], look[1]) ? parse_numbers(option, text, v, error)
+                                                                     : refuse_value(option, text, error);
 }
 
-static bool read_look(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_look(json_reader *r, const json_place *at, void *structure)
 {
-    double look[2];
-    if (json_array_size(value) != 2)
-        return json_expected(r, value, at, "an azimuth and an elevation in degrees as in [30, 22]");
-    if (!json_read_numbers(r, value, at, 0, 2, look))
-        return false;
-    if (!is_look(look))
-        return json_fail(r, at, "must be an azimuth from -360 to 360 and an elevation from -90 to 90");
-    memcpy(into, look, sizeof look);
-    return true;
-}
-
-static void write_look(json_writer *w, const void *from)
-{
-    json_write_numbers(w, from, 2);
-}
-
-static bool parse_center(const view_option *option, const char *text, view *v, octreel_error *error)
-{
-    v->center.given = numbers_parse(text, v->center.place, 3);
-    return v->center.given || refuse_value(option, text, error);
-}
-
-static bool parse_zoom(const view_option *option, const char *text, view *v, octreel_error *error)
-{
-    double times;
-    if (!numbers_parse(text, &times, 1) || !(times >= option->member.min && times <= option->member.max))
-        return refuse_value(option, text, error);
-    v->zoom = times;
-    return true;
-}
-
-static bool read_zoom(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    return json_interval.read(r, value, at, &((view *)into)->zoom);
-}
-
-static void write_zoom(json_writer *w, const void *from)
-{
-    json_write_number(w, view_zoom(from));
+    const view *v = structure;
+    return is_look(v->look.azimuth, v->look.elevation) ||
+           json_fail(r, at, "must be an azimuth from -360 to 360 and an elevation from -90 to 90");
 }
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
@@ -270,29 +191,6 @@ static bool parse_layers(const view_option *option, const char *text, view *v, o
     return view_layers_parse(text, &v->layers, &bad) || refuse_name(option, bad, strcspn(bad, ","), error);
 }
 
-static bool read_layer(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    const int layer = json_find_name(view_layer_at, json_string_value(value));
-    if (layer >= 0)
-        *(unsigned *)into |= 1u << layer;
-    return layer >= 0 || json_expected(r, value, at, "the name of a layer");
-}
-
-static bool read_layers(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    *(unsigned *)into = 0;
-    return json_read_elements(r, value, at, "a list of layers", read_layer, into);
-}
-
-static void write_layers(json_writer *w, const void *from)
-{
-    json_write_begin_array(w);
-    for (int i = 0; view_layer_at(i); i++)
-        if (*(const unsigned *)from >> i & 1)
-            json_write_string(w, view_layer_at(i));
-    json_write_end_array(w);
-}
-
 /* ---- Parts of the tree -------------------------------------------------------------------------------------- */
 
 static bool parse_slice(const view_option *option, const char *text, view *v, octreel_error *error)
@@ -310,7 +208,7 @@ static bool read_slice(json_reader *r, json_t *value, const json_place *at, void
     if (strlen(axis) != 1 || !strchr("xyz", *axis))
         return json_expected(r, value, at, "an axis and a place as in {\"z\": 100}");
     f->slice = *axis;
-    return json_read_number(r, json_object_get(value, axis), &(json_place){at, axis, 0}, &f->slice_at);
+    return json_number.read(r, json_object_get(value, axis), &(json_place){at, axis, 0}, &f->slice_at);
 }
 
 static void write_slice(json_writer *w, const void *from)
@@ -319,11 +217,6 @@ static void write_slice(json_writer *w, const void *from)
     json_write_begin_object(w);
     json_member_number(w, (const char[]){f->slice, 0}, f->slice_at);
     json_write_end_object(w);
-}
-
-static bool has_slice(const void *from)
-{
-    return ((const view_filter *)from)->slice != 0;
 }
 
 /* Read "2:5", "2:", ":5" or "3". */
@@ -343,23 +236,10 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
     return true;
 }
 
-static bool read_depths(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_depths(json_reader *r, const json_place *at, void *structure)
 {
-    view_filter *f = into;
-    uint64_t depths[2];
-    if (!read_pair(r, value, at, "two depths as in [2, 5]", depths))
-        return false;
-    if (depths[0] > depths[1])
-        return json_fail(r, at, "the first depth must not be above the second");
-    f->min_depth = (unsigned)depths[0];
-    f->max_depth = (unsigned)depths[1];
-    return true;
-}
-
-static void write_depths(json_writer *w, const void *from)
-{
-    const view_filter *f = from;
-    json_write_numbers(w, (double[]){f->min_depth, f->max_depth}, 2);
+    const view_filter *f = &((const view *)structure)->filter;
+    return f->min_depth <= f->max_depth || json_fail(r, at, "the first depth must not be above the second");
 }
 
 static bool parse_region(const view_option *option, const char *text, view *v, octreel_error *error)
@@ -386,24 +266,16 @@ static bool parse_aa(const view_option *option, const char *text, view *v, octre
     return true;
 }
 
-static bool read_aa(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_aa(json_reader *r, const json_place *at, void *structure)
 {
-    return json_read_int(r, value, at, &((view *)into)->aa) &&
-           (((view *)into)->aa != 3 || json_expected(r, value, at, "1, 2 or 4"));
-}
-
-static void write_aa(json_writer *w, const void *from)
-{
-    json_write_integer(w, (uint64_t)view_samples(from));
+    return ((const view *)structure)->aa != 3 || json_fail(r, at, "expected 1, 2 or 4, found 3");
 }
 
 /* ---- Derived values ----------------------------------------------------------------------------------------- */
 
-static bool read_focus(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool check_focus(json_reader *r, const json_place *at, void *structure)
 {
-    view *v = into;
-    if (!json_read_box(r, value, at, &v->focus))
-        return false;
+    view *v = structure;
     if (v->fit == FIT_WORLD)
         return json_fail(r, at, "needs \"fit\": \"points\"");
     v->fit = FIT_BOX;
@@ -413,49 +285,26 @@ static bool read_focus(json_reader *r, json_t *value, const json_place *at, void
     return json_fail(r, at, "the box has no extent");
 }
 
-static void write_focus(json_writer *w, const void *from)
+static bool has_focus(const void *structure)
 {
-    json_write_box(w, &((const view *)from)->focus);
+    return ((const view *)structure)->fit == FIT_BOX;
 }
 
-static bool has_focus(const void *from)
+static bool check_scale(json_reader *r, const json_place *at, void *structure)
 {
-    return ((const view *)from)->fit == FIT_BOX;
-}
-
-#define SCALE_NUMBERS (sizeof(point_scale) / sizeof(double))
-
-static bool read_scale(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    double n[SCALE_NUMBERS];
-    if (json_array_size(value) != SCALE_NUMBERS)
-        return json_expected(r, value, at,
-                             "eleven numbers: the lowest and the highest corner, the ranges of ids and of intensities, "
-                             "and a spacing");
-    if (!json_read_numbers(r, value, at, 0, SCALE_NUMBERS, n))
-        return false;
-    const point_scale s = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7]}, {n[8], n[9]}, n[10]};
+    const point_scale *s = &((const view *)structure)->point_scale.of;
     for (int i = 0; i < 3; i++)
-        if (s.low[i] > s.high[i])
+        if (s->low[i] > s->high[i])
             return json_fail(r, at, "the lowest corner is above the highest");
-    if (s.spacing < 0)
-        return json_fail(r, at, "the spacing is below 0");
-    memcpy(into, &s, sizeof s);
-    return true;
+    return s->spacing >= 0 || json_fail(r, at, "the spacing is below 0");
 }
 
-static void write_scale(json_writer *w, const void *from)
-{
-    const point_scale *s = from;
-    const double n[SCALE_NUMBERS] = {s->low[0], s->low[1], s->low[2],         s->high[0],        s->high[1], s->high[2],
-                                     s->ids[0], s->ids[1], s->intensities[0], s->intensities[1], s->spacing};
-    json_write_numbers(w, n, SCALE_NUMBERS);
-}
-
+/* A point_scale is eleven doubles. */
 const json_member view_derived_members[] = {
-    {"focus", JSON_CODEC(read_focus, write_focus, has_focus), .offset = 0},
-    {"point_scale", JSON_CODEC(read_scale, write_scale, NULL), offsetof(view, point_scale.of),
-     .given = offsetof(view, point_scale.given)},
+    {"focus", &json_box, offsetof(view, focus), .is_set = has_focus, .check = check_focus},
+    {"point_scale", &json_numbers, offsetof(view, point_scale.of), .given = offsetof(view, point_scale.given),
+     .size = sizeof(point_scale) / sizeof(double), .check = check_scale,
+     .about = "eleven numbers: the lowest and the highest corner, the ranges of ids and of intensities, and a spacing"},
     {0},
 };
 
@@ -466,9 +315,6 @@ const json_member view_derived_members[] = {
 /* A member of recording.json: its name, its codec, and the offset in `view` that its codec works on. */
 #define MEMBER(text, how, field) .member.name = text, .member.codec = how, .member.offset = offsetof(view, field)
 
-/* The same for a codec that works on the whole view. */
-#define VIEW_MEMBER(text, ...) .member.name = text, .member.codec = JSON_CODEC(__VA_ARGS__), .member.offset = 0
-
 /* Recordings write null for the option until a user gives it a value, which sets a bool of the view. */
 #define UNSET_UNTIL(flag) .member.nullable = true, .member.given = offsetof(view, flag)
 
@@ -476,27 +322,29 @@ static const view_option rows[] = {
     {"camera-from", "DIR", NULL, "the whole view of a recording; other options here change it",
      .parse = parse_camera_from},
     {"size", "WxH", "pixels as in 1280x720", "picture in pixels (default 1280x720; a side is 1 to " MOST_PIXELS ")",
-     parse_size, VIEW_MEMBER("size", read_size, write_size, NULL), .standard = "1280x720", .member.min = 1,
-     .member.max = VIEW_MAX_SIDE},
+     parse_size, MEMBER("size", &json_ints, width), .member.size = 2, .standard = "1280x720", .member.min = 1,
+     .member.max = VIEW_MAX_SIDE, .member.about = "a width and a height in pixels as in [1280, 720]"},
     {"camera", "NAME", "camera", "the camera (default iso): one of", parse_choice,
      MEMBER("camera", &json_choice, camera), .standard = "iso", .member.names = camera_at, .words = camera_words_at},
     {"fit", "WHAT", "fit", "what the camera frames: one of", parse_choice,
-     MEMBER("fit", JSON_CODEC(read_fit, write_fit, NULL), fit), .standard = "world", .member.names = fit_at,
+     MEMBER("fit", JSON_CODEC(json_read_choice, write_fit), fit), .standard = "world", .member.names = fit_at,
      .words = fit_words_at},
     {"look", "AZ,EL", "an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22",
      "direction from the centre to the eye, in degrees: azimuth from -y towards +x, elevation (iso: 30,22)", parse_look,
-     MEMBER("look", JSON_CODEC(read_look, write_look, NULL), look.azimuth), UNSET_UNTIL(look.given),
-     .noun = "direction of view"},
+     MEMBER("look", &json_numbers, look.azimuth), .member.size = 2, UNSET_UNTIL(look.given), .member.check = check_look,
+     .member.about = "an azimuth and an elevation in degrees as in [30, 22]", .noun = "direction of view"},
     {"center", "X,Y,Z", "three numbers as in 100,0,0",
-     "world position at the centre of the picture, in place of the middle of the world or the player", parse_center,
-     MEMBER("center", &json_vector, center.place), UNSET_UNTIL(center.given), .noun = "center of view"},
-    {"zoom", "TIMES", "a number from 0.001 to 1000000", "magnification (default 1)", parse_zoom,
-     VIEW_MEMBER("zoom", read_zoom, write_zoom, NULL), .standard = "1", .member.min = 0.001, .member.max = 1e6},
+     "world position at the centre of the picture, in place of the middle of the world or the player", parse_numbers,
+     MEMBER("center", &json_numbers, center.place), .member.size = 3, .member.about = "three numbers [x, y, z]",
+     UNSET_UNTIL(center.given), .noun = "center of view"},
+    {"zoom", "TIMES", "a number from 0.001 to 1000000", "magnification (default 1)", parse_numbers,
+     MEMBER("zoom", &json_number, zoom), .standard = "1", .member.min = 0.001, .member.max = 1e6},
     {"layers", "LIST", "layer",
      "layers to draw (default: all but the heat layers; -text removes a layer from them, default,visit-heat adds one): "
      "of",
-     parse_layers, MEMBER("layers", JSON_CODEC(read_layers, write_layers, NULL), layers), .standard = "default",
-     .member.names = view_layer_at, .words = layer_words_at, .noun = "layer", .by_element = true},
+     parse_layers, MEMBER("layers", &json_set, layers), .standard = "default", .member.about = "a list of layers",
+     .member.advice = "the name of a layer", .member.names = view_layer_at, .words = layer_words_at, .noun = "layer",
+     .by_element = true},
     {"color-by", "MODE", "colour mode", "meaning of a node's colour (default depth): one of", parse_choice,
      MEMBER("color_by", &json_choice, coloring), .standard = "depth", .member.names = coloring_at,
      .words = coloring_words_at, .noun = "colouring"},
@@ -519,28 +367,27 @@ static const view_option rows[] = {
     {"no-closeup", NULL, NULL,
      "no close-up: do not enlarge, in a part of the picture, what appears small in it (the surroundings of the player, "
      "else the queries, else the changes of the tick)",
-     parse_switch, MEMBER("closeup", JSON_CODEC(read_switch, write_switch, NULL), closeup), .standard = "on",
-     .noun = "close-up"},
+     parse_switch, MEMBER("closeup", &json_bool, closeup), .standard = "on", .noun = "close-up"},
     {"slice", "AXIS=AT", "an axis and a place as in z=100",
      "only nodes that cut a plane such as z=100, and the points of the leaves among them", parse_slice,
-     MEMBER("slice", JSON_CODEC(read_slice, write_slice, has_slice), filter), .member.nullable = true},
+     MEMBER("slice", JSON_CODEC(read_slice, write_slice), filter), .member.nullable = true,
+     .member.nonzero = offsetof(view, filter.slice), .member.nonzero_size = 1},
     {"depths", "A:B", "levels from 0 to " NUMBER_DIGITS(OCTREE_MAX_DEPTH) " as in 2:5, 2:, :5 or 3",
      "only nodes of depth A to B; also A:, :B or A; the root is 0", parse_depths,
-     MEMBER("depths", JSON_CODEC(read_depths, write_depths, NULL), filter), UNSET_UNTIL(filter.by_depth),
-     .member.max = OCTREE_MAX_DEPTH, .noun = "range of depths"},
+     MEMBER("depths", &json_ints, filter.min_depth), .member.size = 2, UNSET_UNTIL(filter.by_depth),
+     .member.max = OCTREE_MAX_DEPTH, .member.check = check_depths, .member.about = "two depths as in [2, 5]",
+     .noun = "range of depths"},
     {"leaves", NULL, NULL, "only leaves; with --depths also only their points", parse_switch,
-     MEMBER("leaves", JSON_CODEC(read_switch, write_switch, NULL), filter.leaves), .standard = "off",
-     .noun = "rule for leaves alone"},
+     MEMBER("leaves", &json_bool, filter.leaves), .standard = "off", .noun = "rule for leaves alone"},
     {"region", "BOX", "six numbers as in -10,-10,-10,10,10,10",
      "only nodes that meet the box x0,y0,z0,x1,y1,z1, and the points in it", parse_region,
      MEMBER("region", &json_box, filter.region), UNSET_UNTIL(filter.by_region)},
     {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes that have room for them", parse_switch,
-     MEMBER("labels", JSON_CODEC(read_switch, write_switch, NULL), labels), .standard = "off",
-     .noun = "rule for labels"},
+     MEMBER("labels", &json_bool, labels), .standard = "off", .noun = "rule for labels"},
     /* At 100,000 points frames with any lod up to 4 look the same: smaller boxes are specks. */
     {"lod", "PX", "pixels from 0 to " MOST_PIXELS,
-     "leave out boxes smaller than PX pixels if an ancestor's box is drawn (default 2; 0: draw all)", parse_number,
-     MEMBER("lod", &json_interval, lod), .standard = "2", .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
+     "leave out boxes smaller than PX pixels if an ancestor's box is drawn (default 2; 0: draw all)", parse_numbers,
+     MEMBER("lod", &json_number, lod), .standard = "2", .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
     /* The default costs at worst about 300 MB and a few seconds a frame. */
     {"budget", "N", "a whole number below 2^53",
      "at most N boxes, N points and N/1000 arrows a frame; the frame says what is left out (default 250000; 0: no "
@@ -548,7 +395,7 @@ static const view_option rows[] = {
      parse_whole, MEMBER("budget", &json_uint64, budget), .standard = "250000", .member.max = JSON_LARGEST_WHOLE},
     {"aa", "N", "1, 2 or 4 samples on each side of a pixel",
      "anti-aliasing: 1 (off, the default), 2 or 4 samples on each side of a pixel", parse_aa,
-     VIEW_MEMBER("aa", read_aa, write_aa, NULL), .standard = "1", .member.min = 1, .member.max = 4,
+     MEMBER("aa", &json_int, aa), .standard = "1", .member.min = 1, .member.max = 4, .member.check = check_aa,
      .noun = "anti-aliasing"},
 };
 

@@ -63,7 +63,7 @@ bool choices_write(FILE *out)
     json_write_begin_object(w);
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
-        if (option->member.codec == &json_choice || option->member.codec == &json_later_choice)
+        if (option->member.codec == &json_choice)
             write_names(w, option->member.name, option->member.names);
     }
     json_member_begin_array(w, "layers");
