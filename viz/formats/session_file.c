@@ -9,6 +9,57 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* ---- The lists of a session --------------------------------------------------------------------------------- */
+
+#define BODIES SESSION_LISTS
+
+/* The lists, and after them the bodies: the offset of the pointer to the items, which their count follows, and the size
+ * of an item. An item of a list begins with its tick. */
+static const struct {
+    size_t at, size;
+} rows[SESSION_LISTS + 1] = {
+    [SESSION_EDITS] = {offsetof(octree_session, edits), sizeof(octree_edit)},
+    [SESSION_QUERIES] = {offsetof(octree_session, queries), sizeof(octree_query)},
+    [SESSION_SHAPES] = {offsetof(octree_session, shapes), sizeof(octree_shape)},
+    [SESSION_GAPS] = {offsetof(octree_session, gaps), sizeof(octree_gap)},
+    [SESSION_FOREIGN] = {offsetof(octree_session, foreign), sizeof(octree_foreign_tree)},
+    [BODIES] = {offsetof(octree_session, bodies), sizeof(octree_body)},
+};
+
+static json_counted get_list(const octree_session *session, int list)
+{
+    return json_counted_at((const char *)session + rows[list].at);
+}
+
+static void set_list(octree_session *session, int list, const void *items, size_t count)
+{
+    const json_counted value = {items, count};
+    memcpy((char *)session + rows[list].at, &value, sizeof value);
+}
+
+static void set_lists(octree_session *session, const session_list lists[SESSION_LISTS])
+{
+    for (int i = 0; i < SESSION_LISTS; i++)
+        set_list(session, i, lists[i].items, lists[i].count);
+}
+
+static const void *get_item(const json_counted *list, int kind, size_t index)
+{
+    return (const char *)list->items + index * rows[kind].size;
+}
+
+octree_input session_input(const octree_session *session)
+{
+    return (octree_input){.edits = session->edits,
+                          .edit_count = session->edit_count,
+                          .queries = session->queries,
+                          .query_count = session->query_count,
+                          .shapes = session->shapes,
+                          .shape_count = session->shape_count,
+                          .gap = session->gap_count ? session->gaps : NULL,
+                          .foreign = session->foreign_count ? session->foreign : NULL};
+}
+
 /* ---- Copying and freeing ------------------------------------------------------------------------------------ */
 
 static bool fail_memory(octreel_error *error)
@@ -52,49 +103,36 @@ void query_release_ids(octree_query *query)
 }
 
 /* Free the memory that queries and foreign trees own, but not their arrays. */
-static void release_owned(const octree_query *queries, size_t query_count, const octree_foreign_tree *trees,
-                          size_t tree_count)
+static void release_owned(const octree_session *session)
 {
-    for (size_t i = 0; i < query_count; i++)
-        query_release_ids((octree_query *)&queries[i]);
-    for (size_t i = 0; i < tree_count; i++)
-        foreign_tree_release((octree_foreign_tree *)&trees[i]);
+    for (size_t i = 0; i < session->query_count; i++)
+        query_release_ids((octree_query *)&session->queries[i]);
+    for (size_t i = 0; i < session->foreign_count; i++)
+        foreign_tree_release((octree_foreign_tree *)&session->foreign[i]);
 }
 
 /* After queries and foreign trees were copied bytewise: replace the memory that they own by copies. */
-static bool duplicate_owned(octree_query *queries, size_t query_count, octree_foreign_tree *trees, size_t tree_count)
+static bool duplicate_owned(const octree_session *session)
 {
     bool whole = true;
-    for (size_t i = 0; queries && i < query_count; i++)
-        whole = query_copy_ids(&queries[i]) && whole;
-    for (size_t i = 0; trees && i < tree_count; i++)
-        whole = foreign_tree_copy(&trees[i], &trees[i]) && whole;
+    for (size_t i = 0; i < session->query_count; i++)
+        whole = query_copy_ids((octree_query *)&session->queries[i]) && whole;
+    for (size_t i = 0; i < session->foreign_count; i++)
+        whole = foreign_tree_copy(&session->foreign[i], (octree_foreign_tree *)&session->foreign[i]) && whole;
     return whole;
 }
 
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error)
 {
-    const void *bodies = from->bodies, *edits = from->edits, *queries = from->queries, *shapes = from->shapes,
-               *gaps = from->gaps, *foreign = from->foreign;
-    bool whole = duplicate(&bodies, from->body_count, sizeof *from->bodies);
-    whole = duplicate(&edits, from->edit_count, sizeof *from->edits) && whole;
-    whole = duplicate(&queries, from->query_count, sizeof *from->queries) && whole;
-    whole = duplicate(&shapes, from->shape_count, sizeof *from->shapes) && whole;
-    whole = duplicate(&gaps, from->gap_count, sizeof *from->gaps) && whole;
-    whole = duplicate(&foreign, from->foreign_count, sizeof *from->foreign) && whole;
-    whole = duplicate_owned((octree_query *)queries, from->query_count, (octree_foreign_tree *)foreign,
-                            from->foreign_count) &&
-            whole;
+    bool whole = true;
     *out = (session_file){.session = *from};
-    out->session.bodies = bodies;
-    out->session.edits = edits;
-    out->session.queries = queries;
-    out->session.query_count = queries ? from->query_count : 0;
-    out->session.shapes = shapes;
-    out->session.gaps = gaps;
-    out->session.foreign = foreign;
-    out->session.foreign_count = foreign ? from->foreign_count : 0;
     out->session.keys = NULL;
+    for (int i = 0; i <= BODIES; i++) {
+        json_counted list = get_list(from, i);
+        whole = duplicate(&list.items, list.count, rows[i].size) && whole;
+        set_list(&out->session, i, list.items, list.items ? list.count : 0);
+    }
+    whole = duplicate_owned(&out->session) && whole;
     const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
     if (!done)
         session_release(out);
@@ -115,14 +153,10 @@ bool session_set_keys(session_file *file, const char *keys, octreel_error *error
 
 void session_release(session_file *file)
 {
-    free((octree_body *)file->session.bodies);
+    release_owned(&file->session);
+    for (int i = 0; i <= BODIES; i++)
+        free((void *)get_list(&file->session, i).items);
     free((char *)file->session.keys);
-    free((octree_edit *)file->session.edits);
-    release_owned(file->session.queries, file->session.query_count, file->session.foreign, file->session.foreign_count);
-    free((octree_query *)file->session.queries);
-    free((octree_shape *)file->session.shapes);
-    free((octree_gap *)file->session.gaps);
-    free((octree_foreign_tree *)file->session.foreign);
     point_values_release(&file->values);
     *file = (session_file){0};
 }
@@ -178,9 +212,10 @@ static bool read_stream(json_reader *r)
 }
 
 /* Add the items of a list of the header to the list of single ticks: before its items or after them. */
-static bool add_header_items(json_reader *r, int list, size_t item_size, bool before)
+static bool add_header_items(json_reader *r, int list, bool before)
 {
     session_loader *s = r->context;
+    const size_t item_size = rows[list].size;
     session_list *to = &s->lists[list], *from = &s->standing[list];
     if (from->count == 0)
         return true;
@@ -199,32 +234,23 @@ static bool add_header_items(json_reader *r, int list, size_t item_size, bool be
 /* Foreign nodes come first, because those of the header apply from tick 0 on. */
 bool session_append_standing(json_reader *r)
 {
-    return add_header_items(r, SESSION_QUERIES, sizeof(octree_query), false) &&
-           add_header_items(r, SESSION_SHAPES, sizeof(octree_shape), false) &&
-           add_header_items(r, SESSION_FOREIGN, sizeof(octree_foreign_tree), true);
+    return add_header_items(r, SESSION_QUERIES, false) && add_header_items(r, SESSION_SHAPES, false) &&
+           add_header_items(r, SESSION_FOREIGN, true);
 }
 
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS])
 {
     octree_session session = s->header.session;
     session.bodies = s->bodies;
-    session.edits = lists[SESSION_EDITS].items;
-    session.edit_count = lists[SESSION_EDITS].count;
-    session.queries = lists[SESSION_QUERIES].items;
-    session.query_count = lists[SESSION_QUERIES].count;
-    session.shapes = lists[SESSION_SHAPES].items;
-    session.shape_count = lists[SESSION_SHAPES].count;
-    session.gaps = lists[SESSION_GAPS].items;
-    session.gap_count = lists[SESSION_GAPS].count;
-    session.foreign = lists[SESSION_FOREIGN].items;
-    session.foreign_count = lists[SESSION_FOREIGN].count;
+    set_lists(&session, lists);
     return session;
 }
 
 void session_clear_lists(session_list lists[SESSION_LISTS])
 {
-    release_owned(lists[SESSION_QUERIES].items, lists[SESSION_QUERIES].count, lists[SESSION_FOREIGN].items,
-                  lists[SESSION_FOREIGN].count);
+    octree_session session = {.keys = NULL};
+    set_lists(&session, lists);
+    release_owned(&session);
     for (int i = 0; i < SESSION_LISTS; i++)
         lists[i].count = 0;
 }
@@ -271,19 +297,24 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
+static uint64_t get_tick(const json_counted *list, int kind, size_t index)
+{
+    return *(const uint64_t *)get_item(list, kind, index);
+}
+
 /* Queries and shapes of every tick are the last ones in the session's arrays. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
-    session_header header = {.session = *session, .values = values};
-    octree_input *standing = &header.standing;
-    for (size_t i = session->query_count; i > 0 && session->queries[i - 1].tick == OCTREE_EVERY_TICK; i--) {
-        standing->queries = &session->queries[i - 1];
-        standing->query_count++;
+    octree_session standing = {.keys = NULL};
+    for (int i = SESSION_QUERIES; i <= SESSION_SHAPES; i++) {
+        const json_counted all = get_list(session, i);
+        size_t first = all.count;
+        while (first > 0 && get_tick(&all, i, first - 1) == OCTREE_EVERY_TICK)
+            first--;
+        if (first < all.count)
+            set_list(&standing, i, get_item(&all, i, first), all.count - first);
     }
-    for (size_t i = session->shape_count; i > 0 && session->shapes[i - 1].tick == OCTREE_EVERY_TICK; i--) {
-        standing->shapes = &session->shapes[i - 1];
-        standing->shape_count++;
-    }
+    const session_header header = {*session, session_input(&standing), values};
     json_writer writer = {.out = out, .context = values};
     json_write_object(&writer, session_header_members, &header);
     json_write_end_line(&writer);
@@ -298,68 +329,34 @@ void session_write_tick(uint64_t tick, const octree_input *input, const point_va
     json_write_end_line(&writer);
 }
 
-/* The parts of a session's arrays that have not been written yet. */
-typedef struct unwritten {
-    octree_input input;
-    const octree_gap *gaps;
-    size_t gap_count;
-    const octree_foreign_tree *foreign;
-    size_t foreign_count;
-    uint64_t tick; /* the next tick to write; OCTREE_EVERY_TICK if there is none */
-} unwritten;
-
-static void find_next_tick(unwritten *left)
+/* Returns the lowest tick of the items that are not written yet; OCTREE_EVERY_TICK if no single tick has any. */
+static uint64_t find_next_tick(const json_counted unwritten[SESSION_LISTS])
 {
-    const octree_input *i = &left->input;
-    left->tick = i->edit_count ? i->edits->tick : OCTREE_EVERY_TICK;
-    if (i->query_count && i->queries->tick < left->tick)
-        left->tick = i->queries->tick;
-    if (i->shape_count && i->shapes->tick < left->tick)
-        left->tick = i->shapes->tick;
-    if (left->gap_count && left->gaps->tick < left->tick)
-        left->tick = left->gaps->tick;
-    if (left->foreign_count && left->foreign->tick < left->tick)
-        left->tick = left->foreign->tick;
-}
-
-/* Remove the items of the next tick from the front of the unwritten parts, and return them. A gap has no other items.
- */
-static octree_input remove_next_tick(unwritten *left)
-{
-    octree_input *i = &left->input, taken = *i;
-    taken.edit_count = taken.query_count = taken.shape_count = 0;
-    for (; i->edit_count && i->edits->tick == left->tick; i->edits++, i->edit_count--)
-        taken.edit_count++;
-    for (; i->query_count && i->queries->tick == left->tick; i->queries++, i->query_count--)
-        taken.query_count++;
-    for (; i->shape_count && i->shapes->tick == left->tick; i->shapes++, i->shape_count--)
-        taken.shape_count++;
-    if (left->foreign_count && left->foreign->tick == left->tick) {
-        taken.foreign = left->foreign++;
-        left->foreign_count--;
-    }
-    if (left->gap_count == 0 || left->gaps->tick > left->tick)
-        return taken;
-    left->gap_count--;
-    return (octree_input){.gap = left->gaps++};
+    uint64_t next = OCTREE_EVERY_TICK;
+    for (int i = 0; i < SESSION_LISTS; i++)
+        if (unwritten[i].count > 0 && get_tick(&unwritten[i], i, 0) < next)
+            next = get_tick(&unwritten[i], i, 0);
+    return next;
 }
 
 bool session_write(const octree_session *session, const point_values *values, FILE *out)
 {
-    unwritten left = {.input = {.edits = session->edits,
-                                .edit_count = session->edit_count,
-                                .queries = session->queries,
-                                .query_count = session->query_count,
-                                .shapes = session->shapes,
-                                .shape_count = session->shape_count},
-                      .gaps = session->gaps,
-                      .gap_count = session->gap_count,
-                      .foreign = session->foreign,
-                      .foreign_count = session->foreign_count};
+    json_counted unwritten[SESSION_LISTS];
+    for (int i = 0; i < SESSION_LISTS; i++)
+        unwritten[i] = get_list(session, i);
     session_write_header(session, values, out);
-    for (find_next_tick(&left); left.tick != OCTREE_EVERY_TICK; find_next_tick(&left)) {
-        const uint64_t tick = left.tick;
-        const octree_input input = remove_next_tick(&left);
+    for (uint64_t tick; (tick = find_next_tick(unwritten)) != OCTREE_EVERY_TICK;) {
+        octree_session now = {.keys = NULL}; /* the items of this tick */
+        for (int i = 0; i < SESSION_LISTS; i++) {
+            json_counted *list = &unwritten[i];
+            size_t count = 0;
+            while (count < list->count && get_tick(list, i, count) == tick)
+                count++;
+            set_list(&now, i, list->items, count);
+            if (count > 0)
+                *list = (json_counted){get_item(list, i, count), list->count - count};
+        }
+        const octree_input input = session_input(&now);
         session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);

@@ -69,14 +69,7 @@ static session_stream_state read_object(session_stream *s, json_object_reader *r
 static octree_input make_input(const session_loader *s)
 {
     const octree_session all = session_assemble(s, s->lists);
-    return (octree_input){.edits = all.edits,
-                          .edit_count = all.edit_count,
-                          .queries = all.queries,
-                          .query_count = all.query_count,
-                          .shapes = all.shapes,
-                          .shape_count = all.shape_count,
-                          .gap = all.gap_count ? all.gaps : NULL,
-                          .foreign = all.foreign_count ? all.foreign : NULL};
+    return session_input(&all);
 }
 
 /* Check the object here and not only in the game, because only here the line is known. */
