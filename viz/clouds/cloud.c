@@ -33,7 +33,7 @@ static bool has_ending(const char *name, const char *endings)
 }
 
 /* The format that recognises the contents; null for none. */
-static const cloud_format *recognise_format(const cloud_file *file)
+static const cloud_format *recognise_format(cloud_file *file)
 {
     for (int i = 0; i < FORMATS; i++)
         if (rows[i].format->recognise && rows[i].format->recognise(file))
@@ -42,7 +42,7 @@ static const cloud_format *recognise_format(const cloud_file *file)
 }
 
 /* Choose by the contents, else by the ending, else text. */
-static const cloud_format *choose_format(const cloud_file *file)
+static const cloud_format *choose_format(cloud_file *file)
 {
     const cloud_format *found = recognise_format(file);
     for (int i = 0; !found && i < FORMATS; i++)
@@ -54,7 +54,7 @@ static const cloud_format *choose_format(const cloud_file *file)
 bool cloud_recognise(const unsigned char *bytes, size_t size)
 {
     octreel_error ignored;
-    const cloud_file file = {.name = "", .bytes = bytes, .size = size, .error = &ignored};
+    cloud_file file = {.name = "", .bytes = bytes, .size = size, .error = &ignored};
     return size > 0 && (recognise_format(&file) || cloud_text_recognise(&file));
 }
 

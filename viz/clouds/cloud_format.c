@@ -109,11 +109,11 @@ bool cloud_fail(const cloud_file *file, const char *format, ...)
     return false;
 }
 
-bool cloud_fail_line(const cloud_file *file, size_t line, const char *format, ...)
+bool cloud_fail_line(const cloud_file *file, const char *format, ...)
 {
     char place[32];
     va_list arguments;
-    snprintf(place, sizeof place, "%zu:", line);
+    snprintf(place, sizeof place, "%zu:", file->lines.number);
     va_start(arguments, format);
     write_error(file, place, format, arguments);
     va_end(arguments);
@@ -151,15 +151,15 @@ static char find_terminator(const char *at, const char *limit)
     return alone ? '\r' : '\n';
 }
 
-cloud_lines cloud_begin_lines(const cloud_file *file)
+void cloud_begin_lines(cloud_file *file)
 {
-    const char *begin = (const char *)file->bytes;
-    const char *limit = begin + file->size;
-    return (cloud_lines){begin, limit, find_terminator(begin, limit), 0};
+    const char *begin = (const char *)file->bytes, *limit = begin + file->size;
+    file->lines = (cloud_lines){begin, limit, find_terminator(begin, limit), 0};
 }
 
-bool cloud_next_line(cloud_lines *lines, cloud_span *line)
+bool cloud_next_line(cloud_file *file, cloud_span *line)
 {
+    cloud_lines *lines = &file->lines;
     if (lines->at == lines->limit)
         return false;
     const char *stop = memchr(lines->at, lines->terminator, (size_t)(lines->limit - lines->at));
@@ -171,9 +171,9 @@ bool cloud_next_line(cloud_lines *lines, cloud_span *line)
     return true;
 }
 
-bool cloud_next_filled_line(cloud_lines *lines, cloud_span *line)
+bool cloud_next_filled_line(cloud_file *file, cloud_span *line)
 {
-    while (cloud_next_line(lines, line)) {
+    while (cloud_next_line(file, line)) {
         cloud_span rest = *line, word;
         if (cloud_next_word(&rest, &word))
             return true;
@@ -203,6 +203,16 @@ bool cloud_word_is(cloud_span word, const char *text)
     return length == strlen(text) && memcmp(word.begin, text, length) == 0;
 }
 
+int cloud_find_word(cloud_span word, const char *list)
+{
+    cloud_span rest = {list, list + strlen(list)}, listed;
+    const size_t length = (size_t)(word.limit - word.begin);
+    for (int i = 0; cloud_next_word(&rest, &listed); i++)
+        if (length == (size_t)(listed.limit - listed.begin) && memcmp(word.begin, listed.begin, length) == 0)
+            return i;
+    return -1;
+}
+
 bool cloud_word_count(cloud_span word, uint64_t *count)
 {
     *count = 0;
@@ -217,16 +227,16 @@ bool cloud_word_count(cloud_span word, uint64_t *count)
     return word.begin < word.limit;
 }
 
-bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word, double *coordinate)
+bool cloud_word_coordinate(const cloud_file *file, cloud_span word, double *coordinate)
 {
     const char *end;
     bool finite = number_parse(word.begin, word.limit, &end, coordinate);
     if (end == word.limit && finite)
         return true;
     if (end == word.limit)
-        return cloud_fail_word(file, line, word, "is beyond the largest double");
+        return cloud_fail_word(file, word, "is beyond the largest double");
     if (!number_parse_nonfinite(word.begin, word.limit, &end) || end != word.limit)
-        return cloud_fail_word(file, line, word, "is not a number");
+        return cloud_fail_word(file, word, "is not a number");
     *coordinate = NAN;
     return true;
 }
@@ -243,30 +253,30 @@ const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE])
     return text;
 }
 
-bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const char *reason)
+bool cloud_fail_word(const cloud_file *file, cloud_span word, const char *reason)
 {
     char quote[CLOUD_QUOTE];
-    return cloud_fail_line(file, line, "%s %s", cloud_quote(word, quote), reason);
+    return cloud_fail_line(file, "%s %s", cloud_quote(word, quote), reason);
 }
 
 bool cloud_check_text(const cloud_file *file)
 {
     const char *nul = memchr(file->bytes, '\0', file->size);
-    cloud_lines lines = cloud_begin_lines(file);
+    cloud_file again = *file;
     cloud_span line;
     if (!nul)
         return true;
-    while (lines.at <= nul)
-        cloud_next_line(&lines, &line);
-    return cloud_fail_line(file, lines.number, "holds a NUL byte and is not text; supported formats are %s",
-                           CLOUD_NAMES);
+    cloud_begin_lines(&again);
+    while (again.lines.at <= nul)
+        cloud_next_line(&again, &line);
+    return cloud_fail_line(&again, "holds a NUL byte and is not text; supported formats are %s", CLOUD_NAMES);
 }
 
-void cloud_note_trailing_lines(const cloud_file *file, cloud_lines *lines)
+void cloud_note_trailing_lines(cloud_file *file)
 {
     cloud_span line;
-    if (cloud_next_filled_line(lines, &line)) {
-        cloud_fail_line(file, lines->number, "more lines follow than the header announces");
+    if (cloud_next_filled_line(file, &line)) {
+        cloud_fail_line(file, "more lines follow than the header announces");
         cloud_move_error_to_note(file);
     }
 }
@@ -283,35 +293,19 @@ uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *by
     return bits;
 }
 
-static double float_from_bits(unsigned size, uint64_t bits)
-{
-    if (size == 8) {
-        double wide;
-        memcpy(&wide, &bits, sizeof wide);
-        return wide;
-    }
-    uint32_t low = (uint32_t)bits;
-    float narrow;
-    memcpy(&narrow, &low, sizeof narrow);
-    return (double)narrow;
-}
-
-/* Decode two's complement: the sign bit counts as minus its value. */
-static double signed_from_bits(unsigned size, uint64_t bits)
-{
-    uint64_t sign = UINT64_C(1) << (8 * size - 1);
-    uint64_t low = bits & (sign - 1);
-    return bits & sign ? -(double)(sign - low) : (double)low;
-}
-
 double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char *bytes)
 {
-    uint64_t bits = cloud_read_bits(type.size, big_endian, bytes);
+    const uint64_t bits = cloud_read_bits(type.size, big_endian, bytes), sign = UINT64_C(1) << (8 * type.size - 1);
+    const uint32_t low = (uint32_t)bits;
+    float narrow;
+    double wide;
     switch (type.kind) {
     case CLOUD_FLOAT:
-        return float_from_bits(type.size, bits);
-    case CLOUD_SIGNED:
-        return signed_from_bits(type.size, bits);
+        memcpy(&narrow, &low, sizeof narrow);
+        memcpy(&wide, &bits, sizeof wide);
+        return type.size == 8 ? wide : (double)narrow;
+    case CLOUD_SIGNED: /* two's complement: the sign bit counts as minus its value */
+        return bits & sign ? -(double)(sign - (bits & (sign - 1))) : (double)bits;
     case CLOUD_UNSIGNED:
         break;
     }

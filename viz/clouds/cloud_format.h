@@ -25,11 +25,24 @@ typedef enum cloud_channel {
     CLOUD_CHANNELS
 } cloud_channel;
 
+/* Characters of the file from `begin` to the exclusive `limit`. */
+typedef struct cloud_span {
+    const char *begin, *limit;
+} cloud_span;
+
+/* A cursor over the lines of a file. Lines end as the first one does: \n, \r\n, or \r alone. */
+typedef struct cloud_lines {
+    const char *at, *limit;
+    char terminator;
+    size_t number; /* the number of the last line read, from 1 on */
+} cloud_lines;
+
 /* A file that is being read, with the destinations of its points and of its error. */
 typedef struct cloud_file {
     const char *name;
     const unsigned char *bytes;
     size_t size; /* at least 1 */
+    cloud_lines lines;
     cloud *out;
     octreel_error *error;
     const cloud_watch *watch; /* may be null */
@@ -39,8 +52,8 @@ typedef struct cloud_file {
 } cloud_file;
 
 typedef struct cloud_format {
-    bool (*recognise)(const cloud_file *file); /* whether the contents are certainly of this format; may be null */
-    bool (*parse)(cloud_file *file);           /* read the whole file into file->out; on false the error is set */
+    bool (*recognise)(cloud_file *file); /* whether the contents are certainly of this format; may be null */
+    bool (*parse)(cloud_file *file);     /* read the whole file into file->out; on false the error is set */
 } cloud_format;
 
 #define CLOUD_FORMAT_EXTERN(id, names, endings) extern const cloud_format cloud_##id;
@@ -49,7 +62,7 @@ CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
 extern const cloud_format cloud_text; /* recognises nothing, and reads any text */
 
 /* Whether the first line that is neither a comment nor a header holds a point. */
-bool cloud_text_recognise(const cloud_file *file);
+bool cloud_text_recognise(cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
@@ -86,9 +99,10 @@ bool cloud_skip_nonfinite(const cloud_file *file, const double *position);
 /* Report the progress `done` of `total` if `calls`, the number of calls so far, is a multiple of 65536. */
 void cloud_report_progress(const cloud_file *file, uint64_t calls, uint64_t done, uint64_t total);
 
-/* Set the error from a printf format and return false: for the file, for a line (from 1 on), for a byte (from 0 on). */
+/* Set the error from a printf format and return false: for the file, for the last line read, for a byte
+ * (from 0 on). */
 bool cloud_fail(const cloud_file *file, const char *format, ...);
-bool cloud_fail_line(const cloud_file *file, size_t line, const char *format, ...);
+bool cloud_fail_line(const cloud_file *file, const char *format, ...);
 bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...);
 
 /* Move the error, which concerns data after the last point, to the cloud's note, unless there is one already. Returns
@@ -97,25 +111,14 @@ bool cloud_move_error_to_note(const cloud_file *file);
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Characters of the file from `begin` to the exclusive `limit`. */
-typedef struct cloud_span {
-    const char *begin, *limit;
-} cloud_span;
-
-/* A cursor over the lines of a file. Lines end as the first one does: \n, \r\n, or \r alone. */
-typedef struct cloud_lines {
-    const char *at, *limit;
-    char terminator;
-    size_t number; /* the number of the last line read, from 1 on */
-} cloud_lines;
-
-cloud_lines cloud_begin_lines(const cloud_file *file);
+/* Put the cursor before the first line. */
+void cloud_begin_lines(cloud_file *file);
 
 /* Read the next line without its terminator. Returns false at the end of the file. */
-bool cloud_next_line(cloud_lines *lines, cloud_span *line);
+bool cloud_next_line(cloud_file *file, cloud_span *line);
 
 /* Read the next line that is not blank. */
-bool cloud_next_filled_line(cloud_lines *lines, cloud_span *line);
+bool cloud_next_filled_line(cloud_file *file, cloud_span *line);
 
 bool cloud_is_blank(char c);
 
@@ -125,17 +128,21 @@ bool cloud_next_word(cloud_span *line, cloud_span *word);
 
 bool cloud_word_is(cloud_span word, const char *text);
 
+/* The index of a word in a list whose words are separated by blanks; -1 if the list lacks it. */
+int cloud_find_word(cloud_span word, const char *list);
+
 /* The channel with this name; -1 for none. x, y and z must be lower case; others may have any case. */
 int cloud_word_channel(cloud_span word);
 
 /* Parse a whole word as an integer from 0 to 2^64 - 1. */
 bool cloud_word_count(cloud_span word, uint64_t *count);
 
-/* Parse a whole word as a coordinate; "nan" and "inf" give NaN. On false, the error names the line. */
-bool cloud_word_coordinate(const cloud_file *file, size_t line, cloud_span word, double *coordinate);
+/* Parse a whole word as a coordinate; "nan" and "inf" give NaN. On false, the error names the
+ * last line read. */
+bool cloud_word_coordinate(const cloud_file *file, cloud_span word, double *coordinate);
 
 /* The same for any channel. A packed colour may be written as an integer, or as the float with the same bits. */
-bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int channel, double *number);
+bool cloud_word_number(const cloud_file *file, cloud_span word, int channel, double *number);
 
 /* Size of a quoted word. */
 #define CLOUD_QUOTE 48
@@ -143,14 +150,14 @@ bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int
 /* Quote a word for an error: printable, and shortened if it is long. Returns `text`. */
 const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE]);
 
-/* Set the error "'word' reason" for a line and return false. */
-bool cloud_fail_word(const cloud_file *file, size_t line, cloud_span word, const char *reason);
+/* Set the error "'word' reason" for the last line read and return false. */
+bool cloud_fail_word(const cloud_file *file, cloud_span word, const char *reason);
 
 /* Return false and set the error if the file holds a NUL byte and thus is not text. */
 bool cloud_check_text(const cloud_file *file);
 
 /* Add a note if a line that is not blank follows. */
-void cloud_note_trailing_lines(const cloud_file *file, cloud_lines *lines);
+void cloud_note_trailing_lines(cloud_file *file);
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 

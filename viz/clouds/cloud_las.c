@@ -24,8 +24,7 @@ enum {
     AT_FORMAT = 104,
     AT_LENGTH = 105,
     AT_COUNT = 107,
-    AT_SCALES = 131,
-    AT_OFFSETS = 155,
+    AT_FACTORS = 131,      /* the scales of x, y and z, then their offsets */
     AT_WAVEFORMS = 227,    /* from version 1.3 on */
     AT_RECORDS = 235,      /* from version 1.4 on: extended variable length records */
     AT_RECORD_COUNT = 243, /* from version 1.4 on */
@@ -46,13 +45,7 @@ enum {
     AT_CLASS = LAS_AT_CLASS,
 };
 
-/* The byte offset of the colour (3 * 16 bits) in a record, by point format; 0: the format has no colour. */
-static const unsigned colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
-
-unsigned las_color_offset(unsigned format)
-{
-    return colors_at[format];
-}
+const unsigned las_colors_at[FORMATS] = {[2] = 20, [3] = 28, [5] = 28, [7] = 30, [8] = 30, [10] = 30};
 
 typedef struct las_reader {
     cloud_file *file;
@@ -60,10 +53,10 @@ typedef struct las_reader {
     bool compressed;
     unsigned withheld; /* the bit of a record's flags that marks it as withheld */
     uint64_t first, length, count;
-    double scale[3], offset[3];
+    double factors[6]; /* the scales of x, y and z, then their offsets */
 } las_reader;
 
-static bool is_las(const cloud_file *file)
+static bool is_las(cloud_file *file)
 {
     return file->size >= sizeof signature && memcmp(file->bytes, signature, sizeof signature) == 0;
 }
@@ -100,7 +93,7 @@ static bool read_format(las_reader *reader)
     reader->format = file->bytes[AT_FORMAT];
     reader->length = read_whole(reader, AT_LENGTH, 2);
     reader->compressed = reader->format & COMPRESSED;
-    if (reader->compressed && !laz_is_supported())
+    if (reader->compressed && !cloud_reads_laz())
         return cloud_fail(file,
                           "is compressed LAS (LAZ or COPC), but this octreel was built without liblaszip; install "
                           "liblaszip-dev (Debian 13) and build again, or decompress the file: pdal translate in.laz "
@@ -131,22 +124,18 @@ static bool read_count(las_reader *reader)
                            wide, narrow, AT_COUNT);
 }
 
-static bool read_factor(const las_reader *reader, unsigned at, const char *what, bool may_be_zero, double *factor)
-{
-    static const cloud_scalar real = {CLOUD_FLOAT, 8};
-    *factor = cloud_read_scalar(real, false, reader->file->bytes + at);
-    return (isfinite(*factor) && (may_be_zero || *factor != 0)) ||
-           cloud_fail_byte(reader->file, at, "%s is %g, which gives no valid coordinates", what, *factor);
-}
-
 static bool read_factors(las_reader *reader)
 {
-    static const char *const scales[] = {"the scale of x", "the scale of y", "the scale of z"};
-    static const char *const offsets[] = {"the offset of x", "the offset of y", "the offset of z"};
-    for (unsigned axis = 0; axis < 3; axis++)
-        if (!read_factor(reader, AT_SCALES + 8 * axis, scales[axis], false, &reader->scale[axis]) ||
-            !read_factor(reader, AT_OFFSETS + 8 * axis, offsets[axis], true, &reader->offset[axis]))
-            return false;
+    static const cloud_scalar real = {CLOUD_FLOAT, 8};
+    for (unsigned i = 0; i < 6; i++) {
+        const bool is_scale = i < 3;
+        const size_t at = AT_FACTORS + 8 * i;
+        const double factor = cloud_read_scalar(real, false, reader->file->bytes + at);
+        if (!isfinite(factor) || (is_scale && factor == 0))
+            return cloud_fail_byte(reader->file, at, "the %s of %c is %g, which gives no valid coordinates",
+                                   is_scale ? "scale" : "offset", "xyz"[i % 3], factor);
+        reader->factors[i] = factor;
+    }
     return true;
 }
 
@@ -219,7 +208,7 @@ static bool check_end(const las_reader *reader)
 
 static void read_values(const las_reader *reader, const unsigned char *record, double numbers[CLOUD_CHANNELS])
 {
-    const unsigned color = colors_at[reader->format];
+    const unsigned color = las_colors_at[reader->format];
     for (unsigned i = 0; color && i < 3; i++)
         numbers[CLOUD_RED + i] = (double)cloud_read_bits(2, false, record + color + 2 * i);
     numbers[CLOUD_INTENSITY] = (double)cloud_read_bits(2, false, record + AT_INTENSITY);
@@ -238,8 +227,8 @@ static bool add_record(const las_reader *reader, const unsigned char *record, si
         return true;
     }
     for (int axis = 0; axis < 3; axis++) {
-        numbers[axis] = cloud_read_scalar(integer, false, record + 4 * axis) * reader->scale[axis];
-        numbers[axis] += reader->offset[axis];
+        numbers[axis] = cloud_read_scalar(integer, false, record + 4 * axis) * reader->factors[axis];
+        numbers[axis] += reader->factors[3 + axis];
         if (!isfinite(numbers[axis]))
             return cloud_fail_byte(reader->file, at, "%c is beyond the largest double", "xyz"[axis]);
     }
@@ -285,7 +274,7 @@ static void set_channels(const las_reader *reader)
 {
     const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
     cloud_set_channels(reader->file,
-                       1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (colors_at[reader->format] ? color : 0), 255);
+                       1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader->format] ? color : 0), 255);
     reader->file->zero_is_missing = true;
 }
 

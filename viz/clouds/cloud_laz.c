@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-bool laz_is_supported(void)
+bool cloud_reads_laz(void)
 {
     return true;
 }
@@ -26,7 +26,7 @@ static void write_number(unsigned char *at, uint32_t number, unsigned size)
 /* Write the beginning of an uncompressed LAS record. */
 static void write_record(const laszip_point_struct *p, unsigned format, unsigned char record[LAS_RECORD_READ])
 {
-    const unsigned color = las_color_offset(format);
+    const unsigned color = las_colors_at[format];
     write_number(record, (uint32_t)p->X, 4);
     write_number(record + 4, (uint32_t)p->Y, 4);
     write_number(record + 8, (uint32_t)p->Z, 4);
@@ -105,7 +105,7 @@ bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *
 
 #else
 
-bool laz_is_supported(void)
+bool cloud_reads_laz(void)
 {
     return false;
 }
@@ -117,8 +117,3 @@ bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *
 }
 
 #endif
-
-bool cloud_reads_laz(void)
-{
-    return laz_is_supported();
-}

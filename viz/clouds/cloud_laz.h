@@ -7,11 +7,8 @@
 
 #include "laz_child.h"
 
-/* The byte offset of the colour (3 * 16 bits) in a record of this point format; 0: none. Defined in cloud_las.c. */
-unsigned las_color_offset(unsigned format);
-
-/* Whether this was built with liblaszip. */
-bool laz_is_supported(void);
+/* The byte offset of the colour (3 * 16 bits) in a record, by point format; 0: none. Defined in cloud_las.c. */
+extern const unsigned las_colors_at[];
 
 /* Pass each record of a compressed file to `add`. Returns false and sets the error if the data is damaged, and false if
  * `add` returns false. liblaszip opens files by name, so the bytes are copied to a temporary file. */

@@ -35,7 +35,6 @@ typedef struct pcd_place {
 
 typedef struct pcd_reader {
     cloud_file *file;
-    cloud_lines lines;
     unsigned seen; /* bit i is set after keyword i was read */
     size_t field_count;
     pcd_field fields[MAX_FIELDS];
@@ -48,11 +47,6 @@ typedef struct pcd_reader {
 
 /* ---- Header lines ------------------------------------------------------------------------------------------- */
 
-static bool fail_header(const pcd_reader *reader, const char *reason, cloud_span word)
-{
-    return cloud_fail_word(reader->file, reader->lines.number, word, reason);
-}
-
 static bool read_version(pcd_reader *reader, cloud_span rest)
 {
     cloud_span word;
@@ -61,7 +55,7 @@ static bool read_version(pcd_reader *reader, cloud_span rest)
     cloud_next_word(&rest, &word);
     bool known =
         number_parse(word.begin, word.limit, &end, &version) && end == word.limit && version >= 0.5 && version <= 0.7;
-    return known || fail_header(reader, "is not a supported version of PCD: 0.5 to 0.7", word);
+    return known || cloud_fail_word(reader->file, word, "is not a supported version of PCD: 0.5 to 0.7");
 }
 
 static bool read_fields(pcd_reader *reader, cloud_span rest)
@@ -71,39 +65,34 @@ static bool read_fields(pcd_reader *reader, cloud_span rest)
     while (cloud_next_word(&rest, &word)) {
         int channel = cloud_word_channel(word);
         if (reader->field_count == MAX_FIELDS)
-            return cloud_fail_line(reader->file, reader->lines.number, "more than %d fields", MAX_FIELDS);
+            return cloud_fail_line(reader->file, "more than %d fields", MAX_FIELDS);
         const bool again = channel >= 0 && channels >> channel & 1;
         if (again && channel <= CLOUD_Z)
-            return fail_header(reader, "is a second field with this name", word);
+            return cloud_fail_word(reader->file, word, "is a second field with this name");
         if (channel >= 0)
             channels |= 1U << channel;
         reader->fields[reader->field_count++] = (pcd_field){.channel = again ? -1 : channel, .count = 1};
     }
     for (int axis = 0; axis < 3; axis++)
         if (!(channels >> axis & 1))
-            return cloud_fail_line(reader->file, reader->lines.number, "FIELDS has no field \"%c\"", "xyz"[axis]);
+            return cloud_fail_line(reader->file, "FIELDS has no field \"%c\"", "xyz"[axis]);
     return true;
 }
 
 static bool set_size(pcd_field *field, cloud_span word)
 {
-    uint64_t size;
-    if (!cloud_word_count(word, &size) || (size != 1 && size != 2 && size != 4 && size != 8))
-        return false;
-    field->type.size = (unsigned)size;
-    return true;
+    const int power = cloud_find_word(word, "1 2 4 8");
+    field->type.size = power < 0 ? 0 : 1U << power;
+    return power >= 0;
 }
 
 static bool set_type(pcd_field *field, cloud_span word)
 {
-    static const char *const names[] = {[CLOUD_SIGNED] = "I", [CLOUD_UNSIGNED] = "U", [CLOUD_FLOAT] = "F"};
-    for (int i = 0; i < 3; i++) {
-        if (!cloud_word_is(word, names[i]))
-            continue;
-        field->type.kind = (cloud_scalar_kind)i;
-        return true;
-    }
-    return false;
+    static const cloud_scalar_kind kinds[] = {CLOUD_SIGNED, CLOUD_UNSIGNED, CLOUD_FLOAT};
+    const int found = cloud_find_word(word, "I U F");
+    if (found >= 0)
+        field->type.kind = kinds[found];
+    return found >= 0;
 }
 
 /* The limit keeps the sum over MAX_FIELDS fields of 8 bytes from overflowing. */
@@ -118,34 +107,29 @@ static bool read_each(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field
     cloud_span word;
     for (size_t i = 0; i < reader->field_count; i++) {
         if (!cloud_next_word(&rest, &word))
-            return cloud_fail_line(reader->file, reader->lines.number, "has %zu words for %zu fields", i,
-                                   reader->field_count);
+            return cloud_fail_line(reader->file, "has %zu words for %zu fields", i, reader->field_count);
         if (!set(&reader->fields[i], word))
-            return fail_header(reader, reason, word);
+            return cloud_fail_word(reader->file, word, reason);
     }
-    return !cloud_next_word(&rest, &word) || fail_header(reader, "is one word more than there are fields", word);
+    return !cloud_next_word(&rest, &word) ||
+           cloud_fail_word(reader->file, word, "is one word more than there are fields");
 }
 
 static bool read_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
 {
     cloud_span word;
     cloud_next_word(&rest, &word);
-    return cloud_word_count(word, number) || fail_header(reader, "is not a count of points", word);
+    return cloud_word_count(word, number) || cloud_fail_word(reader->file, word, "is not a count of points");
 }
 
 static bool read_encoding(pcd_reader *reader, cloud_span rest)
 {
-    static const char *const names[] = {
-        [PCD_ASCII] = "ascii", [PCD_BINARY] = "binary", [PCD_COMPRESSED] = "binary_compressed"};
     cloud_span word;
     cloud_next_word(&rest, &word);
-    for (int i = PCD_ASCII; i <= PCD_COMPRESSED; i++) {
-        if (!cloud_word_is(word, names[i]))
-            continue;
-        reader->encoding = (pcd_encoding)i;
-        return true;
-    }
-    return fail_header(reader, "is not a kind of PCD data: ascii, binary or binary_compressed", word);
+    const int found = cloud_find_word(word, "ascii binary binary_compressed");
+    reader->encoding = found < 0 ? PCD_ASCII : (pcd_encoding)found;
+    return found >= 0 ||
+           cloud_fail_word(reader->file, word, "is not a kind of PCD data: ascii, binary or binary_compressed");
 }
 
 typedef enum pcd_key {
@@ -196,9 +180,9 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
         if (!cloud_word_is(word, keywords[i].name))
             continue;
         if (has_seen(reader, (pcd_key)i))
-            return fail_header(reader, "occurs twice", word);
+            return cloud_fail_word(reader->file, word, "occurs twice");
         if (keywords[i].set && !has_seen(reader, KEY_FIELDS))
-            return fail_header(reader, "stands before FIELDS; FIELDS must come first", word);
+            return cloud_fail_word(reader->file, word, "stands before FIELDS; FIELDS must come first");
         reader->seen |= 1U << i;
         if (keywords[i].read)
             return keywords[i].read(reader, rest);
@@ -206,23 +190,23 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
             return read_each(reader, rest, keywords[i].set, keywords[i].reason);
         return !keywords[i].number || read_number(reader, rest, (uint64_t *)((char *)reader + keywords[i].number));
     }
-    return fail_header(reader, "does not belong in a PCD header", word);
+    return cloud_fail_word(reader->file, word, "does not belong in a PCD header");
 }
 
 /* Read the next line of the header that is not a comment: its first word, and the rest. */
-static bool next_header_line(cloud_lines *lines, cloud_span *word, cloud_span *rest)
+static bool next_header_line(cloud_file *file, cloud_span *word, cloud_span *rest)
 {
-    while (cloud_next_filled_line(lines, rest))
+    while (cloud_next_filled_line(file, rest))
         if (cloud_next_word(rest, word) && *word->begin != '#')
             return true;
     return false;
 }
 
-static bool is_pcd(const cloud_file *file)
+static bool is_pcd(cloud_file *file)
 {
-    cloud_lines lines = cloud_begin_lines(file);
     cloud_span word, rest;
-    return next_header_line(&lines, &word, &rest) && (cloud_word_is(word, "VERSION") || cloud_word_is(word, "FIELDS"));
+    cloud_begin_lines(file);
+    return next_header_line(file, &word, &rest) && cloud_find_word(word, "VERSION FIELDS") >= 0;
 }
 
 /* ---- The header as a whole ---------------------------------------------------------------------------------- */
@@ -231,9 +215,8 @@ static bool is_pcd(const cloud_file *file)
  */
 static bool find_point_count(pcd_reader *reader)
 {
-    size_t line = reader->lines.number;
     if (!has_seen(reader, KEY_WIDTH) && !has_seen(reader, KEY_POINTS))
-        return cloud_fail_line(reader->file, line, "the header has neither WIDTH nor POINTS");
+        return cloud_fail_line(reader->file, "the header has neither WIDTH nor POINTS");
     if (!has_seen(reader, KEY_WIDTH))
         reader->width = reader->points;
     if (!has_seen(reader, KEY_HEIGHT))
@@ -242,7 +225,7 @@ static bool find_point_count(pcd_reader *reader)
     if (!has_seen(reader, KEY_POINTS) && !overflows)
         reader->points = reader->width * reader->height;
     if (overflows || reader->points != reader->width * reader->height)
-        return cloud_fail_line(reader->file, line, "WIDTH %" PRIu64 " times HEIGHT %" PRIu64 " is not POINTS %" PRIu64,
+        return cloud_fail_line(reader->file, "WIDTH %" PRIu64 " times HEIGHT %" PRIu64 " is not POINTS %" PRIu64,
                                reader->width, reader->height, reader->points);
     return true;
 }
@@ -253,8 +236,8 @@ static bool add_place(pcd_reader *reader, const pcd_field *field)
 {
     pcd_place place = {field->channel, field->type, reader->columns, reader->stride};
     if (field->channel <= CLOUD_Z && field->count != 1)
-        return cloud_fail_line(reader->file, reader->lines.number, "%c has a COUNT of %" PRIu64 ", which must be 1",
-                               "xyz"[field->channel], field -> count);
+        return cloud_fail_line(reader->file, "%c has a COUNT of %" PRIu64 ", which must be 1", "xyz"[field->channel],
+                               field -> count);
     if (field->count != 1 || (field->channel == CLOUD_PACKED && field->type.size != 4))
         return true;
     if (field->channel == CLOUD_PACKED)
@@ -268,8 +251,8 @@ static bool lay_out_fields(pcd_reader *reader)
     for (size_t i = 0; i < reader->field_count; i++) {
         const pcd_field *field = &reader->fields[i];
         if (field->type.kind == CLOUD_FLOAT && field->type.size < 4)
-            return cloud_fail_line(reader->file, reader->lines.number, "field %zu is a float of %u bytes, not 4 or 8",
-                                   i + 1, field->type.size);
+            return cloud_fail_line(reader->file, "field %zu is a float of %u bytes, not 4 or 8", i + 1,
+                                   field->type.size);
         if (field->channel >= 0 && !add_place(reader, field))
             return false;
         reader->columns += field->count;
@@ -294,7 +277,7 @@ static bool check_header(pcd_reader *reader)
 {
     for (int i = 0; i < KEYS; i++)
         if (keywords[i].required && !has_seen(reader, (pcd_key)i))
-            return cloud_fail_line(reader->file, reader->lines.number, "the header has no %s", keywords[i].name);
+            return cloud_fail_line(reader->file, "the header has no %s", keywords[i].name);
     return find_point_count(reader) && lay_out_fields(reader);
 }
 
@@ -302,8 +285,8 @@ static bool read_header(pcd_reader *reader)
 {
     cloud_span word, rest;
     while (!has_seen(reader, KEY_DATA)) {
-        if (!next_header_line(&reader->lines, &word, &rest))
-            return cloud_fail_line(reader->file, reader->lines.number, "the file ends in its header");
+        if (!next_header_line(reader->file, &word, &rest))
+            return cloud_fail_line(reader->file, "the file ends in its header");
         if (!read_header_line(reader, word, rest))
             return false;
     }
@@ -319,40 +302,47 @@ static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[
     for (const pcd_place *place = reader->places; cloud_next_word(&line, &word); column++) {
         if (place == reader->places + reader->place_count || place->column != column)
             continue;
-        if (!cloud_word_number(reader->file, reader->lines.number, word, place->channel, &numbers[place->channel]))
+        if (!cloud_word_number(reader->file, word, place->channel, &numbers[place->channel]))
             return false;
         place++;
     }
     return column == reader->columns ||
-           cloud_fail_line(reader->file, reader->lines.number, "has %" PRIu64 " values instead of %" PRIu64, column,
-                           reader->columns);
+           cloud_fail_line(reader->file, "has %" PRIu64 " values instead of %" PRIu64, column, reader->columns);
 }
 
-static bool read_ascii(pcd_reader *reader)
+static bool read_ascii(pcd_reader *reader, size_t offset)
 {
+    (void)offset;
     if (!cloud_check_text(reader->file) || !cloud_reserve_rows(reader->file, reader->points, reader->columns))
         return false;
     for (uint64_t i = 0; i < reader->points; i++) {
         cloud_span line;
         double numbers[CLOUD_CHANNELS];
         cloud_report_progress(reader->file, i, i, reader->points);
-        if (!cloud_next_filled_line(&reader->lines, &line))
-            return cloud_fail_line(reader->file, reader->lines.number,
-                                   "the file ends after %" PRIu64 " of %" PRIu64 " points", i, reader->points);
+        if (!cloud_next_filled_line(reader->file, &line))
+            return cloud_fail_line(reader->file, "the file ends after %" PRIu64 " of %" PRIu64 " points", i,
+                                   reader->points);
         if (!read_line(reader, line, numbers) || !cloud_add(reader->file, numbers))
             return false;
     }
-    cloud_note_trailing_lines(reader->file, &reader->lines);
+    cloud_note_trailing_lines(reader->file);
     return true;
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Read the points from binary data: the number of place k of point i begins at first[k] + i * step[k]. */
-static bool add_points(const pcd_reader *reader, const unsigned char *bytes, const size_t *first, const size_t *step)
+/* Read the points from binary data. Packed points follow one after another; of unpacked ones come all values of the
+ * first field, then all of the second, and so on. */
+static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
 {
+    const bool packed = reader->encoding == PCD_BINARY;
+    size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
     if (!cloud_reserve(reader->file, reader->points))
         return false;
+    for (unsigned k = 0; k < reader->place_count; k++) {
+        first[k] = (size_t)(reader->places[k].offset * (packed ? 1 : reader->points));
+        step[k] = packed ? (size_t)reader->stride : reader->places[k].type.size;
+    }
     for (size_t i = 0; i < reader->points; i++) {
         double numbers[CLOUD_CHANNELS];
         cloud_report_progress(reader->file, i, i, reader->points);
@@ -365,32 +355,15 @@ static bool add_points(const pcd_reader *reader, const unsigned char *bytes, con
     return true;
 }
 
-/* Read packed points, one after another. */
 static bool read_binary(pcd_reader *reader, size_t offset)
 {
     size_t left = reader->file->size - offset;
-    size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
     if (reader->points > left / reader->stride)
         return cloud_fail_byte(reader->file, offset,
                                "%" PRIu64 " points of %" PRIu64 " bytes are announced, but only %zu bytes follow",
                                reader->points, reader->stride, left);
-    for (unsigned k = 0; k < reader->place_count; k++) {
-        first[k] = (size_t)reader->places[k].offset;
-        step[k] = (size_t)reader->stride;
-    }
     cloud_note_trailing_bytes(reader->file, offset + (size_t)(reader->points * reader->stride));
-    return add_points(reader, reader->file->bytes + offset, first, step);
-}
-
-/* Read decompressed points: all values of the first field, then all of the second, and so on. */
-static bool add_unpacked(const pcd_reader *reader, const unsigned char *bytes)
-{
-    size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
-    for (unsigned k = 0; k < reader->place_count; k++) {
-        first[k] = (size_t)(reader->places[k].offset * reader->points);
-        step[k] = reader->places[k].type.size;
-    }
-    return add_points(reader, bytes, first, step);
+    return add_points(reader, reader->file->bytes + offset);
 }
 
 static bool unpack(const pcd_reader *reader, size_t offset, uint32_t packed, uint32_t size)
@@ -400,7 +373,7 @@ static bool unpack(const pcd_reader *reader, size_t offset, uint32_t packed, uin
         return cloud_fail_byte(reader->file, offset, "out of memory for %" PRIu32 " bytes of points", size);
     bool whole = lzf_decompress(reader->file->bytes + offset, packed, bytes, size) == size;
     bool done =
-        whole ? add_unpacked(reader, bytes) : cloud_fail_byte(reader->file, offset, "the compressed data is damaged");
+        whole ? add_points(reader, bytes) : cloud_fail_byte(reader->file, offset, "the compressed data is damaged");
     free(bytes);
     return done;
 }
@@ -408,12 +381,11 @@ static bool unpack(const pcd_reader *reader, size_t offset, uint32_t packed, uin
 static bool read_compressed(pcd_reader *reader, size_t offset)
 {
     enum { SIZES = 8 };
-    static const cloud_scalar size_type = {CLOUD_UNSIGNED, 4};
     const cloud_file *file = reader->file;
     if (file->size - offset < SIZES)
         return cloud_fail_byte(file, file->size, "the file ends before its compressed data");
-    uint32_t packed = (uint32_t)cloud_read_scalar(size_type, false, file->bytes + offset);
-    uint32_t size = (uint32_t)cloud_read_scalar(size_type, false, file->bytes + offset + 4);
+    uint32_t packed = (uint32_t)cloud_read_bits(4, false, file->bytes + offset);
+    uint32_t size = (uint32_t)cloud_read_bits(4, false, file->bytes + offset + 4);
     if (reader->points > UINT32_MAX / reader->stride || reader->points * reader->stride != size)
         return cloud_fail_byte(file, offset,
                                "%" PRIu64 " points of %" PRIu64 " bytes are announced, but %" PRIu32
@@ -432,20 +404,14 @@ static bool read_compressed(pcd_reader *reader, size_t offset)
 
 static bool parse_pcd(cloud_file *file)
 {
-    pcd_reader reader = {.file = file, .lines = cloud_begin_lines(file)};
+    static bool (*const readers[])(pcd_reader * reader, size_t offset) = {
+        [PCD_ASCII] = read_ascii, [PCD_BINARY] = read_binary, [PCD_COMPRESSED] = read_compressed};
+    pcd_reader reader = {.file = file};
+    cloud_begin_lines(file);
     if (!read_header(&reader))
         return false;
-    size_t offset = (size_t)(reader.lines.at - (const char *)file->bytes);
     set_channels(&reader);
-    switch (reader.encoding) {
-    case PCD_ASCII:
-        return read_ascii(&reader);
-    case PCD_BINARY:
-        return read_binary(&reader, offset);
-    case PCD_COMPRESSED:
-        break;
-    }
-    return read_compressed(&reader, offset);
+    return readers[reader.encoding](&reader, (size_t)(file->lines.at - (const char *)file->bytes));
 }
 
 const cloud_format cloud_pcd = {is_pcd, parse_pcd};

@@ -26,7 +26,6 @@ typedef struct ply_element {
 
 typedef struct ply_reader {
     cloud_file *file;
-    cloud_lines lines;
     size_t offset; /* the next byte of binary data */
     ply_encoding encoding;
     ply_element elements[MAX_ELEMENTS];
@@ -38,64 +37,40 @@ typedef struct ply_reader {
     bool ended;          /* the file is truncated */
 } ply_reader;
 
-static bool is_ply(const cloud_file *file)
+static bool is_ply(cloud_file *file)
 {
-    cloud_lines lines = cloud_begin_lines(file);
     cloud_span line, word, more;
-    return cloud_next_line(&lines, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
+    cloud_begin_lines(file);
+    return cloud_next_line(file, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
            !cloud_next_word(&line, &more);
 }
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
 
-typedef struct ply_type {
-    const char *name, *alias;
-    cloud_scalar scalar;
-} ply_type;
-
-static const ply_type types[] = {
-    {"char", "int8", {CLOUD_SIGNED, 1}},    {"uchar", "uint8", {CLOUD_UNSIGNED, 1}},
-    {"short", "int16", {CLOUD_SIGNED, 2}},  {"ushort", "uint16", {CLOUD_UNSIGNED, 2}},
-    {"int", "int32", {CLOUD_SIGNED, 4}},    {"uint", "uint32", {CLOUD_UNSIGNED, 4}},
-    {"float", "float32", {CLOUD_FLOAT, 4}}, {"double", "float64", {CLOUD_FLOAT, 8}},
-};
-
 static bool find_type(cloud_span word, cloud_scalar *scalar)
 {
-    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
-        if (!cloud_word_is(word, types[i].name) && !cloud_word_is(word, types[i].alias))
-            continue;
-        *scalar = types[i].scalar;
-        return true;
-    }
-    return false;
-}
-
-static bool fail_header(const ply_reader *reader, const char *reason, cloud_span word)
-{
-    return cloud_fail_word(reader->file, reader->lines.number, word, reason);
+    static const char names[] = "char int8 uchar uint8 short int16 ushort uint16 int int32 uint uint32 "
+                                "float float32 double float64";
+    static const cloud_scalar types[] = {{CLOUD_SIGNED, 1}, {CLOUD_UNSIGNED, 1}, {CLOUD_SIGNED, 2}, {CLOUD_UNSIGNED, 2},
+                                         {CLOUD_SIGNED, 4}, {CLOUD_UNSIGNED, 4}, {CLOUD_FLOAT, 4},  {CLOUD_FLOAT, 8}};
+    const int found = cloud_find_word(word, names);
+    if (found >= 0)
+        *scalar = types[found / 2]; /* each type has two names */
+    return found >= 0;
 }
 
 static bool read_format(ply_reader *reader, cloud_span rest)
 {
-    static const char *const names[] = {NULL, "ascii", "binary_little_endian", "binary_big_endian"};
     cloud_span name, version;
     cloud_next_word(&rest, &name);
     cloud_next_word(&rest, &version);
     if (reader->encoding != PLY_NO_ENCODING)
-        return fail_header(reader, "is a second format; a PLY header has one", name);
-    for (int i = PLY_ASCII; i <= PLY_BIG_ENDIAN; i++)
-        if (cloud_word_is(name, names[i]))
-            reader->encoding = (ply_encoding)i;
+        return cloud_fail_word(reader->file, name, "is a second format; a PLY header has one");
+    reader->encoding = (ply_encoding)(1 + cloud_find_word(name, "ascii binary_little_endian binary_big_endian"));
     if (reader->encoding == PLY_NO_ENCODING)
-        return fail_header(reader, "is not a PLY format: ascii, binary_little_endian or binary_big_endian", name);
-    return cloud_word_is(version, "1.0") || fail_header(reader, "is not the PLY version 1.0", version);
-}
-
-static bool skip_line(ply_reader *reader, cloud_span rest)
-{
-    (void)reader, (void)rest;
-    return true;
+        return cloud_fail_word(reader->file, name,
+                               "is not a PLY format: ascii, binary_little_endian or binary_big_endian");
+    return cloud_word_is(version, "1.0") || cloud_fail_word(reader->file, version, "is not the PLY version 1.0");
 }
 
 static bool read_element(ply_reader *reader, cloud_span rest)
@@ -103,14 +78,14 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     cloud_span name, number;
     uint64_t count;
     if (reader->element_count == MAX_ELEMENTS)
-        return cloud_fail_line(reader->file, reader->lines.number, "more than %d elements", MAX_ELEMENTS);
+        return cloud_fail_line(reader->file, "more than %d elements", MAX_ELEMENTS);
     cloud_next_word(&rest, &name);
     cloud_next_word(&rest, &number);
     if (!cloud_word_count(number, &count))
-        return fail_header(reader, "is not a count of elements", number);
+        return cloud_fail_word(reader->file, number, "is not a count of elements");
     for (size_t i = 0; i < reader->element_count; i++)
         if (cloud_word_is(name, "vertex") && cloud_word_is(reader->elements[i].name, "vertex"))
-            return fail_header(reader, "is a second element with this name", name);
+            return cloud_fail_word(reader->file, name, "is a second element with this name");
     reader->elements[reader->element_count++] = (ply_element){name, count, reader->property_count, 0, 0};
     return true;
 }
@@ -123,10 +98,10 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
     if (cloud_word_is(word, "list")) {
         cloud_next_word(rest, &word);
         if (!find_type(word, &property->length) || property->length.kind == CLOUD_FLOAT)
-            return fail_header(reader, "is not an integer type for a list's length", word);
+            return cloud_fail_word(reader->file, word, "is not an integer type for a list's length");
         cloud_next_word(rest, &word);
     }
-    return find_type(word, &property->type) || fail_header(reader, "is not a PLY type", word);
+    return find_type(word, &property->type) || cloud_fail_word(reader->file, word, "is not a PLY type");
 }
 
 /* Assign a property to its channel. A coordinate must be a single number and occur once; a value that is a list or
@@ -136,9 +111,9 @@ static bool add_channel(ply_reader *reader, ply_element *element, ply_property *
     const unsigned bit = 1U << property->channel;
     const bool again = element->channels & bit, list = property->length.size > 0;
     if (property->channel <= CLOUD_Z && again)
-        return fail_header(reader, "is a second property with this name", name);
+        return cloud_fail_word(reader->file, name, "is a second property with this name");
     if (property->channel <= CLOUD_Z && list)
-        return fail_header(reader, "is a list; a coordinate must be a single number", name);
+        return cloud_fail_word(reader->file, name, "is a list; a coordinate must be a single number");
     if (again || list) {
         property->channel = -1;
         return true;
@@ -154,14 +129,14 @@ static bool read_property(ply_reader *reader, cloud_span rest)
     ply_property property = {.channel = -1};
     cloud_span name;
     if (reader->element_count == 0)
-        return cloud_fail_line(reader->file, reader->lines.number, "a property stands before any element");
+        return cloud_fail_line(reader->file, "a property stands before any element");
     if (reader->property_count == MAX_PROPERTIES)
-        return cloud_fail_line(reader->file, reader->lines.number, "more than %d properties", MAX_PROPERTIES);
+        return cloud_fail_line(reader->file, "more than %d properties", MAX_PROPERTIES);
     ply_element *element = &reader->elements[reader->element_count - 1];
     if (!read_type(reader, &rest, &property))
         return false;
     if (!cloud_next_word(&rest, &name))
-        return cloud_fail_line(reader->file, reader->lines.number, "a property has no name");
+        return cloud_fail_line(reader->file, "a property has no name");
     if (cloud_word_is(element->name, "vertex"))
         property.channel = cloud_word_channel(name);
     if (property.channel >= 0 && !add_channel(reader, element, &property, name))
@@ -171,22 +146,20 @@ static bool read_property(ply_reader *reader, cloud_span rest)
     return true;
 }
 
-typedef struct ply_keyword {
-    const char *name;
-    bool (*read)(ply_reader *reader, cloud_span rest);
-} ply_keyword;
-
-static const ply_keyword keywords[] = {
-    {"format", read_format},   {"comment", skip_line},      {"obj_info", skip_line},
-    {"element", read_element}, {"property", read_property},
-};
-
 static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span rest)
 {
-    for (size_t i = 0; i < sizeof keywords / sizeof *keywords; i++)
-        if (cloud_word_is(keyword, keywords[i].name))
-            return keywords[i].read(reader, rest);
-    return fail_header(reader, "does not belong in a PLY header", keyword);
+    switch (cloud_find_word(keyword, "format element property comment obj_info")) {
+    case 0:
+        return read_format(reader, rest);
+    case 1:
+        return read_element(reader, rest);
+    case 2:
+        return read_property(reader, rest);
+    case -1:
+        return cloud_fail_word(reader->file, keyword, "does not belong in a PLY header");
+    default:
+        return true;
+    }
 }
 
 /* Check what the header as a whole must contain. */
@@ -195,26 +168,25 @@ static bool check_header(const ply_reader *reader)
     unsigned channels = 0;
     bool has_vertex = false;
     if (reader->encoding == PLY_NO_ENCODING)
-        return cloud_fail_line(reader->file, reader->lines.number, "the header has no format");
+        return cloud_fail_line(reader->file, "the header has no format");
     for (size_t i = 0; i < reader->element_count; i++) {
         channels |= reader->elements[i].channels;
         has_vertex = has_vertex || cloud_word_is(reader->elements[i].name, "vertex");
     }
     if (!has_vertex)
-        return cloud_fail_line(reader->file, reader->lines.number, "the header has no element \"vertex\"");
+        return cloud_fail_line(reader->file, "the header has no element \"vertex\"");
     for (int axis = 0; axis < 3; axis++)
         if (!(channels >> axis & 1))
-            return cloud_fail_line(reader->file, reader->lines.number, "element \"vertex\" has no property \"%c\"",
-                                   "xyz"[axis]);
+            return cloud_fail_line(reader->file, "element \"vertex\" has no property \"%c\"", "xyz"[axis]);
     cloud_set_channels(reader->file, channels, reader->full_color);
     return true;
 }
 
+/* Read the header after its first line. */
 static bool read_header(ply_reader *reader)
 {
     cloud_span line, keyword;
-    cloud_next_line(&reader->lines, &line);
-    while (cloud_next_line(&reader->lines, &line)) {
+    while (cloud_next_line(reader->file, &line)) {
         if (!cloud_next_word(&line, &keyword))
             continue;
         if (cloud_word_is(keyword, "end_header"))
@@ -222,7 +194,7 @@ static bool read_header(ply_reader *reader)
         if (!read_header_line(reader, keyword, line))
             return false;
     }
-    return cloud_fail_line(reader->file, reader->lines.number, "the file ends in its header");
+    return cloud_fail_line(reader->file, "the file ends in its header");
 }
 
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
@@ -232,33 +204,33 @@ static bool read_words(ply_reader *reader, const ply_property *property, cloud_s
                        double numbers[CLOUD_CHANNELS])
 {
     cloud_span word;
-    size_t number = reader->lines.number;
     uint64_t count = 1;
     bool enough = cloud_next_word(line, &word);
     if (enough && property->channel >= 0)
-        return cloud_word_number(reader->file, number, word, property->channel, &numbers[property->channel]);
+        return cloud_word_number(reader->file, word, property->channel, &numbers[property->channel]);
     if (enough && property->length.size > 0) {
         if (!cloud_word_count(word, &count))
-            return fail_header(reader, "is not a valid length of a list", word);
+            return cloud_fail_word(reader->file, word, "is not a valid length of a list");
         for (uint64_t i = 0; enough && i < count; i++)
             enough = cloud_next_word(line, &word);
     }
-    return enough || cloud_fail_line(reader->file, number, "the line has too few values");
+    return enough || cloud_fail_line(reader->file, "the line has too few values");
 }
 
 static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
 {
     cloud_span line, word;
-    if (!cloud_next_filled_line(&reader->lines, &line)) {
+    if (!cloud_next_filled_line(reader->file, &line)) {
         char quote[CLOUD_QUOTE];
         reader->ended = true;
-        return cloud_fail_line(reader->file, reader->lines.number, "the file ends after %" PRIu64 " of %" PRIu64 " %s",
-                               row, element->count, cloud_quote(element->name, quote));
+        return cloud_fail_line(reader->file, "the file ends after %" PRIu64 " of %" PRIu64 " %s", row, element->count,
+                               cloud_quote(element->name, quote));
     }
     for (size_t i = 0; i < element->property_count; i++)
         if (!read_words(reader, &reader->properties[element->first_property + i], &line, numbers))
             return false;
-    return !cloud_next_word(&line, &word) || fail_header(reader, "follows the last property of the line", word);
+    return !cloud_next_word(&line, &word) ||
+           cloud_fail_word(reader->file, word, "follows the last property of the line");
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
@@ -336,20 +308,22 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
 
 static bool parse_ply(cloud_file *file)
 {
-    ply_reader reader = {.file = file, .lines = cloud_begin_lines(file), .full_color = 255};
-    if (!is_ply(file))
-        return cloud_fail_line(file, 1, "is not a PLY file: its first line is not \"ply\"");
+    ply_reader reader = {.file = file, .full_color = 255};
+    if (!is_ply(file)) {
+        file->lines.number = 1;
+        return cloud_fail_line(file, "is not a PLY file: its first line is not \"ply\"");
+    }
     if (!read_header(&reader))
         return false;
     bool ascii = reader.encoding == PLY_ASCII;
     if (ascii && !cloud_check_text(file))
         return false;
-    reader.offset = (size_t)(reader.lines.at - (const char *)file->bytes);
+    reader.offset = (size_t)(file->lines.at - (const char *)file->bytes);
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
             return note_damage(&reader); /* a binary file cannot be read further after an error */
     if (ascii)
-        cloud_note_trailing_lines(file, &reader.lines);
+        cloud_note_trailing_lines(file);
     else
         cloud_note_trailing_bytes(file, reader.offset);
     return true;

@@ -103,7 +103,7 @@ static bool add_column(text_columns *columns, int channel)
 
 /* Read the names of the columns. A file with the columns "id,x,y,z" is refused, because its first three columns are not
  * the coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. */
-static bool read_header(cloud_file *file, size_t number, cloud_span line, text_columns *columns)
+static bool read_header(cloud_file *file, cloud_span line, text_columns *columns)
 {
     cloud_span column;
     unsigned channels = 0;
@@ -112,14 +112,14 @@ static bool read_header(cloud_file *file, size_t number, cloud_span line, text_c
             continue;
         int channel = find_channel(strip_quotes(column));
         if (channel >= CLOUD_X && channel <= CLOUD_Z && channel != index)
-            return cloud_fail_line(file, number, "names column %d %c; the first three columns must be x y z", index + 1,
+            return cloud_fail_line(file, "names column %d %c; the first three columns must be x y z", index + 1,
                                    "xyz"[channel]);
         if (channel >= 0 && channels >> channel & 1)
             channel = -1;
         if (channel >= 0)
             channels |= 1U << channel;
         if (index++ >= 3 && !add_column(columns, channel))
-            return cloud_fail_line(file, number, "out of memory for column names");
+            return cloud_fail_line(file, "out of memory for column names");
     }
     while (columns->count > 0 && columns->channels[columns->count - 1] < 0)
         columns->count--;
@@ -128,19 +128,19 @@ static bool read_header(cloud_file *file, size_t number, cloud_span line, text_c
 }
 
 /* Report why the front of a line is not a coordinate. */
-static bool fail_coordinate(const cloud_file *file, size_t number, cloud_span line, int axis)
+static bool fail_coordinate(const cloud_file *file, cloud_span line, int axis)
 {
     const char *end;
     double ignored;
     cloud_span column = line;
     if (is_at_end(line))
-        return cloud_fail_line(file, number, "has %d of the three coordinates x y z", axis);
+        return cloud_fail_line(file, "has %d of the three coordinates x y z", axis);
     if (is_separator(*line.begin))
-        return cloud_fail_line(file, number, "column %d is empty", axis + 1);
+        return cloud_fail_line(file, "column %d is empty", axis + 1);
     next_column(&line, &column);
     if (!number_parse(column.begin, column.limit, &end, &ignored) && end == column.limit)
-        return cloud_fail_word(file, number, column, "is beyond the largest double");
-    return cloud_fail_word(file, number, column, "is not a number");
+        return cloud_fail_word(file, column, "is beyond the largest double");
+    return cloud_fail_word(file, column, "is not a number");
 }
 
 /* Read the number at the front of a line; "nan" and "inf" give NaN. *end receives the position behind it. */
@@ -154,7 +154,7 @@ static bool parse_coordinate(cloud_span line, const char **end, double *coordina
 
 /* Read the coordinates of a point and remove them from the line. The separators must be the same throughout: with mixed
  * ones, decimal commas as in "1,5;2,5;3,5" or "1,5 2,5 3,5" would be read as other points. */
-static bool parse_position(const cloud_file *file, size_t number, cloud_span *rest, char *mark, double position[3])
+static bool parse_position(const cloud_file *file, cloud_span *rest, char *mark, double position[3])
 {
     char separator = 0;
     cloud_span line = *rest;
@@ -162,18 +162,18 @@ static bool parse_position(const cloud_file *file, size_t number, cloud_span *re
         cloud_span column = line;
         const char *end;
         if (!parse_coordinate(line, &end, &position[axis]))
-            return fail_coordinate(file, number, line, axis);
+            return fail_coordinate(file, line, axis);
         line.begin = end;
         line.begin = skip_blanks(line);
         if (is_at_end(line)) {
             *rest = line;
-            return axis == 2 || fail_coordinate(file, number, line, axis + 1);
+            return axis == 2 || fail_coordinate(file, line, axis + 1);
         }
         *mark = is_separator(*line.begin) ? *line.begin : ' ';
         if (*mark == ' ' && line.begin == end)
-            return fail_coordinate(file, number, column, axis);
+            return fail_coordinate(file, column, axis);
         if (separator && *mark != separator)
-            return cloud_fail_line(file, number, "mixes blanks, commas and semicolons between its columns");
+            return cloud_fail_line(file, "mixes blanks, commas and semicolons between its columns");
         separator = *mark;
         line.begin += *mark != ' ';
         line.begin = skip_blanks(line);
@@ -311,13 +311,12 @@ static void end_guess(cloud_file *file, text_columns *columns)
 /* ---- The file ----------------------------------------------------------------------------------------------- */
 
 /* Begin reading lines, after the byte order mark that some editors write before UTF-8. */
-static cloud_lines begin_lines(const cloud_file *file)
+static void begin_lines(cloud_file *file)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
-    cloud_lines lines = cloud_begin_lines(file);
-    if (file->size >= 3 && memcmp(lines.at, byte_order_mark, 3) == 0)
-        lines.at += 3;
-    return lines;
+    cloud_begin_lines(file);
+    if (file->size >= 3 && memcmp(file->bytes, byte_order_mark, 3) == 0)
+        file->lines.at += 3;
 }
 
 /* Whether a line holds a single integer: .pts files begin with the number of their points. */
@@ -332,29 +331,29 @@ static bool is_count(cloud_span line, double *count)
     return limit > line.begin && is_at_end(rest) && number_parse(line.begin, limit, &end, count);
 }
 
-bool cloud_text_recognise(const cloud_file *file)
+bool cloud_text_recognise(cloud_file *file)
 {
-    cloud_lines lines = begin_lines(file);
     cloud_span line;
     double position[3], count;
     char mark = ' ';
-    for (bool first = true; cloud_next_line(&lines, &line);) {
+    begin_lines(file);
+    for (bool first = true; cloud_next_line(file, &line);) {
         line.begin = skip_blanks(line);
         if (is_at_end(line))
             continue;
         if (!first || (!is_header(line) && !is_count(line, &count)))
-            return parse_position(file, lines.number, &line, &mark, position);
+            return parse_position(file, &line, &mark, position);
         first = false;
     }
     return false;
 }
 
 /* Read a line with a point. The values of a skipped point are not read, and say nothing about a guess. */
-static bool parse_point(cloud_file *file, size_t number, cloud_span line, bool named, text_columns *columns)
+static bool parse_point(cloud_file *file, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
     char mark = ' ';
-    if (!parse_position(file, number, &line, &mark, numbers))
+    if (!parse_position(file, &line, &mark, numbers))
         return false;
     if (cloud_skip_nonfinite(file, numbers))
         return true;
@@ -386,13 +385,14 @@ static bool is_named_comment(cloud_span *line)
  * before these. More points than the count are read; fewer are an error. */
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
-    cloud_lines lines = begin_lines(file);
     cloud_span line;
     bool first = true, named = false, has_header = false;
     double count = 0, points = 0;
     size_t count_line = 0; /* the number of the line with the count; 0: none */
-    while (cloud_next_line(&lines, &line)) {
-        cloud_report_progress(file, lines.number, (uint64_t)(lines.at - (const char *)file->bytes), file->size);
+    begin_lines(file);
+    while (cloud_next_line(file, &line)) {
+        cloud_report_progress(file, file->lines.number, (uint64_t)(file->lines.at - (const char *)file->bytes),
+                              file->size);
         line.begin = skip_blanks(line);
         const bool comment = is_at_end(line);
         if (comment && !(first && !named && is_named_comment(&line)))
@@ -401,20 +401,20 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
             named = true;
             has_header = !comment;
             columns->count = 0;
-            if (!read_header(file, lines.number, line, columns))
+            if (!read_header(file, line, columns))
                 return false;
         } else if (first && !has_header && !count_line && is_count(line, &count)) {
-            count_line = lines.number;
+            count_line = file->lines.number;
         } else {
-            if (!parse_point(file, lines.number, line, named, columns))
+            if (!parse_point(file, line, named, columns))
                 return false;
             first = false;
             points++;
         }
     }
+    file->lines.number = count_line;
     return points >= count ||
-           cloud_fail_line(file, count_line, "announces %.0f points, but %.0f follow: the file is truncated", count,
-                           points);
+           cloud_fail_line(file, "announces %.0f points, but %.0f follow: the file is truncated", count, points);
 }
 
 static bool parse_text(cloud_file *file)

@@ -45,7 +45,7 @@ int cloud_word_channel(cloud_span word)
     return -1;
 }
 
-bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int channel, double *number)
+bool cloud_word_number(const cloud_file *file, cloud_span word, int channel, double *number)
 {
     uint64_t whole;
     uint32_t bits;
@@ -53,7 +53,7 @@ bool cloud_word_number(const cloud_file *file, size_t line, cloud_span word, int
         *number = (double)whole;
         return true;
     }
-    if (!cloud_word_coordinate(file, line, word, number))
+    if (!cloud_word_coordinate(file, word, number))
         return false;
     if (channel == CLOUD_PACKED && fabs(*number) <= FLT_MAX) {
         const float narrow = (float)*number;
@@ -130,26 +130,16 @@ static bool has_channel(const cloud_file *file, cloud_channel channel)
     return file->channels >> channel & 1;
 }
 
-/* Many files mark missing values by NaN or infinity: only finite numbers can be out of range. */
-static bool all_finite(const double *numbers, size_t count)
+/* Count a value that is not valid. Many files mark missing values by NaN or infinity: only finite numbers can be out of
+ * range. Returns `valid`. */
+static bool count_invalid(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
+                          size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(numbers[i]))
-            return false;
-    return true;
-}
-
-static void count_out_of_range(const cloud_file *file, const double *numbers, const point_value *value)
-{
-    size_t *count = file->out->out_of_range;
-    const bool red = has_channel(file, CLOUD_RED);
-    if (red || has_channel(file, CLOUD_PACKED))
-        count[POINT_COLOR] +=
-            !value->has[POINT_COLOR] && all_finite(numbers + (red ? CLOUD_RED : CLOUD_PACKED), red ? 3 : 1);
-    if (has_channel(file, CLOUD_INTENSITY))
-        count[POINT_INTENSITY] += !value->has[POINT_INTENSITY] && all_finite(numbers + CLOUD_INTENSITY, 1);
-    if (has_channel(file, CLOUD_CLASS))
-        count[POINT_CLASS] += !value->has[POINT_CLASS] && all_finite(numbers + CLOUD_CLASS, 1);
+    bool finite = !valid;
+    for (size_t i = 0; finite && i < count; i++)
+        finite = isfinite(numbers[i]);
+    file->out->out_of_range[kind] += finite;
+    return valid;
 }
 
 const char *cloud_describe_out_of_range(const size_t count[POINT_VALUE_KINDS], char text[CLOUD_OUT_OF_RANGE_TEXT])
@@ -176,21 +166,24 @@ const char *cloud_describe_out_of_range(const size_t count[POINT_VALUE_KINDS], c
 
 point_value cloud_convert_values(cloud_file *file, const double *numbers)
 {
+    const double *color = numbers + CLOUD_RED, *packed = numbers + CLOUD_PACKED;
+    const double *intensity = numbers + CLOUD_INTENSITY, *class = numbers + CLOUD_CLASS;
     point_value value = {0};
     if (has_channel(file, CLOUD_RED))
-        value.has[POINT_COLOR] = convert_color(file->out, numbers + CLOUD_RED, value.color);
+        value.has[POINT_COLOR] =
+            count_invalid(file, POINT_COLOR, convert_color(file->out, color, value.color), color, 3);
     else if (has_channel(file, CLOUD_PACKED))
-        value.has[POINT_COLOR] = unpack_color(numbers[CLOUD_PACKED], value.color);
-    if (has_channel(file, CLOUD_INTENSITY) && fabs(numbers[CLOUD_INTENSITY]) <= FLT_MAX) {
+        value.has[POINT_COLOR] = count_invalid(file, POINT_COLOR, unpack_color(*packed, value.color), packed, 1);
+    if (has_channel(file, CLOUD_INTENSITY) &&
+        count_invalid(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1)) {
         value.has[POINT_INTENSITY] = true;
-        value.intensity = (float)numbers[CLOUD_INTENSITY];
+        value.intensity = (float)*intensity;
     }
-    const double class = has_channel(file, CLOUD_CLASS) ? numbers[CLOUD_CLASS] : -1;
-    if (class >= 0 && class <= UINT16_MAX && class == floor(class)) {
+    if (has_channel(file, CLOUD_CLASS) &&
+        count_invalid(file, POINT_CLASS, *class >= 0 && *class <= UINT16_MAX && *class == floor(*class), class, 1)) {
         value.has[POINT_CLASS] = true;
-        value.class = (uint16_t) class;
+        value.class = (uint16_t) * class;
     }
-    count_out_of_range(file, numbers, &value);
     return value;
 }
 
