@@ -50,8 +50,8 @@ static void take_count(void *to, const char *entry)
 {
     options *o = to;
     if (o->count == COUNTS_AT_MOST)
-        stop("--n takes at most %d numbers", COUNTS_AT_MOST);
-    o->counts[o->count++] = (size_t)take_whole("--n", entry, POINTS_AT_LEAST, POINTS_AT_MOST);
+        stop_with_error("--n takes at most %d numbers", COUNTS_AT_MOST);
+    o->counts[o->count++] = (size_t)parse_whole_number("--n", entry, POINTS_AT_LEAST, POINTS_AT_MOST);
 }
 
 static void take_set(void *to, const char *entry)
@@ -59,7 +59,7 @@ static void take_set(void *to, const char *entry)
     options *o = to;
     octree_sample_kind kind;
     if (!octree_sample_parse(entry, &kind))
-        stop("there is no set \"%s\"; --help lists them", entry);
+        stop_with_error("there is no set \"%s\"; --help lists them", entry);
     o->sets[kind] = true;
 }
 
@@ -70,7 +70,7 @@ static void take_op(void *to, const char *entry)
     while (i < OPS && strcmp(all_ops[i].name, entry) != 0)
         i++;
     if (i == OPS)
-        stop("there is no operation \"%s\"; --help lists them", entry);
+        stop_with_error("there is no operation \"%s\"; --help lists them", entry);
     o->ops[i] = true;
 }
 
@@ -104,29 +104,29 @@ static options read_options(int argc, char **argv)
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;) {
         switch (name) {
         case 'n':
-            take_list(&o, optarg, take_count);
+            parse_list(&o, optarg, take_count);
             break;
         case 's':
-            take_list(&o, optarg, take_set);
+            parse_list(&o, optarg, take_set);
             break;
         case 'o':
-            take_list(&o, optarg, take_op);
+            parse_list(&o, optarg, take_op);
             break;
         case 'r':
-            o.rounds = (int)take_whole("--rounds", optarg, 1, ROUNDS_AT_MOST);
+            o.rounds = (int)parse_whole_number("--rounds", optarg, 1, ROUNDS_AT_MOST);
             break;
         case 'j':
             o.json = true;
             break;
         case 'h':
             print_help();
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */
         }
     }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     fill_defaults(&o);
     return o;
 }
@@ -142,7 +142,7 @@ static int run_workload(const options *o, octree_sample_kind set, size_t count)
         workload_free(&w);
     }
     if (result == OUT_OF_MEMORY)
-        stop("there is no memory for %zu points", count);
+        stop_with_error("there is no memory for %zu points", count);
     return result == UNLIKE ? EXIT_FINDING : EXIT_DONE;
 }
 
@@ -153,5 +153,5 @@ int main(int argc, char **argv)
     for (int set = 0; status == EXIT_DONE && set < OCTREE_SAMPLE_KINDS; set++)
         for (int i = 0; status == EXIT_DONE && o.sets[set] && i < o.count; i++)
             status = run_workload(&o, (octree_sample_kind)set, o.counts[i]);
-    finish(status);
+    exit_with_status(status);
 }

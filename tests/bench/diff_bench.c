@@ -240,25 +240,25 @@ int main(int argc, char **argv)
     for (int option; (option = getopt_long(argc, argv, "h", options, NULL)) != -1;) {
         if (option == 'h') {
             print_help();
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         }
         if (option == '?')
             return EXIT_TROUBLE; /* getopt has said why */
         if (option == 'o')
             b.of[ODIFF].program = optarg;
         if (option == 'r')
-            b.rounds = (int)take_whole("--rounds", optarg, 1, ROUNDS_AT_MOST);
+            b.rounds = (int)parse_whole_number("--rounds", optarg, 1, ROUNDS_AT_MOST);
         b.quick |= option == 'q';
     }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     for (int i = 0; i < CONTENDERS; i++)
         b.of[i].there = program_exists(b.of[i].program);
     tell_who_is_missing(&b);
     strcpy(b.folder, "diff_bench_XXXXXX");
     if (!mkdtemp(b.folder))
-        stop("a folder for the frames: %s", strerror(errno));
+        stop_with_error("a folder for the frames: %s", strerror(errno));
     const bool ok = run_all(&b);
     const char *const clean_up[] = {"rm", "-r", b.folder, NULL};
-    finish(run_quietly(clean_up) && ok ? (b.failed ? EXIT_FINDING : EXIT_DONE) : EXIT_TROUBLE);
+    exit_with_status(run_quietly(clean_up) && ok ? (b.failed ? EXIT_FINDING : EXIT_DONE) : EXIT_TROUBLE);
 }

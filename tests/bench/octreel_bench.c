@@ -70,14 +70,14 @@ static void take_scene(void *to, const char *entry)
     while (i < FILMED_SCENES && strcmp(filmed_scenes[i].name, entry) != 0)
         i++;
     if (i == FILMED_SCENES)
-        stop("there is no scene \"%s\"; --help lists them", entry);
+        stop_with_error("there is no scene \"%s\"; --help lists them", entry);
     o->scenes[i] = true;
 }
 
 static void take_folder(options *o, const char *folder)
 {
     if (strlen(folder) >= FOLDER_ROOM - 64 || access(folder, W_OK) != 0)
-        stop("--folder takes a folder that can be written to, not \"%.100s\"", folder);
+        stop_with_error("--folder takes a folder that can be written to, not \"%.100s\"", folder);
     o->folder = folder;
 }
 
@@ -85,13 +85,13 @@ static void take_option(options *o, int name, char *value)
 {
     switch (name) {
     case 's':
-        take_list(o, value, take_scene);
+        parse_list(o, value, take_scene);
         break;
     case 'n':
-        o->frames = (uint64_t)take_whole("--frames", value, FRAMES_AT_LEAST, FRAMES_AT_MOST);
+        o->frames = (uint64_t)parse_whole_number("--frames", value, FRAMES_AT_LEAST, FRAMES_AT_MOST);
         break;
     case 'r':
-        o->rounds = (int)take_whole("--rounds", value, 1, ROUNDS_AT_MOST);
+        o->rounds = (int)parse_whole_number("--rounds", value, 1, ROUNDS_AT_MOST);
         break;
     case 'f':
         take_folder(o, value);
@@ -104,7 +104,7 @@ static void take_option(options *o, int name, char *value)
         break;
     case 'h':
         print_help();
-        finish(EXIT_DONE);
+        exit_with_status(EXIT_DONE);
     default:
         exit(EXIT_TROUBLE); /* getopt has said why */
     }
@@ -123,7 +123,7 @@ static options read_options(int argc, char **argv)
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;)
         take_option(&o, name, optarg);
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     const bool none[FILMED_SCENES] = {false};
     if (memcmp(o.scenes, none, sizeof none) == 0)
         memset(o.scenes, true, sizeof o.scenes);
@@ -197,7 +197,7 @@ static void measure(options *o, const filmed_scene *scene, filming result[FILM_K
             if (!is_filmed(o, scene, (filming_who)who))
                 continue;
             if (!film_scene(&order, f) && who != FILM_PAGE)
-                stop("%s", f->trouble);
+                stop_with_error("%s", f->trouble);
             if (f->trouble[0])
                 leave_pages_out(o, f->trouble);
         }
@@ -388,5 +388,5 @@ int main(int argc, char **argv)
                 print_page(&filmed_scenes[i], result);
         }
     }
-    finish(EXIT_DONE);
+    exit_with_status(EXIT_DONE);
 }

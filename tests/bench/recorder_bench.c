@@ -47,10 +47,10 @@ static octree *make_tree(const program *p, double (*places)[3])
     def.full_leaf = OCTREE_GROW;
     if (octree_create(&def, &tree) != OCTREE_OK ||
         octree_sample(OCTREE_SAMPLE_CLUSTERED, 1, &def.world, p->points, places) != OCTREE_OK)
-        stop("there is no memory");
+        stop_with_error("there is no memory");
     for (size_t i = 0; i < p->points; i++)
         if (octree_insert(tree, places[i], i) != OCTREE_OK)
-            stop("a point is refused");
+            stop_with_error("a point is refused");
     return tree;
 }
 
@@ -63,20 +63,20 @@ static void move_some(octree *tree, const program *p, double (*places)[3], int t
         for (int axis = 0; axis < 3; axis++)
             to[axis] = places[i][axis] + (places[i][axis] < 0 ? 3 : -3);
         if (octree_move(tree, places[i], i, to) != OCTREE_OK)
-            stop("a move is refused");
+            stop_with_error("a move is refused");
         memcpy(places[i], to, sizeof to);
     }
 }
 
-static void hand_over(octreel_recorder *recorder, const octree *tree)
+static void record_tick_from(octreel_recorder *recorder, const octree *tree)
 {
     if (octreel_recorder_tick(recorder, tree, NULL) != OCTREEL_OK)
-        stop("%s", octreel_recorder_error(recorder));
+        stop_with_error("%s", octreel_recorder_error(recorder));
 }
 
 static void record(const program *p, const char *folder, times *t)
 {
-    double(*places)[3] = memory(NULL, p->points * sizeof *places);
+    double(*places)[3] = resize_memory(NULL, p->points * sizeof *places);
     octree *tree = make_tree(p, places);
     octreel_recorder_def def = octreel_recorder_def_default();
     octreel_recorder *recorder;
@@ -86,15 +86,15 @@ static void record(const program *p, const char *folder, times *t)
     def.tree = octree_definition(tree);
     def.every = 2 * TICKS; /* the worker draws the first frame: the others are no part of this */
     if (octreel_recorder_open(&def, &recorder, &why) != OCTREEL_OK)
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
     const double start = clock_ns(CLOCK_MONOTONIC);
-    hand_over(recorder, tree);
+    record_tick_from(recorder, tree);
     t->first_ms = (clock_ns(CLOCK_MONOTONIC) - start) / 1e6;
     for (int tick = 0; tick < SETTLED + TICKS; tick++) {
         const double before = clock_ns(CLOCK_THREAD_CPUTIME_ID);
         move_some(tree, p, places, tick);
         const double between = clock_ns(CLOCK_THREAD_CPUTIME_ID);
-        hand_over(recorder, tree);
+        record_tick_from(recorder, tree);
         const double after = clock_ns(CLOCK_THREAD_CPUTIME_ID);
         if (tick >= SETTLED) {
             t->own[tick - SETTLED] = (between - before) / 1e3;
@@ -102,7 +102,7 @@ static void record(const program *p, const char *folder, times *t)
         }
     }
     if (octreel_recorder_close(recorder) != OCTREEL_OK)
-        stop("%s", octreel_recorder_error(recorder));
+        stop_with_error("%s", octreel_recorder_error(recorder));
     octreel_recorder_destroy(recorder);
     octree_destroy(tree);
     free(places);
@@ -142,14 +142,14 @@ int main(int argc, char **argv)
                  "recorder us   time to hand the tree to the recorder, and the slowest tick\n"
                  "first ms      wall-clock time of tick 0\n"
                  "Exit status: 0 done, even if goals were missed; 2 trouble.");
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         }
         count = 1;
     }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     if (!mkdtemp(folder))
-        stop("a folder for the recording: %s", strerror(errno));
+        stop_with_error("a folder for the recording: %s", strerror(errno));
     printf("%8s %8s %12s %12s %15s %12s %10s\n", "points", "moved", "own us", "recorder us", "goal", "slowest us",
            "first ms");
     for (size_t i = 0; i < count; i++) {
@@ -160,6 +160,6 @@ int main(int argc, char **argv)
     const char *const clean_up[] = {"rm", "-r", folder, NULL};
     program_run run;
     if (!run_program(clean_up, &run) || run.status != 0)
-        stop("%s cannot be removed", folder);
-    finish(EXIT_DONE);
+        stop_with_error("%s cannot be removed", folder);
+    exit_with_status(EXIT_DONE);
 }

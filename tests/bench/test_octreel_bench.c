@@ -101,7 +101,7 @@ static void page_is_measured_beside_the_recorder(void **state)
                                            "mib", "page_kb", "scrub_ms"};
     temp_folder *folder = *state;
     const place odd = place_in(folder, "a #100% of it");
-    need_browser();
+    skip_without_browser();
     if (!page_plays()) {
         print_message("octreel was built without WebAssembly: its pages do not play\n");
         skip();

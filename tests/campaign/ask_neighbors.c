@@ -64,7 +64,7 @@ static void judge_ball(trial *t, question *q, double epsilon, bool skips)
     q->eligible = 0;
     for (size_t i = 0; i < t->model.count; i++) {
         const octree_point *p = &t->model.points[i];
-        const bool counts = !skips || !brute_skips(p, q->target, q->how.skip, q->how.skip_id);
+        const bool counts = !skips || !brute_is_skipped(p, q->target, q->how.skip, q->how.skip_id);
         t->verdicts[i] = counts ? verdict_of(q, p->position, epsilon, slack) : MUST_NOT;
         q->eligible += t->verdicts[i] == MUST;
     }
@@ -145,7 +145,7 @@ static bool stands(trial *t, const question *q, const octree_neighbor *list, siz
     size_t too_near = 0;
     for (size_t j = 0; j < t->model.count; j++) {
         const octree_point *p = &t->model.points[j];
-        const bool counts = !brute_skips(p, q->target, q->how.skip, q->how.skip_id);
+        const bool counts = !brute_is_skipped(p, q->target, q->how.skip, q->how.skip_id);
         too_near += counts && !may_stand_for(t, q, list[i].point.position, p->position);
     }
     return too_near <= i || fail_at(t, q, i, &list[i], "is farther than its bound");

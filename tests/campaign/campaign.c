@@ -91,7 +91,7 @@ static uint64_t read_number(const char *text, const char *option)
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end != '\0' || !(value >= 0 && value < 0x1p64) || value != floor(value))
-        stop("--%s takes a whole number, such as 1000 or 1e9, not \"%s\"", option, text);
+        stop_with_error("--%s takes a whole number, such as 1000 or 1e9, not \"%s\"", option, text);
     return strspn(text, "0123456789") == strlen(text) ? strtoull(text, NULL, 10) : (uint64_t)value;
 }
 
@@ -100,7 +100,7 @@ static size_t read_scene(const char *text)
     for (size_t i = 0; i < scene_kinds(); i++)
         if (strcmp(scene_name(i), text) == 0)
             return i;
-    stop("there is no scene \"%s\"; --help lists them", text);
+    stop_with_error("there is no scene \"%s\"; --help lists them", text);
 }
 
 static options read_options(int argc, char **argv)
@@ -130,13 +130,13 @@ static options read_options(int argc, char **argv)
             break;
         case 'h':
             print_help();
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */
         }
     }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     return o;
 }
 
@@ -218,9 +218,9 @@ static int run(const options *o, trial *t)
 int main(int argc, char **argv)
 {
     const options o = read_options(argc, argv);
-    trial *t = memory(NULL, sizeof *t);
+    trial *t = resize_memory(NULL, sizeof *t);
     memset(t, 0, sizeof *t);
     const int status = run(&o, t);
     free(t);
-    finish(status);
+    exit_with_status(status);
 }

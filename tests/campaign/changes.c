@@ -113,7 +113,7 @@ static bool fail_first(trial *t, change *c, octree_status *status)
     const uint64_t version = octree_version(t->tree);
     counting_allocator_fail_at(&t->memory, below(t, 5));
     *status = apply(t->tree, c);
-    counting_allocator_heal(&t->memory);
+    counting_allocator_stop_failing(&t->memory);
     if (*status != OCTREE_NO_MEMORY)
         return true;
     if (octree_version(t->tree) != version || octree_count(t->tree) != t->model.count)

@@ -39,21 +39,21 @@ static void read_options(int argc, char **argv)
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 's':
-            asked.seed = (uint64_t)take_whole("--seed", optarg, 0, 1e15);
+            asked.seed = (uint64_t)parse_whole_number("--seed", optarg, 0, 1e15);
             break;
         case 'f':
-            asked.files = (uint64_t)take_whole("--files", optarg, 1, 1e12);
+            asked.files = (uint64_t)parse_whole_number("--files", optarg, 1, 1e12);
             break;
         case 'h':
             puts("usage: octreel-cloud-campaign [--seed N] [--files N]\n"
                  "Damages the point clouds of tests/fuzz/corpus/cloud at random and runs octreel inspect on each.\n"
                  "Exit status: 0 no findings, 1 findings, 2 trouble.");
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */
         }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
 }
 
 /* ---- Damage ---------------------------------------------------------------------------------------------------- */
@@ -193,5 +193,5 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(damaged_cloud_is_read_or_refused, temp_folder_make, nested_folder_remove),
     };
-    finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
+    exit_with_status(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
 }

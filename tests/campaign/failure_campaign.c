@@ -149,10 +149,10 @@ static void read_options(int argc, char **argv)
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 'f':
-            asked.first = (uint64_t)take_whole("--first", optarg, 1, MOST);
+            asked.first = (uint64_t)parse_whole_number("--first", optarg, 1, MOST);
             break;
         case 'e':
-            asked.every = (uint64_t)take_whole("--every", optarg, 1, MOST);
+            asked.every = (uint64_t)parse_whole_number("--every", optarg, 1, MOST);
             break;
         case 'c':
             asked.only = optarg;
@@ -181,12 +181,12 @@ static void read_options(int argc, char **argv)
                  "Exit status: 0 no findings, 1 findings, 2 trouble. The commands:");
             for (size_t i = 0; i < COMMANDS; i++)
                 printf("  %-18s octreel %s\n", commands[i].name, commands[i].line);
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */
         }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
 }
 
 /* ---- One run --------------------------------------------------------------------------------------------------- */
@@ -259,7 +259,7 @@ static place find_torn(const char *folder, const char *below)
         snprintf(deeper, sizeof deeper, "%s/%s", below, name);
         if (may_be_anything(name))
             continue;
-        if (folder_is(file.path)) {
+        if (is_real_folder(file.path)) {
             torn = find_torn(folder, deeper);
             continue;
         }
@@ -452,5 +452,5 @@ int main(int argc, char **argv)
                                         nested_folder_remove),
         cmocka_unit_test_setup_teardown(work_is_done_if_threads_cannot_be_started, make_folder, nested_folder_remove),
     };
-    finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
+    exit_with_status(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
 }

@@ -124,9 +124,9 @@ static void append(model *m, const octree_point *point, octree_address cell)
 {
     if (m->count == m->room) {
         m->room = m->room == 0 ? 64 : 2 * m->room;
-        m->points = memory(m->points, m->room * sizeof *m->points);
-        m->cells = memory(m->cells, m->room * sizeof *m->cells);
-        m->seals = memory(m->seals, m->room * sizeof *m->seals);
+        m->points = resize_memory(m->points, m->room * sizeof *m->points);
+        m->cells = resize_memory(m->cells, m->room * sizeof *m->cells);
+        m->seals = resize_memory(m->seals, m->room * sizeof *m->seals);
     }
     put(m, m->count++, point, cell);
 }

@@ -38,27 +38,27 @@ static options read_options(int argc, char **argv)
     for (int option; (option = getopt_long(argc, argv, "", known, NULL)) >= 0;)
         switch (option) {
         case 's':
-            o.seed = (uint64_t)take_whole("--seed", optarg, 0, 4294967295.0);
+            o.seed = (uint64_t)parse_whole_number("--seed", optarg, 0, 4294967295.0);
             break;
         case 'n':
-            o.inputs = (uint64_t)take_whole("--inputs", optarg, 1, 1e9);
+            o.inputs = (uint64_t)parse_whole_number("--inputs", optarg, 1, 1e9);
             break;
         case 'h':
             puts("usage: octreel-page-campaign [--seed N] [--inputs N]\n"
                  "Sends random inputs to the page of the default session in a browser (default: seed 1, a million "
                  "inputs).");
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         default:
             exit(EXIT_TROUBLE); /* getopt has said why */
         }
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     return o;
 }
 
 static uint64_t number_said(const char *said, const char *what)
 {
-    char *text = said_about(said, what);
+    char *text = find_reported_value(said, what);
     const uint64_t number = strtoull(text, NULL, 10);
     free(text);
     return number;
@@ -71,7 +71,8 @@ static uint64_t drive(const temp_folder *own, const place *page, uint64_t seed, 
     char text[128];
     snprintf(text, sizeof text, "const given = {seed: %" PRIu64 ", inputs: %" PRIu64 "};\n", seed, inputs);
     file_write_text(given.path, text);
-    char *said = play_page(own, page->path, (const char *const[]){given.path, "drive_campaign.js", NULL});
+    char *said =
+        run_scripts_in_playing_page(own, page->path, (const char *const[]){given.path, "drive_campaign.js", NULL});
     const uint64_t done = number_said(said, "inputs"), found = number_said(said, "findings");
     if (found > 0)
         printf("seed %" PRIu64 ", %" PRIu64 " inputs:%s", seed, done, strstr(said, "\nfinding "));
@@ -87,10 +88,10 @@ static void no_input_raises_an_error_or_shows_a_wrong_tick(void **state)
     const octree_session session = octree_session_default();
     film_options o = small_film(film.path);
     uint64_t done = 0;
-    need_browser();
+    skip_without_browser();
     o.every = 4;
     assert_filmed(&session, &o);
-    need_playing_page(page.path);
+    skip_without_playing_page(page.path);
     for (uint64_t i = 0; done < asked.inputs; i++) {
         const uint64_t left = asked.inputs - done;
         done += drive(*state, &page, asked.seed + i, left < INPUTS_A_PAGE ? left : INPUTS_A_PAGE);
@@ -113,5 +114,5 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(no_input_raises_an_error_or_shows_a_wrong_tick, make_folder,
                                         nested_folder_remove),
     };
-    finish(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
+    exit_with_status(cmocka_run_group_tests(tests, NULL, NULL) ? EXIT_FINDING : EXIT_DONE);
 }

@@ -74,7 +74,7 @@ bool trial_begin(trial *t, uint64_t seed, size_t kind)
 static octree_point *shuffled(trial *t)
 {
     const size_t count = t->model.count;
-    octree_point *points = memory(NULL, count * sizeof *points);
+    octree_point *points = resize_memory(NULL, count * sizeof *points);
     for (size_t i = 0; i < count; i++) {
         const size_t j = below(t, i + 1);
         points[i] = points[j];

@@ -107,7 +107,7 @@ static _Noreturn void accuse(const trial *t, uint64_t tick, size_t number, const
            q->k, q->radius, q->target[0], q->target[1], q->target[2], q->box.min[0], q->box.min[1], q->box.min[2],
            q->box.max[0], q->box.max[1], q->box.max[2], t->count, q->answer_count, octree_wrong_name(made->wrong),
            made->missing_count, made->extra_count, made->rank, made->ratio);
-    finish(EXIT_FINDING);
+    exit_with_status(EXIT_FINDING);
 }
 
 /* Whether an answer of the tick is wrong; the tick must have the event then, and not else. */
@@ -149,7 +149,7 @@ static void begin(trial *t)
         memcpy(t->bodies[i].position, t->points[i].position, sizeof t->bodies[i].position);
     }
     if (octree_game_create(session, &t->game) != OCTREE_OK)
-        stop("a game of the set %s cannot be made", t->set->name);
+        stop_with_error("a game of the set %s cannot be made", t->set->name);
     t->index = t->peer->create(t->points, t->count, t->fault);
     t->sound = t->peer->create(t->points, t->count, PLANTED_NONE);
     t->begins = octree_random(&t->random) % (TICKS / 2);
@@ -173,7 +173,7 @@ static void run(trial *t, tally *sum)
         for (size_t i = 0; i < QUERIES; i++)
             ask(t, tick < t->begins ? t->sound : t->index, &t->queries[i], t->ids[i]);
         if (octree_game_play(t->game, &input) != OCTREE_OK)
-            stop("a tick of the set %s cannot be played", t->set->name);
+            stop_with_error("a tick of the set %s cannot be played", t->set->name);
         if (!compare(t, tick, sum))
             continue;
         sum->bitten++;
@@ -241,18 +241,18 @@ static options read_options(int argc, char **argv)
     options o = {.answers = 1000000, .seed = 1, .rounds = 20};
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;)
         if (name == 'a')
-            o.answers = (uint64_t)take_whole("--answers", optarg, 1, 1e12);
+            o.answers = (uint64_t)parse_whole_number("--answers", optarg, 1, 1e12);
         else if (name == 'r')
-            o.rounds = (uint64_t)take_whole("--rounds", optarg, 1, 1e6);
+            o.rounds = (uint64_t)parse_whole_number("--rounds", optarg, 1, 1e6);
         else if (name == 's')
-            o.seed = (uint64_t)take_whole("--seed", optarg, 0, 1e15);
+            o.seed = (uint64_t)parse_whole_number("--seed", optarg, 0, 1e15);
         else if (name == 'h') {
             print_help();
-            finish(EXIT_DONE);
+            exit_with_status(EXIT_DONE);
         } else
             exit(EXIT_TROUBLE); /* getopt has said why */
     if (optind < argc)
-        stop("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
     return o;
 }
 
@@ -283,7 +283,7 @@ static void judge_fault(trial *t, const options *o)
         run_sets(t, &sum);
     }
     if (sum.bitten == 0)
-        stop("peer %s: the fault %s makes no answer wrong", t->peer->name, fault_names[t->fault]);
+        stop_with_error("peer %s: the fault %s makes no answer wrong", t->peer->name, fault_names[t->fault]);
     printf("%-16s %-8s %5" PRIu64 " of %5" PRIu64
            " trials had a wrong answer, the first in tick %4.1f; all were found in "
            "it\n",
@@ -303,5 +303,5 @@ int main(int argc, char **argv)
             if (t.peer->faults >> fault & 1)
                 judge_fault(&t, &o);
         }
-    finish(EXIT_DONE);
+    exit_with_status(EXIT_DONE);
 }

@@ -95,7 +95,7 @@ void brute_range(const brute *all, const octree_box *box, brute *found)
             brute_collect(&all->points[i], found);
 }
 
-bool brute_within(double center, double size, double p)
+bool brute_is_within(double center, double size, double p)
 {
     double high = fmax(center, p);
     double low = fmin(center, p);
@@ -115,7 +115,7 @@ void brute_collide(const brute *all, const double center[3], double size, const 
             continue;
         bool within = true;
         for (int axis = 0; axis < 3; axis++)
-            within = within && brute_within(center[axis], size, point->position[axis]);
+            within = within && brute_is_within(center[axis], size, point->position[axis]);
         if (within)
             brute_collect(point, found);
     }
@@ -151,7 +151,7 @@ bool brute_touches(const double from[3], const double to[3], double size, const 
     return false;
 }
 
-bool brute_skips(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id)
+bool brute_is_skipped(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id)
 {
     return (skip == OCTREE_SKIP_ID && point->id == skip_id) ||
            (skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, target));
@@ -170,7 +170,7 @@ bool brute_nearest(const brute *all, const double target[3], octree_skip skip, u
     double least = INFINITY;
     for (size_t i = 0; i < all->count; i++) {
         const octree_point *point = &all->points[i];
-        if (brute_skips(point, target, skip, skip_id))
+        if (brute_is_skipped(point, target, skip, skip_id))
             continue;
         double squared = squared_distance(point->position, target);
         if (best == NULL || squared < least || (squared == least && point->id < best->id)) {
@@ -220,7 +220,7 @@ size_t brute_nearest_k(const brute *all, const double target[3], size_t k, octre
     size_t count = 0;
     for (size_t i = 0; i < all->count; i++) {
         const octree_point *point = &all->points[i];
-        if (!brute_skips(point, target, skip, skip_id))
+        if (!brute_is_skipped(point, target, skip, skip_id))
             sorted[count++] = (octree_neighbor){*point, squared_distance(point->position, target)};
     }
     qsort(sorted, count, sizeof *sorted, by_square);

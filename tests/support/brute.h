@@ -40,7 +40,7 @@ bool brute_find(const brute *all, const double position[3], uint64_t *id);
 void brute_range(const brute *all, const octree_box *box, brute *found);
 
 /* Whether |p - center| <= size in real numbers, on one axis. */
-bool brute_within(double center, double size, double p);
+bool brute_is_within(double center, double size, double p);
 
 /* Add the points within `size` of the centre on each axis to `found`, without the pair `self` (may be null). */
 void brute_collide(const brute *all, const double center[3], double size, const octree_point *self, brute *found);
@@ -50,7 +50,7 @@ void brute_collide(const brute *all, const double center[3], double size, const 
 bool brute_touches(const double from[3], const double to[3], double size, const double p[3], const double q[3]);
 
 /* Whether a skip rule leaves this point out. */
-bool brute_skips(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id);
+bool brute_is_skipped(const octree_point *point, const double target[3], octree_skip skip, uint64_t skip_id);
 
 /* The nearest point by squared distances in doubles, ties to the lowest id. Correct if the squares are exact, as with
  * small whole coordinates; exact_oracle.h is correct for all others. */

@@ -54,7 +54,7 @@ void counting_allocator_fail_at(counting_allocator *counts, size_t n)
     counts->fail_until = counts->fail_from + 1;
 }
 
-void counting_allocator_heal(counting_allocator *counts)
+void counting_allocator_stop_failing(counting_allocator *counts)
 {
     counts->fail_from = 0;
     counts->fail_until = 0;

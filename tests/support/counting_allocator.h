@@ -22,7 +22,7 @@ octree_allocator counting_allocator_use(counting_allocator *counts);
 void counting_allocator_fail_at(counting_allocator *counts, size_t n);
 
 /* Let no further allocation fail. */
-void counting_allocator_heal(counting_allocator *counts);
+void counting_allocator_stop_failing(counting_allocator *counts);
 
 /* A new tree whose memory is counted, as make_tree. */
 octree *make_counted_tree(counting_allocator *counts, octree_box world, size_t capacity, size_t depth,

@@ -15,7 +15,7 @@ static octree_walk_order list_inner(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-void look_at_inner(const octree *tree, inner_nodes *inner)
+void list_inner_nodes(const octree *tree, inner_nodes *inner)
 {
     inner->count = 0;
     assert_int_equal(octree_walk(tree, list_inner, inner), OCTREE_OK);
@@ -46,7 +46,7 @@ static void assert_difference(const inner_nodes *a, const inner_nodes *b, const 
 void assert_splits_and_merges(const octree_tick *tick, const octree *tree, inner_nodes *before)
 {
     static inner_nodes now;
-    look_at_inner(tree, &now);
+    list_inner_nodes(tree, &now);
     assert_difference(&now, before, tick->splits, tick->split_count);
     assert_difference(before, &now, tick->merges, tick->merge_count);
     assert_true(((tick->events & OCTREE_EVENT_SPLIT) != 0) == (tick->split_count > 0));

@@ -13,7 +13,7 @@ typedef struct inner_nodes {
     size_t count;
 } inner_nodes;
 
-void look_at_inner(const octree *tree, inner_nodes *inner);
+void list_inner_nodes(const octree *tree, inner_nodes *inner);
 
 /* The test fails unless the tick's splits are exactly the new inner nodes, its merges exactly the former inner nodes,
  * both in pre-order, and its events agree. Then *before becomes the present inner nodes. */

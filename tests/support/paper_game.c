@@ -114,7 +114,7 @@ static void step(paper_game *game, int axis, int direction)
     }
 }
 
-void paper_game_turn(paper_game *game, char key)
+void paper_game_play_key(paper_game *game, char key)
 {
     int axis;
     int direction = direction_of(key, &axis);

@@ -30,7 +30,7 @@ typedef struct paper_game {
 size_t paper_game_start(paper_game *game, const octree_session *session);
 
 /* One turn of the loop. */
-void paper_game_turn(paper_game *game, char key);
+void paper_game_play_key(paper_game *game, char key);
 
 void paper_game_end(paper_game *game);
 

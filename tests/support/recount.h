@@ -10,7 +10,7 @@
 #include "octree/game.h"
 
 typedef struct recount {
-    octree_visit *visits; /* after recount_tick: each node once, the strongest touch, in pre-order */
+    octree_visit *visits; /* after recount_tick: each node once, with its strongest kind of visit, in pre-order */
     size_t count, room;
     size_t touched[OCTREE_TRACE_KINDS];
     octree_address *leaves; /* leaves with hits or answers, in pre-order */

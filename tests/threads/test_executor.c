@@ -235,7 +235,7 @@ static bool fails_without_a_trace(const script *s, size_t i, int failing, size_t
     counting_allocator_fail_at(&counts, n);
     const octree_status status = take_step(tree, s, failing, statuses, NULL);
     const bool failed = counts.calls > counts.fail_from;
-    counting_allocator_heal(&counts);
+    counting_allocator_stop_failing(&counts);
     assert_true(status == OCTREE_OK || (failed && status == OCTREE_NO_MEMORY));
     if (status == OCTREE_NO_MEMORY)
         assert_true(octree_digest(tree) == before && octree_version(tree) == version);

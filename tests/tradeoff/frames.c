@@ -18,7 +18,7 @@ struct subject {
 subject *subject_make(const frame_kind *kind)
 {
     enum { TICK = 219 };
-    subject *s = memory(NULL, sizeof *s);
+    subject *s = resize_memory(NULL, sizeof *s);
     *s = (subject){0};
     if (kind->points > 0) {
         workload w = workload_sample(kind->name, OCTREE_SAMPLE_CLUSTERED, cube(-1000, 1000), kind->points, 1);
@@ -53,7 +53,7 @@ void subject_show(const subject *s, const view *v, scene *picture)
     const bool shown =
         s->game ? tick_scene_build(picture, v, s->game, NULL, NULL) : tree_scene_build(picture, v, s->tree, &bare);
     if (!shown)
-        stop("there is no memory for a scene");
+        stop_with_error("there is no memory for a scene");
 }
 
 static image draw_samples(const scene *picture)
@@ -64,11 +64,11 @@ static image draw_samples(const scene *picture)
     octreel_error why;
     renderer *r = renderer_open(width, height, &(renderer_choice){0}, &why);
     if (!r)
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
     if (!image_create(&drawn, width, height, 1))
-        stop("there is no memory for a picture of %d x %d pixels", width, height);
+        stop_with_error("there is no memory for a picture of %d x %d pixels", width, height);
     if (!renderer_draw(r, picture, drawn.pixels, &why))
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
     renderer_close(r);
     drawn.palette.count = THEME_COLORS;
     for (int i = 0; i < THEME_COLORS; i++) {
@@ -83,7 +83,7 @@ image draw_reference(const scene *picture)
     image drawn = draw_samples(picture), small;
     if (!image_create(&small, picture->view.width, picture->view.height, 3) ||
         !image_shrink(&drawn, NULL, REFERENCE_SAMPLES, &small))
-        stop("there is no memory for a picture");
+        stop_with_error("there is no memory for a picture");
     image_release(&drawn);
     return small;
 }

@@ -53,8 +53,8 @@ static workload round_workload(const workload *w)
 {
     workload narrow = *w;
     narrow.truth = NULL;
-    narrow.points = memory(NULL, w->count * sizeof *w->points);
-    narrow.targets = memory(NULL, w->target_count * sizeof *w->targets);
+    narrow.points = resize_memory(NULL, w->count * sizeof *w->points);
+    narrow.targets = resize_memory(NULL, w->target_count * sizeof *w->targets);
     for (int axis = 0; axis < 3; axis++) {
         for (size_t i = 0; i < w->count; i++)
             narrow.points[i].position[axis] = rounded(w->points[i].position[axis]);
@@ -79,7 +79,7 @@ static int by_position(const void *a, const void *b)
 
 static size_t count_places(const workload *w)
 {
-    octree_point *sorted = memory(NULL, w->count * sizeof *sorted);
+    octree_point *sorted = resize_memory(NULL, w->count * sizeof *sorted);
     size_t places = 0;
     memcpy(sorted, w->points, w->count * sizeof *sorted);
     qsort(sorted, w->count, sizeof *sorted, by_position);
@@ -145,8 +145,8 @@ static void add_row(table *t, workload *w, const asked *a, bool narrow, double n
 static void measure_scene(const run *r, table *t, workload *w)
 {
     workload narrow = round_workload(w);
-    uint64_t *answers[] = {memory(NULL, w->target_count * sizeof *answers[0]),
-                           memory(NULL, w->target_count * sizeof *answers[0])};
+    uint64_t *answers[] = {resize_memory(NULL, w->target_count * sizeof *answers[0]),
+                           resize_memory(NULL, w->target_count * sizeof *answers[0])};
     octree *trees[] = {workload_tree(w, octree_def_default().leaf_capacity, OCTREE_MAX_DEPTH),
                        workload_tree(&narrow, octree_def_default().leaf_capacity, OCTREE_MAX_DEPTH)};
     asked ways[] = {{trees[0], w, answers[0]}, {trees[1], &narrow, answers[1]}};

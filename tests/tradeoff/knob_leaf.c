@@ -101,7 +101,7 @@ static void find_ranges(void *contestant)
 
 static double *size_ranges(const workload *w)
 {
-    double *extents = memory(NULL, w->target_count * sizeof *extents);
+    double *extents = resize_memory(NULL, w->target_count * sizeof *extents);
     octree *tree = workload_tree(w, 16, OCTREE_MAX_DEPTH);
     for (size_t i = 0; i < w->target_count; i++) {
         octree_neighbor found[10];
@@ -126,8 +126,8 @@ static void begin(trial *trials, const workload *w, const double *extents)
             u->depth = depths[i - CAPACITIES];
         else
             u->capacity = OCTREE_AUTO;
-        u->nearest = memory(NULL, w->target_count * sizeof *u->nearest);
-        u->hits = memory(NULL, w->target_count * sizeof *u->hits);
+        u->nearest = resize_memory(NULL, w->target_count * sizeof *u->nearest);
+        u->hits = resize_memory(NULL, w->target_count * sizeof *u->hits);
     }
 }
 

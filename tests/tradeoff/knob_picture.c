@@ -95,7 +95,7 @@ static octree_walk_order look_at(const octree_node *node, void *context)
 
 static leaving_out find_left_out(const scene *picture, const octree *tree)
 {
-    leaving_out l = {.picture = picture, .shown = memory(NULL, picture->boxes.count * sizeof *l.shown)};
+    leaving_out l = {.picture = picture, .shown = resize_memory(NULL, picture->boxes.count * sizeof *l.shown)};
     for (size_t i = 0; i < picture->boxes.count; i++)
         if (picture->boxes.items[i].style.layer == LAYER_NODES)
             l.shown[l.count++] = picture->boxes.items[i].id;
@@ -120,14 +120,14 @@ static void draw(void *contestant)
     octreel_error why;
     subject_show(d->subject, &d->view, &d->scene);
     if (!picture_draw(&d->picture, &d->scene, &why))
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
 }
 
 static size_t count_quads(const scene *picture)
 {
     painter p = {0};
     if (!paint(&p, picture))
-        stop("there is no memory for a frame");
+        stop_with_error("there is no memory for a frame");
     const size_t count = p.quads.count;
     painter_release(&p);
     return count;
@@ -153,7 +153,7 @@ static void measure_samples(const run *r, table *t, const char *name, const subj
     for (int i = 0; i < LODS; i++) {
         drawings[i] = (drawing){.subject = s, .view = view_with(samples[aa], lods[i])};
         if (!picture_open(&drawings[i].picture, &drawings[i].view, &(renderer_choice){0}, &why))
-            stop("%s", why.text);
+            stop_with_error("%s", why.text);
         draw(&drawings[i]); /* the first frame is slower */
     }
     time_in_turn(draw, drawings, sizeof drawings[0], LODS, r->rounds, ns);

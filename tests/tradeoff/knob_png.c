@@ -56,7 +56,7 @@ static void take_bytes(png_structp png, png_bytep from, size_t size)
     bytes *b = png_get_io_ptr(png);
     if (b->size + size > b->room) {
         b->room = 2 * (b->size + size);
-        b->at = memory(b->at, b->room);
+        b->at = resize_memory(b->at, b->room);
     }
     memcpy(b->at + b->size, from, size);
     b->size += size;
@@ -65,7 +65,7 @@ static void take_bytes(png_structp png, png_bytep from, size_t size)
 static void complain(png_structp png, png_const_charp sentence)
 {
     (void)png;
-    stop("libpng: %s", sentence);
+    stop_with_error("libpng: %s", sentence);
 }
 
 static void set_palette(png_structp png, png_infop info, const image_palette *palette)
@@ -83,7 +83,7 @@ static void encode(void *contestant)
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, complain, complain);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info)
-        stop("libpng does not start");
+        stop_with_error("libpng does not start");
     w->file.size = 0;
     png_set_write_fn(png, &w->file, take_bytes, NULL);
     png_set_IHDR(png, info, (png_uint_32)frame->width, (png_uint_32)frame->height, 8,
@@ -107,12 +107,12 @@ static size_t count_unlike(const bytes *file, const image *frame)
 {
     png_image read = {.version = PNG_IMAGE_VERSION};
     if (!png_image_begin_read_from_memory(&read, file->at, file->size))
-        stop("libpng: %s", read.message);
+        stop_with_error("libpng: %s", read.message);
     read.format = PNG_FORMAT_RGB;
-    unsigned char *pixels = memory(NULL, PNG_IMAGE_SIZE(read));
+    unsigned char *pixels = resize_memory(NULL, PNG_IMAGE_SIZE(read));
     if ((int)read.width != frame->width || (int)read.height != frame->height ||
         !png_image_finish_read(&read, NULL, pixels, 0, NULL))
-        stop("libpng: %s", read.message);
+        stop_with_error("libpng: %s", read.message);
     size_t unlike = 0;
     for (int y = 0; y < frame->height; y++)
         for (int x = 0; x < frame->width; x++) {
@@ -131,8 +131,8 @@ static bytes read_whole(const char *path)
     bytes b = {.room = (size_t)1 << 24}; /* no frame here is as large */
     FILE *file = fopen(path, "rb");
     if (!file)
-        stop("%s cannot be read", path);
-    b.at = memory(NULL, b.room);
+        stop_with_error("%s cannot be read", path);
+    b.at = resize_memory(NULL, b.room);
     b.size = fread(b.at, 1, b.room, file);
     fclose(file);
     return b;
@@ -146,7 +146,7 @@ static void add_recorder(const run *r, table *t, const char *name, const image *
     snprintf(path, sizeof path, "%s/png-recorder.png", r->folder);
     const double start = processor_time();
     if (!image_write_png(frame, path, NULL, 0, &why))
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
     const double ms = (processor_time() - start) / 1e6;
     bytes file = read_whole(path);
     table_add(t, name, "recorder", (double[]){1, (double)count_unlike(&file, frame), (double)file.size, ms});
@@ -177,7 +177,7 @@ static image in_colors(const image *indexed)
 {
     image rgb;
     if (!image_create(&rgb, indexed->width, indexed->height, 3) || !image_shrink(indexed, NULL, 1, &rgb))
-        stop("there is no memory for a picture");
+        stop_with_error("there is no memory for a picture");
     return rgb;
 }
 
@@ -192,7 +192,7 @@ static void measure(const run *r, table *t)
         octreel_error why;
         subject_show(s, &v, &shown);
         if (!picture_open(&p, &v, &(renderer_choice){0}, &why) || !picture_draw(&p, &shown, &why))
-            stop("%s", why.text);
+            stop_with_error("%s", why.text);
         image rgb = in_colors(&p.frame);
         measure_frame(r, t, kinds[i].name, &p.frame, &rgb);
         image_release(&rgb);

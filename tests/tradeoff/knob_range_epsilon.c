@@ -143,7 +143,7 @@ static size_t count_true(const asking_ranges *a, size_t i)
 static void add_row(table *t, const asking_ranges *a, const size_t *truth, double ns)
 {
     octree_cost cost = {0};
-    judging j = {.asking = a, .stamps = memory(NULL, a->load->count * sizeof *j.stamps)};
+    judging j = {.asking = a, .stamps = resize_memory(NULL, a->load->count * sizeof *j.stamps)};
     size_t hits = 0;
     memset(j.stamps, 0, a->load->count * sizeof *j.stamps);
     for (j.range = 0; j.range < a->count; j.range++) {
@@ -164,7 +164,7 @@ static void add_row(table *t, const asking_ranges *a, const size_t *truth, doubl
 static double *size_ranges(const octree *tree, const workload *w, size_t count, shape shape)
 {
     octree_neighbor found[HITS];
-    double *sizes = memory(NULL, count * sizeof *sizes);
+    double *sizes = resize_memory(NULL, count * sizeof *sizes);
     for (size_t i = 0, hits; i < count; i++) {
         must(octree_nearest_k(tree, w->targets[i], w->count / 8 < HITS ? w->count / 8 : HITS, NULL, found, &hits));
         sizes[i] = found[hits - 1].distance * (shape == BOX ? 0.806 : 1);
@@ -176,7 +176,7 @@ static void measure_shape(const run *r, table *t, const workload *w, const octre
 {
     const size_t most = r->quick ? 40 : 400, count = w->target_count < most ? w->target_count : most;
     double *sizes = size_ranges(tree, w, count, shape), ns[SETTINGS];
-    size_t *truth = memory(NULL, count * sizeof *truth);
+    size_t *truth = resize_memory(NULL, count * sizeof *truth);
     asking_ranges ways[SETTINGS];
     for (size_t i = 0; i < SETTINGS; i++)
         ways[i] = (asking_ranges){tree, w, sizes, count, shape, settings[i]};

@@ -72,9 +72,9 @@ static void draw(void *contestant)
     const tree_subject bare = {.title = ""};
     octreel_error why;
     if (!tree_scene_build(&s->scene, &s->view, s->tree, &bare))
-        stop("there is no memory for a scene");
+        stop_with_error("there is no memory for a scene");
     if (!picture_draw(&s->picture, &s->scene, &why))
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
 }
 
 static showing show(workload *cloud, octree *tree, const struct way *way, int height)
@@ -82,7 +82,7 @@ static showing show(workload *cloud, octree *tree, const struct way *way, int he
     showing s = {.cloud = cloud, .tree = tree, .view = view_by(way, height)};
     octreel_error why;
     if (!picture_fit(&s.view, tree, NULL, &why) || !picture_open(&s.picture, &s.view, &(renderer_choice){0}, &why))
-        stop("%s", why.text);
+        stop_with_error("%s", why.text);
     draw(&s);
     return s;
 }
@@ -142,7 +142,7 @@ static void measure_errors(table *t, const char *name, const showing *still)
 {
     showing moved =
         show(still->cloud, workload_tree(still->cloud, 64, OCTREE_MAX_DEPTH), &ways[EDL], still->view.height);
-    octree_point *points = memory(NULL, still->cloud->count * sizeof *points);
+    octree_point *points = resize_memory(NULL, still->cloud->count * sizeof *points);
     memcpy(points, still->cloud->points, still->cloud->count * sizeof *points);
     moved.view = still->view; /* the scale of the points as they were */
     for (int i = 0; i < ERRORS; i++) {
@@ -169,7 +169,7 @@ typedef struct pixel_owner {
 static pixel_owner *find_owners(const showing *s)
 {
     const int width = s->view.width, height = s->view.height;
-    pixel_owner *owners = memory(NULL, (size_t)width * (size_t)height * sizeof *owners);
+    pixel_owner *owners = resize_memory(NULL, (size_t)width * (size_t)height * sizeof *owners);
     memset(owners, 0, (size_t)width * (size_t)height * sizeof *owners);
     for (size_t i = 0; i < s->cloud->count; i++) {
         const double *at = s->cloud->points[i].position;

@@ -85,7 +85,7 @@ typedef struct tally {
 static tally judge(const flights *f)
 {
     tally sum = {0};
-    report noted = {memory(NULL, f->load->count * sizeof *noted.of)};
+    report noted = {resize_memory(NULL, f->load->count * sizeof *noted.of)};
     for (size_t i = 0; i < f->count; i++) {
         const step *s = &f->steps[i];
         memset(noted.of, 0, f->load->count * sizeof *noted.of);
@@ -152,7 +152,7 @@ static void measure_scene(const run *r, table *t, const workload *w)
     const size_t count = r->quick ? 40 : 400;
     uint64_t random = 5;
     octree *tree = workload_tree(w, octree_def_default().leaf_capacity, OCTREE_MAX_DEPTH);
-    step *steps = memory(NULL, count * sizeof *steps);
+    step *steps = resize_memory(NULL, count * sizeof *steps);
     for (int along_axis = 1; along_axis >= 0; along_axis--)
         for (int i = 0; i < SPEEDS; i++) {
             make_steps(steps, count, speeds[i] * 2 * half, along_axis, &random);

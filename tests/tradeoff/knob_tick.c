@@ -166,15 +166,15 @@ static void add_row(table *t, const playing *p, const double *truth, double ns)
 static void measure(const run *r, table *t)
 {
     const size_t count = r->quick ? 4 : 60;
-    flight *flights = memory(NULL, count * sizeof *flights);
-    double *truth = memory(NULL, count * sizeof *truth), *stops[2];
+    flight *flights = resize_memory(NULL, count * sizeof *flights);
+    double *truth = resize_memory(NULL, count * sizeof *truth), *stops[2];
     uint64_t random = 11;
     for (size_t i = 0; i < count; i++) {
         make_flight(&flights[i], &random);
         truth[i] = true_stop(&flights[i]);
     }
     for (int i = 0; i < 2; i++)
-        stops[i] = memory(NULL, count * sizeof *stops[i]);
+        stops[i] = resize_memory(NULL, count * sizeof *stops[i]);
     for (size_t ticks = 1; ticks <= TICKS_AT_MOST; ticks *= 2) {
         octree_cost costs[2] = {{0}};
         playing ways[] = {{flights, count, ticks, false, stops[0], &costs[0]},

@@ -23,8 +23,8 @@ workload mirrored_make(const char *name, uint64_t *random)
 {
     double offsets[OFFSETS], target[3];
     workload w = {.name = name, .world = cube(-1, 1), .count = POINTS, .target_count = 1};
-    w.points = memory(NULL, POINTS * sizeof *w.points);
-    w.targets = memory(NULL, sizeof *w.targets);
+    w.points = resize_memory(NULL, POINTS * sizeof *w.points);
+    w.targets = resize_memory(NULL, sizeof *w.targets);
     for (int axis = 0; axis < 3; axis++) {
         target[axis] = random_between(random, -0.25, 0.25);
         offsets[axis] = random_between(random, 0.1, 0.7);

@@ -10,7 +10,7 @@
 static inline void must(octree_status status)
 {
     if (status != OCTREE_OK)
-        stop("the library refuses: %s", octree_status_text(status));
+        stop_with_error("the library refuses: %s", octree_status_text(status));
 }
 
 #endif

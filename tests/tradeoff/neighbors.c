@@ -71,7 +71,7 @@ findings judge_answers(const asking *a)
         size_t count;
         must(octree_nearest_k(a->tree, a->load->targets[i], a->k, &how, found, &count));
         if (count != a->k)
-            stop("%s: %zu of %zu neighbours were found", a->load->name, count, a->k);
+            stop_with_error("%s: %zu of %zu neighbours were found", a->load->name, count, a->k);
         f.wrong += found[0].point.id != truth[i][0]->id;
         recalled += count_recalled(found, truth[i], a->k);
         for (size_t j = 0; j < a->k; j++) {

@@ -18,7 +18,7 @@ static int run_program(char *const *arguments)
         _exit(127);
     }
     if (child < 0 || waitpid(child, &status, 0) != child)
-        stop("%s cannot be started", arguments[0]);
+        stop_with_error("%s cannot be started", arguments[0]);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
@@ -47,7 +47,7 @@ static void put_quoted(const char *folder, char *quoted, size_t room)
     size_t used = 0;
     for (; *folder != '\0'; folder++) {
         if (used + 3 > room)
-            stop("the folder's name is too long");
+            stop_with_error("the folder's name is too long");
         if (*folder == '\'')
             quoted[used++] = '\'';
         quoted[used++] = *folder;
@@ -65,5 +65,5 @@ void plot(const knob *k, const table *t, const char *folder)
     snprintf(script, sizeof script, "%s/%s.gp", OCTREEL_PLOTS, k->name);
     char *const arguments[] = {"gnuplot", "-e", values, OCTREEL_PLOTS "/style.gp", script, NULL};
     if (run_program(arguments) != 0)
-        stop("gnuplot fails on %s", script);
+        stop_with_error("gnuplot fails on %s", script);
 }

@@ -12,7 +12,7 @@ void table_add(table *t, const char *scene, const char *variant, const double *v
 {
     if (t->count == t->room) {
         t->room = t->room ? 2 * t->room : 64;
-        t->rows = memory(t->rows, t->room * sizeof *t->rows);
+        t->rows = resize_memory(t->rows, t->room * sizeof *t->rows);
     }
     row *r = &t->rows[t->count++];
     *r = (row){.variant = variant};
@@ -32,7 +32,7 @@ static size_t index_of(const table *t, const char *name)
     while (i < t->column_count && strcmp(t->columns[i].name, name) != 0)
         i++;
     if (i == t->column_count)
-        stop("there is no column \"%s\"", name);
+        stop_with_error("there is no column \"%s\"", name);
     return i;
 }
 
@@ -86,7 +86,7 @@ static const row *find_row(const table *t, pick p)
 ratio table_ratios(const table *t, pick a, pick b, const char *column)
 {
     const size_t at = index_of(t, column);
-    double *all = memory(NULL, t->count * sizeof *all);
+    double *all = resize_memory(NULL, t->count * sizeof *all);
     size_t count = 0;
     ratio found = {.median = NAN, .most = NAN};
     for (size_t i = 0; i < t->count; i++) {

@@ -9,7 +9,7 @@ void time_in_turn(timed_work *work, void *contestants, size_t size, size_t count
 {
     double all[CONTESTANTS_AT_MOST][ROUNDS_AT_MOST];
     if (count > CONTESTANTS_AT_MOST || rounds > ROUNDS_AT_MOST)
-        stop("there are too many contestants or rounds");
+        stop_with_error("there are too many contestants or rounds");
     for (int round = 0; round < rounds; round++)
         for (size_t i = 0; i < count; i++) {
             const double start = processor_time();

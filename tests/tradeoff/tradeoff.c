@@ -54,7 +54,7 @@ static void choose(void *to, const char *name)
     while (i < KNOBS && strcmp(all_knobs[i]->name, name) != 0)
         i++;
     if (i == KNOBS)
-        stop("there is no knob \"%s\"; --help lists them", name);
+        stop_with_error("there is no knob \"%s\"; --help lists them", name);
     o->chosen[i] = true;
 }
 
@@ -63,7 +63,7 @@ static double read_factor(const char *text)
     char *end;
     const double factor = strtod(text, &end);
     if (end == text || *end || !(factor >= 0 && factor <= 1))
-        stop("--tighten takes a number from 0 to 1, not \"%s\"", text);
+        stop_with_error("--tighten takes a number from 0 to 1, not \"%s\"", text);
     return factor;
 }
 
@@ -88,7 +88,7 @@ static options read_options(int argc, char **argv)
             o.folder = optarg;
             break;
         case 'k':
-            take_list(&o, optarg, choose);
+            parse_list(&o, optarg, choose);
             any = true;
             break;
         case 'c':
@@ -110,11 +110,11 @@ static options read_options(int argc, char **argv)
             print_help();
             exit(EXIT_DONE);
         default:
-            stop("try --help");
+            stop_with_error("try --help");
         }
     }
     if (optind < argc)
-        stop("there is nothing to do with \"%s\"; try --help", argv[optind]);
+        stop_with_error("there is nothing to do with \"%s\"; try --help", argv[optind]);
     for (int i = 0; !any && i < KNOBS; i++)
         o.chosen[i] = true;
     return o;
@@ -127,9 +127,9 @@ static void make_loads(const options *o, workloads *loads)
     session_file session = {0};
     octreel_error session_why;
     if (o->cloud && !cloud_read(o->cloud, NULL, &read, &cloud_why))
-        stop("%s", cloud_why.text);
+        stop_with_error("%s", cloud_why.text);
     if (o->session && !session_read(o->session, &session, &session_why))
-        stop("%s", session_why.text);
+        stop_with_error("%s", session_why.text);
     workloads_make(loads, o->quick ? 2000 : 50000, o->quick ? 200 : 3000, o->session ? &session.session : NULL,
                    o->cloud ? &read : NULL);
     cloud_release(&read);
@@ -142,7 +142,7 @@ static FILE *open_in(const char *folder, const char *name, const char *ending)
     snprintf(path, sizeof path, "%s/%s.%s", folder, name, ending);
     FILE *file = fopen(path, "w");
     if (!file)
-        stop("%s: %s", path, strerror(errno));
+        stop_with_error("%s: %s", path, strerror(errno));
     return file;
 }
 
@@ -152,7 +152,7 @@ static char *text_of(void (*write)(const table *t, FILE *out), const table *t)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out)
-        stop("there is no memory");
+        stop_with_error("there is no memory");
     write(t, out);
     fclose(out);
     return text;
@@ -168,7 +168,7 @@ static chapter measure(const knob *k, const run *r, const options *o, bool plott
     FILE *csv = open_in(o->folder, k->name, "csv");
     table_write_csv(&c.table, csv);
     if (fclose(csv) != 0)
-        stop("%s/%s.csv cannot be written", o->folder, k->name);
+        stop_with_error("%s/%s.csv cannot be written", o->folder, k->name);
     if (plotted)
         plot(k, &c.table, o->folder);
     if (o->json)
@@ -186,7 +186,7 @@ int main(int argc, char **argv)
     chapter chapters[KNOBS];
     size_t count = 0, beyond = 0;
     if (mkdir(o.folder, 0777) != 0 && errno != EEXIST)
-        stop("%s: %s", o.folder, strerror(errno));
+        stop_with_error("%s: %s", o.folder, strerror(errno));
     const bool plotted = plots_can();
     if (!plotted)
         fputs("octree-tradeoff: gnuplot is not found: the page is without plots\n", stderr);

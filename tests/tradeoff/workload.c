@@ -15,8 +15,8 @@ enum { SEED = 7, SESSION_TICKS = 24 };
 static workload allocate(const char *name, octree_box world, size_t points, size_t targets)
 {
     workload w = {.name = name, .world = world, .count = points, .target_count = targets};
-    w.points = memory(NULL, points * sizeof *w.points);
-    w.targets = memory(NULL, targets * sizeof *w.targets);
+    w.points = resize_memory(NULL, points * sizeof *w.points);
+    w.targets = resize_memory(NULL, targets * sizeof *w.targets);
     return w;
 }
 
@@ -33,8 +33,8 @@ const true_neighbors *workload_truth(workload *w)
     if (w->truth)
         return (const true_neighbors *)w->truth;
     if (w->count < TRUE_NEIGHBORS)
-        stop("%s has %zu points; at least %d are needed", w->name, w->count, TRUE_NEIGHBORS);
-    w->truth = memory(NULL, w->target_count * sizeof *w->truth);
+        stop_with_error("%s has %zu points; at least %d are needed", w->name, w->count, TRUE_NEIGHBORS);
+    w->truth = resize_memory(NULL, w->target_count * sizeof *w->truth);
     for (size_t i = 0; i < w->target_count; i++)
         quick_nearest_k(w->points, w->count, w->targets[i], TRUE_NEIGHBORS, w->truth[i]);
     return (const true_neighbors *)w->truth;
@@ -48,7 +48,7 @@ octree *workload_tree(const workload *w, size_t capacity, size_t depth)
     must(octree_create(&def, &tree));
     must(octree_insert_many(tree, w->points, w->count, NULL, &inserted));
     if (inserted != w->count)
-        stop("%s: the tree took %zu of %zu points", w->name, inserted, w->count);
+        stop_with_error("%s: the tree took %zu of %zu points", w->name, inserted, w->count);
     return tree;
 }
 
@@ -61,7 +61,7 @@ static void keep_inside(double at[3], const octree_box *world)
 workload workload_sample(const char *name, octree_sample_kind kind, octree_box world, size_t points, size_t targets)
 {
     workload w = allocate(name, world, points, targets);
-    double(*rows)[3] = memory(NULL, (points + targets) * sizeof *rows);
+    double(*rows)[3] = resize_memory(NULL, (points + targets) * sizeof *rows);
     must(octree_sample(kind, SEED, &world, points + targets, rows));
     for (size_t i = 0; i < points; i++) {
         w.points[i].id = i;
@@ -143,7 +143,7 @@ static workload play(const char *name, const octree_session *session, size_t tar
     }
     octree_game_destroy(game);
     if (w.target_count == 0)
-        stop("the session has no tick before its last: there is no place to ask about");
+        stop_with_error("the session has no tick before its last: there is no place to ask about");
     for (size_t i = 0; i < w.count; i++)
         w.points[i].id = i;
     return w;
@@ -153,7 +153,7 @@ static workload play(const char *name, const octree_session *session, size_t tar
 static workload play_clusters(const char *name, size_t points, size_t targets)
 {
     static const char keys[SESSION_TICKS + 1] = "ddddwwwweeeeaaaassssffff";
-    octree_body *bodies = memory(NULL, points * sizeof *bodies);
+    octree_body *bodies = resize_memory(NULL, points * sizeof *bodies);
     workload sample = workload_sample(name, OCTREE_SAMPLE_CLUSTERED, cube(-1000, 1000), points, 1);
     uint64_t random = SEED;
     for (size_t i = 0; i < points; i++) {
@@ -176,7 +176,7 @@ static workload play_clusters(const char *name, size_t points, size_t targets)
 /* Some of its points are targets, and others the points. */
 static workload divide_cloud(const char *name, const cloud *read, size_t points, size_t targets)
 {
-    size_t *order = memory(NULL, read->count * sizeof *order);
+    size_t *order = resize_memory(NULL, read->count * sizeof *order);
     uint64_t random = SEED;
     for (size_t i = 0; i < read->count; i++) {
         const size_t j = random_below(&random, i + 1);

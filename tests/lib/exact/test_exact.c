@@ -183,7 +183,7 @@ static void collisions_are_decided_by_whole_numbers(void **state)
         if (!isfinite(p))
             continue;
         bool within = exact_within(center, size, p);
-        assert_true(brute_within(center, size, p) == within); /* the oracle of test_collide.c */
+        assert_true(brute_is_within(center, size, p) == within); /* the oracle of test_collide.c */
         octree *tree = make_tree(cube(-DBL_MAX, DBL_MAX), 1, 21, OCTREE_GROW);
         brute found = {0};
         assert_int_equal(octree_insert(tree, (double[3]){1, p, 1}, 1), OCTREE_OK);

@@ -67,7 +67,7 @@ static unsigned play_both(const octree_session *session)
     unsigned met = 0;
     while (!octree_game_over(game)) {
         assert_int_equal(octree_game_advance(game), OCTREE_OK);
-        paper_game_turn(&theirs, octree_game_tick(game)->key);
+        paper_game_play_key(&theirs, octree_game_tick(game)->key);
         compare_tick(game, &theirs);
         met |= octree_game_tick(game)->events;
     }

@@ -231,7 +231,7 @@ static void play_and_check(const octree_session *session)
     octree_game *game = start_game(session);
     static last_tick last;
     last = (last_tick){.steps = {0, 0, 0}};
-    look_at_inner(octree_game_tree(game), &last.nodes);
+    list_inner_nodes(octree_game_tree(game), &last.nodes);
     for (uint64_t number = 0;; number++) {
         const octree_tick *tick = octree_game_tick(game);
         assert_int_equal(tick->number, number);

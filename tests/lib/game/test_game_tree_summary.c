@@ -38,7 +38,7 @@ static void assert_told(crowd_game *c)
     assert_int_equal(octree_statistics(tree, &stats), OCTREE_OK);
     assert_memory_equal(&stats, &tick->stats, sizeof stats);
     if (tick->number == 0) /* nothing came before it */
-        look_at_inner(tree, &c->inner);
+        list_inner_nodes(tree, &c->inner);
     assert_splits_and_merges(tick, tree, &c->inner);
 }
 

@@ -167,9 +167,9 @@ static void the_visitor_can_stop(void **state)
 static void assert_tight(double center, double size, double low, double high)
 {
     assert_true(isfinite(low) && isfinite(high));
-    assert_true(brute_within(center, size, low) && brute_within(center, size, high));
-    assert_true(low == -DBL_MAX || !brute_within(center, size, next_down(low)));
-    assert_true(high == DBL_MAX || !brute_within(center, size, next_up(high)));
+    assert_true(brute_is_within(center, size, low) && brute_is_within(center, size, high));
+    assert_true(low == -DBL_MAX || !brute_is_within(center, size, next_down(low)));
+    assert_true(high == DBL_MAX || !brute_is_within(center, size, next_up(high)));
 }
 
 static void the_collision_box_is_the_largest_box_of_doubles_within(void **state)
@@ -225,7 +225,7 @@ static void collide_is_exact_within_two_ulps_of_its_faces(void **state)
         octree *tree = make_tree(cube(-3, 3), 1, 21, OCTREE_REFUSE);
         assert_int_equal(octree_insert(tree, at, 1), OCTREE_OK);
         assert_int_equal(octree_insert(tree, (double[3]){-3, -3, -3}, 2), OCTREE_OK);
-        assert_int_equal(hits(tree, center, size, NULL), brute_within(center[axis], size, at[axis]) ? 1 : 0);
+        assert_int_equal(hits(tree, center, size, NULL), brute_is_within(center[axis], size, at[axis]) ? 1 : 0);
         octree_destroy(tree);
     }
 }

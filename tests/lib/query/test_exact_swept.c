@@ -235,7 +235,7 @@ static void the_two_ends_tell_all_of_a_step_of_at_most_two_boxes(void **state)
         const double size = random_between(&random, 0, 1);
         const double from[3] = {random_between(&random, -2, 2), 0.25, 0.25};
         const double to[3] = {nudged(from[0] + 2 * size, (int)random_below(&random, 5) - 2), 0.25, 0.25};
-        const bool is_short = brute_within(from[0], 2 * size, to[0]); /* in real numbers: 2 * size does not round */
+        const bool is_short = brute_is_within(from[0], 2 * size, to[0]); /* in real numbers: 2 * size does not round */
         const bool told = ends_tell_all(from, to, size);
         assert_true(told || !is_short);
         short_steps += is_short;

@@ -325,7 +325,7 @@ static void changes_succeed_when_the_log_has_no_memory(void **state)
             assert_int_equal(octree_move(tree, (double[3]){0, 0, 0}, id, (double[3]){0, 0, 0.001}), OCTREE_OK);
         for (uint64_t id = 0; id < 12; id++)
             assert_int_equal(octree_move(tree, (double[3]){0, 0, 0.001}, id, (double[3]){0, 0, 0}), OCTREE_OK);
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         unknown += !follow(&f, tree);
         brute_free(&f.copy);
         octree_destroy(tree);
@@ -387,7 +387,7 @@ static void a_batch_succeeds_without_memory_to_log_it(void **state)
         follow(&f, tree);
         counting_allocator_fail_at(&counts, n);
         assert_int_equal(octree_insert_many(tree, points, 2, NULL, NULL), n < 1 ? OCTREE_OK : OCTREE_NO_MEMORY);
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         assert_int_equal(octree_count(tree), n < 1 ? 2 : 0);
         assert_int_equal(follow(&f, tree), n == 1);
         brute_free(&f.copy);

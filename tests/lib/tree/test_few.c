@@ -152,7 +152,7 @@ static void few_removals_survive_the_failure_of_each_allocation(void **state)
             counting_allocator_fail_at(&counts, failures);
             counts.fail_until = SIZE_MAX;
             failed = octree_remove_many(tree, few, FEW, NULL, NULL) == OCTREE_NO_MEMORY;
-            counting_allocator_heal(&counts);
+            counting_allocator_stop_failing(&counts);
             bytes = again == 0 ? counts.bytes : bytes;
             assert_true(!failed || counts.bytes == bytes);
         }
@@ -184,7 +184,7 @@ static void each_allocation_of_many_removals_may_fail(void **state)
                 size_t removed = 0;
                 counting_allocator_fail_at(&counts, failing);
                 status = octree_remove_many(tree, all.points + from, FEW, NULL, &removed);
-                counting_allocator_heal(&counts);
+                counting_allocator_stop_failing(&counts);
                 assert_int_equal(removed, status == OCTREE_OK ? FEW : 0);
                 assert_int_equal(octree_count(tree), ALL - from - removed);
             }

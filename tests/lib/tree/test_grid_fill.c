@@ -249,14 +249,14 @@ static void filling_survives_the_failure_of_each_allocation(void **state)
         octree_status status = octree_insert_many(tree, points, COUNT, NULL, NULL);
         failed = status == OCTREE_NO_MEMORY;
         assert_int_equal(octree_count(tree), failed ? 0 : COUNT);
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         assert_int_equal(octree_insert_many(tree, points, COUNT, NULL, NULL), OCTREE_OK);
         const uint64_t digest = octree_digest(tree);
         counting_allocator_fail_at(&counts, n);
         status = octree_move_many(tree, m.points, (const double(*)[3])m.to, m.count, NULL, NULL);
         assert_true((status == OCTREE_NO_MEMORY) == (octree_digest(tree) == digest));
         failed |= status == OCTREE_NO_MEMORY;
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         assert_valid(tree);
         octree_destroy(tree);
         assert_all_returned(&counts);

@@ -117,7 +117,7 @@ static bool fails_without_a_trace(const attempt *a, const octree_point *points, 
         counts.fail_until = SIZE_MAX;
     const octree_status status = try(a, tree, points);
     const bool failed = counts.calls > counts.fail_from;
-    counting_allocator_heal(&counts);
+    counting_allocator_stop_failing(&counts);
     if (a->kind == MOVE_MANY) /* without memory to see whether a leaf overflows, it is moved one by one */
         assert_true(status == OCTREE_OK || (failed && status == OCTREE_NO_MEMORY));
     else
@@ -191,7 +191,7 @@ static void build_anew_with_failures(uint64_t between_ids)
         const uint64_t digest = octree_digest(tree);
         counting_allocator_fail_at(&counts, failed);
         status = octree_move_many(tree, from, (const double(*)[3])to, MOVED, statuses, &moved);
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         assert_valid(tree);
         assert_true(status == OCTREE_OK || octree_digest(tree) == digest);
         for (size_t i = 0; status == OCTREE_OK && i < MOVED; i++)
@@ -223,7 +223,7 @@ static void many_failures_on_one_tree_do_not_add_up(void **state)
     for (size_t n = 0; n < 2000; n++) {
         counting_allocator_fail_at(&counts, n % 40);
         const octree_status status = try(&a, tree, points);
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         if (status == OCTREE_OK) {
             octree_destroy(tree);
             assert_all_returned(&counts);

@@ -60,7 +60,7 @@ static size_t apply_under_failures(octree *tree, counting_allocator *counts, con
         size_t points = octree_count(tree);
         counting_allocator_fail_at(counts, n);
         octree_status status = apply(tree, c);
-        counting_allocator_heal(counts);
+        counting_allocator_stop_failing(counts);
         assert_int_equal(memory_of(tree), counts->bytes);
         if (status == OCTREE_OK)
             break;
@@ -160,7 +160,7 @@ static void changes_are_whole_when_memory_ends(void **state)
         assert_true(octree_digest(tree) == digest && octree_version(tree) == version);
         assert_valid(tree);
         failed[c.kind]++;
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         assert_int_equal(apply(tree, &c), OCTREE_OK);
         assert_valid(tree);
         assert_int_equal(octree_count(tree), all.count);
@@ -187,7 +187,7 @@ static void each_allocation_of_many_insertions_may_fail(void **state)
             const uint64_t version = octree_version(tree);
             counting_allocator_fail_at(&counts, 0);
             octree_status status = octree_insert(tree, at, id);
-            counting_allocator_heal(&counts);
+            counting_allocator_stop_failing(&counts);
             if (status == OCTREE_NO_MEMORY) {
                 assert_int_equal(octree_count(tree), id);
                 assert_true(octree_version(tree) == version);

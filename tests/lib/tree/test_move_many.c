@@ -373,7 +373,7 @@ static bool fails_without_a_trace(size_t n, octree_full_leaf full_leaf, size_t c
     counting_allocator_fail_at(&counts, n);
     const octree_status status = octree_move_many(tree, m.points, (const double(*)[3])m.to, MOST, NULL, NULL);
     const bool failed = counts.calls > counts.fail_from;
-    counting_allocator_heal(&counts);
+    counting_allocator_stop_failing(&counts);
     assert_true(status == OCTREE_OK || (failed && status == OCTREE_NO_MEMORY));
     assert_valid(tree);
     if (status == OCTREE_OK) {

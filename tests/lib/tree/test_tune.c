@@ -264,7 +264,7 @@ static void without_memory_the_tree_stays_as_it_was(void **state)
         const size_t bytes = counts.bytes;
         counting_allocator_fail_at(&counts, failed);
         status = octree_tune(tree, NULL);
-        counting_allocator_heal(&counts);
+        counting_allocator_stop_failing(&counts);
         assert_valid(tree);
         if (status == OCTREE_NO_MEMORY)
             assert_true(counts.bytes == bytes && octree_digest(tree) == digest && octree_version(tree) == version);
@@ -287,7 +287,7 @@ static void an_insertion_succeeds_though_there_is_no_memory_to_tune(void **state
         assert_int_equal(octree_insert(tree, all.points[i].position, all.points[i].id), OCTREE_OK);
     counting_allocator_fail_at(&counts, 2); /* the insertion itself takes two blocks at most */
     assert_int_equal(octree_insert(tree, all.points[1023].position, all.points[1023].id), OCTREE_OK);
-    counting_allocator_heal(&counts);
+    counting_allocator_stop_failing(&counts);
     assert_int_equal(octree_count(tree), 1024);
     assert_valid(tree);
     octree_destroy(tree);

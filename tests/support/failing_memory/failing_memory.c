@@ -19,13 +19,13 @@ void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *memory, size_t size);
 
-void memory_fails_after(long count)
+void fail_allocations_after(long count)
 {
     left = count;
     failed = false;
 }
 
-void memory_fails_alone(void)
+void fail_one_allocation(void)
 {
     alone = true;
 }
@@ -36,7 +36,7 @@ bool memory_has_failed(void)
     return failed;
 }
 
-void memory_fails_elsewhere_after(long count)
+void fail_allocations_elsewhere_after(long count)
 {
     is_here = true;
     atomic_store(&left_elsewhere, count);

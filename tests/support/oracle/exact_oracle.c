@@ -54,7 +54,7 @@ const octree_point *exact_nearest(const octree_point *points, size_t count, cons
     const octree_point *best = NULL;
     for (size_t i = 0; i < count; i++) {
         const octree_point *point = &points[i];
-        if (brute_skips(point, target, skip, skip_id))
+        if (brute_is_skipped(point, target, skip, skip_id))
             continue;
         int order = best == NULL ? -1 : exact_compare(target, point->position, best->position);
         if (order < 0 || (order == 0 && point->id < best->id))
@@ -90,7 +90,7 @@ size_t exact_nearest_sorted(const octree_point *points, size_t count, const doub
     assert_non_null(all);
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
-        if (brute_skips(&points[i], target, skip, skip_id))
+        if (brute_is_skipped(&points[i], target, skip, skip_id))
             continue;
         mpz_init(all[kept].square);
         set_squared_distance(all[kept].square, target, points[i].position);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-_Noreturn void stop(const char *format, ...)
+_Noreturn void stop_with_error(const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -19,24 +19,24 @@ _Noreturn void stop(const char *format, ...)
     exit(EXIT_TROUBLE);
 }
 
-void *memory(void *old, size_t size)
+void *resize_memory(void *old, size_t size)
 {
     void *new = realloc(old, size > 0 ? size : 1);
     if (!new)
-        stop("there is no memory");
+        stop_with_error("there is no memory");
     return new;
 }
 
-double take_whole(const char *option, const char *text, double least, double most)
+double parse_whole_number(const char *option, const char *text, double least, double most)
 {
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end || !(value >= least && value <= most) || value != floor(value))
-        stop("%s takes a whole number from %.15g to %.15g, not \"%s\"", option, least, most, text);
+        stop_with_error("%s takes a whole number from %.15g to %.15g, not \"%s\"", option, least, most, text);
     return value;
 }
 
-void take_list(void *options, char *list, take_entry *take)
+void parse_list(void *options, char *list, parse_entry *take)
 {
     for (char *entry = list; entry;) {
         char *comma = strchr(entry, ',');
@@ -47,9 +47,9 @@ void take_list(void *options, char *list, take_entry *take)
     }
 }
 
-_Noreturn void finish(int status)
+_Noreturn void exit_with_status(int status)
 {
     if (fflush(stdout) != 0 || ferror(stdout))
-        stop("the results cannot be written to standard output");
+        stop_with_error("the results cannot be written to standard output");
     exit(status);
 }

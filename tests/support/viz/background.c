@@ -60,7 +60,7 @@ static bool has_ended(pid_t pid)
     return waitid(P_PID, (id_t)pid, &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == pid;
 }
 
-bool file_comes(const background *b, const char *path)
+bool wait_until_file_exists(const background *b, const char *path)
 {
     const struct timespec pause = {0, 1000000};
     for (int i = 0; i < MILLISECONDS; i++) {
@@ -74,10 +74,10 @@ bool file_comes(const background *b, const char *path)
 
 void wait_for_file(background *b, const char *path)
 {
-    if (file_comes(b, path))
+    if (wait_until_file_exists(b, path))
         return;
     kill(b->pid, SIGKILL);
-    const command_result result = end_of(b);
+    const command_result result = wait_for_end(b);
     fail_msg("%s does not come; octreel ended with status %d: %s", path, result.status, result.err);
 }
 
@@ -95,7 +95,7 @@ static pid_t parent_of(const char *pid)
     return name_end == NULL ? 0 : (pid_t)strtol(name_end + 4, NULL, 10);
 }
 
-pid_t child_of(pid_t parent, unsigned place)
+pid_t find_child_process(pid_t parent, unsigned place)
 {
     pid_t found = 0;
     DIR *processes = opendir("/proc");
@@ -107,7 +107,7 @@ pid_t child_of(pid_t parent, unsigned place)
     return found;
 }
 
-command_result end_of(background *b)
+command_result wait_for_end(background *b)
 {
     command_result result = {0, calloc(1, 1), calloc(LINE, 1)};
     size_t size = 0;

@@ -17,15 +17,15 @@ typedef struct background {
 background start_octreel(const char *format, ...);
 
 /* Wait until a file exists. False if octreel ends before, and after half a minute. */
-bool file_comes(const background *b, const char *path);
+bool wait_until_file_exists(const background *b, const char *path);
 
-/* file_comes(), and the test fails if it returns false. */
+/* wait_until_file_exists(), and the test fails if it returns false. */
 void wait_for_file(background *b, const char *path);
 
 /* The child of a process with this index; 0 if there are fewer children, or no /proc. */
-pid_t child_of(pid_t parent, unsigned place);
+pid_t find_child_process(pid_t parent, unsigned place);
 
 /* Wait until octreel ends. `out` of the result is empty. */
-command_result end_of(background *b);
+command_result wait_for_end(background *b);
 
 #endif

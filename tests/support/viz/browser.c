@@ -17,14 +17,14 @@ static const char options[] = "--headless --no-sandbox --disable-gpu --disable-e
                               "--disable-background-networking --disable-component-update "
                               "--host-resolver-rules='MAP * ~NOTFOUND' --virtual-time-budget=1000000 --dump-dom";
 
-bool browser_is_there(void)
+bool is_browser_installed(void)
 {
-    return program_is_there("chromium");
+    return is_program_installed("chromium");
 }
 
-void need_browser(void)
+void skip_without_browser(void)
 {
-    if (browser_is_there())
+    if (is_browser_installed())
         return;
     print_message("chromium is not installed: the page is not opened\n");
     skip();
@@ -134,7 +134,7 @@ char *browser_drive_all(const temp_folder *own, const char *page, const char *co
     return lines;
 }
 
-char *said_about(const char *said, const char *what)
+char *find_reported_value(const char *said, const char *what)
 {
     char line[128];
     const int length = snprintf(line, sizeof line, "\n%s\t", what);
@@ -145,9 +145,9 @@ char *said_about(const char *said, const char *what)
     return strndup(found, strcspn(found, "\n"));
 }
 
-void assert_said_about(const char *said, const char *what, const char *expected)
+void assert_reported_value(const char *said, const char *what, const char *expected)
 {
-    char *value = said_about(said, what);
+    char *value = find_reported_value(said, what);
     if (strcmp(value, expected) != 0)
         fail_msg("%s: \"%s\" and not \"%s\"", what, value, expected);
     free(value);

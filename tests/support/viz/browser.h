@@ -7,10 +7,10 @@
 
 #include <stdbool.h>
 
-bool browser_is_there(void);
+bool is_browser_installed(void);
 
 /* Skip the test with a note if there is no Chromium. */
-void need_browser(void);
+void skip_without_browser(void);
 
 /* Open a file as file://...#hash and return its HTML after five seconds of the page's virtual clock, which runs ahead
  * of real time. The browser stores its files in `own`. The caller frees the text. */
@@ -25,7 +25,7 @@ char *browser_drive(const temp_folder *own, const char *page, const char *script
 char *browser_drive_all(const temp_folder *own, const char *page, const char *const scripts[]);
 
 /* The value that the script reported under a name; the caller frees it. The test fails if there is none. */
-char *said_about(const char *said, const char *what);
-void assert_said_about(const char *said, const char *what, const char *expected);
+char *find_reported_value(const char *said, const char *what);
+void assert_reported_value(const char *said, const char *what, const char *expected);
 
 #endif

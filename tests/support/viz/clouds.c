@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-void put(bytes *file, const void *data, size_t size)
+void put_bytes(bytes *file, const void *data, size_t size)
 {
     assert_true(size <= sizeof file->data - file->size);
     if (size > 0)
@@ -15,14 +15,14 @@ void put(bytes *file, const void *data, size_t size)
 
 void put_text(bytes *file, const char *text)
 {
-    put(file, text, strlen(text));
+    put_bytes(file, text, strlen(text));
 }
 
 void put_bits(bytes *file, uint64_t bits, unsigned size, bool big_endian)
 {
     for (unsigned i = 0; i < size; i++) {
         unsigned char byte = (unsigned char)(bits >> (8 * (big_endian ? size - 1 - i : i)));
-        put(file, &byte, 1);
+        put_bytes(file, &byte, 1);
     }
 }
 

@@ -17,7 +17,7 @@ typedef struct bytes {
     size_t size;
 } bytes;
 
-void put(bytes *file, const void *data, size_t size);
+void put_bytes(bytes *file, const void *data, size_t size);
 void put_text(bytes *file, const char *text);
 
 /* Put the low `size` bytes of an integer, in either byte order. */

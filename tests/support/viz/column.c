@@ -16,7 +16,7 @@ const scene_label *find_text(const scene *s, const char *text)
     return NULL;
 }
 
-int legend_words(const scene *s)
+int find_legend_text_x(const scene *s)
 {
     return (LAYOUT_MARGIN + LEGEND_WORDS) * s->text.width;
 }
@@ -29,7 +29,7 @@ bool has_swatch(const scene *s, unsigned role)
     return false;
 }
 
-void check_place(const scene *s)
+void assert_inside_column(const scene *s)
 {
     const int width = panel_width(&s->view);
     for (size_t i = 0; i < s->labels.count; i++) {
@@ -52,7 +52,7 @@ void check_place(const scene *s)
     }
 }
 
-bool says(const scene *s, const char *text)
+bool has_label_with(const scene *s, const char *text)
 {
     return find_text(s, text) != NULL;
 }

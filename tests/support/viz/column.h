@@ -9,15 +9,15 @@
 const scene_label *find_text(const scene *s, const char *text);
 
 /* Whether a label of the column contains a text. */
-bool says(const scene *s, const char *text);
+bool has_label_with(const scene *s, const char *text);
 
 /* The x coordinate at which the texts of the legend begin, in pixels. */
-int legend_words(const scene *s);
+int find_legend_text_x(const scene *s);
 
 /* Whether a panel has this colour. */
 bool has_swatch(const scene *s, unsigned role);
 
 /* The test fails unless ids are unique, texts are terminated, and every element begins in the column. */
-void check_place(const scene *s);
+void assert_inside_column(const scene *s);
 
 #endif

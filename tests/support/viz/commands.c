@@ -255,7 +255,7 @@ command_result run_script(const char *format, ...)
     return run_shell(line);
 }
 
-bool program_is_there(const char *name)
+bool is_program_installed(const char *name)
 {
     char line[128];
     snprintf(line, sizeof line, "command -v %s", name);

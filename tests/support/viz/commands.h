@@ -11,7 +11,7 @@ typedef struct command_setting {
     const char *environment[4]; /* "NAME=value", added to the environment; the list ends with null */
     const char *input, *output; /* files that replace stdin and stdout */
     size_t file_limit;          /* no file can grow beyond this many bytes; 0 is no limit */
-    bool terminal;              /* stderr is a terminal, of TERM=xterm unless the environment says otherwise, */
+    bool terminal;              /* stderr is a terminal, with TERM=xterm unless `environment` sets TERM */
     unsigned columns;           /* width of the terminal; 0: unknown */
 } command_setting;
 
@@ -42,7 +42,7 @@ command_result run_shell(const char *line);
 command_result run_script(const char *format, ...);
 
 /* Whether a shell finds a program of this name. */
-bool program_is_there(const char *name);
+bool is_program_installed(const char *name);
 
 void command_release(command_result *result);
 

@@ -4,7 +4,7 @@
 
 #include "fixture.h"
 
-const scene_box *only_box(const scene *s, unsigned layer, uint64_t id)
+const scene_box *find_only_box(const scene *s, unsigned layer, uint64_t id)
 {
     const scene_box *found = NULL;
     for (size_t i = 0; i < s->boxes.count; i++) {
@@ -18,7 +18,7 @@ const scene_box *only_box(const scene *s, unsigned layer, uint64_t id)
     return found;
 }
 
-size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3])
+size_t count_markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3])
 {
     size_t count = 0;
     for (size_t i = 0; i < s->markers.count; i++) {
@@ -49,7 +49,7 @@ bool same_box(const octree_box *a, const octree_box *b)
     return same_position(a->min, b->min) && same_position(a->max, b->max);
 }
 
-size_t lines_between(const scene *s, unsigned layer, uint64_t id, const double from[3], const double to[3])
+size_t count_lines_between(const scene *s, unsigned layer, uint64_t id, const double from[3], const double to[3])
 {
     size_t count = 0;
     for (size_t i = 0; i < s->segments.count; i++) {

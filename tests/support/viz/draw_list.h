@@ -13,13 +13,13 @@ typedef struct layer_counts {
 layer_counts count_layer(const scene *s, unsigned layer);
 
 /* The box of a layer with this id; the test fails unless there is exactly one. */
-const scene_box *only_box(const scene *s, unsigned layer, uint64_t id);
+const scene_box *find_only_box(const scene *s, unsigned layer, uint64_t id);
 
 /* The number of markers of a layer with this id and position. */
-size_t markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3]);
+size_t count_markers_at(const scene *s, unsigned layer, uint64_t id, const double at[3]);
 
 /* The number of segments of a layer with this id and these ends. */
-size_t lines_between(const scene *s, unsigned layer, uint64_t id, const double from[3], const double to[3]);
+size_t count_lines_between(const scene *s, unsigned layer, uint64_t id, const double from[3], const double to[3]);
 
 bool same_box(const octree_box *a, const octree_box *b);
 

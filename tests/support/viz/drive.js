@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* drive.js - what the scripts that play a page share: a line "what<tab>value" of what they see, a clock and random
- * numbers of their own, and digests. */
+/* drive.js - shared by the scripts that act like a user of a page: reports of observations as lines "name<tab>value", a
+ * clock, random numbers, and digests. */
 "use strict";
 
 const said = [], errors = [];
@@ -10,9 +10,9 @@ function say(what, value)
     said.push(`${what}\t${value}\n`);
 }
 
-/* The browser's own clock stands still while a script runs, and leaps where nothing is to be done, with a picture of
- * the page every 16 ms of it. Here each look at the clock is a while later, so that the page keeps states and rests,
- * and what the page does next it does at once. */
+/* The browser's virtual clock stands still while a script runs, and jumps when the page is idle, which takes a frame
+ * for every 16 ms. This clock advances with each reading instead, so that the page stores states and pauses as usual,
+ * and timers without a delay run at once. */
 let clock = 0;
 performance.now = () => clock += 2;
 
@@ -38,7 +38,7 @@ async function until(isSo, what)
     }
 }
 
-/* A generator of its own: the same gestures every time. */
+/* Not Math.random(), so that every run makes the same gestures. */
 let seed = 1;
 
 function random(below)
@@ -58,7 +58,7 @@ function digestOf(bytes)
 const interaction = typeof octreel === "object" ? octreel.interaction : undefined;
 const player = () => interaction.player;
 
-/* The tick as it is played, its scene and its pixels. */
+/* Report the scene digest, the pixel digest and the facts of a tick. */
 async function sayTick(name, tick)
 {
     await until(() => !interaction.busy, "the picture that the page shows");
@@ -67,7 +67,7 @@ async function sayTick(name, tick)
     say(`${name} ${tick}`, `${engine.digest()} ${digestOf(picture.data)} ${engine.facts()}`);
 }
 
-/* Run to the end, and leave what was said where the test finds it. */
+/* Run a script, and put its reports into the element "said", in which the test reads them. */
 function run(drive)
 {
     addEventListener("error", event => errors.push(event.message));

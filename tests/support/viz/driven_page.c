@@ -22,16 +22,16 @@ bool page_has_module(const char *page)
     return plays;
 }
 
-void need_playing_page(const char *page)
+void skip_without_playing_page(const char *page)
 {
-    need_browser();
+    skip_without_browser();
     if (page_has_module(page))
         return;
     print_message("octreel was built without WebAssembly: its pages do not play\n");
     skip();
 }
 
-char *drive_page_by(const temp_folder *own, const char *page, const char *const scripts[])
+char *run_scripts_in_page(const temp_folder *own, const char *page, const char *const scripts[])
 {
     place places[4];
     const char *paths[5] = {places[0].path};
@@ -46,12 +46,12 @@ char *drive_page_by(const temp_folder *own, const char *page, const char *const 
     return browser_drive_all(own, page, paths);
 }
 
-char *play_page(const temp_folder *own, const char *page, const char *const scripts[])
+char *run_scripts_in_playing_page(const temp_folder *own, const char *page, const char *const scripts[])
 {
-    return browser_is_there() && page_has_module(page) ? drive_page_by(own, page, scripts) : NULL;
+    return is_browser_installed() && page_has_module(page) ? run_scripts_in_page(own, page, scripts) : NULL;
 }
 
-place write_given(const temp_folder *own, const json_t *given)
+place write_given_script(const temp_folder *own, const json_t *given)
 {
     const place path = place_in(own, "given.js");
     char *text = json_dumps(given, JSON_COMPACT | JSON_ENSURE_ASCII);
@@ -69,7 +69,7 @@ place write_given(const temp_folder *own, const json_t *given)
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-uint32_t digest_of_png(const char *path)
+uint32_t compute_png_digest(const char *path)
 {
     octreel_error error;
     image frame;
@@ -100,7 +100,7 @@ static void assert_tick_is(const char *told, json_t *line, const char *folder, s
     json_t *facts = json_read(strchr(strchr(told, ' ') + 1, ' '));
     if (scene) {
         snprintf(expected, sizeof expected, "%s %08x ", json_string_value(scene),
-                 digest_of_png(frame_place(folder, number).path));
+                 compute_png_digest(frame_place(folder, number).path));
         if (strncmp(told, expected, strlen(expected)) != 0)
             fail_msg("%s, tick %zu: \"%.*s\" and not \"%s\"", folder, number, (int)strlen(expected), told, expected);
     }
@@ -120,13 +120,13 @@ static void assert_tick_said(const char *line, size_t number, void *context)
     if (e->some && !strstr(e->said, sought))
         return;
     json_t *tick = json_read(line);
-    char *told = said_about(e->said, what);
+    char *told = find_reported_value(e->said, what);
     assert_tick_is(told, tick, e->folder, number);
     free(told);
     json_decref(tick);
 }
 
-void assert_ticks_said(const char *said, const char *name, const char *folder, size_t count, bool some)
+void assert_reported_ticks(const char *said, const char *name, const char *folder, size_t count, bool some)
 {
     expectation e = {said, name, folder, some};
     assert_int_equal(for_each_line(folder, assert_tick_said, &e), count);
@@ -134,7 +134,7 @@ void assert_ticks_said(const char *said, const char *name, const char *folder, s
 
 /* ---- Clicks ------------------------------------------------------------------------------------------------- */
 
-void assert_pick_said(const char *said, const char *frame, int x, int y, int radius)
+void assert_reported_pick(const char *said, const char *frame, int x, int y, int radius)
 {
     octreel_error error;
     pick found;

@@ -90,7 +90,7 @@ char *copy_line(const char *folder, size_t line)
     return copy;
 }
 
-void cut_file(const char *folder, const char *name, size_t size)
+void set_file_size(const char *folder, const char *name, size_t size)
 {
     assert_int_equal(truncate(place_below(folder, name).path, (off_t)size), 0);
 }
@@ -103,7 +103,7 @@ void file_copy(const char *folder, const char *from, const char *to)
     free(bytes);
 }
 
-void spoil_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn)
+void change_pixel_of_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn)
 {
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
     char values[4][32];
@@ -123,7 +123,7 @@ void spoil_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn)
     image_release(&frame);
 }
 
-void lose_texts(const char *folder, uint64_t tick, bool spoilt)
+void remove_texts_of_frame(const char *folder, uint64_t tick, bool spoilt)
 {
     octreel_error error;
     image frame;

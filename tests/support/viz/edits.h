@@ -20,15 +20,15 @@ void replace_line(const char *folder, size_t line, const char *text);
 char *copy_line(const char *folder, size_t line);
 
 /* Set the size of a file: truncate it, or fill it up with zeros. */
-void cut_file(const char *folder, const char *name, size_t size);
+void set_file_size(const char *folder, const char *name, size_t size);
 
 /* Copy a file within a folder. */
 void file_copy(const char *folder, const char *from, const char *to);
 
 /* Rewrite the frame of a tick with one pixel changed. With `as_drawn`, its PNG texts match the changed pixels. */
-void spoil_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn);
+void change_pixel_of_frame(const char *folder, uint64_t tick, size_t pixel, bool as_drawn);
 
 /* Rewrite the frame without its PNG texts, as other programs save it; with `spoilt`, with one pixel changed. */
-void lose_texts(const char *folder, uint64_t tick, bool spoilt);
+void remove_texts_of_frame(const char *folder, uint64_t tick, bool spoilt);
 
 #endif

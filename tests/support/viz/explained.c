@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-place film_in(const temp_folder *own, const char *name, const octree_session *session, const film_options *how)
+place film_into(const temp_folder *own, const char *name, const octree_session *session, const film_options *how)
 {
     const place folder = place_in(own, name);
     film_options options = how ? *how : small_film("");
@@ -13,11 +13,11 @@ place film_in(const temp_folder *own, const char *name, const octree_session *se
     return folder;
 }
 
-place film_twins(const temp_folder *own, const char *keys, place *b)
+place film_twice(const temp_folder *own, const char *keys, place *b)
 {
     const octree_session session = short_session(keys);
-    *b = film_in(own, "b", &session, NULL);
-    return film_in(own, "a", &session, NULL);
+    *b = film_into(own, "b", &session, NULL);
+    return film_into(own, "a", &session, NULL);
 }
 
 comparison_of assert_explained(const place *a, const place *b, uint64_t most)
@@ -29,7 +29,7 @@ comparison_of assert_explained(const place *a, const place *b, uint64_t most)
     return made;
 }
 
-void assert_holds(const char *text, const char *part)
+void assert_contains(const char *text, const char *part)
 {
     if (!text || !strstr(text, part))
         fail_msg("\"%s\" does not hold \"%s\"", text ? text : "nothing", part);

@@ -8,15 +8,15 @@
 #include "recordings.h"
 
 /* Film a session into a folder of this name; `how` is null for a small film. */
-place film_in(const temp_folder *own, const char *name, const octree_session *session, const film_options *how);
+place film_into(const temp_folder *own, const char *name, const octree_session *session, const film_options *how);
 
 /* Film a short session with these keys twice, into the folders a and b. Returns a. */
-place film_twins(const temp_folder *own, const char *keys, place *b);
+place film_twice(const temp_folder *own, const char *keys, place *b);
 
 /* Compare two recordings and explain the first `most` pairs. */
 comparison_of assert_explained(const place *a, const place *b, uint64_t most);
 
 /* The test fails unless the text contains a part; a null text fails. */
-void assert_holds(const char *text, const char *part);
+void assert_contains(const char *text, const char *part);
 
 #endif

@@ -26,7 +26,7 @@ place place_in(const temp_folder *folder, const char *name)
     return place_below(folder->name, name);
 }
 
-void disk_has_room_for(size_t bytes)
+void limit_file_size(size_t bytes)
 {
     struct rlimit limit;
     signal(SIGXFSZ, SIG_IGN);
@@ -41,7 +41,7 @@ bool file_exists(const char *path)
     return lstat(path, &status) == 0;
 }
 
-bool folder_is(const char *path)
+bool is_real_folder(const char *path)
 {
     struct stat status;
     return lstat(path, &status) == 0 && S_ISDIR(status.st_mode);
@@ -117,7 +117,7 @@ void listing_release(listing *names)
 
 static void remove_tree(const char *path)
 {
-    if (folder_is(path)) {
+    if (is_real_folder(path)) {
         listing inside = folder_list(path);
         for (size_t i = 0; i < inside.count; i++)
             remove_tree(place_below(path, inside.names[i]).path);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* files.h - files and folders within the folder of a test.
  *
- * Every function but file_exists() fails the test when it cannot do its job.
+ * Except file_exists(), every function makes the test fail if it cannot do what it says.
  */
 #ifndef FILES_H
 #define FILES_H
@@ -24,13 +24,13 @@ int nested_folder_remove(void **state);
 
 /* Simulate a full disk: no file of this process can grow beyond this number of bytes, and writing more fails with "File
  * too large". SIZE_MAX ends the simulation. */
-void disk_has_room_for(size_t bytes);
+void limit_file_size(size_t bytes);
 
 /* Whether a file or folder with this path exists. */
 bool file_exists(const char *path);
 
 /* Whether the path is a folder, and not a link to one. */
-bool folder_is(const char *path);
+bool is_real_folder(const char *path);
 
 /* The bytes of a file, with a zero behind them; the caller frees them. `size` may be null. */
 char *file_read(const char *path, size_t *size);

@@ -8,9 +8,9 @@
 /* The nodes of tick 0, by their ids: a root, a half with two leaves, and a leaf for the other half. */
 enum { FOREIGN_ROOT = 1, FOREIGN_LEFT = 2, FOREIGN_RIGHT = 3, FOREIGN_LOW = 4, FOREIGN_HIGH = 5, FOREIGN_NODES = 5 };
 
-/* Points 1 to 8 and no player. A box is asked for at both ticks: FOREIGN_LEFT and FOREIGN_HIGH are visited, the right
- * half pruned. At tick 1 FOREIGN_LOW has grown out of its parent, nobody holds point 8, and FOREIGN_HIGH is pruned
- * though it has point 3. */
+/* Points 1 to 8 and no player. A range query at both ticks visits FOREIGN_LEFT and FOREIGN_HIGH, and prunes the right
+ * half. At tick 1 FOREIGN_LOW reaches outside its parent, no node holds point 8, and FOREIGN_HIGH is pruned although it
+ * holds point 3, which the right answer contains. */
 octree_session foreign_session(void);
 
 #endif

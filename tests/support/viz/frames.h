@@ -16,7 +16,7 @@ renderer *open_renderer_of(draw_context kind, int width, int height);
 /* A renderer with the size of a scene in samples. */
 renderer *open_renderer_for(const scene *s);
 
-/* The indices of a frame: one a sample. */
+/* The number of indices of a frame, one for each sample. */
 size_t frame_samples(const scene *s);
 
 /* Draw a scene; the caller frees the frame. The test fails if drawing fails or a pixel's index has no meaning. */

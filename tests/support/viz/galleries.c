@@ -70,7 +70,7 @@ const frame_groups *group_frames(comparison_of *made, bool each)
     return &made->groups;
 }
 
-char *tell_groups(comparison_of *made, bool each, bool others)
+char *list_groups(comparison_of *made, bool each, bool others)
 {
     const frame_groups *g = group_frames(made, each);
     char *text;
@@ -87,12 +87,12 @@ char *tell_groups(comparison_of *made, bool each, bool others)
 
 void assert_groups(comparison_of *made, bool each, const char *expected)
 {
-    char *text = tell_groups(made, each, false);
+    char *text = list_groups(made, each, false);
     assert_string_equal(text, expected);
     free(text);
 }
 
-const char *cause_of(const comparison_of *made, const char *name)
+const char *find_cause_text(const comparison_of *made, const char *name)
 {
     const diff_pair *pair = diff_find(&made->result, name);
     if (!pair)
@@ -100,7 +100,7 @@ const char *cause_of(const comparison_of *made, const char *name)
     return explanation_cause(&made->why, (size_t)(pair - made->result.pairs));
 }
 
-void give_cause(comparison_of *made, size_t i, const char *text)
+void set_cause(comparison_of *made, size_t i, const char *text)
 {
     explanation *why = &made->why;
     if (!why->pairs)
@@ -118,7 +118,7 @@ void comparison_release(comparison_of *made)
     diff_side_release(&made->b);
 }
 
-diff_finding finding_of(const comparison_of *made, const char *name)
+diff_finding find_finding(const comparison_of *made, const char *name)
 {
     const diff_pair *pair = diff_find(&made->result, name);
     if (!pair)

@@ -20,7 +20,7 @@ void gallery_write(const char *path, uint64_t seed, int spoilt);
  * has the seed i. */
 place gallery_make(const temp_folder *in, const char *folder, const char *names);
 
-/* The test fails, with the sentence, where a side cannot be opened or compared. */
+/* The test fails with the error if a side cannot be opened, or if two sides cannot be compared. */
 diff_side assert_side(const char *path);
 
 /* Two sides, the result of their comparison, and its explanation. */
@@ -37,18 +37,18 @@ comparison_of assert_compared(const char *a, const char *b, const diff_options *
 const frame_groups *group_frames(comparison_of *made, bool each);
 
 /* List the groups, one line each: the names of all frames, or with `others`, all but the first. The caller frees it. */
-char *tell_groups(comparison_of *made, bool each, bool others);
+char *list_groups(comparison_of *made, bool each, bool others);
 void assert_groups(comparison_of *made, bool each, const char *expected);
 
 /* The sentence of a pair of this name, or null. */
-const char *cause_of(const comparison_of *made, const char *name);
+const char *find_cause_text(const comparison_of *made, const char *name);
 
-/* Set by hand: the sentence of the i-th pair. */
-void give_cause(comparison_of *made, size_t i, const char *text);
+/* Set the sentence of the i-th pair, as an explanation would. */
+void set_cause(comparison_of *made, size_t i, const char *text);
 void comparison_release(comparison_of *made);
 
 /* The finding for the pair with a name; the test fails if there is no such pair. */
-diff_finding finding_of(const comparison_of *made, const char *name);
+diff_finding find_finding(const comparison_of *made, const char *name);
 
 /* The test fails unless the comparison is refused with a sentence that contains `part`. */
 void assert_not_compared(const char *a, const char *b, const diff_options *options, const char *part);

@@ -14,8 +14,8 @@ typedef struct golden_frame {
     const char *camera;
     const char *layers;
     uint64_t tick;      /* of the session that `points` selects */
-    const char *points; /* null: the default session; else "two", "three" or "clustered" points in its world, or what is
-                           asked about sampled ones: "knearest", "radius", "answered"; or "swept", or "foreign" nodes */
+    const char *points; /* null: the default session; "two", "three" or "clustered": points in its world; "knearest",
+                           "radius" or "answered": queries about sampled points; "swept"; "foreign": foreign nodes */
     int width, height;  /* 0: 320 x 180 */
 } golden_frame;
 
@@ -24,7 +24,7 @@ extern const size_t golden_frame_count;
 
 #define GOLDEN_MOST_BODIES 400
 
-/* A session that is played, and how it is viewed: it must stay where it was made. */
+/* A game and its view. The structure must not be moved. */
 typedef struct golden_play {
     octree_session session;
     octree_body bodies[GOLDEN_MOST_BODIES];

@@ -8,7 +8,7 @@ const unsigned las_record_sizes[LAS_FORMATS] = {20, 28, 26, 34, 57, 63, 30, 36, 
 
 const las two = {.scale = {0.5, 1e10, 0.1}, .offset = {1.5, 2, 0}, .points = {{-1, 0, 30}, {-12, 5, 1}}};
 
-las two_of(unsigned minor, unsigned format)
+las two_points_of_format(unsigned minor, unsigned format)
 {
     las l = two;
     l.minor = minor;
@@ -19,10 +19,10 @@ las two_of(unsigned minor, unsigned format)
 void put_zeros(bytes *file, size_t count)
 {
     while (count-- > 0)
-        put(file, "", 1);
+        put_bytes(file, "", 1);
 }
 
-void put_to(bytes *file, size_t end)
+void pad_to_size(bytes *file, size_t end)
 {
     assert_true(end >= file->size);
     put_zeros(file, end - file->size);
@@ -63,9 +63,9 @@ void put_header(bytes *file, const las *l)
         for (int i = 0; i < 15; i++)
             put_bits(file, 0x01010101, 8, false); /* by return */
     }
-    put_to(file, size);
+    pad_to_size(file, size);
     for (unsigned i = 0; i < l->records_before; i++)
-        put(file, "V", 1);
+        put_bytes(file, "V", 1);
 }
 
 void put_record(bytes *file, const las *l, const int32_t point[3])
@@ -79,7 +79,7 @@ void put_record(bytes *file, const las *l, const int32_t point[3])
         put_bits(file, 0xff, 1, false);
 }
 
-bytes make(const las *l)
+bytes make_las_file(const las *l)
 {
     bytes file = {.size = 0};
     put_header(&file, l);

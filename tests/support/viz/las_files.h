@@ -22,7 +22,7 @@ typedef struct las {
 
 /* A file of two_points. Not every coordinate is a multiple of 0.01, so the scales of the header matter. */
 extern const las two;
-las two_of(unsigned minor, unsigned format);
+las two_points_of_format(unsigned minor, unsigned format);
 
 /* The fields of the table "Public Header Block" in their order. Fields that positions do not need have a pattern that
  * would be noticed if a reader used it. */
@@ -32,13 +32,13 @@ void put_header(bytes *file, const las *l);
 void put_record(bytes *file, const las *l, const int32_t point[3]);
 
 /* The whole file. */
-bytes make(const las *l);
+bytes make_las_file(const las *l);
 
 /* Change fields of a file. */
 void set_bits(bytes *file, size_t at, uint64_t bits, unsigned size);
 void set_double(bytes *file, size_t at, double value);
 
 void put_zeros(bytes *file, size_t count);
-void put_to(bytes *file, size_t end);
+void pad_to_size(bytes *file, size_t end);
 
 #endif

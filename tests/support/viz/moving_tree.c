@@ -185,7 +185,8 @@ void close_recorder(octreel_recorder *recorder)
     octreel_recorder_destroy(recorder);
 }
 
-octreel_status hand_over(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source, moving_edits *e)
+octreel_status record_tick_from(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source,
+                                moving_edits *e)
 {
     octreel_tick_info about = m->about;
     if (source == MOVING_TREE)

@@ -21,8 +21,8 @@ typedef struct moving_tree {
     octreel_tick_info about;
 } moving_tree;
 
-/* A tree in [-8, 8]^3 of few points to a leaf and of little depth, so that leaves are often full; the same for the same
- * seed. It must stay where it was made. */
+/* Make a tree in [-8, 8]^3 with few points per leaf and few levels, so that leaves are often full. The same seed makes
+ * the same tree. The structure must not be moved. */
 void moving_tree_make(moving_tree *m, octree_full_leaf full_leaf, uint64_t seed);
 void moving_tree_release(moving_tree *m);
 
@@ -49,15 +49,16 @@ void moving_edits_make(moving_edits *e, const moving_tree *m);
 typedef enum moving_tree_source { MOVING_TREE, MOVING_LIST, MOVING_CHANGES } moving_tree_source;
 
 /* Record a tick by handing over the tree, a list of its points, or the edits. */
-octreel_status hand_over(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source, moving_edits *e);
+octreel_status record_tick_from(octreel_recorder *recorder, const moving_tree *m, moving_tree_source source,
+                                moving_edits *e);
 
 /* Step and record this number of times. */
 void record_steps(octreel_recorder *recorder, moving_tree *m, int ticks);
 
-/* Open; the test fails, with the sentence, when it is not done. */
+/* Open a recorder; the test fails with the error if that fails. */
 octreel_recorder *open_recorder(const octreel_recorder_def *def);
 
-/* Close and destroy; the test fails, with the sentence, when that fails. */
+/* Close and destroy a recorder; the test fails with the error if that fails. */
 void close_recorder(octreel_recorder *recorder);
 
 #endif

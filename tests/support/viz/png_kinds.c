@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "png_kinds.h"
 
-int png_samples_of(int color_type)
+int png_samples_per_pixel(int color_type)
 {
     static const int samples[] = {[PNG_KIND_GREY] = 1,
                                   [PNG_KIND_RGB] = 3,
@@ -11,7 +11,7 @@ int png_samples_of(int color_type)
     return samples[color_type];
 }
 
-unsigned png_largest_of(png_kind kind)
+unsigned png_largest_sample(png_kind kind)
 {
     return (1u << kind.depth) - 1;
 }
@@ -22,8 +22,8 @@ unsigned png_sample_at(png_kind kind, int x, int y, int sample)
     if ((x + y) % 5 == 0)
         return 0;
     if ((x + y) % 5 == 1)
-        return png_largest_of(kind);
-    return mixed & png_largest_of(kind);
+        return png_largest_sample(kind);
+    return mixed & png_largest_sample(kind);
 }
 
 image_color png_palette_color(unsigned index)
@@ -43,7 +43,7 @@ static void put_row(png_bytes *rows, png_kind kind, int y, int first_x, int step
     png_bytes_put(rows, &filter_none, 1);
     unsigned bits = 0, bit_count = 0;
     for (int x = first_x; x < PNG_KIND_SIDE; x += step_x) {
-        for (int sample = 0; sample < png_samples_of(kind.color_type); sample++) {
+        for (int sample = 0; sample < png_samples_per_pixel(kind.color_type); sample++) {
             bits = bits << kind.depth | png_sample_at(kind, x, y, sample);
             bit_count += (unsigned)kind.depth;
             for (; bit_count >= 8; bit_count -= 8)
@@ -76,7 +76,7 @@ static void put_key(png_bytes *out, png_kind kind)
         for (unsigned i = 0; i < PNG_KIND_PALETTE_ALPHAS; i++)
             data[i] = png_palette_alpha(i);
     } else {
-        size = 2 * (size_t)png_samples_of(kind.color_type);
+        size = 2 * (size_t)png_samples_per_pixel(kind.color_type);
         for (size_t i = 0; i < size; i++)
             data[i] = (uint8_t)(png_sample_at(kind, 3, 0, (int)i / 2) >> (i % 2 == 0 ? 8 : 0));
     }
@@ -90,7 +90,7 @@ void png_make_kind(png_bytes *out, png_kind kind)
     png_put_chunk(out, "gAMA", "\0\0\x40\0", 4); /* must not change a pixel */
     if (kind.color_type == PNG_KIND_PALETTE) {
         png_bytes palette = {.size = 0};
-        for (unsigned i = 0; i <= png_largest_of(kind); i++) {
+        for (unsigned i = 0; i <= png_largest_sample(kind); i++) {
             image_color color = png_palette_color(i);
             png_bytes_put(&palette, &color, 3);
         }

@@ -23,10 +23,10 @@ enum {
     PNG_KIND_PALETTE_ALPHAS = 2
 };
 
-int png_samples_of(int color_type);
-unsigned png_largest_of(png_kind kind);
+int png_samples_per_pixel(int color_type);
+unsigned png_largest_sample(png_kind kind);
 
-/* The stored value of one sample: a pattern that meets the smallest, the largest and the keyed value. */
+/* The stored value of one sample. The pattern contains the smallest, the largest and the keyed value. */
 unsigned png_sample_at(png_kind kind, int x, int y, int sample);
 
 /* The palette's colour for an index; 2^depth entries. */
@@ -35,7 +35,8 @@ uint8_t png_palette_alpha(unsigned index);
 
 void png_make_kind(png_bytes *out, png_kind kind);
 
-/* Save every kind at a path, interlaced or not, with and without a colour that is clear. */
+/* Save the picture in every kind at a path, interlaced or not, with and without a transparent colour, and visit each.
+ */
 void png_for_every_kind(void (*visit)(const char *path, png_kind kind), const char *path);
 
 #endif

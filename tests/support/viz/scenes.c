@@ -33,7 +33,7 @@ static const octree_shape all_shapes[] = {
 /* The moving body, which is never the nearest to where it is asked. */
 static const uint64_t far_answer[] = {700};
 
-octree_session asking_session(void)
+octree_session session_with_all_layers(void)
 {
     static octree_query queries[32];
     static octree_body bodies[32];

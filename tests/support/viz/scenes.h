@@ -15,9 +15,9 @@ view view_of(int width, int height, view_camera camera, unsigned layers);
 /* An empty scene of a world, without a panel; the camera that follows looks at the world's centre. */
 scene empty_scene(const view *v, const octree_box *world);
 
-/* The default session, which asks for k nearest and for a ball at every tick too, in which a body moves, and which has
- * a shape of each kind, and a wrong answer of a program: it shows every layer. */
-octree_session asking_session(void);
+/* The default session with additional queries for nearest points and a ball at every tick, a moving body, a shape of
+ * each kind, and a wrong answer of a foreign index: it shows every layer. */
+octree_session session_with_all_layers(void);
 
 /* The default session with every coordinate and length times `scale`, then moved by `offset`. It must stay where it
  * was made. */

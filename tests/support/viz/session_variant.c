@@ -59,7 +59,7 @@ static char *headline_of(const variant *a, const variant *b)
     return text;
 }
 
-void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected)
+void assert_change_headline_from(void prepare(variant *v), void change(variant *v), const char *expected)
 {
     static variant a, b;
     make_variant(&a);
@@ -77,7 +77,7 @@ void assert_says_of(void prepare(variant *v), void change(variant *v), const cha
     point_values_release(&b.values);
 }
 
-void assert_says(void change(variant *v), const char *expected)
+void assert_change_headline(void change(variant *v), const char *expected)
 {
-    assert_says_of(NULL, change, expected);
+    assert_change_headline_from(NULL, change, expected);
 }

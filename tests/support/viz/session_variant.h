@@ -20,9 +20,9 @@ typedef struct variant {
 } variant;
 
 /* The test fails unless this headline describes the difference between the small session and its changed copy. */
-void assert_says(void change(variant *v), const char *expected);
+void assert_change_headline(void change(variant *v), const char *expected);
 
-/* assert_says(), after `prepare` (may be null) has changed both sessions. */
-void assert_says_of(void prepare(variant *v), void change(variant *v), const char *expected);
+/* assert_change_headline(), after `prepare` (may be null) has changed both sessions. */
+void assert_change_headline_from(void prepare(variant *v), void change(variant *v), const char *expected);
 
 #endif

@@ -18,8 +18,8 @@ typedef struct png_storage {
 enum { PNG_STORAGES = 64 };
 png_storage png_storage_at(int i);
 
-/* Save a picture of patches of a few colours; the same seed makes the same one. Afterwards `spoiled` bytes of it are
- * replaced, by another seed. */
+/* A picture of patches in a few colours, the same for the same seed. After saving, `spoiled` bytes of the file are
+ * replaced by random ones, from `spoiling_seed`. */
 typedef struct stored_png {
     int width, height;
     png_storage storage;

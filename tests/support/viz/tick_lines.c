@@ -244,7 +244,7 @@ static void assert_key(const json_t *value, char key)
         assert_string_equal(json_string_value(value), expected);
 }
 
-void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree)
+void assert_line_has_facts(const json_t *line, const octree_tick *tick, const octree *tree)
 {
     static const char always[] =
         "tick key player events attempt hits hit_cost answers visits refusals splits merges tree";

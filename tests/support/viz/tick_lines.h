@@ -24,6 +24,6 @@ void assert_digest(const json_t *value, uint64_t expected);
 
 /* The test fails unless the line has all facts of the tick, and the counts of the tree's nodes. The member "frame" is
  * not checked. */
-void assert_line_tells(const json_t *line, const octree_tick *tick, const octree *tree);
+void assert_line_has_facts(const json_t *line, const octree_tick *tick, const octree *tree);
 
 #endif

@@ -20,7 +20,7 @@ place film_short(const temp_folder *own)
     return folder;
 }
 
-void start_over(void **state)
+void empty_test_folder(void **state)
 {
     assert_int_equal(nested_folder_remove(state), 0);
     assert_int_equal(temp_folder_make(state), 0);

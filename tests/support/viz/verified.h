@@ -15,7 +15,7 @@
 place film_short(const temp_folder *own);
 
 /* Empty the folder of the test. */
-void start_over(void **state);
+void empty_test_folder(void **state);
 
 /* Verify a recording; the test fails with the error if that is impossible. */
 verify_report verify(const place *folder);

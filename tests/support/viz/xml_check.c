@@ -17,7 +17,7 @@ static char *evaluate(const char *text, const char *expression)
     static const char declaration[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     if (strncmp(text, declaration, sizeof declaration - 1) != 0)
         fail_msg("the XML declaration is missing: %.60s", text);
-    if (!program_is_there("xmllint")) {
+    if (!is_program_installed("xmllint")) {
         puts("XML is not checked: xmllint is missing (Debian: libxml2-utils)");
         return NULL;
     }

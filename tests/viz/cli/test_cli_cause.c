@@ -180,7 +180,7 @@ static void different_shapes_are_described_in_text_and_json(void **state)
 static void damaged_recording_is_an_error_after_the_report(void **state)
 {
     const recorded_pair p = film_pair(*state, 4);
-    cut_file(p.b.path, "session.json", 30);
+    set_file_size(p.b.path, "session.json", 30);
     command_result result = run_octreel(NULL, "diff %s %s", p.a.path, p.b.path);
     assert_int_equal(result.status, 2);
     assert_says(&result, "trouble: 5 of 5 frames\n");

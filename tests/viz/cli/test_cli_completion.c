@@ -111,7 +111,7 @@ static void assert_all_completed(void **state, const shell *s, const completed *
 {
     const temp_folder *own = *state;
     char lines[2048] = "";
-    if (!program_is_there(s->name)) {
+    if (!is_program_installed(s->name)) {
         print_message("%s is not installed: nobody completes\n", s->name);
         skip();
     }

@@ -262,7 +262,7 @@ static void imagemagick_counts_the_same_pixels(void **state)
 {
     const twins p = make_pair(state);
     char line[4096];
-    if (!program_is_there("compare"))
+    if (!is_program_installed("compare"))
         skip();
     for (int spoilt = 1; spoilt < 16; spoilt += 7) {
         gallery_write(p.b.path, 3, spoilt);

@@ -111,7 +111,7 @@ static void manual_refers_to_the_commands_it_mentions(void **state)
 static void assert_content(void **state, const char *program, const char *command)
 {
     const temp_folder *own = *state;
-    if (!program_is_there(program)) {
+    if (!is_program_installed(program)) {
         print_message("%s is not installed: nobody judges the manuals\n", program);
         skip();
     }

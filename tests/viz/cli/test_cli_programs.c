@@ -16,7 +16,7 @@ static const program python = {"python3", "brute.py"}, javascript = {"node", "br
 
 static void need(const program *p)
 {
-    if (program_is_there(p->language))
+    if (is_program_installed(p->language))
         return;
     print_message("%s is not installed\n", p->language);
     skip();

@@ -50,7 +50,7 @@ static void clouds_of_each_format_are_read_from_a_pipe(void **state)
                       pcd[] = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nPOINTS 2\nDATA binary\n"
                               "abcdefghijkl@bcdefghijkl",
                       text[] = "x,y,z\n1,2,3\n4,5,6\n";
-    const bytes las = make(&two);
+    const bytes las = make_las_file(&two);
     const struct {
         const void *data;
         size_t size;

@@ -230,7 +230,7 @@ static void frames_are_written_as_ticks_arrive(void **state)
     put(&s, "\n" MOVE(5));
     wait_for_frame(&s, 5);
     close(s.write);
-    command_result result = end_of(&s.film);
+    command_result result = wait_for_end(&s.film);
     assert_done(&result);
     command_release(&result);
     assert_verified(&s, "identical: 6 ticks, 6 frames");
@@ -242,7 +242,7 @@ static void signal_while_waiting_leaves_a_whole_recording(void **state)
     put(&s, HEADER MOVE(1) "{\"tick\":2,");
     wait_for_frame(&s, 1);
     assert_int_equal(kill(s.film.pid, SIGINT), 0);
-    command_result result = end_of(&s.film);
+    command_result result = wait_for_end(&s.film);
     assert_int_equal(result.status, 128 + SIGINT);
     assert_non_null(strstr(result.err, "octreel: stopped after 2 ticks; "));
     command_release(&result);
@@ -256,7 +256,7 @@ static void killed_stream_is_resumed(void **state)
     put(&s, HEADER MOVE(1) MOVE(2));
     wait_for_frame(&s, 2);
     assert_int_equal(kill(s.film.pid, SIGKILL), 0);
-    command_result result = end_of(&s.film);
+    command_result result = wait_for_end(&s.film);
     command_release(&result);
     close(s.write);
     result = run_octreel(NULL, "verify %s", s.folder.path);

@@ -16,7 +16,7 @@ typedef struct twins {
     place a, b, out;
 } twins;
 
-static twins film_twins(void **state)
+static twins film_twice(void **state)
 {
     const twins made = {place_in(*state, "a"), place_in(*state, "b"), place_in(*state, "out")};
     static const char session[] =
@@ -43,7 +43,7 @@ static void assert_says(const char *text, const char *part)
 
 static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)
 {
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     command_result result = run_octreel(NULL, "diff %s %s -o %s --markdown %s", t.a.path, t.b.path, t.out.path,
                                         place_in(*state, "out.md").path);
     assert_int_equal(result.status, 1);
@@ -62,7 +62,7 @@ static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)
 
 static void each_option_reports_every_frame(void **state)
 {
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     command_result result = run_octreel(NULL, "diff %s %s --each -o %s", t.a.path, t.b.path, t.out.path);
     assert_says(result.out, "\n  frame_000009.png: ");
     assert_null(strstr(result.out, " more alike"));
@@ -73,7 +73,7 @@ static void each_option_reports_every_frame(void **state)
 /* A frame that was changed afterwards has a cause of its own, beyond those that are explained, too. */
 static void frame_with_another_cause_is_a_finding_of_its_own(void **state)
 {
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     const place frame = place_below(t.b.path, "frame_000007.png");
     command_result result = run_script("cp %s %s", place_below(t.b.path, "frame_000003.png").path, frame.path);
     assert_done(&result);
@@ -85,7 +85,7 @@ static void frame_with_another_cause_is_a_finding_of_its_own(void **state)
 
 static void junit_lists_each_frame_and_names_the_first_of_a_finding(void **state)
 {
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     command_result result = run_octreel(NULL, "diff %s %s --junit -", t.a.path, t.b.path);
     assert_xml_count(result.out, "testcase", 10);
     assert_xml_count(result.out, "failure", 10);
@@ -98,7 +98,7 @@ static void junit_lists_each_frame_and_names_the_first_of_a_finding(void **state
 
 static void github_gets_one_annotation_at_the_changed_file(void **state)
 {
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     const command_setting actions = {.environment = {"GITHUB_ACTIONS=true"}};
     char begin[2300];
     command_result result = run_octreel(&actions, "diff %s %s --json", t.a.path, t.b.path);
@@ -185,7 +185,7 @@ static void json_conforms_to_its_schema(void **state)
         puts("skipped: Python's jsonschema is missing (Debian: python3-jsonschema)");
         skip();
     }
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     const place a = gallery_make(*state, "old", "1.png 2.png 3.png 4.png"),
                 b = gallery_make(*state, "new", "1.png 2.png 3.png 5.png"), digests = place_in(*state, "old.digests");
     char more[2300];
@@ -207,7 +207,7 @@ static void json_conforms_to_its_schema(void **state)
 
 static void json_lists_each_frame_and_each_group(void **state)
 {
-    const twins t = film_twins(state);
+    const twins t = film_twice(state);
     command_result result = run_octreel(NULL, "diff %s %s --json", t.a.path, t.b.path);
     json_t *all = json_read(result.out);
     assert_int_equal(json_array_size(json_member(all, "findings")), 10);

@@ -41,10 +41,10 @@ static void waiting_ends_when_the_program_ends(void **state)
     const place never = place_in(*state, "never");
     background b = start_octreel("--help");
     clock_gettime(CLOCK_MONOTONIC, &started);
-    assert_false(file_comes(&b, never.path));
+    assert_false(wait_until_file_exists(&b, never.path));
     clock_gettime(CLOCK_MONOTONIC, &now);
     assert_true(now.tv_sec - started.tv_sec < 10); /* of the half minute that a file may take */
-    command_result result = end_of(&b);
+    command_result result = wait_for_end(&b);
     assert_done(&result);
     command_release(&result);
 }

@@ -48,7 +48,7 @@ static const char *reason_to_leave_out(const char *line)
 {
     static const char mine[] = "build/bin/octreel audit mine";
     if (strncmp(line, "python3 ", 8) == 0 || strncmp(line, mine, strlen(mine)) == 0)
-        return program_is_there("python3") ? NULL : "there is no python3";
+        return is_program_installed("python3") ? NULL : "there is no python3";
     for (size_t i = 0; i < sizeof left_out / sizeof left_out[0]; i++)
         if (strncmp(line, left_out[i].line, strlen(left_out[i].line)) == 0)
             return left_out[i].reason;

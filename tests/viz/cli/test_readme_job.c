@@ -253,7 +253,7 @@ static void action_builds_octreel_if_it_is_not_installed(void **state)
 {
     job *j = *state;
     static const char setup[] = "#!/bin/sh\nmkdir -p \"$2/bin\" && mv octreel \"$2/bin\"\n";
-    if (program_is_there("octreel"))
+    if (is_program_installed("octreel"))
         skip();
     in_folder(j, "cp -R golden frames && mkdir -p source/.github/actions source/viz && mv bin/octreel . && "
                  "printf '#!/bin/sh\\nshift\\nexec \"$@\"\\n' >bin/sudo && chmod +x bin/sudo");

@@ -113,7 +113,7 @@ static void las_takes_12_bytes_per_byte(void **state)
     (void)state;
     for (unsigned format = 0; format < LAS_FORMATS; format++)
         for (int lie = 0; lie < 2; lie++) {
-            las l = two_of(format < 4 ? 2 : format < 6 ? 3 : 4, format);
+            las l = two_points_of_format(format < 4 ? 2 : format < 6 ? 3 : 4, format);
             bytes header = {.size = 0};
             unsigned char record[128] = {0};
             bomb b = begin();

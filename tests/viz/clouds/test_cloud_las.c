@@ -18,10 +18,10 @@ static void las_is_read_in_every_version_and_point_format(void **state)
     for (unsigned minor = 0; minor < LAS_VERSIONS; minor++)
         for (unsigned format = 0; format < LAS_FORMATS; format++)
             for (unsigned more = 0; more < 4; more++) {
-                las l = two_of(minor, format);
+                las l = two_points_of_format(minor, format);
                 l.extra = more & 1 ? 7 : 0;
                 l.records_before = more & 2 ? 61 : 0;
-                const bytes file = make(&l);
+                const bytes file = make_las_file(&l);
                 assert_reads("a.las", file.data, file.size, two_read, 2, 0);
                 assert_reads("content decides.xyz", file.data, file.size, two_read, 2, 0);
             }
@@ -31,8 +31,8 @@ static void truncated_las_is_refused(void **state)
 {
     (void)state;
     for (unsigned minor = 0; minor < LAS_VERSIONS; minor++) {
-        const las l = two_of(minor, minor < 4 ? 3 : 7);
-        const bytes file = make(&l);
+        const las l = two_points_of_format(minor, minor < 4 ? 3 : 7);
+        const bytes file = make_las_file(&l);
         assert_refuses_every_beginning("a.las", &file);
     }
 }
@@ -59,7 +59,7 @@ static void las_coordinate_is_a_product_and_a_sum_of_doubles(void **state)
         l.points[1][1] = 0;
         const volatile double product = (double)rows[i].record * rows[i].scale, sum = product + rows[i].offset;
         const double expected[2][3] = {{1, sum, two_read[0][2]}, {-4.5, rows[i].offset, 0.1}};
-        const bytes file = make(&l);
+        const bytes file = make_las_file(&l);
         assert_reads("a.las", file.data, file.size, expected, 2, 0);
     }
 }
@@ -80,14 +80,14 @@ static void las_1_0_may_have_a_signature_before_its_points(void **state)
     same.points[0][0] = 0xccdd;
     same.scale[0] = 1;
     const double expected[2][3] = {{0xccdd + 1.5, 2, two_read[0][2]}, {-10.5, two_read[1][1], 0.1}};
-    file = make(&same);
+    file = make_las_file(&same);
     assert_reads("a coordinate that looks like it.las", file.data, file.size, expected, 2, 0);
 }
 
 static void las_counts_of_either_kind_are_read(void **state)
 {
-    const las l = two_of(4, 2);
-    bytes file = make(&l);
+    const las l = two_points_of_format(4, 2);
+    bytes file = make_las_file(&l);
     (void)state;
     set_bits(&file, 107, 0, 4);
     assert_reads("the wide one alone.las", file.data, file.size, two_read, 2, 0);
@@ -102,8 +102,8 @@ static void withheld_las_points_are_skipped_but_count_as_rows(void **state)
     (void)state;
     for (unsigned minor = 0; minor < LAS_VERSIONS; minor++)
         for (unsigned format = 0; format < LAS_FORMATS; format++) {
-            const las l = two_of(minor, format);
-            bytes file = make(&l);
+            const las l = two_points_of_format(minor, format);
+            bytes file = make_las_file(&l);
             cloud cloud;
             octreel_error error;
             file.data[las_header_sizes[minor] + 15] = format < 6 ? 0x80 : 0x04;
@@ -119,8 +119,8 @@ static void withheld_las_points_are_skipped_but_count_as_rows(void **state)
 
 static void las_with_only_withheld_points_is_refused(void **state)
 {
-    const las l = two_of(2, 0);
-    bytes file = make(&l);
+    const las l = two_points_of_format(2, 0);
+    bytes file = make_las_file(&l);
     (void)state;
     file.data[227 + 15] = 0x80;
     file.data[227 + 20 + 15] = 0xff;
@@ -131,8 +131,8 @@ static void las_with_only_withheld_points_is_refused(void **state)
 
 static void las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_them(void **state)
 {
-    las l = two_of(4, 4);
-    bytes file = make(&l);
+    las l = two_points_of_format(4, 4);
+    bytes file = make_las_file(&l);
     char note[128];
     const size_t end = file.size;
     (void)state;
@@ -154,8 +154,8 @@ static void las_bytes_beyond_the_last_point_are_noted_unless_the_header_names_th
 
 static void las_points_that_overlap_later_parts_are_refused(void **state)
 {
-    las l = two_of(4, 4);
-    bytes file = make(&l);
+    las l = two_points_of_format(4, 4);
+    bytes file = make_las_file(&l);
     (void)state;
     set_bits(&file, 227, 488, 8);
     assert_refuses("a.las", file.data, file.size,
@@ -211,9 +211,9 @@ static void invalid_las_headers_are_refused(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const las l = two_of(rows[i].minor, rows[i].format);
+        const las l = two_points_of_format(rows[i].minor, rows[i].format);
         char sentence[256];
-        bytes file = make(&l);
+        bytes file = make_las_file(&l);
         set_bits(&file, rows[i].at, rows[i].bits, rows[i].size);
         snprintf(sentence, sizeof sentence, "a.las%s", rows[i].sentence);
         assert_refuses("a.las", file.data, file.size, sentence);
@@ -238,7 +238,7 @@ static void las_scales_without_valid_coordinates_are_refused(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        bytes file = make(&two);
+        bytes file = make_las_file(&two);
         set_double(&file, rows[i].at, rows[i].value);
         assert_refuses("a.las", file.data, file.size, rows[i].sentence);
     }
@@ -251,8 +251,8 @@ static void compressed_las_is_refused_with_advice(void **state)
     if (cloud_reads_laz())
         skip();
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
-        const las l = two_of(4, 7);
-        bytes file = make(&l);
+        const las l = two_points_of_format(4, 7);
+        bytes file = make_las_file(&l);
         file.data[104] |= flags[i];
         assert_refuses(
             "a.laz", file.data, file.size,

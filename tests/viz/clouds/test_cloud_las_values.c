@@ -9,8 +9,8 @@
 /* Two records in which each byte from the intensity on is its place in the record, but for the flags. */
 static bytes make_counting(unsigned minor, unsigned format)
 {
-    const las l = two_of(minor, format);
-    bytes file = make(&l);
+    const las l = two_points_of_format(minor, format);
+    bytes file = make_las_file(&l);
     const size_t length = las_record_sizes[format], first = file.size - 2 * length;
     for (size_t i = 12; i < length; i++)
         for (size_t record = 0; record < 2; record++)
@@ -60,8 +60,8 @@ static void las_classes_have_five_bits_or_eight(void **state)
     } rows[] = {{0, 0, 0x7f}, {1, 0, 0x1f}, {2, 3, 0x1f}, {4, 5, 0x1f}, {4, 6, 0xff}, {4, 10, 0xff}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const las l = two_of(rows[i].minor, rows[i].format);
-        bytes file = make(&l);
+        const las l = two_points_of_format(rows[i].minor, rows[i].format);
+        bytes file = make_las_file(&l);
         if (rows[i].minor == 0)
             file.data[file.size - 2 * las_record_sizes[0] + 15] = 0x7f;
         cloud c = read_cloud(&file);

@@ -49,7 +49,7 @@ static void compress(const char *from, const char *to)
 /* A file whose records have all sorts of bytes, some of them withheld. */
 static bytes make_some(unsigned minor, unsigned format)
 {
-    las l = two_of(minor, format);
+    las l = two_points_of_format(minor, format);
     bytes file = {.size = 0};
     uint32_t random = 1;
     l.count = SOME;

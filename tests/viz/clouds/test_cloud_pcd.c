@@ -25,7 +25,7 @@ static void put_pcd_field(bytes *file, int point, int field)
     if (axes[field] >= 0)
         put_double(file, pcd_points[point][axes[field]], false);
     else
-        put(file, others, sizes[field]);
+        put_bytes(file, others, sizes[field]);
 }
 
 /* LZF without any compression: runs of up to 32 bytes, each behind its length less one. */
@@ -37,7 +37,7 @@ static void put_packed(bytes *file, const bytes *plain)
     for (size_t i = 0; i < plain->size; i += RUN) {
         size_t run = plain->size - i < RUN ? plain->size - i : RUN;
         put_bits(file, run - 1, 1, false);
-        put(file, plain->data + i, run);
+        put_bytes(file, plain->data + i, run);
     }
 }
 
@@ -99,7 +99,7 @@ static void bytes_after_the_last_pcd_point_are_noted_unless_zero(void **state)
         bytes file = {.size = 0};
         char sentence[128];
         puts[i](&file);
-        put(&file, zeros, sizeof zeros);
+        put_bytes(&file, zeros, sizeof zeros);
         assert_reads("a.pcd", file.data, file.size, two_points, 2, 1);
         snprintf(sentence, sizeof sentence,
                  "a.pcd:byte %zu: more data follows than the header announces; the points before it were read",

@@ -228,10 +228,10 @@ static void invalid_ply_bytes_after_the_last_vertex_are_noted(void **state)
         bytes file = {.size = 0};
         char note[256];
         put_text(&file, header);
-        put(&file, two_points, sizeof two_points);
+        put_bytes(&file, two_points, sizeof two_points);
         snprintf(note, sizeof note, "a.ply:byte %zu: %s; the points before it were read", file.size + (i ? 0 : 2),
                  reasons[i]);
-        put(&file, faces[i], i ? 2 : 3);
+        put_bytes(&file, faces[i], i ? 2 : 3);
         assert_reads_and_notes("a.ply", file.data, file.size, two_points, 2, 0, note);
     }
 }

@@ -385,7 +385,7 @@ static void filtered_nodes_are_grey(void **state)
 static void diagram_only_view_has_only_diagram_and_panel(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     octree_game *game = start_game(&session);
     scene s = {0};
     view v = view_default();
@@ -409,7 +409,7 @@ static void diagram_only_view_has_only_diagram_and_panel(void **state)
 static void space_view_beside_the_diagram_has_all_its_elements(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     octree_game *game = start_game(&session);
     scene alone = {0}, beside = {0};
     view v = view_default();

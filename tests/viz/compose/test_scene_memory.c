@@ -28,7 +28,7 @@ static tick_history follow(golden_play *play, uint64_t tick)
 static bool make_scene(const golden_play *play, const tick_history *h, long count, bool *made, uint64_t *digest)
 {
     scene s = {0};
-    memory_fails_after(count);
+    fail_allocations_after(count);
     *made = tick_scene_build(&s, &play->view, play->game, h, NULL);
     const bool failed = memory_has_failed();
     *digest = *made ? scene_digest(&s) : 0;
@@ -73,7 +73,7 @@ static void history_reports_lack_of_memory(void **state)
     bool failed = true;
     for (long count = 0; failed; count++) {
         tick_history h = {0};
-        memory_fails_after(count);
+        fail_allocations_after(count);
         const bool added = tick_history_add(&h, &v, game);
         failed = memory_has_failed();
         assert_int_equal(added, !failed);
@@ -93,7 +93,7 @@ static void point_scale_is_measured_or_reports_lack_of_memory(void **state)
     bool failed = true;
     for (long count = 0; failed; count++) {
         view v = measured;
-        memory_fails_after(count);
+        fail_allocations_after(count);
         const bool done = point_scale_fit(&v, octree_game_tree(game), NULL);
         failed = memory_has_failed();
         assert_int_equal(done, !failed);
@@ -148,7 +148,7 @@ static bool play_scenes(const kept_play *p, uint64_t tick, long count, uint64_t 
     for (uint64_t at = 0; at < 5; at++) {
         if (at > 0)
             play_tick(game);
-        memory_fails_after(at == tick ? count : -1);
+        fail_allocations_after(at == tick ? count : -1);
         const bool made = tick_scene_build(&s, &v, game, NULL, NULL);
         const bool missed = memory_has_failed();
         assert_true(made || missed);
@@ -187,6 +187,6 @@ int main(void)
         cmocka_unit_test(failed_scene_does_not_spoil_the_next_one),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    memory_fails_alone();
+    fail_one_allocation();
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,9 +86,9 @@ static void only_named_frames_are_accepted(void **state)
     assert_says(&result, "3 before, 4 after: 0 changed, 1 new, 0 removed");
     command_release(&result);
     comparison_of made = assert_compared(c.before.path, c.after.path, NULL);
-    assert_int_equal(finding_of(&made, "2.png"), FOUND_PIXELS);
-    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_FRAME);
-    assert_int_equal(finding_of(&made, "4.png"), FOUND_SAME_BYTES);
+    assert_int_equal(find_finding(&made, "2.png"), FOUND_PIXELS);
+    assert_int_equal(find_finding(&made, "3.png"), FOUND_NO_FRAME);
+    assert_int_equal(find_finding(&made, "4.png"), FOUND_SAME_BYTES);
     comparison_release(&made);
     result = run_octreel(NULL, "accept %s %s 2.png 3.png", c.before.path, c.after.path);
     assert_done(&result);
@@ -122,7 +122,7 @@ static void reference_with_equal_pixels_is_unchanged(void **state)
     assert_says(&result, "0 changed");
     command_release(&result);
     comparison_of made = assert_compared(before.path, after.path, NULL);
-    assert_int_equal(finding_of(&made, "1.png"), FOUND_SAME_PIXELS);
+    assert_int_equal(find_finding(&made, "1.png"), FOUND_SAME_PIXELS);
     comparison_release(&made);
 }
 
@@ -225,9 +225,9 @@ static void accept_updates_a_baseline_line_by_line(void **state)
     assert_says(&result, "3 before, 3 after: 1 changed, 0 new, 0 removed");
     command_release(&result);
     comparison_of made = assert_compared(digests.path, c.after.path, NULL);
-    assert_int_equal(finding_of(&made, "2.png"), FOUND_SAME_PIXELS);
-    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_FRAME);
-    assert_int_equal(finding_of(&made, "4.png"), FOUND_NO_REFERENCE);
+    assert_int_equal(find_finding(&made, "2.png"), FOUND_SAME_PIXELS);
+    assert_int_equal(find_finding(&made, "3.png"), FOUND_NO_FRAME);
+    assert_int_equal(find_finding(&made, "4.png"), FOUND_NO_REFERENCE);
     comparison_release(&made);
     result = run_octreel(NULL, "accept %s %s" BECAUSE, digests.path, c.after.path);
     command_release(&result);

@@ -19,7 +19,7 @@ static int without_ci(void **state)
     return temp_folder_make(state);
 }
 
-static place film_in(void **state, const char *name, const char *keys)
+static place film_into(void **state, const char *name, const char *keys)
 {
     const place folder = place_in(*state, name);
     const octree_session session = short_session(keys);
@@ -85,7 +85,7 @@ static void full_disk_makes_no_folder(void **state)
 /* Its frames would fit. */
 static void full_disk_replaces_no_recording(void **state)
 {
-    const place golden = film_in(state, "golden", "wwd"), frames = film_in(state, "new", "dss"),
+    const place golden = film_into(state, "golden", "wwd"), frames = film_into(state, "new", "dss"),
                 before = copy_of(state, golden.path, "before");
     assert_no_room(golden.path, frames.path, 40000, "golden/index.html: cannot be written: File too large");
     assert_same_folders(before.path, golden.path, NULL);
@@ -123,7 +123,7 @@ static const char KEYS[] = "wwddeennwwd";
 static void assert_not_accepted(void **state, const char *frames, const char *lack)
 {
     char sentence[256];
-    const place golden = film_in(state, "golden", KEYS), before = copy_of(state, golden.path, "before"),
+    const place golden = film_into(state, "golden", KEYS), before = copy_of(state, golden.path, "before"),
                 baseline = place_in(*state, "baseline.txt");
     snprintf(sentence, sizeof sentence, "%s; refusing to accept a damaged or incomplete recording: ", lack);
     command_result result = run_octreel(NULL, "accept %s %s", golden.path, frames);
@@ -139,7 +139,7 @@ static void recording_with_a_missing_file_is_refused(void **state)
     static const char *const names[] = {"frame_000003.png", "frame_000011.png", "session.json", "ticks.jsonl"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char lack[64];
-        const place film = film_in(state, "film", KEYS);
+        const place film = film_into(state, "film", KEYS);
         remove(place_below(film.path, names[i]).path);
         snprintf(lack, sizeof lack, "film: %s is missing", names[i]);
         assert_not_accepted(state, film.path, lack);

@@ -67,12 +67,12 @@ static void frames_are_paired_by_name(void **state)
     gallery_write(place_below(b.path, "5.png").path, 3, 7); /* a's 5.png, spoilt */
     comparison_of made = assert_compared(a.path, b.path, NULL);
     assert_int_equal(made.result.count, 6);
-    assert_int_equal(finding_of(&made, "1.png"), FOUND_SAME_BYTES);
-    assert_int_equal(finding_of(&made, "2.png"), FOUND_SAME_BYTES);
-    assert_int_equal(finding_of(&made, "3.png"), FOUND_NO_REFERENCE);
-    assert_int_equal(finding_of(&made, "4.png"), FOUND_NO_FRAME);
-    assert_int_equal(finding_of(&made, "5.png"), FOUND_PIXELS);
-    assert_int_equal(finding_of(&made, "6.png"), FOUND_NO_REFERENCE);
+    assert_int_equal(find_finding(&made, "1.png"), FOUND_SAME_BYTES);
+    assert_int_equal(find_finding(&made, "2.png"), FOUND_SAME_BYTES);
+    assert_int_equal(find_finding(&made, "3.png"), FOUND_NO_REFERENCE);
+    assert_int_equal(find_finding(&made, "4.png"), FOUND_NO_FRAME);
+    assert_int_equal(find_finding(&made, "5.png"), FOUND_PIXELS);
+    assert_int_equal(find_finding(&made, "6.png"), FOUND_NO_REFERENCE);
     assert_int_equal(made.result.found[FOUND_NO_REFERENCE], 2);
     assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
     const image_difference *difference = &diff_find(&made.result, "5.png")->difference;
@@ -94,7 +94,7 @@ static void recordings_of_different_length_differ(void **state)
     comparison_of made = assert_compared(a.path, b.path, NULL);
     assert_int_equal(made.result.count, 3);
     assert_int_equal(made.result.found[FOUND_SAME_BYTES], 2);
-    assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_NO_FRAME);
+    assert_int_equal(find_finding(&made, "frame_000001.png"), FOUND_NO_FRAME);
     assert_int_equal(made.result.verdict, DIFF_DIFFERENT);
     comparison_release(&made);
 }
@@ -106,7 +106,7 @@ static void two_pictures_are_a_pair_with_any_names(void **state)
     gallery_write(b.path, 5, 2);
     comparison_of made = assert_compared(a.path, b.path, NULL);
     assert_int_equal(made.result.count, 1);
-    assert_int_equal(finding_of(&made, "a_new.png"), FOUND_PIXELS);
+    assert_int_equal(find_finding(&made, "a_new.png"), FOUND_PIXELS);
     comparison_release(&made);
 }
 
@@ -121,7 +121,7 @@ static void incomparable_sides_are_refused(void **state)
     options.mask_context = &(unsigned){1u << LAYER_TEXT};
     assert_not_compared(folder.path, folder.path, &options, "--ignore-layer needs a recording");
     comparison_of made = assert_compared(empty.path, folder.path, NULL);
-    assert_int_equal(finding_of(&made, "1.png"), FOUND_NO_REFERENCE);
+    assert_int_equal(find_finding(&made, "1.png"), FOUND_NO_REFERENCE);
     comparison_release(&made);
 }
 
@@ -143,7 +143,7 @@ static void equal_pixels_in_different_bytes_are_equal(void **state)
     gallery_write(a.path, 9, 0);
     write_otherwise(b.path, 9);
     comparison_of made = assert_compared(a.path, b.path, NULL);
-    assert_int_equal(finding_of(&made, "b.png"), FOUND_SAME_PIXELS);
+    assert_int_equal(find_finding(&made, "b.png"), FOUND_SAME_PIXELS);
     assert_int_equal(made.result.verdict, DIFF_SAME);
     comparison_release(&made);
 }
@@ -179,9 +179,9 @@ static void unreadable_frame_is_an_error(void **state)
     cut_short(place_below(b.path, "1.png").path, 300);
     cut_short(place_below(b.path, "2.png").path, 0);
     comparison_of made = assert_compared(a.path, b.path, NULL);
-    assert_int_equal(finding_of(&made, "1.png"), FOUND_UNREADABLE);
-    assert_int_equal(finding_of(&made, "2.png"), FOUND_UNREADABLE);
-    assert_int_equal(finding_of(&made, "3.png"), FOUND_SAME_BYTES);
+    assert_int_equal(find_finding(&made, "1.png"), FOUND_UNREADABLE);
+    assert_int_equal(find_finding(&made, "2.png"), FOUND_UNREADABLE);
+    assert_int_equal(find_finding(&made, "3.png"), FOUND_SAME_BYTES);
     assert_non_null(strstr(diff_find(&made.result, "1.png")->trouble, "1.png: the file is cut short"));
     assert_int_equal(made.result.verdict, DIFF_TROUBLE);
     comparison_release(&made);
@@ -221,7 +221,7 @@ static void tolerance_forgives_only_what_it_allows(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const diff_options options = {.tolerance = cases[i].tolerance};
         comparison_of made = assert_compared(a.path, b.path, &options);
-        assert_int_equal(finding_of(&made, "b.png"), cases[i].finding);
+        assert_int_equal(find_finding(&made, "b.png"), cases[i].finding);
         assert_int_equal(made.result.pairs[0].difference.unlike.pixels, cases[i].tolerance.ignored_count ? 2 : 6);
         comparison_release(&made);
     }
@@ -241,7 +241,7 @@ static void pairs_compared_in_parallel_are_independent(void **state)
     comparison_of made = assert_compared(a.path, b.path, NULL);
     for (int i = 0; i < PAIRS; i++) {
         snprintf(name, sizeof name, "frame_%06d.png", i);
-        assert_int_equal(finding_of(&made, name), i % 17 ? FOUND_PIXELS : FOUND_SAME_BYTES);
+        assert_int_equal(find_finding(&made, name), i % 17 ? FOUND_PIXELS : FOUND_SAME_BYTES);
         assert_int_equal(diff_find(&made.result, name)->difference.unlike.pixels, i % 17);
     }
     comparison_release(&made);

@@ -201,7 +201,7 @@ static void both_rasterizers_draw_all_layers_alike(void **state)
 {
     (void)state;
     static random_session made;
-    octree_session session = asking_session();
+    octree_session session = session_with_all_layers();
     random_session_full(&made, 11);
     for (int i = 0; i < 2 * CAMERA_COUNT; i++) {
         view v = view_of(320, 180, (view_camera)(i / 2), VIEW_ALL_LAYERS);

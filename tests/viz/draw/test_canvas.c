@@ -12,7 +12,7 @@ enum { SIDE = 128 };
 static void check_flight(view_camera camera)
 {
     const view v = view_of(320, 200, camera, VIEW_ALL_LAYERS);
-    octree_session session = asking_session();
+    octree_session session = session_with_all_layers();
     octree_game *game;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
     renderer *kept = open_renderer(v.width, v.height);

@@ -64,7 +64,7 @@ static void assert_all_or_nothing(work *w, const scene *s)
     for (long count = 0; failed; count++) {
         memset(some, 0, size);
         r = open_memory(s);
-        memory_fails_after(count);
+        fail_allocations_after(count);
         const bool done = w(r, s, some, &error);
         failed = memory_has_failed();
         renderer_close(r);
@@ -104,7 +104,7 @@ static void renderer_opens_or_reports_the_reason_if_an_allocation_fails(void **s
         bool failed = true;
         for (long count = 0; failed; count++) {
             octreel_error error = {""};
-            memory_fails_after(count);
+            fail_allocations_after(count);
             renderer *r = renderer_open(SIDE, SIDE, &choices[i], &error);
             failed = memory_has_failed();
             assert_true(r || (failed && strstr(error.text, "memory")));
@@ -121,6 +121,6 @@ int main(void)
         cmocka_unit_test(renderer_opens_or_reports_the_reason_if_an_allocation_fails),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    memory_fails_alone();
+    fail_one_allocation();
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

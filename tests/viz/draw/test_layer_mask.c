@@ -21,7 +21,7 @@ static uint8_t *mask_of(renderer *r, const scene *s, unsigned layers)
 /* The default session with every layer, the diagram too. */
 static scene layered_scene(view_camera camera, int aa)
 {
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     octree_game *game;
     view v = view_of(480, 270, camera, VIEW_ALL_LAYERS);
     scene s = {.refused = 0};

@@ -57,7 +57,7 @@ static void text_stays_within_its_boxes(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{640, 360}, {320, 640}, {200, 120}, {1280, 720}, {40, 30}};
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     octree_game *game;
     assert_int_equal(octree_game_create(&session, &game), OCTREE_OK);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {

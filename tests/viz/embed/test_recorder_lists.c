@@ -24,7 +24,7 @@ static void record_by(const char *folder, const moving_tree_source sources[2], s
     octreel_recorder *recorder = open_recorder(&def);
     for (int tick = 0; tick < TICKS; tick++) {
         moving_edits_make(&edits, &m);
-        if (hand_over(recorder, &m, sources[tick % 2], &edits) != OCTREEL_OK)
+        if (record_tick_from(recorder, &m, sources[tick % 2], &edits) != OCTREEL_OK)
             fail_msg("tick %d: %s", tick, octreel_recorder_error(recorder));
         moving_tree_step(&m);
     }

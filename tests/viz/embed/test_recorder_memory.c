@@ -34,8 +34,8 @@ static bool record_with_failure(octreel_recorder *recorder, moving_tree_source s
             for (int i = 0; i < 20; i++)
                 moving_tree_step(&m); /* so that there are more points than at any time before, perhaps */
             moving_edits_make(&edits, &m);
-            memory_fails_after(count);
-            const octreel_status status = hand_over(recorder, &m, source, &edits);
+            fail_allocations_after(count);
+            const octreel_status status = record_tick_from(recorder, &m, source, &edits);
             failed = memory_has_failed();
             *refused = status == OCTREEL_NO_MEMORY;
             assert_true(status == OCTREEL_OK || (failed && *refused));
@@ -43,7 +43,7 @@ static bool record_with_failure(octreel_recorder *recorder, moving_tree_source s
         } else
             moving_edits_make(&edits, &m);
         if (tick != BEFORE || *refused)
-            assert_int_equal(hand_over(recorder, &m, source, &edits), OCTREEL_OK);
+            assert_int_equal(record_tick_from(recorder, &m, source, &edits), OCTREEL_OK);
         digests[tick + *refused] = octree_digest(m.tree);
         moving_tree_step(&m);
     }
@@ -106,7 +106,7 @@ static void opening_without_memory_returns_no_recorder(void **state)
     octreel_recorder *recorder;
     long count = 0;
     for (;; count++) {
-        memory_fails_after(count);
+        fail_allocations_after(count);
         const octreel_status status = octreel_recorder_open(&def, &recorder, NULL);
         if (!memory_has_failed())
             break;
@@ -137,11 +137,11 @@ static bool film_with_failure(const place *folder, moving_tree_source source, si
     moving_tree m;
     moving_edits edits = {.count = 0};
     moving_tree_make(&m, full_leaf_of(source), 11);
-    memory_fails_elsewhere_after(count);
+    fail_allocations_elsewhere_after(count);
     for (int tick = 0; tick < FILMED && !has_failed(status); tick++, moving_tree_step(&m)) {
         moving_edits_make(&edits, &m);
         digests[tick] = octree_digest(m.tree);
-        status = hand_over(recorder, &m, source, &edits);
+        status = record_tick_from(recorder, &m, source, &edits);
     }
     if (ring && !has_failed(status))
         status = octreel_recorder_write(recorder, folder->path, NULL);
@@ -189,6 +189,6 @@ int main(void)
         TEST(opening_without_memory_returns_no_recorder),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    memory_fails_alone();
+    fail_one_allocation();
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

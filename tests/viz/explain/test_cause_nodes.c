@@ -39,11 +39,12 @@ static void give_wrong(variant *v)
 static void added_node_is_reported(void **state)
 {
     (void)state;
-    assert_says_of(give_small, give_right,
-                   "one more foreign node at tick 0 (id 6, parent 5, "
-                   "box (0, -1, -1) to (1, 1, 1)); tick 0: another number of foreign nodes "
-                   "(2, was 1), another depth of the foreign nodes (1, was 0), another digest of the foreign nodes "
-                   "(f49a4f94454fc709, was bb7cba137201538c)");
+    assert_change_headline_from(
+        give_small, give_right,
+        "one more foreign node at tick 0 (id 6, parent 5, "
+        "box (0, -1, -1) to (1, 1, 1)); tick 0: another number of foreign nodes "
+        "(2, was 1), another depth of the foreign nodes (1, was 0), another digest of the foreign nodes "
+        "(f49a4f94454fc709, was bb7cba137201538c)");
 }
 
 /* ---- Nodes that queries met ----------------------------------------------------------------------------------- */
@@ -100,11 +101,13 @@ static void meet_many_elsewhere(variant *v)
 static void different_visited_nodes_are_counted(void **state)
 {
     (void)state;
-    assert_says_of(meet_one, meet_two,
-                   "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
-                   "nodes visited (2, was 1)");
-    assert_says_of(meet_one, meet_another, "the query met other nodes at tick 0; no tick that both have differs");
-    assert_says_of(
+    assert_change_headline_from(
+        meet_one, meet_two,
+        "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
+        "nodes visited (2, was 1)");
+    assert_change_headline_from(meet_one, meet_another,
+                                "the query met other nodes at tick 0; no tick that both have differs");
+    assert_change_headline_from(
         meet_one_always, meet_two_always,
         "3 queries met other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of foreign "
         "nodes visited (2, was 1)");
@@ -113,7 +116,7 @@ static void different_visited_nodes_are_counted(void **state)
 static void long_lists_are_cut(void **state)
 {
     (void)state;
-    assert_says_of(
+    assert_change_headline_from(
         meet_one, meet_many_elsewhere,
         "another query at tick 0 (radius 1, at (0.5, 0, 0), was (0, 0, 0), visited (5, 6, 5, 6 and 3 more), "
         "was (5)); tick 0: another center in the radius query ((0.5, 0, 0), was (0, 0, 0)), another number of "
@@ -123,10 +126,10 @@ static void long_lists_are_cut(void **state)
 static void added_wrong_node_is_named_with_its_tick(void **state)
 {
     (void)state;
-    assert_says_of(give_right, give_wrong,
-                   "another foreign node at tick 0 (id 6, parent 5, box (0, -1, -1) to "
-                   "(2, 1, 1), was (0, -1, -1) to (1, 1, 1)); tick 0: one more wrong foreign "
-                   "node (wrong \"outside_parent\", node 6)");
+    assert_change_headline_from(give_right, give_wrong,
+                                "another foreign node at tick 0 (id 6, parent 5, box (0, -1, -1) to "
+                                "(2, 1, 1), was (0, -1, -1) to (1, 1, 1)); tick 0: one more wrong foreign "
+                                "node (wrong \"outside_parent\", node 6)");
 }
 
 int main(void)

@@ -64,25 +64,27 @@ static void set_two(variant *v)
 static void each_option_is_named_with_both_values(void **state)
 {
     (void)state;
-    assert_says(set_world, "another world ((-10, -10, -10) to (10, 10, 12.5), was (-10, -10, -10) to (10, 10, 10)): "
+    assert_change_headline(set_world,
+                           "another world ((-10, -10, -10) to (10, 10, 12.5), was (-10, -10, -10) to (10, 10, 10)): "
                            "every tick from 0 differs");
-    assert_says(set_capacity, "another leaf capacity (8, was 2): every tick from 0 differs");
-    assert_says(set_depth, "another depth (0, was 5): every tick from 0 differs");
-    assert_says(set_rule, "another rule for full leaves (grow, was refuse): " SAME_TICKS);
-    assert_says(set_player, "another player's id (77, was 100): every tick from 0 differs");
-    assert_says(set_start, "another start of the player ((0.5, 0, 0), was (0, 0, 0)): every tick from 0 differs");
-    assert_says(set_minus_zero, "another start of the player ((-0, 0, 0), was (0, 0, 0)): " SAME_TICKS);
-    assert_says(set_step, "another step of the player (0.25, was 1): every tick from 1 differs");
-    assert_says(set_box, "another collision box (4, was 0.5): every tick from 0 differs");
-    assert_says(set_sweep, "another swept collision test (on, was off): every tick from 0 differs");
+    assert_change_headline(set_capacity, "another leaf capacity (8, was 2): every tick from 0 differs");
+    assert_change_headline(set_depth, "another depth (0, was 5): every tick from 0 differs");
+    assert_change_headline(set_rule, "another rule for full leaves (grow, was refuse): " SAME_TICKS);
+    assert_change_headline(set_player, "another player's id (77, was 100): every tick from 0 differs");
+    assert_change_headline(set_start,
+                           "another start of the player ((0.5, 0, 0), was (0, 0, 0)): every tick from 0 differs");
+    assert_change_headline(set_minus_zero, "another start of the player ((-0, 0, 0), was (0, 0, 0)): " SAME_TICKS);
+    assert_change_headline(set_step, "another step of the player (0.25, was 1): every tick from 1 differs");
+    assert_change_headline(set_box, "another collision box (4, was 0.5): every tick from 0 differs");
+    assert_change_headline(set_sweep, "another swept collision test (on, was off): every tick from 0 differs");
 }
 
 static void options_come_before_their_consequences(void **state)
 {
     (void)state;
-    assert_says(set_two,
-                "another leaf capacity (8, was 2), another step of the player (0.25, was 1): every tick from 0 "
-                "differs");
+    assert_change_headline(
+        set_two, "another leaf capacity (8, was 2), another step of the player (0.25, was 1): every tick from 0 "
+                 "differs");
 }
 
 /* ---- The kind of player --------------------------------------------------------------------------------------- */
@@ -127,23 +129,27 @@ static void move_body_of_no_player(variant *v)
 static void different_kind_of_player_is_named(void **state)
 {
     (void)state;
-    assert_says(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
-    assert_says(set_body, "another player's id (1, was 100), another kind of player (body, was keys): every tick from "
-                          "0 differs");
-    assert_says_of(set_nobody, set_keys, "another kind of player (keys, was none): every tick from 0 differs");
-    assert_says_of(set_nobody, set_body, "another kind of player (body, was none): every tick from 0 differs");
-    assert_says_of(set_body, set_nobody, "another kind of player (none, was body): every tick from 0 differs");
+    assert_change_headline(set_nobody, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_change_headline(set_body,
+                           "another player's id (1, was 100), another kind of player (body, was keys): every tick from "
+                           "0 differs");
+    assert_change_headline_from(set_nobody, set_keys,
+                                "another kind of player (keys, was none): every tick from 0 differs");
+    assert_change_headline_from(set_nobody, set_body,
+                                "another kind of player (body, was none): every tick from 0 differs");
+    assert_change_headline_from(set_body, set_nobody,
+                                "another kind of player (none, was body): every tick from 0 differs");
 }
 
 /* Nobody has no step, and a body none that is read. */
 static void members_that_a_kind_of_player_ignores_are_not_named(void **state)
 {
     (void)state;
-    assert_says(set_nobody_with_all, "another kind of player (none, was keys): every tick from 0 differs");
-    assert_says_of(set_nobody, set_nobody_with_all, "");
-    assert_says_of(set_body, set_step, "");
-    assert_says_of(set_body, set_start, "");
-    assert_says_of(set_body, set_box, "another collision box (4, was 0.5): every tick from 0 differs");
+    assert_change_headline(set_nobody_with_all, "another kind of player (none, was keys): every tick from 0 differs");
+    assert_change_headline_from(set_nobody, set_nobody_with_all, "");
+    assert_change_headline_from(set_body, set_step, "");
+    assert_change_headline_from(set_body, set_start, "");
+    assert_change_headline_from(set_body, set_box, "another collision box (4, was 0.5): every tick from 0 differs");
 }
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */
@@ -186,25 +192,30 @@ static void move_all(variant *v)
 static void points_are_named_without_a_player(void **state)
 {
     (void)state;
-    assert_says_of(move_body_of_no_player, move_body,
-                   "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in the "
-                   "frames, node 7 divided only in the reference, "
-                   "point 3 moved");
+    assert_change_headline_from(
+        move_body_of_no_player, move_body,
+        "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in the "
+        "frames, node 7 divided only in the reference, "
+        "point 3 moved");
 }
 
 static void points_at_the_start_are_named(void **state)
 {
     (void)state;
-    assert_says(add_body,
-                "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
-    assert_says(
+    assert_change_headline(
+        add_body,
+        "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
+    assert_change_headline(
         drop_body,
         "one point at the start fewer (point 2: (-4, 5, -6)); tick 0: node 2 only in the reference, point 2 removed");
-    assert_says(move_body, "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in "
+    assert_change_headline(move_body,
+                           "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in "
                            "the frames, point 3 moved");
-    assert_says(push_body, "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
-    assert_says(swap_bodies, "another order of the points at the start; " SAME_TICKS);
-    assert_says(move_all, "4 other points at the start (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
+    assert_change_headline(push_body,
+                           "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
+    assert_change_headline(swap_bodies, "another order of the points at the start; " SAME_TICKS);
+    assert_change_headline(move_all,
+                           "4 other points at the start (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
 }
 
 /* ---- Values of points ----------------------------------------------------------------------------------------- */
@@ -255,20 +266,23 @@ static void add_body_with_class(variant *v)
 static void values_of_points_are_named(void **state)
 {
     (void)state;
-    assert_says(give_color, "another colour of a point (point 3: #ff0010, was none); " SAME_TICKS);
-    assert_says_of(give_some, change_intensity, "another intensity of a point (point 1: 0.1, was 0.5); " SAME_TICKS);
-    assert_says_of(give_some, change_class, "another class of a point (point 9: 6, was 2); " SAME_TICKS);
-    assert_says_of(give_some, drop_values,
-                   "another intensity of a point (point 1: none, was 0.5), another class of a point (point 9: none, "
-                   "was 2); " SAME_TICKS);
-    assert_says(give_classes, "4 other classes of points (points 1, 2, 3 and 4); " SAME_TICKS);
+    assert_change_headline(give_color, "another colour of a point (point 3: #ff0010, was none); " SAME_TICKS);
+    assert_change_headline_from(give_some, change_intensity,
+                                "another intensity of a point (point 1: 0.1, was 0.5); " SAME_TICKS);
+    assert_change_headline_from(give_some, change_class, "another class of a point (point 9: 6, was 2); " SAME_TICKS);
+    assert_change_headline_from(
+        give_some, drop_values,
+        "another intensity of a point (point 1: none, was 0.5), another class of a point (point 9: none, "
+        "was 2); " SAME_TICKS);
+    assert_change_headline(give_classes, "4 other classes of points (points 1, 2, 3 and 4); " SAME_TICKS);
 }
 
 static void values_of_a_point_on_one_side_are_not_named(void **state)
 {
     (void)state;
-    assert_says(add_body_with_class,
-                "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
+    assert_change_headline(
+        add_body_with_class,
+        "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
 }
 
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */
@@ -302,13 +316,13 @@ static void quits(variant *v)
 static void keys_are_named_by_their_ticks(void **state)
 {
     (void)state;
-    assert_says(other_key,
-                "another key at tick 3 (s, was w); tick 3: another place of the player ((1, 0, 0), was (1, 2, 0))");
-    assert_says(other_keys,
-                "3 other keys (ticks 1, 3 and 4); tick 1: another place of the player ((1, 0, 0), was (0, 1, 0))");
-    assert_says(waits, "");
-    assert_says(shorter, "another last tick (5, was 6); " SAME_TICKS);
-    assert_says(quits, "another last tick (2, was 6); " SAME_TICKS);
+    assert_change_headline(
+        other_key, "another key at tick 3 (s, was w); tick 3: another place of the player ((1, 0, 0), was (1, 2, 0))");
+    assert_change_headline(
+        other_keys, "3 other keys (ticks 1, 3 and 4); tick 1: another place of the player ((1, 0, 0), was (0, 1, 0))");
+    assert_change_headline(waits, "");
+    assert_change_headline(shorter, "another last tick (5, was 6); " SAME_TICKS);
+    assert_change_headline(quits, "another last tick (2, was 6); " SAME_TICKS);
 }
 
 /* ---- Edits --------------------------------------------------------------------------------------------------- */
@@ -364,27 +378,29 @@ static void late_edit_and_early_key(variant *v)
 static void the_first_tick_comes_first(void **state)
 {
     (void)state;
-    assert_says(late_edit_and_early_key,
-                "another query at every tick (range (-5, -5, -5) to (4, 5, 5), was (-5, -5, -5) to (5, 5, 5)); tick 0: "
-                "another max in the range query ((4, 5, 5), was (5, 5, 5)), another cost in the range query, another "
-                "number of nodes met; another key at tick 3 (s, was w), one more edit at tick 5 (remove 3)");
+    assert_change_headline(
+        late_edit_and_early_key,
+        "another query at every tick (range (-5, -5, -5) to (4, 5, 5), was (-5, -5, -5) to (5, 5, 5)); tick 0: "
+        "another max in the range query ((4, 5, 5), was (5, 5, 5)), another cost in the range query, another "
+        "number of nodes met; another key at tick 3 (s, was w), one more edit at tick 5 (remove 3)");
 }
 
 static void edits_are_named_by_tick_and_point(void **state)
 {
     (void)state;
-    assert_says(one_more_edit,
-                "one more edit at tick 5 (remove 3); tick 5: node 7/7 divided only in the reference, point 3 removed");
-    assert_says(one_edit_fewer,
-                "one edit fewer at tick 4 (remove 2); tick 4: node 2 only in the frames, point 2 added");
-    assert_says(other_edit, "another edit at tick 2 (move id 1, position (1, 2, -4), was (1, 2, 4)); tick "
-                            "2: node 6 only in the frames, point 1 moved");
-    assert_says(faster_edit,
-                "another edit at tick 2 (insert id 9, position (9, 9, 9), velocity (-1, 0, 0), was none); tick 2: "
-                "point 9 moved");
-    assert_says(swap_edits, "another order of the edits at tick 2; " SAME_TICKS);
-    assert_says(idle_edit, "");
-    assert_says(
+    assert_change_headline(
+        one_more_edit,
+        "one more edit at tick 5 (remove 3); tick 5: node 7/7 divided only in the reference, point 3 removed");
+    assert_change_headline(one_edit_fewer,
+                           "one edit fewer at tick 4 (remove 2); tick 4: node 2 only in the frames, point 2 added");
+    assert_change_headline(other_edit, "another edit at tick 2 (move id 1, position (1, 2, -4), was (1, 2, 4)); tick "
+                                       "2: node 6 only in the frames, point 1 moved");
+    assert_change_headline(
+        faster_edit, "another edit at tick 2 (insert id 9, position (9, 9, 9), velocity (-1, 0, 0), was none); tick 2: "
+                     "point 9 moved");
+    assert_change_headline(swap_edits, "another order of the edits at tick 2; " SAME_TICKS);
+    assert_change_headline(idle_edit, "");
+    assert_change_headline(
         many_edits,
         "4 more edits (points 20, 21, 22 and 23); tick 5: node 0 only in the frames, points 20, 21, 22 and 23 added");
 }
@@ -433,16 +449,20 @@ static void idle_query(variant *v)
 static void queries_are_named_by_kind_and_tick(void **state)
 {
     (void)state;
-    assert_says(one_more_query,
-                "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked only in the frames");
-    assert_says_of(no_query, three_more_queries,
-                   "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of that kind; tick 4: the nearest query "
-                   "asked only in the frames");
-    assert_says(one_query_fewer, "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range "
-                                 "query asked only in the reference");
-    assert_says(wider_query, "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was (-5, -5, -5) to "
-                             "(5, 5, 5)); tick 0: 2 more hits in the range query (points 3 and 4)");
-    assert_says(idle_query, "");
+    assert_change_headline(
+        one_more_query,
+        "one more query at tick 4 (nearest (1, 1, 1)); tick 4: the nearest query asked only in the frames");
+    assert_change_headline_from(
+        no_query, three_more_queries,
+        "one more query at tick 4 (nearest (1, 1, 1)) and 2 more of that kind; tick 4: the nearest query "
+        "asked only in the frames");
+    assert_change_headline(one_query_fewer,
+                           "one query fewer at every tick (range (-5, -5, -5) to (5, 5, 5)); tick 0: the range "
+                           "query asked only in the reference");
+    assert_change_headline(wider_query,
+                           "another query at every tick (range (-5, -5, -5) to (8, 8, 8), was (-5, -5, -5) to "
+                           "(5, 5, 5)); tick 0: 2 more hits in the range query (points 3 and 4)");
+    assert_change_headline(idle_query, "");
 }
 
 int main(void)

@@ -77,24 +77,32 @@ static void shape_and_length(variant *v)
 static void shapes_are_named_by_kind_tick_and_place(void **state)
 {
     (void)state;
-    assert_says(one_more_shape, "one more shape shown at tick 1 (label \"a goal\", at (7, 8, 9)); " SAME_TICKS);
-    assert_says(one_shape_fewer, "one shape shown fewer at every tick (segment (0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
-    assert_says(two_more_shapes, "one more shape shown at every tick (point (7, 7, 7)), one more shape shown at tick 2 "
-                                 "(point (8, 8, 8)); " SAME_TICKS);
-    assert_says(larger_shape, "another shape shown at every tick (box (-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) "
-                              "to (1, 1, 1)); " SAME_TICKS);
-    assert_says(longer_shape, "another shape shown at every tick (segment (0, 0, 0) to (5, 9, 9), was (0, 0, "
-                              "0) to (9, 9, 9)); " SAME_TICKS);
-    assert_says(moved_shape, "another shape shown at tick 2 (point (5, 2, 3), was (1, 2, 3)); " SAME_TICKS);
-    assert_says(moved_label,
-                "another shape shown at tick 2 (label \"start\", at (5, 5, 6), was (4, 5, 6)); " SAME_TICKS);
-    assert_says(other_label, "another shape shown at tick 2 (label \"a text as long as labels may be: 46 characters\", "
-                             "was \"start\", at (4, 5, 6)); " SAME_TICKS);
-    assert_says(other_kind_of_shape, "one shape shown fewer at every tick (segment (0, 0, 0) to (9, 9, 9)), one more "
-                                     "shape shown at every tick (point (0, 0, 0)); " SAME_TICKS);
-    assert_says(shape_and_length, "another last tick (5, was 6), one shape shown fewer at every tick (segment (0, 0, "
-                                  "0) to (9, 9, 9)); " SAME_TICKS);
-    assert_says(idle_shape, "");
+    assert_change_headline(one_more_shape,
+                           "one more shape shown at tick 1 (label \"a goal\", at (7, 8, 9)); " SAME_TICKS);
+    assert_change_headline(one_shape_fewer,
+                           "one shape shown fewer at every tick (segment (0, 0, 0) to (9, 9, 9)); " SAME_TICKS);
+    assert_change_headline(two_more_shapes,
+                           "one more shape shown at every tick (point (7, 7, 7)), one more shape shown at tick 2 "
+                           "(point (8, 8, 8)); " SAME_TICKS);
+    assert_change_headline(larger_shape,
+                           "another shape shown at every tick (box (-1, -1, -1) to (1, 5, 1), was (-1, -1, -1) "
+                           "to (1, 1, 1)); " SAME_TICKS);
+    assert_change_headline(longer_shape,
+                           "another shape shown at every tick (segment (0, 0, 0) to (5, 9, 9), was (0, 0, "
+                           "0) to (9, 9, 9)); " SAME_TICKS);
+    assert_change_headline(moved_shape, "another shape shown at tick 2 (point (5, 2, 3), was (1, 2, 3)); " SAME_TICKS);
+    assert_change_headline(moved_label,
+                           "another shape shown at tick 2 (label \"start\", at (5, 5, 6), was (4, 5, 6)); " SAME_TICKS);
+    assert_change_headline(other_label,
+                           "another shape shown at tick 2 (label \"a text as long as labels may be: 46 characters\", "
+                           "was \"start\", at (4, 5, 6)); " SAME_TICKS);
+    assert_change_headline(other_kind_of_shape,
+                           "one shape shown fewer at every tick (segment (0, 0, 0) to (9, 9, 9)), one more "
+                           "shape shown at every tick (point (0, 0, 0)); " SAME_TICKS);
+    assert_change_headline(shape_and_length,
+                           "another last tick (5, was 6), one shape shown fewer at every tick (segment (0, 0, "
+                           "0) to (9, 9, 9)); " SAME_TICKS);
+    assert_change_headline(idle_shape, "");
 }
 
 int main(void)

@@ -98,7 +98,7 @@ static void moved_point_has_all_pixels_of_its_layer(void **state)
             assert_int_equal(trace_of(&made, tick)->count, 1);
             assert_part(&trace_of(&made, tick)->parts[0], LAYER_POINTS, 3);
         }
-        assert_non_null(strstr(cause_of(&made, "frame_000001.png"), " of point 3"));
+        assert_non_null(strstr(find_cause_text(&made, "frame_000001.png"), " of point 3"));
         comparison_release(&made);
     }
 }
@@ -187,7 +187,7 @@ static void every_layer_has_a_description(void **state)
 static void assert_told(const comparison_of *made, uint64_t tick, int layer, const char *words)
 {
     char name[FRAME_NAME];
-    const char *cause = cause_of(made, frame_name(tick, name));
+    const char *cause = find_cause_text(made, frame_name(tick, name));
     const trace *t = trace_of(made, tick);
     bool found = false;
     for (size_t i = 0; i < t->count; i++)
@@ -244,10 +244,10 @@ static void elements_of_an_unmoved_close_up_are_traced(void **state)
     film_options options = small_film("");
     options.view.width = 640;
     options.view.height = 360;
-    const place a = film_in(*state, "a", &session, &options);
+    const place a = film_into(*state, "a", &session, &options);
     session.shapes = &shape;
     session.shape_count = 1;
-    const place b = film_in(*state, "b", &session, &options);
+    const place b = film_into(*state, "b", &session, &options);
     comparison_of made = assert_traced(&a, &b, NULL);
     assert_adds_up(&made);
     assert_true(trace_of(&made, 3)->pixels > 2 * 9); /* the mark is in the close-up, too */

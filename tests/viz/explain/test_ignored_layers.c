@@ -49,10 +49,10 @@ static void text_of_both_recordings_is_ignored_at_its_pixels(void **state)
     comparison_release(&made);
     options = leave_out(LAYER_TEXT);
     made = assert_compared(a.path, b.path, &options);
-    assert_int_equal(finding_of(&made, "frame_000000.png"), FOUND_SAME_BYTES);
-    assert_int_equal(finding_of(&made, "frame_000001.png"), FOUND_WITHIN);
+    assert_int_equal(find_finding(&made, "frame_000000.png"), FOUND_SAME_BYTES);
+    assert_int_equal(find_finding(&made, "frame_000001.png"), FOUND_WITHIN);
     assert_int_equal(diff_find(&made.result, "frame_000001.png")->difference.ignored, 1);
-    assert_int_equal(finding_of(&made, "frame_000002.png"), FOUND_PIXELS);
+    assert_int_equal(find_finding(&made, "frame_000002.png"), FOUND_PIXELS);
     comparison_release(&made);
     for (int i = 0; i < 2; i++) { /* a tick that the session does not have */
         const char *folder = i ? b.path : a.path;

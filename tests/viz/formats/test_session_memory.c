@@ -45,7 +45,7 @@ enum { TEXTS = sizeof texts / sizeof texts[0], CASES = TEXTS + 2 };
 /* The i-th text, or the text of a session with every layer or with foreign nodes. The caller frees it. */
 static char *make_text(size_t i)
 {
-    const octree_session asking = asking_session(), foreign = foreign_session();
+    const octree_session asking = session_with_all_layers(), foreign = foreign_session();
     if (i >= TEXTS)
         return text_of_session(i == TEXTS ? &asking : &foreign, NULL);
     char *copy = malloc(strlen(texts[i]) + 1);
@@ -75,7 +75,7 @@ static void assert_whole_or_refused(attempt *read, const char *text)
     bool failed = true;
     long count = 0;
     for (; failed; count++) {
-        memory_fails_after(count);
+        fail_allocations_after(count);
         const bool done = read(text, &file, &error);
         failed = memory_has_failed();
         if (done) {
@@ -170,7 +170,7 @@ static void stream_is_read_whole_or_fails_with_the_reason(void **state)
         assert_int_equal(read_stream(path.path, &all, &error), SESSION_STREAM_END);
         bool failed = true;
         for (long count = 0; failed; count++) {
-            memory_fails_after(count);
+            fail_allocations_after(count);
             const session_stream_state end = read_stream(path.path, &some, &error);
             failed = memory_has_failed();
             if (end == SESSION_STREAM_END)
@@ -193,6 +193,6 @@ int main(void)
         TEST(session_is_read_whole_or_not_at_all_if_jansson_fails),
     };
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    memory_fails_alone();
+    fail_one_allocation();
     return failed + cmocka_run_group_tests(tests, NULL, NULL);
 }

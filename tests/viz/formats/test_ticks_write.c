@@ -30,7 +30,7 @@ static void assert_told(const octree_tick *tick, const octree *tree)
     const tick_extras extras = {.frame = NULL};
     char *text = line_of(tick, &extras);
     json_t *line = json_read(text);
-    assert_line_tells(line, tick, tree);
+    assert_line_has_facts(line, tick, tree);
     json_decref(line);
     free(text);
 }

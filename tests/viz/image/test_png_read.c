@@ -11,9 +11,9 @@
 
 static double alpha_of(png_kind kind, int x, int y)
 {
-    int samples = png_samples_of(kind.color_type);
+    int samples = png_samples_per_pixel(kind.color_type);
     if (kind.color_type == PNG_KIND_GREY_ALPHA || kind.color_type == PNG_KIND_RGB_ALPHA)
-        return (double)png_sample_at(kind, x, y, samples - 1) / png_largest_of(kind);
+        return (double)png_sample_at(kind, x, y, samples - 1) / png_largest_sample(kind);
     if (!kind.keyed)
         return 1;
     if (kind.color_type == PNG_KIND_PALETTE)
@@ -35,7 +35,7 @@ static double expected_channel(png_kind kind, int x, int y, int channel, const d
         value = (channel == 0 ? color.r : channel == 1 ? color.g : color.b) / 255.0;
     } else {
         bool grey = kind.color_type == PNG_KIND_GREY || kind.color_type == PNG_KIND_GREY_ALPHA;
-        value = (double)png_sample_at(kind, x, y, grey ? 0 : channel) / png_largest_of(kind);
+        value = (double)png_sample_at(kind, x, y, grey ? 0 : channel) / png_largest_sample(kind);
     }
     return value * alpha + ground[channel] * (1 - alpha);
 }
@@ -134,7 +134,7 @@ static void save_row(const char *path, int depth, int color_type, const uint8_t 
     png_bytes_put(&rows, &filter_none, 1);
     for (size_t i = 0; i < count; i++)
         png_bytes_put(&rows, (uint8_t[]){samples[i], samples[i] + (i == 0 ? finer : 0)}, depth == 16 ? 2 : 1);
-    png_put_header(&file, (uint32_t)count / (uint32_t)png_samples_of(color_type), 1, depth, color_type, false);
+    png_put_header(&file, (uint32_t)count / (uint32_t)png_samples_per_pixel(color_type), 1, depth, color_type, false);
     png_put_rows_and_end(&file, &rows);
     png_bytes_save(&file, file.size, path);
 }

@@ -159,9 +159,9 @@ static void failed_write_reports_why_and_leaves_no_file(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         octreel_error error = {""};
         const char *path = temp_file(folder, cases[i].name);
-        disk_has_room_for(cases[i].reason == EFBIG ? 20 : SIZE_MAX);
+        limit_file_size(cases[i].reason == EFBIG ? 20 : SIZE_MAX);
         assert_false(image_write_png(cases[i].image, path, NULL, 0, &error));
-        disk_has_room_for(SIZE_MAX);
+        limit_file_size(SIZE_MAX);
         assert_sentence(&error, path, strerror(cases[i].reason));
         assert_int_equal(temp_folder_count(folder), before);
     }
@@ -174,9 +174,9 @@ static void full_disk_removes_the_part_and_keeps_the_old_file(void **state)
     image_twins twins = make_twins(8, 8);
     octreel_error error;
     for (int files = 0; files < 2; files++) {
-        disk_has_room_for(20);
+        limit_file_size(20);
         assert_false(image_write_png(&twins.rgb, temp_file(*state, "a.png"), NULL, 0, &error));
-        disk_has_room_for(SIZE_MAX);
+        limit_file_size(SIZE_MAX);
         assert_int_equal(temp_folder_count(*state), files);
         if (files == 0)
             assert_written(&twins.indexed, temp_file(*state, "a.png"));

@@ -15,12 +15,12 @@
 static void check_marked(const scene *s, unsigned layer, const octree_answer *answer)
 {
     for (size_t i = 0; i < answer->count; i++)
-        assert_true(markers_at(s, layer, answer->points[i].id, answer->points[i].position) >= 1);
+        assert_true(count_markers_at(s, layer, answer->points[i].id, answer->points[i].position) >= 1);
 }
 
 static void check_range(const scene *s, const octree_answer *answer, size_t place, layer_counts *due)
 {
-    assert_true(same_box(&only_box(s, LAYER_RANGE, place)->box, &answer->box));
+    assert_true(same_box(&find_only_box(s, LAYER_RANGE, place)->box, &answer->box));
     check_marked(s, LAYER_RANGE, answer);
     due->boxes++;
     due->markers += answer->count;
@@ -30,8 +30,8 @@ static void check_nearest(const scene *s, const octree_answer *answer, size_t pl
 {
     for (size_t i = 0; i < answer->count; i++) {
         const octree_point *nearest = &answer->neighbors[i].point;
-        assert_int_equal(lines_between(s, LAYER_NEAREST, place, answer->target, nearest->position), 1);
-        assert_true(markers_at(s, LAYER_NEAREST, nearest->id, nearest->position) >= 1);
+        assert_int_equal(count_lines_between(s, LAYER_NEAREST, place, answer->target, nearest->position), 1);
+        assert_true(count_markers_at(s, LAYER_NEAREST, nearest->id, nearest->position) >= 1);
     }
     due->segments += answer->count;
     due->markers += answer->count;
@@ -81,7 +81,7 @@ static void check_knearest(const scene *s, const octree_answer *answer, size_t p
     for (size_t i = 0; i < answer->count; i++) {
         const double *at = answer->neighbors[i].point.position;
         const uint64_t id = (uint64_t)place << 32 | i;
-        assert_int_equal(lines_between(s, LAYER_KNEAREST, id, answer->target, at), 1);
+        assert_int_equal(count_lines_between(s, LAYER_KNEAREST, id, answer->target, at), 1);
         bool room = i < 9 && !is_behind_the_eye(s, at);
         for (size_t j = 0; room && j < numbers; j++)
             room = !are_crowded(s, at, numbered[j]);
@@ -112,8 +112,8 @@ static void check_radius(const scene *s, const octree_answer *answer, size_t pla
         in_plane[plane]++;
         last = chord->ends[1];
         if (number % BALL_CHORDS == BALL_CHORDS - 1)
-            assert_int_equal(lines_between(s, LAYER_RADIUS, chord->id - (BALL_CHORDS - 1), last,
-                                           s->segments.items[i - (BALL_CHORDS - 1)].ends[1]),
+            assert_int_equal(count_lines_between(s, LAYER_RADIUS, chord->id - (BALL_CHORDS - 1), last,
+                                                 s->segments.items[i - (BALL_CHORDS - 1)].ends[1]),
                              1);
     }
     for (int plane = 0; plane < 3; plane++)
@@ -163,7 +163,7 @@ static void check_session(const octree_session *session, view_camera camera)
 static void every_answer_of_a_session_is_shown_in_its_layer(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     check_session(&session, CAMERA_ISO);
 }
 
@@ -226,7 +226,7 @@ static void chords_of_a_ball_beyond_all_doubles_are_counted_and_left_out(void **
 static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree_game *game = start_game(&session);
     scene tick = {0}, tree = {0};
@@ -243,7 +243,7 @@ static void answers_of_a_tree_are_drawn_like_answers_of_a_tick(void **state)
     }
     for (size_t i = 0; i < asked->answer_count; i++)
         if (asked->answers[i].kind == OCTREE_QUERY_RANGE)
-            assert_non_null(only_box(&tree, LAYER_RANGE, i));
+            assert_non_null(find_only_box(&tree, LAYER_RANGE, i));
     scene_release(&tick);
     scene_release(&tree);
     octree_game_destroy(game);

@@ -32,13 +32,13 @@ static octree_walk_order check_asked(const octree_node *node, void *context)
     double middle[3];
     assert_true(tree_scene_build(&s, &a->view, a->tree, &(tree_subject){.title = "asked", .node = node->address}));
     const layer_counts found = count_layer(&s, LAYER_ASKED);
-    const scene_box *box = only_box(&s, LAYER_ASKED, node->address);
+    const scene_box *box = find_only_box(&s, LAYER_ASKED, node->address);
     assert_true(same_box(&box->box, &node->box));
     assert_true(box->style.role == ROLE_PLAYER && box->style.width == 2);
     for (int i = 0; i < 3; i++)
         middle[i] = node->box.min[i] / 2 + node->box.max[i] / 2;
     const bool small = camera_box_pixels(&s.camera, &node->box) <= 24;
-    assert_int_equal(markers_at(&s, LAYER_ASKED, node->address, middle), small);
+    assert_int_equal(count_markers_at(&s, LAYER_ASKED, node->address, middle), small);
     assert_true(found.boxes == 1 && found.markers == small && found.segments + found.labels + found.panels == 0);
     snprintf(text, sizeof text, "node %.42s", octree_address_format(node->address, address));
     text[21] = 0; /* no longer than the column */

@@ -25,7 +25,7 @@ static void check_planes(const scene *s, const octree *tree, view_layer layer, s
             memcpy(to, first.max, sizeof to);
             from[axis] = cell.min[axis];
             to[axis] = cell.max[axis];
-            assert_int_equal(lines_between(s, layer, nodes[i] << 2 | axis, from, to), 1);
+            assert_int_equal(count_lines_between(s, layer, nodes[i] << 2 | axis, from, to), 1);
         }
     }
     assert_int_equal(found.segments, 3 * count);
@@ -125,7 +125,7 @@ static void check_broken(const scene *s, const octree_box *world, octree_address
     const octree_box cell = octree_cell_box(world, where);
     const layer_counts found = count_layer(s, LAYER_BROKEN);
     assert_true(found.boxes == 1 && found.segments == 12 && found.labels == 1 && found.markers + found.panels == 0);
-    assert_true(same_box(&only_box(s, LAYER_BROKEN, where)->box, &cell));
+    assert_true(same_box(&find_only_box(s, LAYER_BROKEN, where)->box, &cell));
     for (size_t i = 0; i < s->segments.count; i++) {
         const scene_segment *line = &s->segments.items[i];
         assert_true(line->style.layer != LAYER_BROKEN ||

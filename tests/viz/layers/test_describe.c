@@ -131,7 +131,7 @@ static void every_element_of_every_layer_is_described(void **state)
     octree_game *game;
     heat h = {0};
     scene s = {0};
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     view v = view_of(960, 540, CAMERA_ISO, VIEW_ALL_LAYERS);
     v.labels = true;
     v.diagram = DIAGRAM_BESIDE;

@@ -96,7 +96,7 @@ static void foreign_nodes_look_like_own_nodes(void **state)
     show(&v, 0);
     const octree_foreign_node *nodes = session.foreign[0].nodes;
     for (size_t i = 0; i < FOREIGN_NODES; i++) {
-        const scene_box *box = only_box(&shown, LAYER_NODES, foreign_element(nodes[i].id));
+        const scene_box *box = find_only_box(&shown, LAYER_NODES, foreign_element(nodes[i].id));
         const unsigned depth = i == 0 ? 0 : i < 3 ? 1 : 2;
         assert_true(same_box(&box->box, &nodes[i].box));
         assert_int_equal(box->depth, depth);
@@ -105,9 +105,9 @@ static void foreign_nodes_look_like_own_nodes(void **state)
     assert_int_equal(BOXES_OF(LAYER_VISITED), 3);
     assert_int_equal(BOXES_OF(LAYER_PRUNED), 2);
     assert_int_equal(BOXES_OF(LAYER_HIT), 1);
-    assert_int_equal(only_box(&shown, LAYER_PRUNED, foreign_element(FOREIGN_LOW))->style.stroke, STROKE_CUT);
-    assert_int_equal(only_box(&shown, LAYER_VISITED, foreign_element(FOREIGN_ROOT))->style.width, 2);
-    assert_int_equal(only_box(&shown, LAYER_HIT, foreign_element(FOREIGN_HIGH))->style.role, ROLE_HIT);
+    assert_int_equal(find_only_box(&shown, LAYER_PRUNED, foreign_element(FOREIGN_LOW))->style.stroke, STROKE_CUT);
+    assert_int_equal(find_only_box(&shown, LAYER_VISITED, foreign_element(FOREIGN_ROOT))->style.width, 2);
+    assert_int_equal(find_only_box(&shown, LAYER_HIT, foreign_element(FOREIGN_HIGH))->style.role, ROLE_HIT);
     assert_true(says("3 nodes visited") && says("2 nodes pruned") && says("1 leaf hit"));
 }
 
@@ -117,16 +117,16 @@ static void foreign_nodes_are_coloured_by_kind_and_by_occupancy(void **state)
     view v = view_by(TREE_AUTO);
     v.coloring = COLORING_KIND;
     show(&v, 0);
-    const theme_role leaf = only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role;
-    assert_int_equal(only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_RIGHT))->style.role, leaf);
-    assert_int_not_equal(only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role, leaf);
-    assert_int_not_equal(only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LEFT))->style.role, leaf);
+    const theme_role leaf = find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role;
+    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_RIGHT))->style.role, leaf);
+    assert_int_not_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role, leaf);
+    assert_int_not_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LEFT))->style.role, leaf);
     assert_true(says("node: leaf") && says("node: split x"));
     v.coloring = COLORING_OCCUPANCY;
     show(&v, 0);
-    assert_int_equal(only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role,
+    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role,
                      theme_node_role(theme_step(8, 1)));
-    assert_int_equal(only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
+    assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
                      theme_node_role(theme_step(2, 1)));
     assert_true(says("program's, 0-256+ points"));
     v.tree = TREE_BOTH;
@@ -192,9 +192,9 @@ static void faults_of_foreign_nodes_are_marked_and_described(void **state)
     assert_int_equal(BOXES_OF(LAYER_WRONG), 0);
     show(&v, 1);
     assert_int_equal(BOXES_OF(LAYER_WRONG), 2);
-    only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_LOW));
-    only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_HIGH));
-    assert_int_equal(markers_at(&shown, LAYER_WRONG, LOST | 8, session.bodies[7].position), 1);
+    find_only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_LOW));
+    find_only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_HIGH));
+    assert_int_equal(count_markers_at(&shown, LAYER_WRONG, LOST | 8, session.bodies[7].position), 1);
     assert_true(says("outside parent") && says("wrongly pruned") && says("in no node"));
     assert_true(says("wrong in nodes"));
     char text[FOREIGN_FAULT_TEXT];

@@ -46,7 +46,7 @@ static bool is_explained(const scene *s, const struct legend_row *row)
 {
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        if (label->style.layer != LAYER_TEXT || label->at[0] != legend_words(s))
+        if (label->style.layer != LAYER_TEXT || label->at[0] != find_legend_text_x(s))
             continue;
         if (row->layer == LAYER_POINTS ? strcmp(label->text, row->text) == 0 : strstr(label->text, row->text) != NULL)
             return true;
@@ -68,7 +68,7 @@ static octree_game *start_asking(const octree_session *session)
 static void legend_lists_the_shown_layers(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     octree_game *game = start_asking(&session);
     scene s = {0};
     for (size_t i = 0; i < LEGEND_ROWS; i++) {
@@ -108,7 +108,7 @@ static unsigned worth_of(const scene *s, const struct legend_row *row)
 static void legend_drops_lines_in_drop_order(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     octree_game *game = start_asking(&session);
     scene s = {0};
     size_t whole = 0, partial = 0, cut = 0, none = 0;
@@ -117,7 +117,7 @@ static void legend_drops_lines_in_drop_order(void **state)
         size_t there[4] = {0}, missing[4] = {0};
         char more[SCENE_TEXT];
         build_tick(&s, &v, game);
-        check_place(&s);
+        assert_inside_column(&s);
         for (size_t i = 0; i < LEGEND_ROWS; i++) {
             const unsigned worth = worth_of(&s, &legend_rows[i]);
             const bool listed = is_explained(&s, &legend_rows[i]);
@@ -134,7 +134,8 @@ static void legend_drops_lines_in_drop_order(void **state)
         snprintf(more, sizeof more, "and %zu more", gone);
         bool told = false;
         for (size_t i = 0; i < s.labels.count; i++)
-            told = told || (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].at[0] == legend_words(&s));
+            told = told ||
+                   (strcmp(s.labels.items[i].text, more) == 0 && s.labels.items[i].at[0] == find_legend_text_x(&s));
         assert_int_equal(told, all > 0 && gone > 0);
         whole += missing[0] == 0;
         partial += missing[3] == 0 && missing[0] > 0;
@@ -215,10 +216,10 @@ static void legend_lists_the_elements_of_the_diagram(void **state)
         v.filter.leaves = i & 2;
         const tree_subject about = {.title = "legend", .node = i & 8 ? OCTREE_ROOT : 0};
         assert_true(tree_scene_build(&s, &v, i & 4 ? large : small, &about));
-        assert_true(says(&s, "inner node, leaf") && says(&s, "nodes, depth 0-9+"));
-        assert_int_equal(says(&s, "node filtered out"), (i & 2) != 0);
-        assert_int_equal(says(&s, "bars: many nodes, log2"), (i & 4) != 0);
-        assert_int_equal(says(&s, "way from the root"), (i & 8) != 0);
+        assert_true(has_label_with(&s, "inner node, leaf") && has_label_with(&s, "nodes, depth 0-9+"));
+        assert_int_equal(has_label_with(&s, "node filtered out"), (i & 2) != 0);
+        assert_int_equal(has_label_with(&s, "bars: many nodes, log2"), (i & 4) != 0);
+        assert_int_equal(has_label_with(&s, "way from the root"), (i & 8) != 0);
         scene_release(&s);
     }
     brute_free(&all);

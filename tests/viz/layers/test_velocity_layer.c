@@ -156,7 +156,7 @@ static void session_without_movers_has_no_arrows_and_no_legend_line(void **state
 {
     (void)state;
     const octree_session still = octree_session_default();
-    const octree_session moving = asking_session();
+    const octree_session moving = session_with_all_layers();
     for (int i = 0; i < 3; i++) {
         octree_game *game = start_game(i ? &moving : &still);
         view v = every_arrow(CAMERA_FOLLOW);
@@ -189,7 +189,7 @@ static void filtered_point_has_no_arrow(void **state)
         v.filter = filters[f];
         build_tick(&s, &v, game);
         for (size_t i = 0; i < BODIES; i++) {
-            const bool point = markers_at(&s, LAYER_POINTS, bodies[i].id, bodies[i].position) == 1;
+            const bool point = count_markers_at(&s, LAYER_POINTS, bodies[i].id, bodies[i].position) == 1;
             assert_int_equal(find_arrow(&s, bodies[i].id) != NULL, point && i % 5 != 0);
             shown += point;
         }
@@ -301,7 +301,7 @@ static void points_beyond_the_budget_have_no_arrow(void **state)
     build_tick(&s, &v, game);
     for (size_t i = 0; i < BODIES; i++)
         assert_true(!find_arrow(&s, bodies[i].id) ||
-                    markers_at(&s, LAYER_POINTS, bodies[i].id, bodies[i].position) == 1);
+                    count_markers_at(&s, LAYER_POINTS, bodies[i].id, bodies[i].position) == 1);
     assert_true(s.tally.thinned > 0 && count_layer(&s, LAYER_VELOCITIES).segments <= 1);
     scene_release(&s);
     octree_game_destroy(game);

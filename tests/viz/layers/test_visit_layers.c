@@ -53,7 +53,7 @@ static void check_box(const scene *s, const octree *tree, octree_address address
     due->small += is_small(s, &node);
     if (is_small(s, &node))
         return;
-    const scene_box *box = only_box(s, style.layer, address);
+    const scene_box *box = find_only_box(s, style.layer, address);
     assert_true(same_box(&box->box, &node.box));
     assert_int_equal(box->depth, node.depth);
     assert_int_equal(box->style.role, style.role ? style.role : theme_node_role(node.depth));
@@ -160,7 +160,7 @@ static void check_session(const octree_session *session, const view *v, bool wor
 static void visits_of_the_default_session_match_a_recount(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     const view v = view_of(1280, 1440, CAMERA_ISO, VIEW_DEFAULT_LAYERS);
     check_session(&session, &v, true);
 }
@@ -237,7 +237,7 @@ static void visited_nodes_keep_their_colour(void **state)
             const scene_box *box = &s.boxes.items[i];
             if (box->style.layer != LAYER_VISITED && box->style.layer != LAYER_PRUNED)
                 continue;
-            assert_int_equal(box->style.role, only_box(&s, LAYER_NODES, box->id)->style.role);
+            assert_int_equal(box->style.role, find_only_box(&s, LAYER_NODES, box->id)->style.role);
             met++;
         }
         assert_true(met > 20);

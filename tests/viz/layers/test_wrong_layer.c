@@ -84,7 +84,7 @@ static void farther_neighbour_is_marked_and_the_nearest_ringed(void **state)
         assert_true(same_position(ring->at, bodies[0].position) && same_position(missed->at, ring->at));
         assert_true(missed->id == 1 && missed->style.role == ROLE_MISSED);
         assert_true(extra->id == 3 && extra->style.role == ROLE_WRONG && same_position(extra->at, bodies[2].position));
-        assert_int_equal(lines_between(&s, LAYER_WRONG, 0, query.target, bodies[2].position), 1);
+        assert_int_equal(count_lines_between(&s, LAYER_WRONG, 0, query.target, bodies[2].position), 1);
         assert_true(has_words(&s, LAYER_TEXT, "1 of 1") && has_words(&s, LAYER_TEXT, "nearest") &&
                     has_words(&s, LAYER_TEXT, "5.83 times as far"));
         assert_true(has_words(&s, LAYER_WRONG, "5.83 times as far"));
@@ -125,8 +125,8 @@ static void missing_and_extra_points_of_a_ball_are_marked(void **state)
                                 .answer_count = 2};
     scene s = scene_of(&query, 1, CAMERA_TOP);
     assert_int_equal(count_layer(&s, LAYER_WRONG).segments, 0);
-    assert_int_equal(markers_at(&s, LAYER_WRONG, 1, bodies[0].position), 1);
-    assert_int_equal(markers_at(&s, LAYER_WRONG, 4, bodies[3].position), 1);
+    assert_int_equal(count_markers_at(&s, LAYER_WRONG, 1, bodies[0].position), 1);
+    assert_int_equal(count_markers_at(&s, LAYER_WRONG, 4, bodies[3].position), 1);
     assert_true(has_words(&s, LAYER_TEXT, "1 missed, 1 extra"));
     scene_release(&s);
 }
@@ -143,8 +143,8 @@ static void answer_with_an_unknown_id_is_ringed_at_its_target(void **state)
                                      .answer = box_ids,
                                      .answer_count = 1}};
     scene s = scene_of(queries, 2, CAMERA_TOP);
-    assert_int_equal(markers_at(&s, LAYER_WRONG, UINT64_MAX, queries[0].target), 1);
-    assert_int_equal(markers_at(&s, LAYER_WRONG, UINT64_MAX - 1, (double[]){-8.5, -8.5, -8.5}), 1);
+    assert_int_equal(count_markers_at(&s, LAYER_WRONG, UINT64_MAX, queries[0].target), 1);
+    assert_int_equal(count_markers_at(&s, LAYER_WRONG, UINT64_MAX - 1, (double[]){-8.5, -8.5, -8.5}), 1);
     assert_true(has_words(&s, LAYER_WRONG, "1 is named twice") && has_words(&s, LAYER_WRONG, "no point has id 9"));
     scene_release(&s);
 }

@@ -385,7 +385,7 @@ static void four_processes_record_the_bytes_of_one(void **state)
 static void gnu_parallel_records_the_chunks(void **state)
 {
     const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
-    if (!program_is_there("parallel"))
+    if (!is_program_installed("parallel"))
         skip();
     command_result result = run_octreel(NULL, "record --size 160x90 -o %s", whole.path);
     assert_done(&result);

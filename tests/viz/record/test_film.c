@@ -103,7 +103,7 @@ static void assert_next_tick(const char *line, size_t number, void *context)
     if (number > 0)
         assert_int_equal(octree_game_advance(game), OCTREE_OK);
     json_t *object = json_read(line);
-    assert_line_tells(object, octree_game_tick(game), octree_game_tree(game));
+    assert_line_has_facts(object, octree_game_tick(game), octree_game_tree(game));
     json_decref(object);
 }
 

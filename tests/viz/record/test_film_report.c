@@ -18,7 +18,7 @@ static const char KEYS[] = "ddddeeeewwwwaaaassssffff.n.dewaf"; /* 33 ticks */
 
 static bool has_ffmpeg(void)
 {
-    return program_is_there("ffmpeg") && program_is_there("ffprobe");
+    return is_program_installed("ffmpeg") && is_program_installed("ffprobe");
 }
 
 static void need_ffmpeg(void)

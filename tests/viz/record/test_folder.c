@@ -181,9 +181,9 @@ static void unwritable_file_leaves_the_old_file_and_no_part(void **state)
     const temp_folder *folder = *state;
     octreel_error error = {""};
     assert_written(folder->name, "x.json", "mine");
-    disk_has_room_for(3);
+    limit_file_size(3);
     assert_false(folder_write(folder->name, "x.json", "second", 6, &error));
-    disk_has_room_for(SIZE_MAX);
+    limit_file_size(SIZE_MAX);
     assert_non_null(strstr(error.text, "x.json"));
     assert_non_null(strstr(error.text, "File too large"));
     char *text = file_read(place_in(folder, "x.json").path, NULL);

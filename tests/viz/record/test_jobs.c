@@ -140,15 +140,15 @@ static void error_names_a_killed_job(void **state)
     const place session = long_session(state), folder = place_in(*state, "film");
     background b = start_octreel("record %s --size 160x90 --jobs 2 -o %s", session.path, folder.path);
     wait_for_file(&b, frame_place(folder.path, 2).path);
-    const pid_t job = child_of(b.pid, 1);
+    const pid_t job = find_child_process(b.pid, 1);
     if (job == 0) {
         kill(-b.pid, SIGKILL);
-        command_result ended = end_of(&b);
+        command_result ended = wait_for_end(&b);
         command_release(&ended);
         skip(); /* no /proc */
     }
     kill(job, SIGKILL);
-    command_result result = end_of(&b);
+    command_result result = wait_for_end(&b);
     assert_non_null(strstr(result.err, " of 2 was killed by signal 9 (Killed); --resume records the missing ticks"));
     assert_trouble(&result, "job ");
     const size_t lines = for_each_line(folder.path, NULL, NULL);
@@ -170,7 +170,7 @@ static void stopped_jobs_report_the_command_to_continue(void **state)
             start_octreel("record %s --size 160x90 --jobs %d -o %s", session.path, i % 2 == 0 ? 2 : 1, folder.path);
         wait_for_file(&b, frame_place(folder.path, 4).path);
         kill(i < 2 ? b.pid : -b.pid, sent); /* to one, as kill does, or to all, as a terminal does */
-        command_result result = end_of(&b);
+        command_result result = wait_for_end(&b);
         assert_int_equal(result.status, 128 + sent);
         snprintf(sentence, sizeof sentence, " record --resume -o %s\n", folder.path);
         assert_non_null(strstr(result.err, "octreel: stopped after "));
@@ -193,7 +193,7 @@ static void stopped_recording_of_several_jobs_is_resumed(void **state)
     background b = start_octreel("record %s --size 160x90 --every 100 --jobs 2 -o %s", session.path, folder.path);
     wait_for_file(&b, frame_place(folder.path, 300).path);
     kill(b.pid, SIGTERM);
-    command_result result = end_of(&b);
+    command_result result = wait_for_end(&b);
     command_release(&result);
     assert_nothing_half_written(folder.path);
     assert_resumes(state, folder.path, session.path);
@@ -231,7 +231,7 @@ static void killing_the_parent_ends_jobs_within_a_frame(void **state)
     struct pollfd all_ended = {.fd = b.err, .events = POLLIN};
     const bool ended = poll(&all_ended, 1, PATIENCE) == 1 && read(b.err, said, sizeof said) == 0;
     close(held);
-    command_result result = end_of(&b);
+    command_result result = wait_for_end(&b);
     assert_int_equal(result.status, 128 + SIGKILL);
     command_release(&result);
     assert_true(ended);
@@ -248,7 +248,7 @@ static void killing_the_parent_leaves_no_job(void **state)
     background b = start_octreel("record %s --size 160x90 --every 100 --jobs 2 -o %s", session.path, folder.path);
     wait_for_file(&b, frame_place(folder.path, 300).path);
     kill(b.pid, SIGKILL);
-    command_result result = end_of(&b); /* at the end of all who could write to stderr */
+    command_result result = wait_for_end(&b); /* at the end of all who could write to stderr */
     assert_int_equal(result.status, 128 + SIGKILL);
     command_release(&result);
     nanosleep(&while_frames_end, NULL);
@@ -269,7 +269,7 @@ static void ignored_signals_stay_ignored(void **state)
     signal(SIGHUP, SIG_DFL);
     wait_for_file(&b, frame_place(folder.path, 4).path);
     kill(-b.pid, SIGHUP);
-    command_result result = end_of(&b);
+    command_result result = wait_for_end(&b);
     assert_done(&result);
     command_release(&result);
     assert_int_equal(for_each_line(folder.path, NULL, NULL), 253);

@@ -246,9 +246,9 @@ static void failed_write_keeps_the_old_page(void **state)
     const place folder = recording_of(state, TICK), page = place_below(folder.path, "index.html");
     const place part = place_below(folder.path, "index.html.part");
     file_write_text(page.path, "mine");
-    disk_has_room_for(1000);
+    limit_file_size(1000);
     assert_false(page_write(folder.path, &error));
-    disk_has_room_for(SIZE_MAX);
+    limit_file_size(SIZE_MAX);
     assert_non_null(strstr(error.text, page.path));
     assert_non_null(strstr(error.text, "File too large"));
     assert_false(file_exists(part.path));

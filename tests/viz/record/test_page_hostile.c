@@ -65,14 +65,14 @@ static int drive_pages(void **state)
     assert_filmed(&session, &options);
     d->page = place_below(film.path, "index.html");
     d->given = json_array();
-    if (!browser_is_there() || !page_has_module(d->page.path))
+    if (!is_browser_installed() || !page_has_module(d->page.path))
         return 0;
     char *text = file_read(d->page.path, NULL);
     give_pages(d, text);
     free(text);
-    const place given = write_given(d->folder, d->given);
+    const place given = write_given_script(d->folder, d->given);
     file_write_text(bare.path, "<!DOCTYPE html>\n<body>\n");
-    d->said = drive_page_by(d->folder, bare.path, (const char *const[]){given.path, "drive_hostile.js", NULL});
+    d->said = run_scripts_in_page(d->folder, bare.path, (const char *const[]){given.path, "drive_hostile.js", NULL});
     return 0;
 }
 
@@ -89,37 +89,37 @@ static int forget_pages(void **state)
 static const char *need_said(void **state)
 {
     const driven *d = *state;
-    need_playing_page(d->page.path);
+    skip_without_playing_page(d->page.path);
     return d->said;
 }
 
 static void undamaged_page_plays(void **state)
 {
     const char *said = need_said(state);
-    assert_said_about(said, "whole: message", "");
-    assert_said_about(said, "whole: faults", "");
-    assert_said_about(said, "whole: bar", "true");
-    assert_said_about(said, "whole: keys", "true");
-    assert_said_about(said, "whole: after a key", "tick 2 of 2, played: ");
+    assert_reported_value(said, "whole: message", "");
+    assert_reported_value(said, "whole: faults", "");
+    assert_reported_value(said, "whole: bar", "true");
+    assert_reported_value(said, "whole: keys", "true");
+    assert_reported_value(said, "whole: after a key", "tick 2 of 2, played: ");
 }
 
 static void page_without_webassembly_shows_only_frames(void **state)
 {
     const char *said = need_said(state);
-    assert_said_about(said, "without WebAssembly: message", "");
-    assert_said_about(said, "without WebAssembly: faults", "");
-    assert_said_about(said, "without WebAssembly: bar", "false");
-    assert_said_about(said, "without WebAssembly: keys", "false");
-    assert_said_about(said, "without WebAssembly: after a key", "tick 1 of 3: ");
+    assert_reported_value(said, "without WebAssembly: message", "");
+    assert_reported_value(said, "without WebAssembly: faults", "");
+    assert_reported_value(said, "without WebAssembly: bar", "false");
+    assert_reported_value(said, "without WebAssembly: keys", "false");
+    assert_reported_value(said, "without WebAssembly: after a key", "tick 1 of 3: ");
 }
 
 static void truncated_page_says_so(void **state)
 {
     const char *said = need_said(state);
-    assert_said_about(said, "cut in the facts: message", CUT);
-    assert_said_about(said, "cut in the program: message", CUT);
-    assert_said_about(said, "cut in the script: message", CUT);
-    assert_said_about(said, "facts changed: message", CUT);
+    assert_reported_value(said, "cut in the facts: message", CUT);
+    assert_reported_value(said, "cut in the program: message", CUT);
+    assert_reported_value(said, "cut in the script: message", CUT);
+    assert_reported_value(said, "facts changed: message", CUT);
 }
 
 static void page_with_a_damaged_module_shows_frames_and_says_so(void **state)
@@ -131,12 +131,12 @@ static void page_with_a_damaged_module_shows_frames_and_says_so(void **state)
             "tick 1 of 3: The page cannot play: the WebAssembly module in this page is damaged (";
         char what[64];
         snprintf(what, sizeof what, "%s: after a key", names[i]);
-        char *told = said_about(said, what);
+        char *told = find_reported_value(said, what);
         if (strncmp(told, expected, strlen(expected)) != 0)
             fail_msg("%s: %s", what, told);
         free(told);
         snprintf(what, sizeof what, "%s: faults", names[i]);
-        assert_said_about(said, what, "");
+        assert_reported_value(said, what, "");
     }
 }
 

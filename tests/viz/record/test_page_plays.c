@@ -31,7 +31,7 @@ static int drive_page(void **state)
     const octree_session session = octree_session_default();
     const film_options options = small_film(film.path);
     assert_filmed(&session, &options);
-    d->said = play_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL});
+    d->said = run_scripts_in_playing_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL});
     return 0;
 }
 
@@ -47,7 +47,7 @@ static int forget_page(void **state)
 static const driven *need_page(void **state)
 {
     const driven *d = *state;
-    need_playing_page(place_below(place_in(d->folder, "film").path, "index.html").path);
+    skip_without_playing_page(place_below(place_in(d->folder, "film").path, "index.html").path);
     return d;
 }
 
@@ -56,16 +56,16 @@ static const driven *need_page(void **state)
 static void page_plays_the_ticks_of_the_recording_in_any_order(void **state)
 {
     const driven *d = need_page(state);
-    assert_said_about(d->said, "plays by itself", "true");
-    assert_said_about(d->said, "begins with its memory in use", "true"); /* malloc() may have the rest of it */
-    assert_ticks_said(d->said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
+    assert_reported_value(d->said, "plays by itself", "true");
+    assert_reported_value(d->said, "begins with its memory in use", "true"); /* malloc() may have the rest of it */
+    assert_reported_ticks(d->said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
 }
 
 static void random_gestures_change_no_tick_and_raise_no_error(void **state)
 {
     const driven *d = need_page(state);
-    assert_ticks_said(d->said, "again", place_in(d->folder, "film").path, LAST + 1, true);
-    assert_said_about(d->said, "errors", "");
+    assert_reported_ticks(d->said, "again", place_in(d->folder, "film").path, LAST + 1, true);
+    assert_reported_value(d->said, "errors", "");
 }
 
 /* ---- Questions ---------------------------------------------------------------------------------------------- */
@@ -80,7 +80,7 @@ static void click_names_the_element_that_pick_names(void **state)
         at += strlen("\npick ");
         assert_int_equal(sscanf(at, "%d %d", &x, &y), 2);
         char *said = strndup(strchr(at, '\t') + 1, strcspn(strchr(at, '\t') + 1, "\n"));
-        assert_pick_said(said, frame.path, x, y, 3);
+        assert_reported_pick(said, frame.path, x, y, 3);
         free(said);
     }
     assert_int_equal(picks, 40);
@@ -89,9 +89,9 @@ static void click_names_the_element_that_pick_names(void **state)
 static void queries_on_the_page_have_the_answers_of_the_library(void **state)
 {
     const driven *d = need_page(state);
-    assert_said_about(d->said, "answer", "[7]");
-    assert_said_about(d->said, "refused", "query: range: min is above max on x");
-    assert_said_about(d->said, "asked nothing", "true");
+    assert_reported_value(d->said, "answer", "[7]");
+    assert_reported_value(d->said, "refused", "query: range: min is above max on x");
+    assert_reported_value(d->said, "asked nothing", "true");
 }
 
 /* ---- Playing on --------------------------------------------------------------------------------------------- */
@@ -102,19 +102,19 @@ static void session_played_on_the_page_records_the_same(void **state)
     const place film = place_in(d->folder, "played");
     octreel_error error;
     session_file session;
-    assert_said_about(d->said, "taken", "41 of 41");
-    assert_said_about(d->said, "taken again", "36 of 36");
-    assert_said_about(d->said, "bar before", "Back to the recording; ");
-    assert_said_about(
+    assert_reported_value(d->said, "taken", "41 of 41");
+    assert_reported_value(d->said, "taken again", "36 of 36");
+    assert_reported_value(d->said, "bar before", "Back to the recording; ");
+    assert_reported_value(
         d->said, "bar taken",
         "Back to the recording; Played on from tick 30; the session's own later ticks are left out: wwdnee");
-    char *text = said_about(d->said, "session");
+    char *text = find_reported_value(d->said, "session");
     if (!session_parse("the session", "", text, strlen(text), &session, &error))
         fail_msg("%s", error.text);
     const film_options options = small_film(film.path);
     assert_filmed(&session.session, &options);
-    assert_ticks_said(d->said, "taken", film.path, 37, false);
-    assert_said_about(d->said, "given back", "36 of 252");
+    assert_reported_ticks(d->said, "taken", film.path, 37, false);
+    assert_reported_value(d->said, "given back", "36 of 252");
     session_release(&session);
     free(text);
 }
@@ -141,13 +141,13 @@ static void unreadable_session_is_reported_and_the_old_one_stays(void **state)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char what[64];
         snprintf(what, sizeof what, "dropped %s", rows[i][0]);
-        char *told = said_about(d->said, what);
+        char *told = find_reported_value(d->said, what);
         if (strncmp(told, rows[i][1], strlen(rows[i][1])) != 0)
             fail_msg("%s: \"%s\" and not \"%s\"", what, told, rows[i][1]);
         free(told);
     }
-    assert_said_about(d->said, "long", "100000 1000000001");
-    assert_said_about(d->said, "dropped", "2 0,100,0");
+    assert_reported_value(d->said, "long", "100000 1000000001");
+    assert_reported_value(d->said, "dropped", "2 0,100,0");
 }
 
 /* ---- Without frames ----------------------------------------------------------------------------------------- */
@@ -172,15 +172,16 @@ static void page_without_frames_draws_at_once(void **state)
 {
     const driven *d = need_page(state);
     const place page = write_page_without_frames(d);
-    const driven alone = {d->folder, play_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL})};
-    assert_said_about(alone.said, "begins", "0 true false driven 253 ticks · 160 × 90 · iso");
-    assert_ticks_said(alone.said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
-    assert_said_about(alone.said, "given back", "true 252");
-    assert_said_about(alone.said, "bar before", "; "); /* nothing is there to go back from */
-    assert_said_about(alone.said, "bar looked at", "Back to the session; ");
-    assert_said_about(alone.said, "bar played on", "Back to the session; Played on from tick 252: w");
-    assert_said_about(alone.said, "bar given back", "; ");
-    assert_said_about(alone.said, "errors", "");
+    const driven alone = {
+        d->folder, run_scripts_in_playing_page(d->folder, page.path, (const char *const[]){"drive_plays.js", NULL})};
+    assert_reported_value(alone.said, "begins", "0 true false driven 253 ticks · 160 × 90 · iso");
+    assert_reported_ticks(alone.said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
+    assert_reported_value(alone.said, "given back", "true 252");
+    assert_reported_value(alone.said, "bar before", "; "); /* nothing is there to go back from */
+    assert_reported_value(alone.said, "bar looked at", "Back to the session; ");
+    assert_reported_value(alone.said, "bar played on", "Back to the session; Played on from tick 252: w");
+    assert_reported_value(alone.said, "bar given back", "; ");
+    assert_reported_value(alone.said, "errors", "");
     free(alone.said);
 }
 

@@ -125,8 +125,9 @@ static int read_by_page(void **state)
     give_nested(r, 100);
     give_nested(r, 2000);
     give_faulty(r);
-    const place given = write_given(r->folder, r->given);
-    r->said = play_page(r->folder, r->page.path, (const char *const[]){given.path, "drive_reads.js", NULL});
+    const place given = write_given_script(r->folder, r->given);
+    r->said =
+        run_scripts_in_playing_page(r->folder, r->page.path, (const char *const[]){given.path, "drive_reads.js", NULL});
     return 0;
 }
 
@@ -143,7 +144,7 @@ static int forget_page(void **state)
 static const reading *need_reading(void **state)
 {
     const reading *r = *state;
-    need_playing_page(r->page.path);
+    skip_without_playing_page(r->page.path);
     return r;
 }
 
@@ -169,7 +170,7 @@ static bool assert_read_alike(const reading *r, size_t i)
     char name[32];
     const json_t *text = json_array_get(r->given, i);
     snprintf(name, sizeof name, "text %zu", i);
-    char *said = said_about(r->said, name);
+    char *said = find_reported_value(r->said, name);
     const bool read =
         session_parse("the session", "", json_string_value(text), json_string_length(text), &file, &error);
     static const char refused[] = "refused: the session:", place[] = "the session:";
@@ -194,7 +195,7 @@ static void page_accepts_and_refuses_the_same_sessions_as_octreel(void **state)
     for (size_t i = 0; i < TEXTS; i++)
         if (assert_read_alike(r, i) != (i < READ))
             fail_msg("%s is %s", texts[i], i < READ ? "refused" : "read");
-    assert_said_about(r->said, "errors", "");
+    assert_reported_value(r->said, "errors", "");
 }
 
 static void page_and_octreel_agree_on_damaged_sessions(void **state)
@@ -212,7 +213,7 @@ static void deep_nesting_is_refused_with_a_sentence(void **state)
     char name[32];
     assert_false(assert_read_alike(r, TEXTS));
     snprintf(name, sizeof name, "text %d", TEXTS + 1);
-    assert_said_about(r->said, name, "refused: the session:1: lists and objects nest more than 200 deep");
+    assert_reported_value(r->said, name, "refused: the session:1: lists and objects nest more than 200 deep");
 }
 
 int main(void)

@@ -181,9 +181,9 @@ static int drive_page(void **state)
     give_random(d);
     give_clicked(d);
     give_golden(d);
-    const place given = write_given(d->folder, d->given);
-    d->said = play_page(d->folder, place_below(d->films[0].path, "index.html").path,
-                        (const char *const[]){given.path, "drive_sessions.js", NULL});
+    const place given = write_given_script(d->folder, d->given);
+    d->said = run_scripts_in_playing_page(d->folder, place_below(d->films[0].path, "index.html").path,
+                                          (const char *const[]){given.path, "drive_sessions.js", NULL});
     return 0;
 }
 
@@ -201,7 +201,7 @@ static int forget_page(void **state)
 static const driven *need_page(void **state)
 {
     const driven *d = *state;
-    need_playing_page(place_below(d->films[0].path, "index.html").path);
+    skip_without_playing_page(place_below(d->films[0].path, "index.html").path);
     return d;
 }
 
@@ -211,9 +211,9 @@ static void page_plays_every_tick_of_random_sessions(void **state)
 {
     const driven *d = need_page(state);
     for (size_t i = 0; i < FILMED; i++)
-        assert_ticks_said(d->said, d->names[i], d->films[i].path, for_each_line(d->films[i].path, NULL, NULL),
-                          i >= WRITTEN + RANDOM);
-    assert_said_about(d->said, "errors", "");
+        assert_reported_ticks(d->said, d->names[i], d->films[i].path, for_each_line(d->films[i].path, NULL, NULL),
+                              i >= WRITTEN + RANDOM);
+    assert_reported_value(d->said, "errors", "");
 }
 
 static void page_draws_the_golden_frames(void **state)
@@ -225,8 +225,8 @@ static void page_draws_the_golden_frames(void **state)
             continue;
         snprintf(path, sizeof path, "%s/%s.ref.png", OCTREEL_GOLDEN, golden_frames[i].name);
         snprintf(what, sizeof what, "%s %d", golden_frames[i].name, (int)golden_frames[i].tick);
-        snprintf(expected, sizeof expected, " %08x ", digest_of_png(path));
-        char *told = said_about(d->said, what);
+        snprintf(expected, sizeof expected, " %08x ", compute_png_digest(path));
+        char *told = find_reported_value(d->said, what);
         if (strncmp(strchr(told, ' '), expected, strlen(expected)) != 0)
             fail_msg("%s differs from its page: %s and not %s", path, told, expected);
         free(told);
@@ -244,7 +244,7 @@ static void thousand_clicks_name_the_elements_that_pick_names(void **state)
         const char *told = strchr(at, '\t') + 1;
         char *line = strndup(told, strcspn(told, "\n"));
         const place frame = frame_place(d->films[WRITTEN + RANDOM + film].path, (uint64_t)tick);
-        assert_pick_said(line, frame.path, x, y, CLICK_RADIUS);
+        assert_reported_pick(line, frame.path, x, y, CLICK_RADIUS);
         free(line);
     }
     assert_int_equal(clicks, CLICKS * CLICKED_TICKS * CLICKED_SESSIONS);
@@ -260,7 +260,7 @@ static void assert_taken_films(const driven *d, const char *name)
     snprintf(what, sizeof what, "saved %s", name);
     snprintf(folder, sizeof folder, "taken_%s", name);
     const place film = place_in(d->folder, folder);
-    char *text = said_about(d->said, what);
+    char *text = find_reported_value(d->said, what);
     if (!session_parse(what, "", text, strlen(text), &file, &error))
         fail_msg("%s", error.text);
     film_options options = small_film(film.path);
@@ -268,7 +268,7 @@ static void assert_taken_films(const driven *d, const char *name)
     assert_true(recording_read(place_in(d->folder, name).path, &options.view, &every, &error));
     const film_summary summary = assert_filmed(&file.session, &options);
     snprintf(what, sizeof what, "taken %s", name);
-    assert_ticks_said(d->said, what, film.path, summary.ticks, false);
+    assert_reported_ticks(d->said, what, film.path, summary.ticks, false);
     assert_identical(&film, summary.ticks, summary.frames);
     session_release(&file);
     free(text);

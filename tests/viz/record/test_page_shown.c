@@ -30,7 +30,7 @@ static int drive_page(void **state)
     *state = d;
     if (d == NULL || temp_folder_make(&d->folder) != 0)
         return -1;
-    if (!browser_is_there())
+    if (!is_browser_installed())
         return 0;
     const place film = place_in(d->folder, "film");
     const octree_session session = octree_session_default();
@@ -51,7 +51,7 @@ static int forget_page(void **state)
 
 static void assert_said(const driven *d, const char *what, const char *expected)
 {
-    assert_said_about(d->said, what, expected);
+    assert_reported_value(d->said, what, expected);
 }
 
 /* ---- Facts -------------------------------------------------------------------------------------------------- */
@@ -140,7 +140,7 @@ static void assert_tick_said(const char *line, size_t number, void *context)
 
 static void page_shows_the_facts_of_every_tick(void **state)
 {
-    need_browser();
+    skip_without_browser();
     const driven *d = *state;
     char *said = strdup(d->said), *at = said + 1;
     assert_int_equal(for_each_line(place_in(d->folder, "film").path, assert_tick_said, &at), LAST + 1);
@@ -155,13 +155,13 @@ static void keys_step_through_the_ticks(void **state)
     static const char expected[] = "\nkey Home\t0\nkey ArrowLeft\t0\nkey ArrowRight\t1\nkey ArrowRight\t2\n"
                                    "key ArrowLeft\t1\nkey End\t252\nkey ArrowRight\t252\nkey PageUp\t239\n"
                                    "key PageDown\t252\nkey PageUp\t239\nkey Home\t0\nkey PageDown\t13\n";
-    need_browser();
+    skip_without_browser();
     assert_non_null(strstr(((driven *)*state)->said, expected));
 }
 
 static void pointer_and_typing_choose_a_tick(void **state)
 {
-    need_browser();
+    skip_without_browser();
     assert_said(*state, "click in the middle", "126");
     assert_said(*state, "drag to the end", "252");
     assert_said(*state, "typed", "77");
@@ -170,7 +170,7 @@ static void pointer_and_typing_choose_a_tick(void **state)
 
 static void page_shows_the_frame_of_the_tick(void **state)
 {
-    need_browser();
+    skip_without_browser();
     assert_said(*state, "frame", "78 frame_000078.png 160x90");
 }
 
@@ -210,7 +210,7 @@ static void assert_walk(const driven *d, const char *what, const char *start, co
 
 static void filter_steps_from_match_to_match(void **state)
 {
-    need_browser();
+    skip_without_browser();
     assert_walk(*state, "walk any", "0 ", " refused collided full split merged ");
     assert_walk(*state, "walk collided", "0 ", " collided ");
     assert_walk(*state, "walk collided or merged", "0 ", " collided merged ");
@@ -222,8 +222,8 @@ static void filter_steps_from_match_to_match(void **state)
 
 static void page_plays_frame_by_frame_until_paused(void **state)
 {
-    need_browser();
-    char *played = said_about(((driven *)*state)->said, "played"), *at = played;
+    skip_without_browser();
+    char *played = find_reported_value(((driven *)*state)->said, "played"), *at = played;
     long count = 0;
     for (char *end; *at != '\0'; at = end)
         assert_int_equal(strtol(at, &end, 10), ++count);
@@ -234,14 +234,14 @@ static void page_plays_frame_by_frame_until_paused(void **state)
 
 static void page_plays_only_the_filtered_ticks_and_stops_at_the_last(void **state)
 {
-    need_browser();
+    skip_without_browser();
     assert_walk(*state, "played collided", "", " collided ");
     assert_said(*state, "played collided, paused", "true");
 }
 
 static void address_contains_the_tick_and_restores_it(void **state)
 {
-    need_browser();
+    skip_without_browser();
     assert_said(*state, "address", "#t=41&filter=collided");
     assert_said(*state, "from address", "12 2");
     assert_said(*state, "beyond the end", "252");
@@ -250,7 +250,7 @@ static void address_contains_the_tick_and_restores_it(void **state)
 
 static void question_mark_lists_the_keys(void **state)
 {
-    need_browser();
+    skip_without_browser();
     assert_said(*state, "help before", "false");
     assert_said(*state, "help", "true");
     assert_said(*state, "behind the help", "0");
@@ -265,8 +265,8 @@ static void question_mark_lists_the_keys(void **state)
 /* However many ticks there are, the page has a few hundred elements. */
 static void page_stays_small_and_free_of_errors(void **state)
 {
-    need_browser();
-    char *elements = said_about(((driven *)*state)->said, "elements");
+    skip_without_browser();
+    char *elements = find_reported_value(((driven *)*state)->said, "elements");
     assert_true(strtol(elements, NULL, 10) < 400);
     free(elements);
     assert_said(*state, "errors", "0");
@@ -282,7 +282,7 @@ static void assert_has(const char *page, const char *part)
 
 static void tick_without_a_frame_shows_the_previous_frame_and_says_so(void **state)
 {
-    need_browser();
+    skip_without_browser();
     const driven *d = *state;
     const place film = place_in(d->folder, "gaps");
     const octree_session session = octree_session_default();
@@ -314,7 +314,7 @@ static place recording_by_hand(const driven *d, const char *name, const char *ti
 /* Text is text, long lists are cut and say so, facts without a name here are shown, and a frame may be missing. */
 static void page_tolerates_unexpected_members(void **state)
 {
-    need_browser();
+    skip_without_browser();
     const driven *d = *state;
     char ticks[1024] = "{\"tick\": 0, \"key\": \"</script><script>document.title = 'mine'</script>\", \"hits\": [0";
     for (int i = 1; i < PAGE_LIST + 8; i++)
@@ -336,7 +336,7 @@ static void page_tolerates_unexpected_members(void **state)
 
 static void recording_without_ticks_says_so(void **state)
 {
-    need_browser();
+    skip_without_browser();
     const driven *d = *state;
     char *page = browser_open(d->folder, recording_by_hand(d, "empty", "").path, "t=3");
     assert_has(page, "This recording has no ticks.");
@@ -346,7 +346,7 @@ static void recording_without_ticks_says_so(void **state)
 /* Curves say whose tree they are of, where there are two. */
 static void curves_of_two_trees_are_distinguishable(void **state)
 {
-    need_browser();
+    skip_without_browser();
     const driven *d = *state;
     const place film = place_in(d->folder, "foreign");
     const octree_session session = foreign_session();

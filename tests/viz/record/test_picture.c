@@ -172,7 +172,7 @@ static uint64_t roles_in(const uint8_t *frame)
 static void each_layer_draws_all_its_colours_and_no_others(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     renderer *r = open_renderer(WIDTH, HEIGHT);
     for (unsigned layer = 0; layer < LAYER_TEXT; layer++) {
         const view v = view_with(CAMERA_ISO, 1u << layer);

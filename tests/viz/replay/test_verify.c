@@ -119,7 +119,7 @@ static void view_of_another_size_is_found_without_drawing(void **state)
         edit_file(folder.path, "recording.json", sizes[i][0], sizes[i][1]);
         const verify_report report = assert_found(&folder, VERIFY_VIEW, 0, "and the first frame has 160 x 90");
         assert_string_equal(report.drawn_now, "");
-        start_over(state);
+        empty_test_folder(state);
     }
 }
 
@@ -158,7 +158,7 @@ static void folder_without_a_recording_is_an_error(void **state)
         assert_not_verified(&folder, needed[i]);
         assert_int_equal(mkfifo(file.path, 0600), 0);
         assert_not_verified(&folder, needed[i]);
-        start_over(state);
+        empty_test_folder(state);
     }
 }
 
@@ -184,7 +184,7 @@ static void unreadable_or_invalid_session_is_an_error(void **state)
         const place folder = film_short(*state);
         edit_file(folder.path, rows[i].file, rows[i].from, rows[i].to);
         assert_not_verified(&folder, rows[i].part);
-        start_over(state);
+        empty_test_folder(state);
     }
 }
 

@@ -116,10 +116,10 @@ static void frame_truncated_to_any_length_is_found(void **state)
     size_t size;
     free(file_read(place_below(folder.path, "frame_000006.png").path, &size));
     for (size_t length = size - 1; length > 0; length = length * 2 / 3) {
-        cut_file(folder.path, "frame_000006.png", length);
+        set_file_size(folder.path, "frame_000006.png", length);
         assert_found(&folder, VERIFY_FRAME, 6, "frame_000006.png: ");
     }
-    cut_file(folder.path, "frame_000006.png", 0);
+    set_file_size(folder.path, "frame_000006.png", 0);
     assert_found(&folder, VERIFY_FRAME, 6, "frame_000006.png: ");
 }
 

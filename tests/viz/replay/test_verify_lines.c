@@ -33,7 +33,7 @@ static void every_changed_fact_is_named(void **state)
         edit_line(folder.path, rows[i].line, rows[i].from, rows[i].to);
         const verify_report report = assert_found(&folder, VERIFY_FACTS, rows[i].line, rows[i].part);
         assert_string_equal(report.findings[0].fact, rows[i].fact);
-        start_over(state);
+        empty_test_folder(state);
     }
 }
 
@@ -75,7 +75,7 @@ static void malformed_lines_are_found(void **state)
         const place folder = film_short(*state);
         replace_line(folder.path, 5, rows[i].text);
         assert_found(&folder, strstr(rows[i].part, "tick is") ? VERIFY_FACTS : VERIFY_LINES, 5, rows[i].part);
-        start_over(state);
+        empty_test_folder(state);
     }
 }
 
@@ -122,7 +122,7 @@ static void missing_torn_and_surplus_lines_are_found(void **state)
     assert_found(&folder, VERIFY_LINES, SHORT_TICKS, "beyond the session, which has 14 ticks");
     free(before);
     free(last);
-    cut_file(folder.path, "ticks.jsonl", 0);
+    set_file_size(folder.path, "ticks.jsonl", 0);
     assert_found(&folder, VERIFY_LINES, 0, "lacks 14 of 14 lines");
 }
 

@@ -103,7 +103,7 @@ static void long_groups_are_listed_as_ranges(void **state)
         gallery_write(place_below(b.path, name).path, 1, i % 5 ? 1 : 0);
     }
     comparison_of made = compare(a.path, b.path, 10);
-    char *text = tell_groups(&made, false, true);
+    char *text = list_groups(&made, false, true);
     assert_string_equal(text, "ticks 2 to 4, 6 to 9, 11 to 14, 16 to 19\n");
     free(text);
     comparison_release(&made);

@@ -74,7 +74,7 @@ static void write_page(const char *a, const char *b, const char *folder, const c
 {
     comparison_of made = assert_compared(a, b, NULL);
     if (cause) {
-        give_cause(&made, 0, cause);
+        set_cause(&made, 0, cause);
         made.result.pairs[0].difference.counted.worst_delta = 0.84341; /* 0.8434 would not forgive it */
     }
     if (headline)
@@ -92,7 +92,7 @@ static int drive_page(void **state)
     const place folder = place_in(d->folder, "evidence");
     make_sides(a, b);
     write_page(a.path, b.path, folder.path, CAUSE, HEADLINE);
-    if (browser_is_there())
+    if (is_browser_installed())
         d->said = browser_drive(d->folder, place_below(folder.path, "report.html").path, OCTREEL_DRIVE_REPORT);
     return 0;
 }
@@ -109,15 +109,15 @@ static int forget_page(void **state)
 static void assert_said(void **state, const char *what, const char *expected)
 {
     const driven *d = *state;
-    need_browser();
-    assert_said_about(d->said, what, expected);
+    skip_without_browser();
+    assert_reported_value(d->said, what, expected);
 }
 
 /* What was said holds a part. */
 static void assert_said_part(void **state, const char *what, const char *part)
 {
-    need_browser();
-    char *value = said_about(((driven *)*state)->said, what);
+    skip_without_browser();
+    char *value = find_reported_value(((driven *)*state)->said, what);
     if (!strstr(value, part))
         fail_msg("%s: \"%s\" does not say \"%s\"", what, value, part);
     free(value);
@@ -166,7 +166,7 @@ static void keys_step_from_difference_to_difference(void **state)
         "\nkey n\tframe_000001.png\nkey ArrowRight\tframe_000002.png\nkey p\tframe_000001.png\n"
         "key ArrowLeft\tframe_000000.png\nkey p\tframe_000000.png\nkey End\tframe_000050.png\n"
         "key n\tframe_000050.png\nkey Home\tframe_000000.png\n";
-    need_browser();
+    skip_without_browser();
     assert_non_null(strstr(((driven *)*state)->said, expected));
 }
 
@@ -190,9 +190,10 @@ static void keys_choose_the_display_mode(void **state)
 
 static void difference_of_one_level_glows(void **state)
 {
-    need_browser();
+    skip_without_browser();
     int r, g, b;
-    char *glows = said_about(((driven *)*state)->said, "glows"), *dim = said_about(((driven *)*state)->said, "dim");
+    char *glows = find_reported_value(((driven *)*state)->said, "glows"),
+         *dim = find_reported_value(((driven *)*state)->said, "dim");
     assert_int_equal(sscanf(glows, "%d,%d,%d", &r, &g, &b), 3);
     assert_true(r == 255 && g > 90 && b < 90);
     assert_int_equal(sscanf(dim, "%d,%d,%d", &r, &g, &b), 3);
@@ -284,7 +285,7 @@ static void page_loads_no_other_file(void **state)
 static void assert_opens_with(void **state, place folder, const char *part)
 {
     driven *d = *state;
-    need_browser();
+    skip_without_browser();
     char *page = browser_open(d->folder, place_below(folder.path, "report.html").path, "");
     if (!strstr(page, part))
         fail_msg("the page has no %s", part);
@@ -328,14 +329,14 @@ static void file_names_are_neither_changed_nor_cut(void **state)
     driven *d = *state;
     const place a = place_in(d->folder, "a.digests"), b = gallery_make(d->folder, "listed", "shown.png title.png"),
                 folder = place_in(d->folder, "names"), script = place_in(d->folder, "look.js");
-    need_browser();
+    skip_without_browser();
     file_write_text(a.path, "octreel-digests 2\nbackground ffffff\naccepted 7f 2026-11-22 24x16 runs x\n"
                             "7f 0123456789abcdef shown\n7f 0123456789abcdef title\n");
     file_write_text(script.path, look);
     write_page(a.path, b.path, folder.path, NULL, NULL);
     char *said = browser_drive(d->folder, place_below(folder.path, "report.html").path, script.path);
-    assert_said_about(said, "cut", "0");
-    assert_said_about(said, "headline", "shown.png is the first that differs");
+    assert_reported_value(said, "cut", "0");
+    assert_reported_value(said, "headline", "shown.png is the first that differs");
     free(said);
 }
 

@@ -21,7 +21,7 @@ static comparison_of compare(const char *a, const char *b, const char *cause)
 {
     comparison_of made = assert_compared(a, b, NULL);
     for (size_t i = 0; cause && i < made.result.count; i++)
-        give_cause(&made, i, cause);
+        set_cause(&made, i, cause);
     return made;
 }
 

@@ -17,12 +17,12 @@ typedef struct node_check {
 static octree_walk_order check_node(const octree_node *node, void *context)
 {
     node_check *check = context;
-    const scene_box *box = only_box(check->scene, LAYER_NODES, node->address);
+    const scene_box *box = find_only_box(check->scene, LAYER_NODES, node->address);
     assert_true(same_box(&box->box, &node->box));
     assert_int_equal(box->depth, node->depth);
     assert_int_equal(box->style.role, theme_node_role(node->depth));
     for (size_t i = 0; node->leaf && i < node->count; i++) {
-        assert_int_equal(markers_at(check->scene, LAYER_POINTS, node->points[i].id, node->points[i].position), 1);
+        assert_int_equal(count_markers_at(check->scene, LAYER_POINTS, node->points[i].id, node->points[i].position), 1);
         assert_true(box_holds(&box->box, node->points[i].position));
         check->points++;
     }
@@ -38,7 +38,7 @@ static void check_tree(const scene *s, const octree *tree)
     assert_int_equal(count_layer(s, LAYER_POINTS).markers, check.points);
     assert_int_equal(check.points, octree_count(tree));
     const octree_box world = octree_definition(tree).world;
-    assert_true(same_box(&only_box(s, LAYER_WORLD, 0)->box, &world));
+    assert_true(same_box(&find_only_box(s, LAYER_WORLD, 0)->box, &world));
 }
 
 static void check_box_about(const octree_box *box, const double center[3], double size)
@@ -51,11 +51,11 @@ static void check_box_about(const octree_box *box, const double center[3], doubl
 
 static void check_player(const scene *s, const octree_tick *tick, const octree_player *player)
 {
-    const scene_box *box = only_box(s, LAYER_BOX, player->id);
+    const scene_box *box = find_only_box(s, LAYER_BOX, player->id);
     assert_int_equal(box->style.role, ROLE_PLAYER);
     check_box_about(&box->box, tick->player, player->box_size);
     assert_int_equal(count_layer(s, LAYER_PLAYER).markers, 1);
-    assert_int_equal(markers_at(s, LAYER_PLAYER, player->id, tick->player), 1);
+    assert_int_equal(count_markers_at(s, LAYER_PLAYER, player->id, tick->player), 1);
 }
 
 /* A dashed line. */
@@ -100,11 +100,11 @@ static void check_collision(const scene *s, const octree_tick *tick, const octre
     assert_int_equal(found.boxes, tick->hit_count ? 2 : 1);
     assert_int_equal(found.segments, tick->hit_count ? 12 + ways_shown(s, tick, player->box_size) : 0);
     for (size_t i = 0; i < tick->hit_count; i++)
-        assert_int_equal(markers_at(s, LAYER_BOX, tick->hits[i].id, tick->hits[i].position), 1);
+        assert_int_equal(count_markers_at(s, LAYER_BOX, tick->hits[i].id, tick->hits[i].position), 1);
     if (tick->hit_count == 0)
         return;
-    assert_int_equal(markers_at(s, LAYER_BOX, player->id, tick->attempt), 1);
-    const scene_box *box = only_box(s, LAYER_BOX, UINT64_MAX);
+    assert_int_equal(count_markers_at(s, LAYER_BOX, player->id, tick->attempt), 1);
+    const scene_box *box = find_only_box(s, LAYER_BOX, UINT64_MAX);
     assert_int_equal(box->style.role, ROLE_COLLISION);
     check_box_about(&box->box, tick->attempt, player->box_size);
 }
@@ -152,7 +152,7 @@ static void check_session(const octree_session *session, view_camera camera)
 static void scenes_of_the_default_session_have_the_expected_elements(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     check_session(&session, CAMERA_ISO);
 }
 
@@ -209,7 +209,7 @@ static void check_without_layer(const scene *all, const octree_game *game, const
 static void hiding_a_layer_changes_no_other_layer(void **state)
 {
     (void)state;
-    const octree_session session = asking_session();
+    const octree_session session = session_with_all_layers();
     const view v = view_of(640, 360, CAMERA_ISO, VIEW_ALL_LAYERS);
     octree_game *game = start_game(&session);
     scene all = {0};
