@@ -85,7 +85,7 @@ static void json_output_is_one_object(void **state)
 
 /* ---- A gate --------------------------------------------------------------------------------------------------- */
 
-/* Of two nearest points and two balls one each is wrong: 3.6 times as far, and an id that no point has. */
+/* Of two answers for each kind of query one is wrong: a point 3.6 times as far, and an unknown id. */
 static void errors_within_limits_pass_and_are_reported(void **state)
 {
     static const char farther[] = START FIRST SECOND("[3]", "[1,3]"), missing[] = START FIRST SECOND("[1]", "[1]"),
@@ -104,7 +104,7 @@ static void errors_within_limits_pass_and_are_reported(void **state)
         {missing, "ratio=9", 1},
         {none, "ratio=9,recall=0", 1},
         {none, "recall=0", 0},
-        {wrong, "ratio=9,recall=0", 1}, /* the id that no point has */
+        {wrong, "ratio=9,recall=0", 1}, /* the unknown id */
         {right, "recall=1,ratio=1", 0},
     };
     for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
@@ -151,7 +151,7 @@ static void junit_has_a_case_for_each_query_kind(void **state)
     free(text);
 }
 
-/* The session that is read, a folder that is none, and two reports in one place. */
+/* Refused: to overwrite the session, to write into a missing folder, and two reports in one file. */
 static void reports_overwrite_no_input_and_no_other_report(void **state)
 {
     const place session = write_session_text(state, right), file = place_in(*state, "a");
@@ -168,8 +168,7 @@ static void reports_overwrite_no_input_and_no_other_report(void **state)
     free(text);
 }
 
-/* A name without the ending of a file is that of a folder, as for octreel diff -o: no browser shows a page without it.
- */
+/* A name without a suffix is a folder, as for octreel diff -o: a browser would not show a page without one. */
 static void missing_folder_of_the_page_is_made(void **state)
 {
     static const char *const names[] = {"report", "new/deep/"};
@@ -188,7 +187,8 @@ static void missing_folder_of_the_page_is_made(void **state)
     assert_trouble(&result, "not \"report.txt\"");
 }
 
-/* Each point leads to its frame, from wherever the page lies; a tick without a frame to the recording's page. */
+/* Each point of the chart links to its frame, wherever the page is; a tick without a frame links to the recording's
+ * page. */
 static void ticks_on_the_page_link_to_their_frames(void **state)
 {
     const place session = write_session_text(state, wrong), film = place_in(*state, "a film"),
@@ -213,7 +213,7 @@ static void ticks_on_the_page_link_to_their_frames(void **state)
     free(within);
 }
 
-/* The way is that between the folders, however they are written. */
+/* The link is relative to the folder of the page, however the two paths are written. */
 static void page_in_another_folder_links_to_the_recording(void **state)
 {
     static const char *const pages[][2] = {
@@ -274,7 +274,7 @@ static void page_of_a_session_has_no_links_and_says_so(void **state)
     command_release(&result);
 }
 
-/* A point stands for several ticks of a long session, by the worst of them. */
+/* In a long session one point of the chart stands for several ticks: the worst of them. */
 static void chart_of_many_ticks_keeps_the_worst_tick(void **state)
 {
     const place session = place_in(*state, "session.json");
@@ -297,7 +297,7 @@ static void chart_of_many_ticks_keeps_the_worst_tick(void **state)
     command_release(&result);
 }
 
-/* What is wrong about nodes is a finding too, whatever is allowed of answers. */
+/* Wrong nodes are a finding, whatever --allow says about answers. */
 static void wrong_nodes_are_a_finding(void **state)
 {
     const place session =
@@ -316,7 +316,7 @@ static void wrong_nodes_are_a_finding(void **state)
     command_release(&result);
 }
 
-/* In JSON as in words, beside what is allowed; what is right about them is no finding. */
+/* JSON has the same counts as the text; correct nodes are no finding. */
 static void json_counts_wrong_nodes_by_kind(void **state)
 {
 #define NODES(points)                                                                                                  \
@@ -353,7 +353,7 @@ static void json_counts_wrong_nodes_by_kind(void **state)
     command_release(&result);
 }
 
-/* Of what is missed four are named. */
+/* At most four missing points are named. */
 static void long_lists_of_missing_points_are_counted(void **state)
 {
     const place session = write_session_text(
@@ -373,7 +373,7 @@ static void long_lists_of_missing_points_are_counted(void **state)
     command_release(&result);
 }
 
-/* The first fault of each kind leads to its tick; numbers are those that people write. */
+/* The first wrong node of each kind links to its tick. */
 static void wrong_nodes_link_to_their_ticks(void **state)
 {
     const place session =
@@ -392,7 +392,7 @@ static void wrong_nodes_link_to_their_ticks(void **state)
     free(page);
 }
 
-/* The answer has them all. */
+/* All points are in the answer. */
 static void page_rounds_numbers_for_people(void **state)
 {
     static const char text[] = "{\"octreel\":\"session\",\"version\":2,\"player\":null,\"points\":"
@@ -415,7 +415,8 @@ static void session_without_answers_is_refused(void **state)
     assert_trouble(&result, "no such file");
 }
 
-/* A recording keeps the answers, has the judgement in its ticks, verifies, and is audited as its session is. */
+/* The recording has the answers in session.json and their judgements in ticks.jsonl; it verifies, and its audit equals
+ * that of the session. */
 static void recording_keeps_answers_and_their_judgements(void **state)
 {
     const place session = write_session_text(state, wrong), folder = place_in(*state, "film");
@@ -442,7 +443,7 @@ static void recording_keeps_answers_and_their_judgements(void **state)
     command_release(&result);
 }
 
-/* A program that is mended: only its answers change, and with them the judgements. */
+/* The program was corrected: only its answers change, and with them the judgements. */
 static void diff_names_answers_that_became_wrong(void **state)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");

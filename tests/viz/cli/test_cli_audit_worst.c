@@ -8,7 +8,8 @@
 #include "fixture.h"
 #include "recordings.h"
 
-/* Balls around point 1 with 2 beside it: four answers that a recall allows, then one of each kind that nothing does. */
+/* Balls around points 1 and 2: four answers that a limit of recall allows, then one error of each kind that no limit
+ * allows. */
 static void errors_that_no_limit_allows_come_first(void **state)
 {
 #define BALL(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"radius\":1,\"at\":[1,0,0],\"answer\":" answer "}]}\n"
@@ -29,8 +30,8 @@ static void errors_that_no_limit_allows_come_first(void **state)
 #undef BALL
 }
 
-/* Three times two neighbours that are twice as far, which a ratio of 2 allows; then one instead of two, which a recall
- * alone would. */
+/* Three answers with neighbours twice as far, which ratio=2 allows; then one with a single neighbour, which only a
+ * limit of recall would allow. */
 static void errors_beyond_the_limits_come_before_errors_within(void **state)
 {
 #define PAIR(tick, answer) "{\"tick\":" tick ",\"queries\":[{\"knearest\":2,\"at\":[0,0,0],\"answer\":" answer "}]}\n"
@@ -49,7 +50,7 @@ static void errors_beyond_the_limits_come_before_errors_within(void **state)
 #undef PAIR
 }
 
-/* Every report says what was allowed, if anything was: of answers and of nodes that are wrong, and of right ones. */
+/* Every report names the limits, if there are any, also for nodes and for right answers. */
 static void every_report_names_the_limits(void **state)
 {
 #define WRONG "\"foreign_nodes\":[{\"id\":1,\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"points\":[1,9]}]"

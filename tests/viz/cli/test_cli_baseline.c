@@ -23,7 +23,7 @@ static void assert_says(const char *text, const char *part)
         fail_msg("\"%s\" does not say \"%s\"", text, part);
 }
 
-/* Two states of three frames: 2.png differs. And the files of a test. */
+/* Two versions of three frames, of which 2.png differs; and the paths of the test. */
 typedef struct states {
     place before, after, file, store;
 } states;
@@ -64,7 +64,7 @@ static size_t count_lines(const char *path, const char *part)
     return count;
 }
 
-/* The end of the line of a reason. */
+/* The end of an "accepted" line: the date and the reason. */
 static shell_word accepted_by(const char *date, const char *reason)
 {
     shell_word line;
@@ -94,7 +94,7 @@ static void accept_replaces_digests_and_variant_keeps_them(void **state)
     assert_int_equal(count_lines(s.file.path, accepted_by("2026-11-24", "on purpose").text), 1);
 }
 
-/* What stays keeps its lines, so that git shows what changed. */
+/* Lines of unchanged frames stay, so that git shows only the changes. */
 static void unchanged_frames_keep_their_lines(void **state)
 {
     const states s = make_states(state);
@@ -163,7 +163,7 @@ static void only_the_listed_frames_are_accepted(void **state)
     assert_trouble(&result, "accept.txt: contains no name of a frame");
     result = run_octreel(NULL, "accept %s %s --from nix.txt", s.before.path, s.after.path);
     assert_trouble(&result, "nix.txt: cannot be opened");
-    file_write_text(list.path, "2.png\n"); /* folders of pictures take it, too */
+    file_write_text(list.path, "2.png\n"); /* --from works for folders of pictures, too */
     result = run_octreel(NULL, "accept %s %s --from %s", s.before.path, s.after.path, list.path);
     assert_done(&result);
     assert_says(result.out, "1 changed, 0 new, 0 removed");
@@ -172,7 +172,7 @@ static void only_the_listed_frames_are_accepted(void **state)
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 
-/* The picture in the store of the frame that one accepts alone. */
+/* The path of the only picture in the store, after one frame was accepted. */
 static place only_picture(const states *s)
 {
     command_result result = run_script("find %s -name '*.png'", s->store.path);
@@ -215,13 +215,12 @@ static void bad_picture_in_the_store_is_reported_without_changing_the_verdict(vo
     snprintf(more, sizeof more, "--store %s", s.file.path); /* no folder at all */
     assert_diff(&s, &s.after, more, 1, "no picture of the reference: ");
     snprintf(more, sizeof more, "2.png --store %s" BY("again", "2026-11-23"), s.store.path);
-    accept_into(&s, &s.before, more); /* it is the same, and its picture is there again */
+    accept_into(&s, &s.before, more); /* the frame is unchanged, and its missing picture is stored again */
     assert_true(file_exists(picture.path));
     command_result result = run_octreel(NULL, "diff %s %s --store %s", s.before.path, s.after.path, s.store.path);
     assert_trouble(&result, "--store works with a baseline only");
 }
 
-/* A damaged one is replaced by what is accepted. */
 static void accept_replaces_a_damaged_picture_in_the_store(void **state)
 {
     const states s = make_states(state);
@@ -252,7 +251,7 @@ static void concurrent_accepts_lose_nothing(void **state)
     command_release(&result);
 }
 
-/* The limits stop a picture of the store, and then the baseline itself: both are those of before. */
+/* The limits stop writing a picture of the store, and then the baseline itself: both stay unchanged. */
 static void full_disk_accepts_nothing(void **state)
 {
     const states s = make_states(state);

@@ -11,7 +11,7 @@
 #include "recordings.h"
 #include "tick_lines.h"
 
-/* A short flight, and the same with another leaf capacity. */
+/* A short recording, and the same with another leaf capacity. */
 typedef struct recorded_pair {
     place a, b;
 } recorded_pair;
@@ -62,7 +62,7 @@ static void write_and_film(const temp_folder *own, const char *player, const cha
     command_release(&result);
 }
 
-/* Numbers, words, rules that are on or off, lists, objects, and null where there is nothing. */
+/* Values of every JSON type: numbers, texts, booleans, lists, objects, and null for missing members. */
 static void json_copies_values_from_the_files(void **state)
 {
     static const char *const parts[] = {
@@ -214,7 +214,6 @@ static void equal_frames_of_different_sessions_are_equal(void **state)
     command_release(&result);
 }
 
-/* What refuses to draw is no reason not to say what is known. */
 /* The integer rasterizer draws the elements, so a driver that octreel refuses makes no difference. */
 static void pixels_are_traced_to_elements_without_gl(void **state)
 {

@@ -36,7 +36,7 @@ static void write_lattice(const char *path)
     assert_int_equal(fclose(out), 0);
 }
 
-/* What is asked and appears small has one, unless it is not wanted, and nothing else has one. */
+/* A query whose answer is small in the picture gets a close-up, unless --no-closeup is given. */
 static void close_up_of_a_cloud_shows_the_queries(void **state)
 {
     static const struct {
@@ -67,7 +67,7 @@ static void close_up_of_a_cloud_shows_the_queries(void **state)
 
 /* ---- Recordings --------------------------------------------------------------------------------------------- */
 
-/* A ball is asked for at tick 1, and nothing at tick 2. */
+/* A radius query at tick 1, and no query at tick 2. */
 #define HEADER                                                                                                         \
     "{\"octreel\": \"session\", \"version\": 2, \"player\": null, \"ticks\": 2, \"points\": [[505, 500, 500, 7]]}\n"
 #define ASKED "{\"tick\": 1, \"queries\": [{\"radius\": 20, \"at\": [500, 500, 500]}]}\n"
@@ -114,12 +114,12 @@ static void diff_names_the_close_up_as_cause_without_a_player(void **state)
     const place a = record(*state, "a", ""), b = record(*state, "b", "--no-closeup");
     command_result result = run_octreel(NULL, "diff %s %s", a.path, b.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "different: 2 of 3 frames")); /* nothing is asked before */
+    assert_non_null(strstr(result.out, "different: 2 of 3 frames")); /* there is no query before tick 1 */
     assert_non_null(strstr(result.out, "another close-up (off, was on)"));
     command_release(&result);
 }
 
-/* Several processes film what one does, and so does a chunk that begins after what is asked. */
+/* Several processes record the same as one, and so does a chunk that begins after the query. */
 static void jobs_and_chunks_film_the_same_close_up(void **state)
 {
     const place a = record(*state, "a", ""), b = record(*state, "b", "--jobs 3");

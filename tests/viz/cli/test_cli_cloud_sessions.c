@@ -14,7 +14,7 @@
 #define HEADER "{\"octreel\": \"session\", \"version\": 2, \"ticks\": 3,\n"
 #define FILM "record %s --size 160x90 --jobs 1 -o %s"
 
-/* Coordinates of a survey, far from any world that is taken for granted. */
+/* Coordinates of a survey, far outside the default world. */
 static place write_survey(const temp_folder *folder, const char *name)
 {
     enum { POINTS = 400 };
@@ -47,7 +47,7 @@ static session_file read_back(const place *film)
     return file;
 }
 
-/* How many points tick 0 refused. */
+/* The number of points that tick 0 refused. */
 static size_t count_refused(const place *film)
 {
     char *text = file_read(place_below(film->path, "ticks.jsonl").path, NULL);
@@ -90,7 +90,7 @@ static void default_world_encloses_the_points_of_the_file(void **state)
     command_release(&result);
 }
 
-/* What is written holds the world: the cloud is not needed again. Chunks and resumption agree on it. */
+/* session.json contains the world and the points: the cloud is not needed again, and chunks and resume agree. */
 static void every_way_of_recording_a_cloud_gives_the_same_files(void **state)
 {
     const temp_folder *folder = *state;
@@ -117,7 +117,7 @@ static void every_way_of_recording_a_cloud_gives_the_same_files(void **state)
     command_release(&result);
 }
 
-/* The world that is to be written, as it stands in a sentence; the caller frees it. */
+/* The world that the sentence proposes; the caller frees it. */
 static char *copy_world(const char *sentence)
 {
     const char *begin = strstr(sentence, "\"world\": "), *end = begin ? strstr(begin, "}") : NULL;
@@ -169,7 +169,7 @@ static void warning_about_full_leaves_names_the_remedy(void **state)
     command_release(&result);
 }
 
-/* Half of them and less are the session's own affair: its ticks tell. But they are counted. */
+/* If at most half of the points are refused there is no warning, but ticks.jsonl counts them. */
 static void refused_points_are_counted(void **state)
 {
     const temp_folder *folder = *state;
@@ -186,7 +186,7 @@ static void refused_points_are_counted(void **state)
 
 #define PCD "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 3\nDATA ascii\n1 2 3\nnan nan nan\n4 5 6\n7 8 9\n"
 
-/* Rows without a position count, so that an id leads back to its row; and what follows the last is noted. */
+/* Skipped rows count, so that an id leads back to its row; and data after the last point is noted. */
 static void ids_are_row_numbers_of_the_cloud(void **state)
 {
     const temp_folder *folder = *state;

@@ -65,7 +65,7 @@ static void missing_clouds_and_bad_output_paths_are_refused_in_one_sentence(void
     assert_int_equal(temp_folder_count(own), 1);
 }
 
-/* Of many classes the lowest are named, and the others counted. */
+/* If there are many classes, the lowest are named and the others counted. */
 static void statistics_list_classes_if_they_are_few(void **state)
 {
     static const struct {
@@ -91,7 +91,7 @@ static void statistics_list_classes_if_they_are_few(void **state)
     }
 }
 
-/* Which task of a build takes free memory first is chance, and with it some of the bytes in all. */
+/* Replaces the number of bytes by x: it depends on which task of the build takes free memory first. */
 static void mask_memory(char *report)
 {
     char *line = strstr(report, "\n  memory ");

@@ -16,7 +16,7 @@ static const char *const commands[] = {"record", "play",    "join", "verify", "a
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-/* Where the part of a shell's completions that is about a command begins: what stands before its name. */
+/* A shell, and the texts before the name of a command and around an option in its script. */
 typedef struct shell {
     const char *name, *file, *command, *option;
 } shell;
@@ -33,7 +33,7 @@ static void assert_has(const char *text, const char *format, const char *name, c
         fail_msg("%s completes no %s of %s", s->name, name, command);
 }
 
-/* What a shell completes for a command has all options that --help lists. */
+/* The test fails unless the completions of a command have all options that --help lists. */
 static void assert_has_options(const shell *s, const char *completions, const char *command)
 {
     char begin[80], name[40];
@@ -44,7 +44,7 @@ static void assert_has_options(const shell *s, const char *completions, const ch
     assert_non_null(part);
     for (const char *line = help.out; *line; line += strcspn(line, "\n") + 1)
         if (strlen(line) > 8 && strncmp(line + 6, "--", 2) == 0 && sscanf(line + 8, "%39[a-z-]", name) == 1) {
-            if (strcmp(name, "version") != 0) /* the last, which no blank follows */
+            if (strcmp(name, "version") != 0) /* the last one has no blank behind it */
                 assert_has(part, s->option, name, s, command);
             found++;
         }
@@ -67,7 +67,7 @@ static void every_option_is_completed(void **state)
     assert_trouble(&none, "did you mean zsh?");
 }
 
-/* A line, and some of what its last word is completed to; "!": what it is not. */
+/* A line, and some of the completions of its last word; with "!", texts that must not be completed. */
 typedef struct completed {
     const char *line, *offered[4];
 } completed;
@@ -86,7 +86,7 @@ typedef struct completed {
         }                                                                                                              \
     }
 
-/* Whether a line stands in a part of a text; a folder's may end in a slash. */
+/* Whether a line occurs in a part of a text; the name of a folder may end in a slash. */
 static bool has_line(const char *text, const char *end, const char *line)
 {
     const size_t length = strlen(line);
@@ -153,7 +153,7 @@ static void bash_completes_commands_options_and_files(void **state)
     assert_all_completed(state, &bash, rows, COUNT(rows));
 }
 
-/* zsh completes in a terminal alone; a chroot may have none. */
+/* zsh completes only on a terminal, and a chroot may have none. */
 static void skip_without_terminals(void)
 {
     const int one = open("/dev/ptmx", O_RDWR | O_NOCTTY);
@@ -202,7 +202,6 @@ static void fish_completes_each_file_ending(void **state)
     command_release(&completions);
 }
 
-/* Of options that are the view's. */
 static void every_value_of_a_view_option_is_completed(void **state)
 {
     (void)state;

@@ -21,7 +21,7 @@ static void need_contexts(bool osmesa, bool egl)
     skip();
 }
 
-/* A member of renderer.json from its beginning on. */
+/* The test fails unless renderer.json contains this text. */
 static void assert_renderer(const place *folder, const char *member, const char *expected)
 {
     char *text = file_read(place_below(folder->path, "renderer.json").path, NULL);
@@ -33,7 +33,7 @@ static void assert_renderer(const place *folder, const char *member, const char 
     free(text);
 }
 
-/* Film, and compare that. */
+/* Record with the setting, and compare the renderer and the frames. */
 static void assert_drawn_by(const command_setting *setting, const char *options, const place *folder,
                             const char *member, const char *expected)
 {
@@ -102,7 +102,7 @@ static void invalid_and_contradicting_renderer_options_are_refused(void **state)
     assert_not_drawn(NULL, "--any-renderer --context osmesa", &folder, "--context egl");
 }
 
-/* A place where the libraries of these names are no libraries; what the program then finds of them. */
+/* Create a folder in which these libraries are broken files. Returns the setting that makes the program find them. */
 static const char *hide_libraries(const temp_folder *own, const char *const *names, char setting[96])
 {
     for (; *names; names++)
@@ -198,7 +198,7 @@ static void any_renderer_option_allows_other_renderers(void **state)
     const place folder = place_in(*state, "film");
     assert_drawn_by(&softpipe, "--context egl --any-renderer", &folder, "renderer", "softpipe");
     char *text = file_read(place_below(folder.path, "renderer.json").path, NULL);
-    assert_non_null(strstr(text, "\"fill\": \"gl\"")); /* it draws all of it */
+    assert_non_null(strstr(text, "\"fill\": \"gl\"")); /* GL draws every frame */
     free(text);
 }
 
@@ -209,7 +209,7 @@ static void integers_and_gl_record_the_same_bytes(void **state)
     assert_drawn_by(NULL, "--fill integers", &integers, "fill", "integers");
     assert_drawn_by(NULL, "--fill gl", &gl, "fill", "gl");
     assert_same_folders(plain.path, integers.path, "renderer.json");
-    assert_same_folders(plain.path, gl.path, "renderer.json"); /* recording.json too */
+    assert_same_folders(plain.path, gl.path, "renderer.json"); /* recording.json is the same, too */
 }
 
 static void inspect_draws_with_both_rasterizers(void **state)

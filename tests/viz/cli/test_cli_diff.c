@@ -19,7 +19,7 @@ static void assert_ends(command_result *result, int status, const char *part)
     command_release(result);
 }
 
-/* A picture and the same with five pixels of green one level off. */
+/* A picture, and a copy in which the green of five pixels is one level off. */
 typedef struct twins {
     place a, b;
 } twins;
@@ -43,7 +43,7 @@ static void status_and_text_agree_on_the_verdict(void **state)
                 "to 1 of 255; within (0,3)-(4,3)\ncompared exactly\n");
 }
 
-/* With every verdict: what was forgiven, and what the worst of it is. */
+/* Every verdict names the tolerances, and the largest difference that they accepted. */
 static void every_verdict_names_the_tolerances(void **state)
 {
     const twins p = make_pair(state);
@@ -107,7 +107,6 @@ static void errors_are_printed_with_status_2(void **state)
     assert_trouble(&result, "b.png: the file is cut short");
 }
 
-/* What can be read is compared all the same. */
 static void other_frames_are_compared_beside_an_unreadable_one(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png 3.png"), b = gallery_make(*state, "b", "1.png 2.png 3.png");
@@ -122,7 +121,7 @@ static void other_frames_are_compared_beside_an_unreadable_one(void **state)
     command_release(&result);
 }
 
-/* Standard error names the first of them. */
+/* Standard error names the first unreadable frame. */
 static void unreadable_frames_are_listed(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
@@ -224,7 +223,6 @@ static void removed_command_digest_names_its_replacement(void **state)
     assert_trouble(&result, "octreel digest was removed; use octreel accept BASELINE FRAMES");
 }
 
-/* A baseline of one picture is compared with one picture, whatever their names. */
 static void baseline_of_one_picture_is_compared_with_a_picture(void **state)
 {
     const twins p = make_pair(state);
@@ -257,7 +255,7 @@ static void help_describes_the_command(void **state)
     }
 }
 
-/* ImageMagick counts as we do; where it is not installed this is skipped. */
+/* Skipped if ImageMagick is not installed. */
 static void imagemagick_counts_the_same_pixels(void **state)
 {
     const twins p = make_pair(state);

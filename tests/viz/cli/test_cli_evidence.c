@@ -13,7 +13,7 @@
 #include "tick_lines.h"
 #include "xml_check.h"
 
-/* Two folders of which one frame differs. */
+/* Two folders with one different frame, and the paths of reports. */
 typedef struct twins {
     place a, b, out, xml, markdown;
 } twins;
@@ -75,7 +75,7 @@ static void reports_are_written_if_nothing_differs(void **state)
     assert_file_says(place_below(t.out.path, "report.html").path, "\"verdict\": \"same\"");
 }
 
-/* What cannot be read is a finding among others: the evidence of these is there, and the status is 2. */
+/* An unreadable frame is one finding among others: the evidence of the others is written, and the status is 2. */
 static void reports_are_written_if_a_frame_is_unreadable(void **state)
 {
     const twins t = make_twins_of(state);
@@ -113,7 +113,7 @@ static void json_names_the_pictures_of_the_evidence(void **state)
     command_release(&result);
 }
 
-/* As long as the name of a file may be, and alike up to their last letter. */
+/* Names of the greatest length, which differ only in their last letter. */
 static void frames_with_overlong_names_have_evidence(void **state)
 {
     const place a = gallery_make(*state, "a", "0.png 1.png"), b = gallery_make(*state, "b", "0.png 1.png");
@@ -146,7 +146,7 @@ static void frames_with_overlong_names_have_evidence(void **state)
     }
 }
 
-/* One report on standard output in place of the words, whole and alone. */
+/* One report replaces the text on standard output. */
 static void dash_writes_a_report_to_standard_output(void **state)
 {
     const twins t = make_twins_of(state);
@@ -171,7 +171,7 @@ static void unwritable_output_paths_are_errors(void **state)
     const twins t = make_twins_of(state);
     static const char *const options[][2] = {
         {"-o", "a file has this name"}, {"--junit", "Not a directory"}, {"--markdown", "Not a directory"}};
-    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) { /* below a file there is nothing */
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) { /* a path below a file */
         command_result result =
             run_octreel(NULL, "diff %s %s %s %s/1.png/x", t.a.path, t.b.path, options[i][0], t.a.path);
         assert_non_null(strstr(result.err, "/1.png"));
@@ -184,8 +184,8 @@ static void unwritable_output_paths_are_errors(void **state)
     assert_trouble(&result, ", and no evidence of octreel diff: choose a new folder, or an empty one");
 }
 
-/* From a limit that stops the first picture to one that stops the page, the largest file: the one that is named was not
- * written, no part of any is left, and with room again the same words do it. */
+/* The limits stop the first picture, ... and at last the page, the largest file. The error names the file, no part of a
+ * file is left, and with room the same command succeeds. */
 static void full_disk_is_an_error_and_leaves_only_whole_files(void **state)
 {
     static const size_t limits[] = {1, 100, 300, 1000, 1300, 2500, 4000, 20000};

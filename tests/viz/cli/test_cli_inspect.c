@@ -22,7 +22,7 @@
 
 enum { POINTS = 500 };
 
-/* Clustered points, whole so that text has them exactly. */
+/* Clustered points with whole coordinates, which text files hold exactly. */
 static void make_positions(double positions[POINTS][3])
 {
     const octree_box box = cube(-1000, 1000);
@@ -31,7 +31,7 @@ static void make_positions(double positions[POINTS][3])
         positions[i / 3][i % 3] = (double)(long)positions[i / 3][i % 3];
 }
 
-/* These points as a file, behind a header. */
+/* Write these points to a file, after a header. */
 static place write_points(void **state, const char *name, const char *header)
 {
     double positions[POINTS][3];
@@ -46,7 +46,7 @@ static place write_points(void **state, const char *name, const char *header)
     return file;
 }
 
-/* What octreel says as JSON; the caller releases it. */
+/* The JSON output of octreel inspect; the caller releases it. */
 static json_t *inspect_json(const char *path, const char *options)
 {
     command_result result = run_octreel(NULL, "inspect %s --json %s", path, options);
@@ -72,7 +72,7 @@ static size_t sum(const json_t *list)
     return total;
 }
 
-/* Each bucket ends before the next begins; together they hold all leaves and bound the points. */
+/* Buckets do not overlap, and together they count all leaves and bound the number of points. */
 static void assert_occupancy(const json_t *object)
 {
     const json_t *rows = json_member(object, "leaves_by_points");
@@ -128,7 +128,7 @@ static void statistics_add_up(void **state)
     }
 }
 
-/* Of the points that are in the tree, and not of its world. */
+/* The bounds of the stored points, not of the world. */
 static void bounds_enclose_the_points(void **state)
 {
     const place points = place_in(*state, "points.txt");
@@ -181,7 +181,7 @@ static row read_row(const char *line)
     return r;
 }
 
-/* The box of a node is its cell's, inside that of the parent above it in `path`. */
+/* The test fails unless the node's box is that of its cell and lies inside its parent, the row above it in `path`. */
 static void assert_row(const row *r, row path[OCTREE_MAX_DEPTH + 1])
 {
     octree_address address;
@@ -326,14 +326,14 @@ static void picture_is_whole_and_carries_its_digests(void **state)
     image_release(&frame);
 }
 
-/* What is chosen is said, and what is asked for is done. The 500 points are far apart in the largest picture, close
- * surfaces in a smaller one, and outnumber the pixels of the smallest, where leaves are
- * shown if they are not too small themselves. */
+/* inspect chooses options that are not given, and reports them. The 500 points are far apart in the largest picture,
+ * close surfaces in a smaller one, and more than the pixels of the smallest. There leaves are shown, unless they are
+ * too small. */
 static void output_names_the_view_options_that_inspect_chose(void **state)
 {
     static const struct {
         const char *options, *said;
-        int color_type; /* of the PNG: 2 is RGB, 3 indexed */
+        int color_type; /* PNG colour type: 2 is RGB, 3 is indexed */
     } rows[] = {
         {"--size 1280x720 --zoom 20", "pixels; points by height (--color-points)\n", 2},
         {"--size 320x180", "points by height (--color-points), lit by eye-dome lighting (--shade)\n", 2},
@@ -420,7 +420,7 @@ static void picture_options_without_a_picture_are_refused(void **state)
     command_release(&result);
 }
 
-/* What has no extent is seen all the same. */
+/* Clouds without extent are visible. */
 static void degenerate_clouds_are_drawn(void **state)
 {
     static const char *const clouds[] = {"1 2 3\n", "5 5 5\n5 5 5\n5 5 5\n5 5 5\n5 5 5\n",
@@ -447,7 +447,7 @@ static void degenerate_clouds_are_drawn(void **state)
     }
 }
 
-/* A rename would put a picture in the place of a pipe, or of a device. */
+/* A rename would replace a pipe or a device by a regular file. */
 static void picture_replaces_only_regular_files(void **state)
 {
     const place points = place_in(*state, "points.txt"), pipe = place_in(*state, "pipe");

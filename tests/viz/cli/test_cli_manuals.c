@@ -10,7 +10,7 @@
 #include "fixture.h"
 #include "verify.h"
 
-/* What there is a manual of: octreel, commands and, with section 5, kinds of files. */
+/* The pages: octreel, its commands and, in section 5, kinds of files. */
 typedef struct page {
     char name[24];
     bool topic;
@@ -50,7 +50,7 @@ static void assert_has_options(const char *manual, const char *help, const char 
             fail_msg("the manual of %s lacks --%s", page, name);
         found++;
     }
-    assert_true(found >= 3); /* those that every command has */
+    assert_true(found >= 3); /* the options that every command has */
 }
 
 static void every_option_is_in_the_manual(void **state)
@@ -87,7 +87,7 @@ static void every_manual_has_its_sections(void **state)
     assert_trouble(&none, "did you mean record?");
 }
 
-/* What it names, besides kinds of files: all commands in that of octreel. */
+/* The manual of octreel refers to all commands, and every manual to the kinds of files. */
 static void manual_refers_to_the_commands_it_mentions(void **state)
 {
     static const struct {
@@ -107,7 +107,7 @@ static void manual_refers_to_the_commands_it_mentions(void **state)
     }
 }
 
-/* A program that judges manuals says nothing. */
+/* The test fails if a program that checks manuals prints anything. */
 static void assert_content(void **state, const char *program, const char *command)
 {
     const temp_folder *own = *state;
@@ -136,7 +136,7 @@ static void mandoc_prints_no_warnings(void **state)
     assert_content(state, "mandoc", "mandoc -Tlint -Wwarning");
 }
 
-/* Each name that is declared at the beginning of a line. */
+/* Functions are declared at the beginning of a line. */
 static void library_manual_has_every_function(void **state)
 {
     (void)state;
@@ -159,7 +159,7 @@ static void library_manual_has_every_function(void **state)
     free(manual);
 }
 
-/* Names within quotes before a colon. */
+/* The test fails unless the text contains every name of a member in the JSON text. */
 static void assert_names_are_told(const char *json, const char *text)
 {
     for (const char *at = strchr(json, '"'); at; at = strchr(at, '"')) {
@@ -172,7 +172,7 @@ static void assert_names_are_told(const char *json, const char *text)
     }
 }
 
-/* A game with all that a tick can have: queries, answers that are wrong, nodes of a program's own tree, and a gap. */
+/* A game with everything that a tick can have: queries, wrong answers, foreign nodes, and a gap. */
 static void manual_describes_every_member_of_a_recording(void **state)
 {
     static const char session[] =

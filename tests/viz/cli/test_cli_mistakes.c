@@ -150,7 +150,6 @@ static void invalid_numbers_and_colours_are_refused(void **state)
     ASSERT_MISTAKES(state, rows);
 }
 
-/* As style sheets have it. */
 static void colour_may_begin_with_a_hash(void **state)
 {
     const char *picture = place_in(*state, "a.png").path;
@@ -199,8 +198,8 @@ static void errors_about_outputs_name_option_and_kind_of_file(void **state)
     ASSERT_MISTAKES(state, rows);
 }
 
-/* These folders lie outside the test's own. Where one of them holds a recording, which may be resumed there, its rows
- * say nothing and are left out. */
+/* These folders are outside of the test's folder. If one of them holds a recording, it could be resumed, and its rows
+ * are skipped. */
 static void output_folder_above_the_current_folder_is_refused(void **state)
 {
     static const mistake root[] = {
@@ -218,7 +217,7 @@ static void output_folder_above_the_current_folder_is_refused(void **state)
         ASSERT_MISTAKES(state, parent);
 }
 
-/* A folder that is there may be called what it is called, and the current one may be gone on with. */
+/* An existing recording may have a name that looks like a picture, and may be the current folder. */
 static void existing_recording_of_any_name_is_resumed(void **state)
 {
     const temp_folder *own = *state;
@@ -266,7 +265,7 @@ static void help_is_available_for_commands_and_sessions(void **state)
     command_release(&help);
 }
 
-/* The words of a text, a blank between two. */
+/* The words of a text, separated by single blanks; the caller frees it. */
 static char *words_of(const char *text)
 {
     char *words = malloc(strlen(text) + 2), *to = words;
@@ -280,7 +279,7 @@ static char *words_of(const char *text)
     return words;
 }
 
-/* `help` is words_of() it. */
+/* `help` is the result of words_of(). */
 static void assert_explains(const char *help, const char *name, const char *words)
 {
     char line[160];

@@ -62,7 +62,7 @@ static void errors_contain_no_control_characters(void **state)
     assert_trouble(&result, "the frame name \"x?[31m?y.png\" contains a control character");
 }
 
-/* What is read and what is made have such a name. */
+/* Inputs and outputs have a name with control characters. */
 static void reports_contain_no_control_characters(void **state)
 {
     static const char *const lines[] = {
@@ -82,7 +82,7 @@ static void reports_contain_no_control_characters(void **state)
     }
 }
 
-/* What is no UTF-8, a mark that turns the direction, and what some terminals take for an escape. */
+/* Invalid UTF-8, a mark that reverses the writing direction, and bytes that some terminals read as an escape. */
 static void invalid_utf8_is_not_printed(void **state)
 {
     static const char *const hostile[] = {"x\xff.png", "x\xe2\x80\xae.png", "x\xc2\x9b.png", "x\xe2\x81\xa7.png"};

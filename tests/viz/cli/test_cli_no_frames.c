@@ -9,7 +9,7 @@
 #include "fixture.h"
 #include "recordings.h"
 
-/* "a" and "same" are of one session, "b" takes another way from tick 3 on, and "film" has frames. */
+/* "a" and "same" are recordings of one session, the session of "b" differs from tick 3 on, and "film" has frames. */
 static int make_recordings(void **state)
 {
     static const char *const rows[][2] = {
@@ -60,7 +60,6 @@ static void diff_compares_ticks_of_recordings_without_frames(void **state)
     assert_says(*state, "diff a b -o evidence", 1, "evidence: evidence/report.html\n");
 }
 
-/* There is no frame to show beside the change. */
 static void annotations_name_the_different_ticks(void **state)
 {
     command_result result = run_in(*state, "diff a b --annotate");

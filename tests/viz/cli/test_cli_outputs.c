@@ -12,7 +12,7 @@
 
 static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
 
-/* Run with the folder of the test as the current one. */
+/* Run octreel in the folder of the test. */
 static command_result run_in(void **state, const char *arguments)
 {
     const temp_folder *own = *state;
@@ -70,7 +70,7 @@ static void two_outputs_of_inspect_must_be_different_files(void **state)
     assert_refused(state, "inspect p.xyz -o ./n --nodes n", "--nodes n is the same file as -o ./n");
 }
 
-/* A frame by another name, which says nothing of a picture. */
+/* A link to a frame, whose name does not look like a picture. */
 static void link_both(void **state)
 {
     static const char *const folders[] = {"a", "b"};
@@ -120,7 +120,7 @@ static void refused_comparison_writes_no_evidence(void **state)
     assert_refused(state, "diff a.dig a --max-pixels 1 -o ev", "a baseline holds digests, which allow no tolerance");
 }
 
-/* Without the layer of text nothing in a frame says so. */
+/* Without the text layer the frame itself does not report it. */
 static void record_reports_elements_left_out_by_lod(void **state)
 {
     static const char sentence[] = "\n2 frames leave out nodes smaller than --lod\n";
@@ -159,7 +159,7 @@ static void inspect_reports_elements_left_out_by_lod_once(void **state)
 
 int main(void)
 {
-    unsetenv("CI"); /* accept refuses to run where CI is set */
+    unsetenv("CI"); /* accept refuses to run if CI is set */
     const struct CMUnitTest tests[] = {
         IN_FOLDER(cloud_is_not_overwritten),
         IN_FOLDER(two_outputs_of_inspect_must_be_different_files),

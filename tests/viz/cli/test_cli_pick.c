@@ -48,7 +48,7 @@ static json_t *pick_json(const shown *what, int x, int y, int radius)
     return said;
 }
 
-/* The first element of a pixel whose member `object` has this whole number or text in its own member `name`. */
+/* The first element of a pixel that has this whole number or text in the member `name` of its member `object`. */
 static const json_t *element_with(const json_t *said, const char *object, const char *name, const json_t *value)
 {
     size_t i;
@@ -76,7 +76,7 @@ static void every_point_is_named_at_its_pixel(void **state)
             continue;
         pixel_of(what.scene, marker->at, pixel);
         json_t *said = pick_json(&what, (int)floor(pixel[0]), (int)floor(pixel[1]), 0);
-        json_t *id = json_real((double)marker->id); /* as numbers are read */
+        json_t *id = json_real((double)marker->id); /* json_read() turns numbers into reals */
         assert_non_null(element_with(said, "point", "id", id));
         json_decref(id);
         json_decref(said);
@@ -86,7 +86,7 @@ static void every_point_is_named_at_its_pixel(void **state)
     replay_close(&what.replay);
 }
 
-/* Within a pixel of the middle of one of its edges. */
+/* Whether pick names a node within a pixel of the middle of one of its edges. */
 static bool names_node(const shown *what, const scene_box *box)
 {
     const double middle[3] = {box->box.min[0] / 2 + box->box.max[0] / 2, box->box.min[1], box->box.max[2]};
@@ -96,7 +96,7 @@ static bool names_node(const shown *what, const scene_box *box)
     json_t *name = json_string(octree_address_format(box->id, path));
     pixel_of(what->scene, middle, pixel);
     for (int i = 0; i < 9 && !found; i++) {
-        const int place = (i + 4) % 9; /* the middle first */
+        const int place = (i + 4) % 9; /* starts with the pixel in the middle */
         json_t *said = pick_json(what, (int)floor(pixel[0]) + place % 3 - 1, (int)floor(pixel[1]) + place / 3 - 1, 0);
         found = element_with(said, "node", "path", name) != NULL;
         json_decref(said);
@@ -105,7 +105,7 @@ static bool names_node(const shown *what, const scene_box *box)
     return found;
 }
 
-/* Shared edges too: most of these are painted for another node. */
+/* Most shared edges are painted for another node. */
 static void nodes_are_named_at_their_edges(void **state)
 {
     shown what;
@@ -158,7 +158,7 @@ static void samples_of_a_pixel_add_up(void **state)
 
 /* ---- Where nothing is --------------------------------------------------------------------------------------- */
 
-/* The square of the distance to the nearest pixel of another colour than a pixel's; without dashes that are cut. */
+/* The squared distance to the nearest pixel of another colour, ignoring cut dashes. */
 static int nearest_other(const image *frame, int x, int y)
 {
     int best = INT32_MAX;
@@ -267,7 +267,7 @@ static void frame_of_another_recording_is_refused(void **state)
     assert_refused(frame.path, "1 1", "another session");
 }
 
-/* The pixels of another frame under the texts of this one. */
+/* The PNG has the texts of this frame, but the pixels of another. */
 static void edited_frame_is_refused(void **state)
 {
     const place folder = film_short(*state), frame = frame_place(folder.path, 3);
@@ -307,7 +307,7 @@ static void help_describes_the_command(void **state)
     command_release(&result);
 }
 
-/* A session with a tree of its own: the leaf leaves its parent's box, and lists a point that is not there. */
+/* A session with foreign nodes: a leaf reaches outside its parent's box and lists a point that does not exist. */
 static void foreign_nodes_are_named_with_their_errors(void **state)
 {
     const place session = place_in(*state, "s.json"), film = place_in(*state, "film");
@@ -343,7 +343,7 @@ static void foreign_nodes_are_named_with_their_errors(void **state)
     json_decref(said);
 }
 
-/* Beside the frame no folder need be named. On an edge of two nodes both are told, one of them as what is beneath. */
+/* The frame's path needs no folder if the current folder is the recording. At an edge of two nodes both are listed. */
 static void pick_works_inside_the_recording_folder(void **state)
 {
     shown what;
@@ -361,7 +361,8 @@ static void pick_works_inside_the_recording_folder(void **state)
     replay_close(&what.replay);
 }
 
-/* The player is in the middle of the close-up; its frame has a name, too. Without one nothing is drawn there. */
+/* The player is in the middle of the close-up, whose frame has a name, too. Without a close-up, nothing is drawn there.
+ */
 static void elements_of_the_close_up_are_named(void **state)
 {
     shown what;
@@ -385,7 +386,7 @@ static void elements_of_the_close_up_are_named(void **state)
     command_release(&result);
 }
 
-/* A recording made with --no-closeup has none, and verifies. */
+/* A recording with --no-closeup also verifies. */
 static void recording_without_close_up_has_no_close_up_elements(void **state)
 {
     shown what;

@@ -45,7 +45,8 @@ static char *assert_contains(const char *page, const char *part)
     return text;
 }
 
-/* A name in the folder of the test, which may lie below one with blanks and quotes. */
+/* The test fails unless the output has the address of a file in the folder of the test, whose path may contain blanks
+ * and quotes. */
 static void assert_names_address(const char *said, const char *name)
 {
     static const char begins[] = "octreel.html: 253 ticks; open it in a browser: file://";
@@ -71,7 +72,6 @@ static void default_session_becomes_a_page(void **state)
     command_release(&result);
 }
 
-/* The page of play is that of a recording without frames. */
 static void page_equals_that_of_a_recording_without_frames(void **state)
 {
     need_pages_that_play();
@@ -101,12 +101,12 @@ static void default_page_name_comes_from_the_session(void **state)
     assert_non_null(strstr(result.out, "/walk%2050%25.html\n"));
     command_release(&result);
     free(assert_contains(place_in(*state, "walk 50%.html").path, "\"keys\": \"w\""));
-    result = play_in(*state, "'in/walk 50%.json'"); /* again: it is a page of play's */
+    result = play_in(*state, "'in/walk 50%.json'"); /* a page of play may be overwritten */
     assert_done(&result);
     command_release(&result);
 }
 
-/* A name that begins with its only dot has no ending, nor has one without; an empty file holds nothing to be lost. */
+/* A name whose only dot is its first character has no suffix; an empty file may be overwritten. */
 static void page_may_have_any_name_and_replace_an_empty_file(void **state)
 {
     need_pages_that_play();

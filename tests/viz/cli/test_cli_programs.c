@@ -22,7 +22,7 @@ static void need(const program *p)
     skip();
 }
 
-/* Film what it prints, with an argument or "", into "film", and audit that. */
+/* Record the output of a program, which gets an argument or "", into "film", and audit the recording. */
 static command_result audit_program(void **state, const program *p, const char *argument)
 {
     need(p);
@@ -88,8 +88,7 @@ static void both_programs_print_the_same_session(void **state)
     assert_same_files(a.path, b.path);
 }
 
-/* The session that viz/demo films: the same from every awk, and nodes split and merge in nearly all of its 240 ticks.
- */
+/* The session of viz/demo: nodes split and merge in nearly all of its 240 ticks. */
 static void every_awk_prints_the_same_hunt(void **state)
 {
     const shell_word path = shell_quote(OCTREEL_EXAMPLES);

@@ -24,14 +24,14 @@ static command_result film_on(void **state, const command_setting *terminal)
     return result;
 }
 
-/* What each part of it, up to the start of the line, takes on the screen. Returns the longest. */
+/* The greatest width of a line on the screen: each carriage return starts a line again. */
 static size_t measure(const char *text)
 {
     size_t longest = 0;
     for (const char *at = text; *at != '\0';) {
         assert_int_equal(*at++, '\r');
         const size_t length = strcspn(at, "\r\033");
-        assert_int_not_equal(at[length], '\033'); /* not every terminal knows such sequences */
+        assert_int_not_equal(at[length], '\033'); /* not every terminal supports escape sequences */
         longest = length > longest ? length : longest;
         at += length;
     }
@@ -69,7 +69,7 @@ static void dumb_terminal_shows_no_progress(void **state)
     }
 }
 
-/* Blocks are large: all of a small text is one. */
+/* A small text is a single block. */
 static void input_from_a_pipe_is_counted_by_large_blocks(void **state)
 {
     const place fifo = place_in(*state, "fifo"), cloud = place_in(*state, "cloud");
@@ -89,7 +89,7 @@ static void input_from_a_pipe_is_counted_by_large_blocks(void **state)
     command_release(&result);
 }
 
-/* Of what comes from standard input nobody knows how much it is. */
+/* The length of standard input is unknown. */
 static void ticks_of_a_stream_are_counted(void **state)
 {
     const place session = place_in(*state, "session"), film = place_in(*state, "film");
@@ -126,7 +126,6 @@ static void reading_and_building_a_cloud_show_progress(void **state)
     }
 }
 
-/* What takes long without filming has its bar too. */
 static void audit_counts_ticks(void **state)
 {
     const place session = place_in(*state, "session.json");

@@ -15,7 +15,7 @@
 
 enum { POINTS = 600, REACH = 50 };
 
-/* Points with whole coordinates, some of them equal, numbered as inspect does. */
+/* Points with whole coordinates, some of them equal, with the ids that inspect gives them. */
 static brute make_points(uint64_t seed)
 {
     brute all = {0};
@@ -53,7 +53,7 @@ static void assert_place(const json_t *list, const double expected[3])
         assert_true(json_real_value(json_array_get(list, i)) == expected[i]);
 }
 
-/* No more than there is to look at; and for an answer something was looked at. */
+/* The test fails unless the cost of an answer is above 0 and no higher than the tree. */
 static void assert_cost(const json_t *answer)
 {
     const json_t *cost = json_member(answer, "cost");
@@ -99,7 +99,7 @@ static void assert_ball(const json_t *answer, const brute *all, const double cen
     brute_radius(all, center, radius, &found);
     assert_string_equal(json_string_value(json_member(answer, "query")), "radius");
     assert_place(json_member(answer, "center"), center);
-    assert_nearest(answer, all, center, found.count); /* all that is in the ball is nearer than what is not */
+    assert_nearest(answer, all, center, found.count); /* the points in the ball are the nearest ones */
     brute_free(&found);
 }
 
@@ -163,7 +163,6 @@ static void answers_equal_those_of_a_scan(void **state)
     brute_free(&all);
 }
 
-/* The same answers in words. */
 static size_t count_lines(const char *text)
 {
     size_t lines = 0;
@@ -172,7 +171,7 @@ static size_t count_lines(const char *text)
     return lines;
 }
 
-/* JSON has all of it. */
+/* JSON lists all points. */
 static void text_shows_at_most_ten_lines_of_an_answer(void **state)
 {
     brute all = make_points(3);
@@ -277,7 +276,7 @@ static void invalid_queries_are_refused_in_one_sentence(void **state)
     }
 }
 
-/* Where its layer is shown a query makes another picture, and elsewhere none. */
+/* A query changes the picture only if its layer is shown. */
 static void queries_are_drawn_in_their_layers(void **state)
 {
     static const char *const queries[] = {"nearest 9,-9,9", "nearest 9,-9,9,5", "radius 9,-9,9,20",

@@ -11,7 +11,8 @@
 
 #define SMALL "--keys wd --size 32x32 --jobs 1"
 
-/* A run on a terminal, where there are any, so that progress could be shown. The folder is named up to three times. */
+/* Run octreel on a terminal, if the system has any, so that progress could be shown. The arguments may contain the
+ * folder up to three times. */
 static command_result run_quiet(const char *arguments, const char *folder)
 {
     const command_setting terminal = {.terminal = command_has_terminals(), .columns = 80};
@@ -35,12 +36,12 @@ static void commands_that_write_files_print_nothing(void **state)
     assert_silent(run_quiet("record " SMALL " -q --ticks :1 -o %s/chunks", own->name));
     assert_silent(run_octreel(NULL, "record " SMALL " -q --ticks 1: -o %s/chunks", own->name));
     assert_silent(run_octreel(NULL, "join --quiet %s/chunks", own->name));
-    unsetenv("CI"); /* where nothing is accepted */
+    unsetenv("CI"); /* accept refuses to run if CI is set */
     assert_silent(run_octreel(NULL, "accept -q %s/golden %s/film", own->name, own->name));
     assert_int_equal(access(place_in(*state, "golden/frame_000000.png").path, F_OK), 0);
 }
 
-/* Most of its points are refused, of which a sentence would say so. */
+/* Most points of the session are refused, which a note would report. */
 static void notes_are_omitted_and_errors_are_printed(void **state)
 {
     const temp_folder *own = *state;

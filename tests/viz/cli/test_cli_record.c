@@ -207,7 +207,7 @@ static void folder_with_a_recording_is_refused_and_unchanged(void **state)
     assert_same_folders(folder.path, copy.path, NULL);
 }
 
-/* A session that lies where its recording is to go is not written over. */
+/* The session file is in the folder for the recording, under the name session.json. */
 static void session_in_the_output_folder_is_unchanged(void **state)
 {
     const place folder = place_in(*state, "film"), session = place_in(*state, "film/session.json");
@@ -254,7 +254,7 @@ static void json_summary_is_one_object_that_agrees_with_the_recording(void **sta
     command_release(&result);
 }
 
-/* Where there is no text in the frame to say so, too. */
+/* Also if the text layer is off, so that the frame does not report it. */
 static void frames_over_budget_are_reported(void **state)
 {
     const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
@@ -271,7 +271,7 @@ static void frames_over_budget_are_reported(void **state)
     result =
         run_octreel(NULL, "record %s --budget 1000 --layers velocities " SMALL " -o %s", session.path, arrows.path);
     assert_done(&result);
-    assert_non_null(strstr(result.out, "2 frames leave out velocity arrows beyond --budget")); /* all but one */
+    assert_non_null(strstr(result.out, "2 frames leave out velocity arrows beyond --budget")); /* all frames but one */
     command_release(&result);
     file_write_text(points.path, "1 2 3\n4 5 6\n7 8 9\n");
     result = run_octreel(NULL, "inspect %s --budget 1 --layers points " SMALL " -o %s", points.path, picture.path);
@@ -280,7 +280,7 @@ static void frames_over_budget_are_reported(void **state)
     command_release(&result);
 }
 
-/* On stderr, beside the data that stdout may be. */
+/* The notes go to stderr, because stdout may be data. */
 static void view_options_without_effect_are_reported(void **state)
 {
     const place film = place_in(*state, "film"), points = place_in(*state, "p.txt"),
@@ -315,7 +315,7 @@ static void keys_option_replaces_the_keys_of_the_session(void **state)
     assert_string_equal(played.session.keys, "eenqww");
     session_release(&played);
     assert_true(file_exists(place_below(folder.path, "frame_000003.png").path));
-    assert_false(file_exists(place_below(folder.path, "frame_000004.png").path)); /* q ends it */
+    assert_false(file_exists(place_below(folder.path, "frame_000004.png").path)); /* q ends the session */
 }
 
 static void progress_is_silent_without_a_terminal(void **state)
@@ -341,7 +341,7 @@ static void progress_is_shown_on_a_terminal(void **state)
     assert_non_null(strstr(result.err, "253/253 ticks"));
     assert_non_null(strstr(result.err, "/s"));
     assert_non_null(strstr(result.err, "s left"));
-    assert_null(strchr(result.err, '\n')); /* one line, written over and over, and cleared */
+    assert_null(strchr(result.err, '\n')); /* one line, overwritten each time and finally erased */
     assert_string_equal(result.err + strlen(result.err) - 2, " \r");
     assert_null(strchr(result.err, '\033'));
     assert_null(strchr(result.out, '\r'));
@@ -349,7 +349,7 @@ static void progress_is_shown_on_a_terminal(void **state)
     assert_same_folders(quiet.path, shown.path, NULL);
 }
 
-/* Refused bodies are events of tick 0, and no error. */
+/* Refused points are events of tick 0 and no error. */
 static void points_that_full_leaves_refuse_are_refusals_of_tick_0(void **state)
 {
     enum { COUNT = 20000 };

@@ -19,7 +19,7 @@ static const char points[] = "0 0 0\n1 2 3\n4 5 6\n";
 static const char session[] = "{\"octreel\":\"session\",\"version\":2,\"points\":{\"sample\":\"uniform\",\"count\":9,"
                               "\"seed\":1},\"keys\":\"wd\",\"queries\":[{\"nearest\":[-999,0,0],\"answer\":[77]}]}\n";
 
-/* Run lines in the folder of the test, where \"$octreel\" is the program. */
+/* Run shell lines in the folder of the test, with octreel's path in $octreel. */
 static command_result run_lines(void **state, const char *lines)
 {
     const temp_folder *own = *state;
@@ -35,7 +35,7 @@ static void assert_lines_done(void **state, const char *lines)
 
 static void cloud_format_is_found_from_the_content(void **state)
 {
-    file_write_text(place_in(*state, "standard input").path, points); /* whose name is in what is said */
+    file_write_text(place_in(*state, "standard input").path, points); /* a file with this name must not be read */
     assert_lines_done(state, "\"$octreel\" inspect 'standard input' --nodes nodes --nearest 1,2,2 >a && "
                              "cat 'standard input' | \"$octreel\" inspect - --nearest 1,2,2 >b && tail -n +3 b >c && "
                              "test -s b && grep -v '^wrote' a | cmp - b && "
@@ -140,7 +140,7 @@ static void errors_about_standard_input_name_it(void **state)
     }
 }
 
-/* ./- has a name that is short for it where a session has no folder. */
+/* A session in the current folder may name the file "-" without "./". */
 static void file_named_dash_is_read_by_its_path(void **state)
 {
     file_write_text(place_in(*state, "-").path, points);

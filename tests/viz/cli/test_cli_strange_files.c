@@ -15,8 +15,8 @@ static const char *const names[] = {
     "renderer.json",     "renderer.json.part", "frame_000003.png", "frame_000003.png.part",
 };
 
-/* Each command beside a film `film`, of a line that puts the strange file at "$1". They may succeed or refuse, within
- * the time, which is none of a machine that works; 124 is what timeout(1) ends with. */
+/* Run each command on the recording `film`, after a shell line that puts a strange file at "$1". A command may succeed
+ * or refuse, but not take longer than the limit of timeout(1), which then ends with status 124. */
 static void assert_nothing_leaves(const temp_folder *folder, const char *make, const char *name)
 {
     static const char *const commands[] = {"record --resume -o edited", "join edited"};

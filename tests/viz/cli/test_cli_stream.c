@@ -45,7 +45,7 @@ static void assert_same_recording(void **state, const char *text, const char *op
     assert_same_folders(a.path, b.path, NULL);
 }
 
-/* The end of a session is told by its keys, by its header, by its last object, or by none. */
+/* The number of ticks comes from the keys, from the header, or from the last object. */
 static void stream_is_recorded_as_the_same_session_file(void **state)
 {
     static const char *const ends[] = {"",
@@ -75,7 +75,7 @@ static void options_work_as_for_a_file(void **state)
     assert_same_recording(state, text, "--replace");
 }
 
-/* Neither the panel nor the legend can know what comes later. */
+/* The panel and the legend must not show anything of later ticks. */
 static void frames_do_not_depend_on_later_ticks(void **state)
 {
     static const char later[] =
@@ -108,7 +108,7 @@ static void options_that_need_a_whole_session_are_refused(void **state)
 
 /* ---- Broken off --------------------------------------------------------------------------------------------- */
 
-/* The recording of a text up to its `good` characters, and the sentence about what follows. */
+/* The test fails unless a text is recorded up to its first `good` characters, with a sentence about the rest. */
 static void assert_broken(void **state, const char *text, size_t good, const char *sentence)
 {
     static int count;
@@ -150,7 +150,7 @@ static void ticks_before_malformed_text_are_a_whole_recording(void **state)
            "standard input:4: queries[0].answer[1]: expected a whole number");
 }
 
-/* Ticks that were announced and did not come are not made up. Their keys are seen in frames. */
+/* Announced ticks that never came are not recorded. Frames show the keys of the session. */
 static void truncated_session_ends_with_its_last_tick(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -217,7 +217,7 @@ static void assert_verified(const stream *s, const char *sentence)
     command_release(&result);
 }
 
-/* Each is there before anything more is written. */
+/* Each frame exists before the next object is written. */
 static void frames_are_written_as_ticks_arrive(void **state)
 {
     stream s = open_stream(state);

@@ -52,7 +52,7 @@ static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)
     assert_says(result.out, "\n    and 9 more alike: ticks 1 to 9\ncompared exactly\n");
     command_release(&result);
     listing names = folder_list(t.out.path);
-    assert_int_equal(names.count, 6); /* three pictures, the page, the sheet and the mark */
+    assert_int_equal(names.count, 6); /* three pictures, the page, the contact sheet and the marker */
     listing_release(&names);
     char *text = file_read(place_in(*state, "out.md").path, NULL);
     assert_says(text, "\n| <code>frame_000000.png</code> and 9 more: ticks 1 to 9 | ");
@@ -70,7 +70,7 @@ static void each_option_reports_every_frame(void **state)
     assert_true(file_exists(place_below(t.out.path, "frame_000009.difference.png").path));
 }
 
-/* A frame that was changed afterwards has a cause of its own, beyond those that are explained, too. */
+/* A frame edited after recording has a finding of its own, even beyond the number of explained frames. */
 static void frame_with_another_cause_is_a_finding_of_its_own(void **state)
 {
     const twins t = film_twice(state);
@@ -117,7 +117,7 @@ static void github_gets_one_annotation_at_the_changed_file(void **state)
     command_release(&result);
 }
 
-/* A name can neither end the command nor its property. */
+/* No name can end the workflow command or its property. */
 static void github_annotations_escape_any_name(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "1.png");

@@ -70,7 +70,7 @@ static void finding_is_one_line_and_exit_status_is_1(void **state)
     command_release(&result);
 }
 
-/* softpipe rounds a little otherwise than llvmpipe, on some lines. */
+/* softpipe rounds some lines differently from llvmpipe. */
 static void other_renderer_can_differ_only_in_pixels(void **state)
 {
     static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
@@ -96,7 +96,7 @@ static void json_output_is_one_object(void **state)
     assert_done(&result);
     json_t *said = json_read(result.out);
     assert_members(said, "folder identical ticks frames gaps findings drawn_by drawn_now fill");
-    assert_string_equal(json_string_value(json_member(said, "fill")), "gl"); /* whatever filled the recording */
+    assert_string_equal(json_string_value(json_member(said, "fill")), "gl"); /* with any rasterizer of the recording */
     assert_true(json_is_true(json_member(said, "identical")));
     assert_whole_number(json_member(said, "ticks"), 14);
     assert_whole_number(json_member(said, "frames"), 5);

@@ -43,7 +43,7 @@ static void waiting_ends_when_the_program_ends(void **state)
     clock_gettime(CLOCK_MONOTONIC, &started);
     assert_false(wait_until_file_exists(&b, never.path));
     clock_gettime(CLOCK_MONOTONIC, &now);
-    assert_true(now.tv_sec - started.tv_sec < 10); /* of the half minute that a file may take */
+    assert_true(now.tv_sec - started.tv_sec < 10); /* waiting for the file would take half a minute */
     command_result result = wait_for_end(&b);
     assert_done(&result);
     command_release(&result);

@@ -9,7 +9,7 @@
 #include "files.h"
 #include "fixture.h"
 
-/* What is left out here, by how its line begins, and why. */
+/* Lines of the README that are skipped, by their beginnings, and the reasons. */
 static const struct {
     const char *line, *reason;
 } left_out[] = {
@@ -20,8 +20,8 @@ static const struct {
     {"cc ", "tests/install/install_and_use runs it"},
 };
 
-/* The README's next block behind this fence, from *at on, which it moves beyond; null when there is none. The caller
- * frees it. */
+/* The text of the next block after this fence, from *at on; *at moves past it. Null: there is none. The caller frees
+ * it. */
 static char *next_block(const char **at, const char *fence)
 {
     const char *begin = strstr(*at, fence);
@@ -34,7 +34,7 @@ static char *next_block(const char **at, const char *fence)
     return strndup(begin, (size_t)(end - begin));
 }
 
-/* End the line at its end, which may be some lines below, and return the next. */
+/* Cut a shell command at its end, which may be several lines below. Returns the next command. */
 static char *cut_line(char *line)
 {
     char *end = strchr(line, '\n');

@@ -11,14 +11,14 @@
 #include "fixture.h"
 #include "workflow.h"
 
-/* A checkout of somebody's repository as the job finds it, and the job. */
+/* A checkout of a user's repository, and the job that runs in it. */
 typedef struct job {
     void *folder; /* a temp_folder */
     json_t *yaml;
     workflow run;
 } job;
 
-/* The README's block of YAML. */
+/* The README's YAML block. */
 static json_t *read_block(void)
 {
     static const char fence[] = "\n```yaml\n";
@@ -41,7 +41,7 @@ static void in_folder(const job *j, const char *line)
     command_release(&result);
 }
 
-/* The game, which films a session beside it, and what was accepted of it. */
+/* Create the checkout: a game that records a session, and accepted frames of it. */
 static void check_out(const job *j)
 {
     static const char game[] = "#!/bin/sh\nexec octreel record my.json --size 160x90 --every 5 -o \"$2\" >game.log\n";
@@ -81,7 +81,7 @@ static int run_job(job *j)
     return workflow_run(&j->run, json_object_get(frames, "steps"));
 }
 
-/* Another key at tick 5. */
+/* Change the game: another key at tick 5. */
 static void change_game(const job *j)
 {
     in_folder(j, "sed 's/wwddeen/wwddaen/' my.json >changed && ! cmp -s changed my.json && mv changed my.json");
@@ -100,7 +100,7 @@ static void assert_summary_says(const job *j, const char *part)
     free(summary);
 }
 
-/* The folder that the last step with an action of others hands to it. */
+/* The folder that the job uploaded, as the last action of another project received it. */
 static const char *uploaded(const job *j)
 {
     const json_t *last = json_array_get(j->run.used, json_array_size(j->run.used) - 1);
@@ -123,10 +123,10 @@ static void job_passes_if_nothing_differs(void **state)
     assert_int_equal(run_job(j), 0);
     assert_string_equal(j->run.err, "");
     assert_summary_says(j, "### octreel diff: same: 8 frames");
-    assert_int_equal(json_array_size(j->run.used), 1); /* the checkout: there is nothing to upload */
+    assert_int_equal(json_array_size(j->run.used), 1); /* only the checkout: nothing is uploaded */
 }
 
-/* What is kept is what was left, and the summary is added to what there is already. */
+/* The evidence is uploaded, and the summary is appended to the existing one. */
 static void job_fails_and_uploads_evidence_if_a_frame_differs(void **state)
 {
     job *j = *state;
@@ -143,7 +143,7 @@ static void job_fails_and_uploads_evidence_if_a_frame_differs(void **state)
 
 /* ---- The action ----------------------------------------------------------------------------------------------- */
 
-/* Names that a shell would run, were they put into a line of it. */
+/* Names that a shell would execute if they were inserted into a command. */
 static const char *const hostile[] = {
     "two words",
     "$(touch owned)",
@@ -196,8 +196,8 @@ static void action_accepts_any_folder_name(void **state)
     assert_string_equal(j->run.err, "");
 }
 
-/* Nothing in them is run or stands for names of files, octreel says what is wrong with them, and what does not compare
- * does not pass. */
+/* Options are neither executed nor expanded as file patterns, octreel reports invalid ones, and a run that compares
+ * nothing fails. */
 static void action_splits_options_into_words(void **state)
 {
     job *j = *state;
@@ -234,7 +234,7 @@ static void action_reports_errors(void **state)
     assert_int_equal(json_array_size(j->run.used), 0);
 }
 
-/* A frame's name that looks like one of the runner's commands is said while those are off. */
+/* A file name that looks like a workflow command is printed while workflow commands are disabled. */
 static void action_does_not_execute_file_names_as_commands(void **state)
 {
     job *j = *state;
@@ -248,7 +248,7 @@ static void action_does_not_execute_file_names_as_commands(void **state)
     assert_true(name == NULL || (name > off && name < strstr(j->run.out, on)));
 }
 
-/* Where there is no octreel, what the action came with builds one: here a setup that takes one from beside it. */
+/* If octreel is not installed, the action builds it with viz/setup, which is replaced by a script here. */
 static void action_builds_octreel_if_it_is_not_installed(void **state)
 {
     job *j = *state;

@@ -16,11 +16,11 @@
 
 typedef struct machine {
     void *folder; /* a temp_folder */
-    json_t *jobs; /* of both workflows */
-    char *done;   /* a line for each call */
+    json_t *jobs; /* the jobs of both workflows */
+    char *done;   /* one line for each program call */
 } machine;
 
-/* Programs that are made up. octreel is one, and where something is built. */
+/* Fake programs. octreel is one of them, wherever something is built. */
 static const char fakes[] =
     "for name in apt-cache apt-get cmake ctest dpkg-query hunt lintian octreel octreel-failure-campaign setup; do\n"
     "    printf '#!/bin/sh\\necho \"%s $*\" >>\"%s/done\"\\n' $name \"$PWD\" >bin/$name\n"
@@ -61,7 +61,7 @@ static int forget_machine(void **state)
     return status;
 }
 
-/* viz/setup asks for each package, which takes its time; it has a test of its own. */
+/* Replace viz/setup, which takes long and has a test of its own. */
 static void fake_setup(const machine *m)
 {
     const char *folder = ((temp_folder *)m->folder)->name;
@@ -70,7 +70,7 @@ static void fake_setup(const machine *m)
     command_release(&result);
 }
 
-/* Run a job where its matrix has these values; what was called is in m->done. */
+/* Run a job with these values of its matrix; m->done receives the calls. */
 static void run_job(machine *m, const char *name, const char *key, const char *value)
 {
     char expression[64];
@@ -105,7 +105,7 @@ static void job_tests_builds_and_runs_tests(void **state)
     assert_called(m, "ctest --test-dir ");
 }
 
-/* A job a part, and together they are all that the README's command does. */
+/* There is one job for each build, and together they run everything that tests/run --all runs. */
 static void job_all_runs_each_build(void **state)
 {
     static const struct {
@@ -183,7 +183,7 @@ static void hunt_runs_each_fuzzer_and_the_failure_campaign(void **state)
     assert_called(m, "octreel-failure-campaign");
 }
 
-/* What somebody names comes to a shell in variables, and no job may do more than read. */
+/* User input reaches a shell only in environment variables, and jobs have only read permissions. */
 static void workflow_commands_contain_no_expressions(void **state)
 {
     const machine *m = *state;
