@@ -25,7 +25,7 @@ static image random_samples(int width, int height, uint64_t *random)
     made.palette.count = 256;
     for (int i = 0; i < 256; i++)
         made.palette.colors[i] = (image_color){(uint8_t)(i * 7), (uint8_t)(255 - i), (uint8_t)(i * i)};
-    for (int i = 0; i < width * height; i++) /* runs of one colour too */
+    for (int i = 0; i < width * height; i++) /* also runs of one colour */
         made.pixels[i] = (uint8_t)(random_below(random, 3) ? (i ? made.pixels[i - 1] : 9) : random_below(random, 256));
     return made;
 }
@@ -76,7 +76,7 @@ static void images_of_unfitting_sizes_are_not_reduced(void **state)
         image_release(&small);
     }
     assert_true(image_create(&small, 6, 5, 3));
-    assert_false(image_shrink(&small, NULL, 1, &small)); /* no samples by their index */
+    assert_false(image_shrink(&small, NULL, 1, &small)); /* indexed images cannot be reduced */
     image_release(&small);
     image_release(&from);
 }
@@ -109,7 +109,7 @@ static image picture_of(const scene *s)
     return drawn;
 }
 
-/* The samples of lines and letters are the pixels of a picture that is so many times larger; of letters where both have
+/* The samples of lines and letters equal the pixels of a picture enlarged by the same factor; for letters if both use
  * the same face. */
 static void samples_equal_the_pixels_of_a_larger_picture(void **state)
 {
@@ -123,7 +123,8 @@ static void samples_equal_the_pixels_of_a_larger_picture(void **state)
         const int width = cases[i].width, height = cases[i].height, aa = cases[i].aa;
         scene small = tick_scene_of(width, height, aa, cases[i].layers);
         scene large = tick_scene_of(width * aa, height * aa, 1, cases[i].layers);
-        small.markers.count = large.markers.count = 0; /* a mark of an odd number of pixels has no middle of another */
+        small.markers.count = large.markers.count =
+            0; /* a marker with an odd number of pixels has another centre when enlarged */
         image drawn = picture_of(&small), samples = picture_of(&large), expected;
         assert_true(image_create(&expected, width, height, 3) && image_shrink(&samples, NULL, aa, &expected));
         const image_difference difference = image_compare(&expected, &drawn);
@@ -157,7 +158,7 @@ static void anti_aliasing_leaves_letters_and_panels_crisp(void **state)
     }
 }
 
-/* The light of a layer's marks, colour by colour, above the background. */
+/* The sum of brightness above the background. */
 static double light_of(const image *drawn)
 {
     const theme_color ground = theme_color_at(0);
@@ -189,7 +190,7 @@ static void anti_aliasing_keeps_the_size_of_lines_and_markers(void **state)
     }
 }
 
-/* The scene is the same: how it is sampled is a matter of its picture. */
+/* Sampling belongs to the picture, not to the scene. */
 static void anti_aliasing_does_not_change_the_scene(void **state)
 {
     (void)state;
@@ -259,7 +260,7 @@ static void anti_aliased_frames_are_rgb_and_carry_their_digests(void **state)
     image_release(&drawn);
     size_t size;
     char *bytes = file_read(frame.path, &size);
-    assert_true(size > 26 && bytes[25] == 2); /* the colour type in IHDR: RGB */
+    assert_true(size > 26 && bytes[25] == 2); /* IHDR has the colour type RGB */
     free(bytes);
 }
 

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Both renderers of one size. */
+/* Renderers of both kinds with the same size. */
 typedef struct both {
     renderer *integers, *gl;
 } both;
@@ -43,7 +43,7 @@ static void assert_drawn_alike(const both *b, const scene *s)
 
 /* ---- Random scenes ------------------------------------------------------------------------------------------ */
 
-/* A number about the size of `unit`, or as often far from it: up to 1e300 of either sign. */
+/* A number of the magnitude of `unit`, or, as often, a much larger one, up to 1e300, of either sign. */
 static double some_number(uint64_t *random, double unit)
 {
     static const double sizes[] = {1, 1, 1, 1, 1, 2, 10, 1e3, 1e6, 1e15, 1e150, 1e300};
@@ -109,7 +109,7 @@ static void add_in_picture(scene *s, uint64_t *random)
     panel.height = abs(some_pixel(random) / 2);
     scene_add_segment(s, line);
     scene_add_label(s, label);
-    if (random_below(random, 8) == 0) /* they cover the rest */
+    if (random_below(random, 8) == 0) /* large panels cover the rest */
         scene_add_panel(s, panel);
 }
 
@@ -150,7 +150,7 @@ static void both_rasterizers_draw_random_scenes_alike(void **state)
     }
 }
 
-/* Lines that leave the picture by one border or two, at all angles, of all widths: what GL would have to clip. */
+/* Lines of all angles and widths that cross one or two borders of the picture, which GL would have to clip. */
 static void both_rasterizers_draw_lines_across_borders_alike(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void both_rasterizers_draw_all_layers_alike(void **state)
         v.aa = 1 + i % 2;
         v.labels = true;
         v.diagram = i / 2 % 2 ? DIAGRAM_BESIDE : DIAGRAM_NONE;
-        v.zoom = i % 3 == 0 ? 7 : 1; /* at 7 most of the tree is outside */
+        v.zoom = i % 3 == 0 ? 7 : 1; /* with zoom 7 most of the tree is outside the picture */
         v.point_color = (view_point_color)(i % POINTS_BY_COUNT);
         v.shade = (view_shade)(i % SHADE_COUNT);
         check_session(&session, v, 21);
@@ -216,7 +216,7 @@ static void both_rasterizers_draw_all_layers_alike(void **state)
     }
 }
 
-/* GL draws none wider than this without a border of its own to spare. */
+/* GL draws no wider picture, because it needs space for clipping. */
 static void both_rasterizers_draw_the_widest_picture_alike(void **state)
 {
     (void)state;
@@ -253,7 +253,7 @@ static void renderer_without_gl_draws_the_same(void **state)
     assert_non_null(strstr(error.text, "16385"));
 }
 
-/* Which element is on top at each sample is told alike, too. */
+/* Both find the same element on top at each sample. */
 static void both_rasterizers_find_the_same_elements(void **state)
 {
     (void)state;

@@ -8,7 +8,7 @@
 
 enum { SIDE = 128 };
 
-/* One renderer for a whole flight, and for each of its frames a new one. */
+/* Draw a whole recording with one renderer, and each of its frames with a new one. */
 static void check_flight(view_camera camera)
 {
     const view v = view_of(320, 200, camera, VIEW_ALL_LAYERS);
@@ -41,7 +41,7 @@ static void frame_does_not_depend_on_earlier_frames(void **state)
     check_flight(CAMERA_FOLLOW);
 }
 
-/* Each quad is a pixel, from left to right and from top to bottom. */
+/* Add quads of one pixel each, from left to right and from top to bottom. */
 static void add_pixels(quad_list *list, size_t count, uint8_t color)
 {
     for (size_t end = list->count + count; list->count < end;) {
@@ -54,7 +54,7 @@ static void add_pixels(quad_list *list, size_t count, uint8_t color)
 static void assert_fills(canvas *c, const quad_list *list, size_t filled)
 {
     static uint8_t indices[SIDE * SIDE];
-    quad_list copy = {0}; /* which the canvas keeps */
+    quad_list copy = {0}; /* the canvas keeps the copy */
     memset(indices, 77, sizeof indices);
     for (size_t i = 0; i < list->count; i++)
         quads_add(&copy, &list->items[i]);
@@ -73,15 +73,15 @@ static void common_beginning_of_frames_is_drawn_only_twice(void **state)
     add_pixels(&list, 1000, 3);
     add_pixels(&list, 100, 4);
     assert_fills(&c, &list, 1100);
-    for (uint8_t color = 5; color < 9; color++) { /* what comes last changes */
+    for (uint8_t color = 5; color < 9; color++) { /* the last quads change */
         for (size_t i = 1000; i < 1100; i++)
             list.items[i].color = color;
         assert_fills(&c, &list, color == 5 ? 1100 : 100);
     }
-    list.items[500].x[2]++; /* and then something before it */
+    list.items[500].x[2]++; /* then a quad before them */
     assert_fills(&c, &list, 1100);
     list.items[1099].color = 9;
-    assert_fills(&c, &list, 600); /* what is kept ends where it changed */
+    assert_fills(&c, &list, 600); /* only the quads before the change are kept */
     list.items[1099].color = 10;
     assert_fills(&c, &list, 1);
     list.count = 300;

@@ -16,7 +16,7 @@ static int32_t some_place(uint64_t *random, int32_t reach)
     return (int32_t)random_below(random, (uint64_t)(LIMIT + 2 * reach + 1)) - reach;
 }
 
-/* A line as stroke.c makes it, or a diamond, that reaches beyond the square by up to `reach`. */
+/* A line as stroke.c makes it, or a diamond, reaching beyond the square by up to `reach`. */
 static quad some_quad(uint64_t *random, int32_t reach)
 {
     const int32_t half = (int32_t)(1 + random_below(random, 2000)), kind = (int32_t)random_below(random, 3);
@@ -31,13 +31,13 @@ static quad some_quad(uint64_t *random, int32_t reach)
     return q;
 }
 
-/* Whether a centre is within 2/256 pixel, across, of the line through an edge. */
+/* Whether the centre of a pixel is within 2/256 pixel of the line through an edge. */
 static bool is_near_an_edge(const quad *q, int64_t x, int64_t y)
 {
     for (int i = 0; i < 4; i++) {
         const int j = (i + 1) % 4;
         const int64_t dx = (int64_t)q->x[j] - q->x[i], dy = (int64_t)q->y[j] - q->y[i];
-        const int64_t off = dx * (y - q->y[i]) - dy * (x - q->x[i]); /* the distance times the length */
+        const int64_t off = dx * (y - q->y[i]) - dy * (x - q->x[i]); /* distance times length */
         const int64_t longer = llabs(dx) > llabs(dy) ? llabs(dx) : llabs(dy);
         if (llabs(off) <= 2 * longer)
             return true;
@@ -107,7 +107,7 @@ static void fill_clipped(const quad *q, uint8_t *bytes)
     fill_quads(pieces, (size_t)count, (renderer_part){0, 0, SIDE, SIDE}, bytes);
 }
 
-/* Neighbours that share an edge, in whichever direction, still share it: no pixel is in both or in neither. */
+/* Adjacent quads still share their edge after clipping: no pixel is in both or in neither. */
 static void edge_is_cut_at_the_same_place_in_both_directions(void **state)
 {
     (void)state;

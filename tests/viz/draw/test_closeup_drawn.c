@@ -68,7 +68,7 @@ static void close_up_draws_its_scene_and_changes_no_other_pixel(void **state)
     }
 }
 
-/* The element on top at each sample, all over the picture, is what is told of the pixel. */
+/* At samples all over the picture, the element on top equals the first one that is reported for the pixel. */
 static void elements_of_the_close_up_are_picked(void **state)
 {
     (void)state;
@@ -101,7 +101,8 @@ static void elements_of_the_close_up_are_picked(void **state)
     scene_release(&s);
 }
 
-/* The mask of a layer has its elements in the close-up, and that of the close-up is all of it. */
+/* The mask of a layer includes its elements in the close-up, and the mask of the close-up layer is all of the close-up.
+ */
 static void layer_mask_includes_the_close_up(void **state)
 {
     (void)state;

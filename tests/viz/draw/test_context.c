@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* The kinds that can be asked for by name. */
+/* The kinds that have a name. */
 #define FIRST_KIND (DRAW_AUTO + 1)
 
 static void need_both_kinds(void)
@@ -20,7 +20,7 @@ static void need_both_kinds(void)
 
 enum { REFUSED_WITH_REASON, REFUSED_WITHOUT, DRAWN_BY_LLVMPIPE, DRAWN_BY_ANOTHER };
 
-/* In a child, whose environment can be changed and whose Mesa is fresh. */
+/* Run in a child process, so that its environment can be changed and Mesa is loaded anew. */
 static int open_under_softpipe(const renderer_choice *choice)
 {
     int status = 0;
@@ -40,7 +40,7 @@ static int open_under_softpipe(const renderer_choice *choice)
     return WEXITSTATUS(status);
 }
 
-/* A Mesa may have no softpipe: then llvmpipe draws all the same. */
+/* If Mesa was built without softpipe, llvmpipe draws. */
 static void driver_other_than_llvmpipe_is_refused_by_name(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void contexts_draw_the_same_bytes(void **state)
     renderer_close(egl);
 }
 
-/* EGL's own choice of a device is the processor too, where there is no graphics card. */
+/* Without a graphics card, EGL chooses the processor, too. */
 static void egl_draws_the_same_bytes_with_and_without_a_named_device(void **state)
 {
     (void)state;
@@ -148,7 +148,7 @@ static void egl_draws_the_same_bytes_with_and_without_a_named_device(void **stat
     renderer_close(r);
 }
 
-/* Mesa holds one thing to be current where two libraries each have their own word for it. */
+/* Two libraries of Mesa share one current context, but each keeps its own record of it. */
 static void two_contexts_at_once_do_not_disturb_each_other(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void two_contexts_at_once_do_not_disturb_each_other(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        /* Those with child processes come first: Mesa's threads do not survive a fork. */
+        /* Tests with child processes come first, because Mesa's threads do not survive a fork. */
         cmocka_unit_test(driver_other_than_llvmpipe_is_refused_by_name),
         cmocka_unit_test(driver_other_than_llvmpipe_draws_with_any_renderer),
         cmocka_unit_test(context_names_survive_the_round_trip),

@@ -13,7 +13,7 @@
 
 enum { SIDE = 16, MOST_NAMES = 64 };
 
-/* What is wrong with a context's GL; null, zero: nothing. */
+/* The faults of a context's GL; null or zero: no fault. */
 static struct {
     const char *missing, *driver;
     bool no_driver, not_current;
@@ -21,9 +21,9 @@ static struct {
     GLenum state, error;
 } fault;
 
-static const char *names[MOST_NAMES]; /* of the GL functions that were looked up */
+static const char *names[MOST_NAMES]; /* names of the GL functions that were looked up */
 static size_t name_count;
-static context real; /* of the context that was opened last */
+static context real; /* the context that was opened last */
 
 static const GLubyte *GLAPIENTRY get_driver(GLenum name)
 {
@@ -158,9 +158,9 @@ static void context_that_fails_while_drawing_is_an_error(void **state)
 
 /* ---- The libraries ------------------------------------------------------------------------------------------ */
 
-static const char *unknown;   /* the function that no library has; null: none */
-static void (*instead)(void); /* what is found in its place */
-static bool nothing_loads;    /* no library is there */
+static const char *unknown;   /* the function that every library lacks; null: none */
+static void (*instead)(void); /* the function that is returned instead; may be null */
+static bool nothing_loads;    /* every library is missing */
 
 void *__wrap_dlopen(const char *name, int how)
 {
@@ -217,7 +217,7 @@ static void egl_without_one_of_its_functions_is_refused(void **state)
     unknown = NULL;
 }
 
-/* With the types that EGL has for them. */
+/* Failing functions with the types of EGL. */
 static unsigned refuse_api(unsigned api)
 {
     (void)api;
@@ -277,7 +277,7 @@ static const char *know_nothing(void *display, int name)
     return NULL;
 }
 
-/* The display without a window system is left. */
+/* The surfaceless display remains. */
 static void egl_without_a_device_list_draws(void **state)
 {
     octreel_error error = {""};
@@ -289,7 +289,7 @@ static void egl_without_a_device_list_draws(void **state)
     unknown = NULL;
     instead = NULL;
     if (!r)
-        assert_non_null(strstr(error.text, "llvmpipe")); /* a graphics card */
+        assert_non_null(strstr(error.text, "llvmpipe")); /* the machine has a graphics card */
     renderer_close(r);
 }
 

@@ -12,7 +12,7 @@
 
 enum { SIDE = 24 };
 
-/* Something that can be asked of a renderer: the answer is `size` bytes. */
+/* A function of the renderer with a result of `size` bytes. */
 typedef bool work(renderer *r, const scene *s, void *bytes, octreel_error *error);
 
 static bool draw_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
@@ -30,7 +30,7 @@ static bool mask_it(renderer *r, const scene *s, void *bytes, octreel_error *err
     return renderer_layer_mask(r, s, 1u << LAYER_NODES, bytes, error);
 }
 
-/* The elements at the picture's middle, by their numbers. */
+/* Find the numbers of the elements in the middle of the picture. */
 static bool ask_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
     draw_touches list = {0};
@@ -50,7 +50,7 @@ static renderer *open_memory(const scene *s)
     return r;
 }
 
-/* With a renderer of its own each time, which keeps nothing of the time before. */
+/* A new renderer for each n, so that nothing is left from the last run. */
 static void assert_all_or_nothing(work *w, const scene *s)
 {
     const size_t size = frame_samples(s) * sizeof(uint32_t);

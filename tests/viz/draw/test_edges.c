@@ -11,7 +11,7 @@
 #define BOXES 24
 #define KINDS 3
 
-/* Boxes that do not share a layer, style and width have nothing to do with each other. */
+/* Edges of boxes are merged only within one layer, style and width. */
 static const scene_style kinds[KINDS] = {
     {.layer = LAYER_NODES, .width = 1},
     {.layer = LAYER_RANGE, .stroke = STROKE_DASHED, .width = 1},
@@ -24,7 +24,7 @@ static scene random_boxes(uint64_t seed, size_t count)
     for (size_t i = 0; i < count; i++) {
         scene_box box = {.id = i + 1, .depth = (uint8_t)random_below(&seed, 4)};
         box.style = kinds[random_below(&seed, KINDS)];
-        box.style.role = (uint8_t)(ROLE_NODE + box.depth / 2); /* as deep nodes share one colour */
+        box.style.role = (uint8_t)(ROLE_NODE + box.depth / 2); /* deep nodes also share one colour */
         for (int axis = 0; axis < 3; axis++) {
             box.box.min[axis] = (double)random_below(&seed, GRID);
             box.box.max[axis] =
@@ -35,7 +35,7 @@ static scene random_boxes(uint64_t seed, size_t count)
     return s;
 }
 
-/* The unit stretch of a line along `axis` that begins at `from`; u and v are its place on the next two axes. */
+/* The unit segment of a line along `axis` that begins at `from`; u and v are its coordinates on the next two axes. */
 typedef struct unit_stretch {
     int axis;
     double from, u, v;
@@ -54,7 +54,7 @@ static bool box_covers(const octree_box *box, const unit_stretch *of)
            box->max[of->axis] >= of->from + 1;
 }
 
-/* The depth of the shallowest box whose edge covers a stretch; -1 for none. */
+/* The depth of the shallowest box with an edge on a segment; -1 for none. */
 static int shallowest_depth(const scene *s, scene_style kind, const unit_stretch *of)
 {
     int best = -1;
@@ -172,7 +172,7 @@ static void edges_do_not_depend_on_the_order_of_boxes(void **state)
     edge_list first = {0}, other = {0};
     for (uint64_t seed = 1; seed <= 20; seed++) {
         scene s = random_boxes(seed, BOXES);
-        for (size_t i = 0; i < s.boxes.count; i++) /* colours that do not follow from the depth */
+        for (size_t i = 0; i < s.boxes.count; i++) /* colours that do not depend on the depth */
             s.boxes.items[i].style.role = (uint8_t)(i % 3);
         assert_true(edges_merge(&first, &s, 0, LAYER_DIAGRAM + 1));
         for (int round = 0; round < 10; round++) {
@@ -186,7 +186,7 @@ static void edges_do_not_depend_on_the_order_of_boxes(void **state)
     edges_release(&other);
 }
 
-/* A row of boxes of three colours, in an order that is nowhere near that of the row. */
+/* A row of boxes in three colours, in shuffled order. */
 static void long_line_is_merged_in_any_order(void **state)
 {
     (void)state;
@@ -258,7 +258,7 @@ static void merging_does_not_depend_on_earlier_frames(void **state)
     edges_release(&used);
 }
 
-/* As under a view's lod: of one list of boxes some are shown, now these and now those. */
+/* As with --lod: different boxes of one list are shown at each time. */
 static void boxes_that_come_and_go_leave_no_edges(void **state)
 {
     (void)state;
@@ -319,7 +319,8 @@ static void add_nodes(scene *s, const octree_box *world, octree_address address,
         add_nodes(s, world, address << 3 | octant, depth + 1, deepest);
 }
 
-/* All stretches of one line of the grid are as deep as the line: 3 (2^d + 1)^2 edges, however many boxes share them. */
+/* All segments of a grid line have the depth of the line: there are 3 (2^d + 1)^2 edges, however many boxes share them.
+ */
 static void full_subdivision_has_one_edge_for_each_grid_line(void **state)
 {
     (void)state;
@@ -368,7 +369,7 @@ static void no_boxes_have_no_edges(void **state)
     edges_release(&list);
 }
 
-/* A box of no extent is a point, and a point that is asked for is to be seen. */
+/* A box without extent is a point, and must be visible as one. */
 static void box_without_extent_keeps_an_edge(void **state)
 {
     (void)state;

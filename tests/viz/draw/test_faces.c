@@ -23,7 +23,7 @@ static void put(font *f, size_t at, unsigned value)
         f->bytes[at + (size_t)i] = (unsigned char)(value >> 8 * i);
 }
 
-/* Version 1: letters of 8 x 4 pixels. The first letter has a square of 4 x 2 and a pixel apart. */
+/* Version 1: letters of 8 x 4 pixels. The first letter has a rectangle of 4 x 2 and a separate pixel. */
 static font make_first(void)
 {
     font f = {.bytes = {0x36, 0x04, 0, HEIGHT}, .size = 4 + GLYPHS * HEIGHT};
@@ -33,7 +33,7 @@ static font make_first(void)
     return f;
 }
 
-/* Version 2: letters of 12 x 4. The first has a line over the border of two bytes. */
+/* Version 2: letters of 12 x 4. The first letter has a line across the border between two bytes. */
 static font make_second(void)
 {
     font f = {.bytes = {0x72, 0xb5, 0x4a, 0x86}, .size = HEADER + GLYPHS * 2 * HEIGHT};
@@ -85,7 +85,7 @@ static void assert_refused(const temp_folder *own, const font *f, const char *wh
 static void files_that_are_not_fonts_are_refused(void **state)
 {
     static const struct {
-        size_t at, size; /* 0: as it is */
+        size_t at, size; /* 0: do not change the size */
         unsigned value;
         const char *why;
     } rows[] = {
@@ -102,11 +102,11 @@ static void files_that_are_not_fonts_are_refused(void **state)
         assert_refused(*state, &f, rows[i].why);
     }
     font f = make_first();
-    f.bytes[2] = 1; /* it would have 512 letters */
+    f.bytes[2] = 1; /* a flag for 512 letters */
     assert_refused(*state, &f, "ends too early");
 }
 
-/* Nothing is divided by their size. */
+/* A size of zero must not cause a division by zero. */
 static void letters_without_pixels_are_refused(void **state)
 {
     font f = make_second();

@@ -8,7 +8,7 @@
 
 enum { SIDE = 128, BATCH = 40, MOST = SIDE * QUAD_SUBPIXELS };
 
-/* Many corners lie on the centres, edges and corners of pixels, where only the rule for ties decides. */
+/* Many coordinates are those of centres, edges and corners of pixels, where only the rule for ties decides. */
 static int32_t some_place(uint64_t *random)
 {
     static const int steps[] = {1, 1, 16, QUAD_SUBPIXELS / 2, QUAD_SUBPIXELS};
@@ -75,7 +75,7 @@ static quad degenerate(uint64_t *random)
     case 2:
         q.x[0] = q.x[1] = q.x[2] = q.x[3];
         break;
-    default: /* corner 2 on the line of 0 and 1, inside or beyond */
+    default: /* corner 2 is on the line through 0 and 1, between them or beyond */
         q.x[1] = (q.x[0] + q.x[2]) / 2;
         q.y[1] = (q.y[0] + q.y[2]) / 2;
     }
@@ -172,7 +172,7 @@ static void strokes_are_filled_as_by_gl(void **state)
     check_quads(4, 5, 500);
 }
 
-/* What leaves a part of a picture is cut off exactly at its edges. (GL cuts before it rounds.) */
+/* A part of a picture is cut off exactly at its edges. (GL clips before it rounds.) */
 static void part_of_a_picture_has_the_pixels_of_the_whole(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 
 enum { MOST_SIDE = 32 };
 
-/* The pixels of a letter; each is in one part at most. */
+/* Draw the rectangles of a letter; the test fails if two of them overlap. */
 static void fill_letter(const glyph_set *set, unsigned letter, uint8_t pixels[MOST_SIDE * MOST_SIDE])
 {
     memset(pixels, 0, MOST_SIDE * MOST_SIDE);
@@ -26,7 +26,7 @@ static void fill_letter(const glyph_set *set, unsigned letter, uint8_t pixels[MO
     }
 }
 
-/* Of all letters of a face: the CRC-32 of a byte for each pixel, 0 or 1, letter by letter and row by row. */
+/* The CRC-32 of all letters of a face: one byte for each pixel, 0 or 1, letter by letter and row by row. */
 static unsigned long digest_of(const glyph_set *set)
 {
     unsigned long digest = crc32(0, NULL, 0);
@@ -56,7 +56,7 @@ static void every_face_has_the_letters_of_spleen(void **state)
 
 static const char every_letter[] = "The quick brown fox, 0123456789! (#~)";
 
-/* Drawn into a scene, each pixel of a letter is a square of whole pixels, with anti-aliasing as without. */
+/* In a scene, each pixel of a letter is a square of whole pixels, with anti-aliasing and without. */
 static void letters_are_drawn_in_whole_pixels(void **state)
 {
     (void)state;

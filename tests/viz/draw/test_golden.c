@@ -30,10 +30,10 @@
 typedef struct gallery {
     diff_side references, drawn;
     diff_result result;
-    char renderer[TEXT_SIZE]; /* who drew them */
+    char renderer[TEXT_SIZE]; /* the names of the renderers */
 } gallery;
 
-/* What a test is about. */
+/* The frame that one test compares. */
 typedef struct exhibit {
     const gallery *gallery;
     const golden_frame *frame;
@@ -47,7 +47,7 @@ static const char *file_name(const golden_frame *frame, char name[NAME_SIZE])
 
 /* ---- Drawing ------------------------------------------------------------------------------------------------ */
 
-/* Frames that were drawn by an earlier build are none of this one's. */
+/* Remove frames that an earlier build has drawn. */
 static bool empty_folder(void)
 {
     diff_side before;

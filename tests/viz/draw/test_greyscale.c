@@ -10,8 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STANDS_OUT 48 /* of 255 greys */
-#define AT_LEAST 16   /* pixels, times the unit of lines: where all is lit around it, most of a cross is not alone */
+#define STANDS_OUT 48 /* difference from the background, of 255 greys */
+#define AT_LEAST                                                                                                       \
+    16 /* pixels, times the unit of line widths; where everything around is bright, most of a cross does not count */
 
 static int grey_of(uint8_t index)
 {
@@ -24,7 +25,7 @@ static bool is_lit(uint8_t index)
     return abs(grey_of(index) - grey_of(theme_index(ROLE_BACKGROUND, 0))) >= STANDS_OUT;
 }
 
-/* Pixels that are lit in one frame alone. */
+/* The number of pixels that are bright in only one of two frames. */
 static size_t count_unlike(const uint8_t *a, const uint8_t *b, size_t pixels)
 {
     size_t unlike = 0;
@@ -33,7 +34,7 @@ static size_t count_unlike(const uint8_t *a, const uint8_t *b, size_t pixels)
     return unlike;
 }
 
-/* Take out what tells a collision but for the outline of its box, which is an outline in free flight too. */
+/* Remove all signs of a collision except the outline of its box, which has an outline in free flight, too. */
 static void leave_red_alone(scene *s)
 {
     size_t kept = 0;
@@ -48,7 +49,7 @@ static void leave_red_alone(scene *s)
     s->markers.count = kept;
 }
 
-/* And give that outline another colour. */
+/* Also give the outline another colour. */
 static void leave_nothing_red(scene *s)
 {
     leave_red_alone(s);
@@ -77,13 +78,13 @@ static void check_collision(renderer *r, const octree_game *game, const view *v)
     const size_t unit = (size_t)view_unit(v);
     assert_true(count_unlike(told, plain, pixels) >= AT_LEAST * unit);
     assert_true(memcmp(red, plain, pixels) != 0);
-    assert_int_equal(count_unlike(red, plain, pixels), 0); /* red alone would not be enough */
+    assert_int_equal(count_unlike(red, plain, pixels), 0); /* the red colour alone would not be enough */
     free(told);
     free(red);
     free(plain);
 }
 
-/* Of the first few collisions. */
+/* Check the first collisions of a session with every camera. Returns the number of checks. */
 static size_t check_collisions(const octree_session *session, int width, int height, size_t most)
 {
     renderer *r = open_renderer(width, height);
@@ -91,7 +92,7 @@ static size_t check_collisions(const octree_session *session, int width, int hei
     size_t collisions = 0;
     for (;; play_tick(game)) {
         for (int camera = 0; octree_game_tick(game)->hit_count && camera < CAMERA_COUNT; camera++, collisions++) {
-            /* without words, which tell it anyway, and without the leaves of what was hit, in their own colour */
+            /* without text, which names the collision, and without the leaves of the hit points */
             const view v = view_of(width, height, (view_camera)camera,
                                    VIEW_DEFAULT_LAYERS & ~(1u << LAYER_TEXT | 1u << LAYER_HIT));
             check_collision(r, game, &v);
@@ -112,7 +113,7 @@ static void collided_step_is_recognizable_without_colour(void **state)
     assert_true(check_collisions(&session, 1280, 720, 1) == CAMERA_COUNT);
 }
 
-/* Nothing is taken back: the box that collides is the player's own, in its place. */
+/* The player does not move: its own box, at its place, shows the collision. */
 static void collision_with_a_waiting_player_is_recognizable_without_colour(void **state)
 {
     (void)state;
@@ -122,11 +123,11 @@ static void collision_with_a_waiting_player_is_recognizable_without_colour(void 
     assert_true(check_collisions(&session, 640, 360, 1) == CAMERA_COUNT);
 }
 
-/* The word of the panel and the mark of the legend stand out from their ground. */
+/* The word in the panel and the swatch in the legend differ from their background. */
 static void collision_colour_is_bright_on_panel_and_ground(void **state)
 {
     (void)state;
-    for (unsigned shade = 0; shade < 3; shade++) { /* as far as the box fades */
+    for (unsigned shade = 0; shade < 3; shade++) { /* in the shades of the box */
         const int red = grey_of(theme_index(ROLE_COLLISION, shade));
         assert_true(red - grey_of(theme_index(ROLE_PANEL, 0)) >= STANDS_OUT);
         assert_true(is_lit(theme_index(ROLE_COLLISION, shade)));

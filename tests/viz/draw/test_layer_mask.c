@@ -18,7 +18,7 @@ static uint8_t *mask_of(renderer *r, const scene *s, unsigned layers)
     return mask;
 }
 
-/* The default session with every layer, the diagram too. */
+/* A tick of the default session with every layer and the diagram. */
 static scene layered_scene(view_camera camera, int aa)
 {
     const octree_session session = session_with_all_layers();
@@ -43,7 +43,7 @@ static size_t pixel_of_sample(const scene *s, size_t sample)
     return sample / width / side * (size_t)s->view.width + sample % width / side;
 }
 
-/* A layer's mask from the elements that are seen at the samples. */
+/* The test fails unless the mask of a layer covers the samples at which its elements are visible. */
 static void check_against_elements(const scene *s, const uint32_t *numbers, unsigned layers, const uint8_t *mask)
 {
     const size_t size = (size_t)s->view.width * (size_t)s->view.height;
@@ -78,7 +78,7 @@ static void mask_covers_visible_elements_of_its_layers(void **state)
     }
 }
 
-/* Keep what is not of a layer. */
+/* Remove the elements of a layer. */
 #define LEAVE_OUT(array, unwanted)                                                                                     \
     do {                                                                                                               \
         size_t kept = 0;                                                                                               \
@@ -97,7 +97,7 @@ static void leave_out(scene *s, unsigned layer)
     LEAVE_OUT(s->labels, layer);
 }
 
-/* Samples that a layer changes, all of them in its mask. */
+/* The number of samples that a layer changes; the test fails unless all of them are in its mask. */
 static size_t check_layer(renderer *r, unsigned layer, int aa)
 {
     scene s = layered_scene(CAMERA_ISO, aa);

@@ -20,7 +20,7 @@ static scene_segment line_of(double x0, double y0, double z0, double x1, double 
     return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .style = {.role = ROLE_RANGE, .width = 1}};
 }
 
-/* Where a cut line lies on another, its dashes are seen and between them the ground, and nothing of the other. */
+/* Where a cut line lies on another line, only its dashes and the background between them are visible. */
 static void cut_line_hides_the_line_below(void **state)
 {
     (void)state;
@@ -70,7 +70,7 @@ static void bold_line_is_two_pixels_wide_in_a_small_picture(void **state)
     scene_release(&s);
 }
 
-/* Pixels lit in a column of the picture. */
+/* The number of drawn pixels in a column of the picture. */
 static size_t lit_in_column(const uint8_t *frame, int x)
 {
     size_t lit = 0;
@@ -79,7 +79,7 @@ static size_t lit_in_column(const uint8_t *frame, int x)
     return lit;
 }
 
-/* Wider before its second end, and nowhere else; one that is too short for a head is a line. */
+/* The line is wider only before its second end; a line too short for a head stays a line. */
 static void arrow_has_its_head_at_its_second_end(void **state)
 {
     (void)state;
@@ -106,13 +106,13 @@ static void arrow_has_its_head_at_its_second_end(void **state)
     }
 }
 
-/* Whether the pixel at this distance from a mark's middle is lit. */
+/* Whether the pixel at this distance from the middle of a marker is drawn. */
 static bool is_lit(const uint8_t *frame, const double middle[2], double right, double down)
 {
     return frame[(int)(middle[1] + down) * WIDTH + (int)(middle[0] + right)] != 0;
 }
 
-/* A ring and a triangle on its side are hollow, a wedge on its corner is not; each is as large as its style says. */
+/* Rings and triangles are hollow, wedges are filled; each is as large as its style says. */
 static void markers_of_wrong_answers_have_different_shapes(void **state)
 {
     (void)state;
@@ -135,8 +135,8 @@ static void markers_of_wrong_answers_have_different_shapes(void **state)
     }
 }
 
-/* A point of the finest width is a pixel up to 1280 x 720, and as large a part of a larger picture; the other widths
- * are as large as ever. */
+/* A point of the smallest width is one pixel up to 1280 x 720, and grows with larger pictures; the other widths always
+ * grow. */
 static void points_grow_with_the_picture(void **state)
 {
     (void)state;

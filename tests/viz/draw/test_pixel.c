@@ -29,7 +29,7 @@ static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
     return list;
 }
 
-/* Its place in the list, or -1. */
+/* The index of an element in the list, or -1. */
 static int place_of(const scene *s, const draw_touches *list, scene_kind kind, size_t index)
 {
     for (size_t i = 0; i < list->count; i++)
@@ -40,7 +40,7 @@ static int place_of(const scene *s, const draw_touches *list, scene_kind kind, s
 
 /* ---- Against the whole picture ------------------------------------------------------------------------------ */
 
-/* The samples of a pixel at which renderer_number_samples() has this number. */
+/* The number of samples of a pixel at which renderer_number_samples() returns this number. */
 static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_t number)
 {
     const int samples = view_samples(&s->view), width = s->view.width * samples;
@@ -83,7 +83,7 @@ static void element_at_a_pixel_equals_that_of_the_whole_picture(void **state)
             const int x = (int)random_below(&seed, (uint64_t)s.view.width);
             const int y = (int)random_below(&seed, (uint64_t)s.view.height);
             if (picked(&s, numbers, x, y, 0) == samples * samples && tries % 400)
-                continue; /* few of nothing */
+                continue; /* check only a few empty pixels */
             check_pixel(r, &s, numbers, x, y);
             lit++;
         }
@@ -119,13 +119,13 @@ static void covered_elements_follow_the_elements_that_cover_them(void **state)
     scene_release(&s);
 }
 
-/* Half of a pixel's samples are of one panel, a quarter of another. */
+/* One panel covers half of the samples of a pixel, another a quarter. */
 static void samples_of_a_pixel_are_shared_among_elements(void **state)
 {
     (void)state;
     scene s = blank_scene(CAMERA_TOP, 4);
     const scene_style style = {.layer = LAYER_PLAYER, .role = ROLE_PLAYER, .width = 1};
-    for (int i = 0; i < 2; i++) /* lines of a pixel's width, a quarter and a half of the way into the row of pixels */
+    for (int i = 0; i < 2; i++) /* lines of one pixel, which cover a quarter and a half of the row of pixels */
         scene_add_segment(&s, (scene_segment){.in_picture = true,
                                               .style = style,
                                               .ends = {{20, 30.75 + 0.5 * i, 0}, {60, 30.75 + 0.5 * i, 0}}});
@@ -133,7 +133,7 @@ static void samples_of_a_pixel_are_shared_among_elements(void **state)
     draw_touches list = touches_at(r, &s, 40, 30);
     const int above = place_of(&s, &list, SCENE_SEGMENT, 0), below = place_of(&s, &list, SCENE_SEGMENT, 1);
     assert_true(above >= 0 && below >= 0);
-    assert_int_equal(list.items[below].shown, 4); /* painted last: from 30.75 on */
+    assert_int_equal(list.items[below].shown, 4); /* the last one is painted from 30.75 on */
     assert_int_equal(list.items[above].painted, 12);
     assert_int_equal(list.items[above].shown, 8);
     draw_touches_release(&list);
@@ -171,7 +171,7 @@ static void all_points_of_a_pixel_are_listed(void **state)
     scene_release(&s);
 }
 
-/* Seen from above, discs of 9 pixels around x 40 to 44, the nearest last; and one of 90 that is apart. */
+/* Discs of 9 pixels around x 40 to 44, seen from above, the nearest last; and a separate disc of 90. */
 static void hidden_points_are_listed_nearest_first(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static scene_box cell(uint64_t id, double x0, double x1, uint8_t depth)
                        .style = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1}};
 }
 
-/* Seen from the front: its top edges at z = 40 lie on one line of the picture. */
+/* Seen from the front, the top edges at z = 40 are one line of the picture. */
 static void all_boxes_of_an_edge_are_listed(void **state)
 {
     (void)state;

@@ -11,10 +11,10 @@
 #define WIDTH 400
 #define HEIGHT 300
 
-/* What a clipped line may reach beyond the picture; project.c has its own, smaller number. */
+/* How far a clipped line may reach beyond the picture; the limit in project.c is smaller. */
 #define MARGIN 1024
 
-/* Half a step of the grid that pixels are snapped to: less is not seen; and a thousandth of a band. */
+/* Invisible differences: half a step of the grid to which pixels are snapped, and a thousandth of a band. */
 #define UNSEEN (1.0 / 512)
 #define UNSEEN_BAND 1e-3
 
@@ -25,7 +25,7 @@ static scene scene_of(view_camera kind)
     return empty_scene(&v, &world);
 }
 
-/* A position as the camera sees it: right, up, depth; then its pixel. In long double throughout. */
+/* A position in camera coordinates (right, up, depth) and its pixel, in long double. */
 typedef struct sight {
     long double seen[3], pixel[2];
 } sight;
@@ -43,7 +43,7 @@ static sight look_at(const camera *c, const long double position[3])
     return result;
 }
 
-/* How far a pixel is from a piece. */
+/* The distance of a pixel from a piece. */
 static long double distance_to(const piece *p, const long double pixel[2])
 {
     const long double dx = p->to[0] - (long double)p->from[0], dy = p->to[1] - (long double)p->from[1];
@@ -71,7 +71,7 @@ static bool in_picture(const sight *s, const camera *c)
            s->pixel[1] <= HEIGHT;
 }
 
-/* Whatever the segment, the pieces are numbers near the picture, of bands that go one way. */
+/* The test fails unless all pieces are finite, near the picture, and in bands that only rise or only fall. */
 static unsigned assert_sound(const scene *s, const double from[3], const double to[3], piece pieces[QUAD_BANDS])
 {
     bool overflowed;
@@ -92,7 +92,7 @@ static unsigned assert_sound(const scene *s, const double from[3], const double 
 
 #define SAMPLES 200
 
-/* What of the segment is in the picture is on a piece of the right band. */
+/* The test fails unless every visible sample of the segment is on a piece in the right band. */
 static void assert_all_seen(const scene *s, const double from[3], const double to[3], const piece *pieces,
                             unsigned count)
 {
@@ -109,7 +109,8 @@ static void assert_all_seen(const scene *s, const double from[3], const double t
     }
 }
 
-/* What of the pieces is in the picture is on the segment: its own plane through the eye, within its ends. */
+/* The test fails unless every visible point of the pieces is on the segment: in the plane through it and the eye, and
+ * within its ends. */
 static void assert_nothing_else_seen(const scene *s, const double from[3], const double to[3], const piece *pieces,
                                      unsigned count)
 {
@@ -120,7 +121,7 @@ static void assert_nothing_else_seen(const scene *s, const double from[3], const
         const double *pixel = i % 2 ? pieces[i / 2].to : pieces[i / 2].from;
         const long double x = (pixel[0] - (long double)c->middle[0]) / c->zoom;
         const long double y = (c->middle[1] - (long double)pixel[1]) / c->zoom;
-        long double p[2], q[2]; /* the ends as lines through the eye meet, or as they project along the view */
+        long double p[2], q[2]; /* the ends as projected by lines through the eye, or along the view */
         long double dx = b.seen[0] - a.seen[0], dy = b.seen[1] - a.seen[1];
         long double off = dx * (y - a.seen[1]) - dy * (x - a.seen[0]), t = 0;
         if (c->perspective) { /* (x, y, 1) = u * (a + t * (b - a)): t from the larger of two equations */
@@ -199,7 +200,7 @@ static void reversed_segment_has_the_same_pieces_backwards(void **state)
     }
 }
 
-/* Where a position is by way of the eye: right, up and forward from it, in unit coordinates. */
+/* The position that is this far to the right, up and forward from the eye, in unit coordinates. */
 static void from_eye(const camera *c, double right, double up, double forward, double position[3])
 {
     for (int axis = 0; axis < 3; axis++)
@@ -226,7 +227,8 @@ static void segments_behind_the_eye_are_invisible(void **state)
     }
 }
 
-/* Straight ahead from behind the eye through it: a single pixel, the middle, from the nearest band to the farthest. */
+/* A segment straight ahead, from behind the eye through it, is a single pixel in the middle, in every band from the
+ * nearest to the farthest. */
 static void segment_through_the_eye_is_cut_at_the_near_plane(void **state)
 {
     (void)state;
@@ -247,7 +249,7 @@ static void segment_through_the_eye_is_cut_at_the_near_plane(void **state)
     }
 }
 
-/* Far ends of every size, with everything that can be before, behind and beside them. */
+/* Far ends of every magnitude, with segments before, behind and beside the eye. */
 static void every_segment_gives_only_pieces_near_the_picture(void **state)
 {
     (void)state;
@@ -268,7 +270,7 @@ static void every_segment_gives_only_pieces_near_the_picture(void **state)
     }
 }
 
-/* The first and the last pixel that is left of a segment. */
+/* The first and the last pixel of a clipped segment. */
 static unsigned ends_of(const scene *s, const double from[3], const double to[3], double first[2], double last[2])
 {
     piece pieces[QUAD_BANDS];
@@ -283,7 +285,8 @@ static unsigned ends_of(const scene *s, const double from[3], const double to[3]
 static const double far_sizes[] = {1e3, 1e9, 1e12, 1e15, 1e17, 1e30, 1e100, 1e300};
 #define FAR_SIZES (sizeof far_sizes / sizeof far_sizes[0])
 
-/* A segment from the picture to far off, either way round, shows all of its part near the picture. */
+/* The test fails unless a segment from the picture to a far point, in either direction, shows its whole part near the
+ * picture. */
 static void assert_ray_is_seen(const scene *s, const double start[3], const double direction[3])
 {
     double near_part[3], ends[2][3];
@@ -333,7 +336,7 @@ static void segment_across_the_picture_crosses_all_of_it(void **state)
     }
 }
 
-/* Along the view of an orthographic camera: a point on the picture, in every band. */
+/* Along the view of an orthographic camera a segment is a point of the picture, in every band. */
 static void segment_along_the_view_passes_every_depth_band(void **state)
 {
     (void)state;
@@ -359,7 +362,7 @@ static void segments_in_pixels_are_clipped_without_a_camera(void **state)
         view v = view_of(320, 180, CAMERA_ORBIT, VIEW_ALL_LAYERS);
         v.aa = samples;
         scene s = empty_scene(&v, &world);
-        s.view.width *= samples; /* as its samples see it */
+        s.view.width *= samples; /* for the enlarged picture of the samples */
         s.view.height *= samples;
         piece p;
         assert_true(project_flat(&s, ends[0][0], ends[0][1], &p));

@@ -54,7 +54,7 @@ static void sorting_keeps_every_quad_and_the_order_of_equals(void **state)
     }
 }
 
-/* Single precision, in which GL takes them, holds these exactly. */
+/* The test fails unless floats, which GL takes, hold the coordinates exactly. */
 static void assert_drawable(const quad_list *quads)
 {
     for (size_t i = 0; i < quads->count; i++) {
@@ -109,8 +109,7 @@ static void points_on_one_pixel_are_one_quad_in_the_nearest_band(void **state)
     (void)state;
     painter p = {0};
     scene s = point_scene(CAMERA_TOP);
-    for (int i = 0; i < 1000;
-         i++) /* in a column of one pixel, seen from above; the nearest is neither first nor last */
+    for (int i = 0; i < 1000; i++) /* points on one pixel, seen from above; the nearest is neither first nor last */
         add_point(&s, (uint64_t)i, 0.001, -0.001, (i * 7 % 1000) / 500.0 - 1);
     assert_true(paint(&p, &s));
     assert_int_equal(p.quads.count, 1);
@@ -123,7 +122,7 @@ static void points_on_one_pixel_are_one_quad_in_the_nearest_band(void **state)
     painter_release(&p);
 }
 
-/* The same points in another order are the same picture: which of them is painted cannot be told. */
+/* The same points in another order give the same quads, whichever of the points on a pixel is painted. */
 static void quads_do_not_depend_on_the_order_of_points(void **state)
 {
     (void)state;
@@ -143,7 +142,7 @@ static void quads_do_not_depend_on_the_order_of_points(void **state)
     assert_int_equal(forth.quads.count, back.quads.count);
     assert_true(forth.quads.count < 2000);
     for (unsigned band = 0; band < QUAD_BANDS; band++) {
-        int64_t sum = 0; /* of all places in this band */
+        int64_t sum = 0; /* the sum of all coordinates in this band */
         for (size_t i = 0; i < forth.quads.count; i++) {
             const quad *q = &forth.quads.items[i], *r = &back.quads.items[i];
             sum += q->color == theme_index(ROLE_POINT, band) ? q->x[0] * INT64_C(100003) + q->y[0] : 0;

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* What a child process says, which may change its environment: 0 to 2. */
+/* Run a check in a child process, which may change its environment. Returns its result, 0 to 2. */
 typedef int (*child_check)(void);
 
 static int run_child(child_check check)
@@ -27,7 +27,7 @@ static int run_child(child_check check)
 
 enum { REFUSED_WITH_REASON = 0, REFUSED_WITHOUT = 1, DRAWN = 2 };
 
-/* With a driver that would be refused for itself, a sentence about the size shows that no context was opened. */
+/* The driver would be refused, too: an error about the size shows that no context was opened. */
 static int ask_for_a_size_too_large(void)
 {
     octreel_error error = {""};
@@ -76,7 +76,7 @@ static void renderer_names_its_libraries(void **state)
     renderer_close(NULL);
 }
 
-/* What fills quads by default, and GL. */
+/* The default rasterizer, and GL. */
 static renderer *(*const open_either[])(int width, int height) = {open_renderer, open_gl_renderer};
 
 static void extreme_sizes_are_drawn_to_their_edges(void **state)
@@ -110,7 +110,7 @@ static void extreme_sizes_are_drawn_to_their_edges(void **state)
     }
 }
 
-/* A quarter of a billion pixels: only what is asked for is looked at. */
+/* The picture has a quarter of a billion pixels: only some of them are checked. */
 static void check_largest_picture(renderer *(*open)(int width, int height))
 {
     enum { SIDE = VIEW_MAX_SIDE };
@@ -146,7 +146,7 @@ static void largest_picture_is_drawn_to_its_corners(void **state)
     check_largest_picture(open_either[1]);
 }
 
-/* Infinite and too far for doubles; NaN cannot be in a scene, since it is refused when it is added. */
+/* Infinite coordinates, and coordinates that overflow when projected. NaN is refused when an element is added. */
 static void elements_that_are_not_finite_are_counted_and_change_no_pixel(void **state)
 {
     (void)state;
@@ -248,7 +248,8 @@ static void two_renderers_at_once_do_not_disturb_each_other(void **state)
     scene_release(&large);
 }
 
-/* Frames of several ticks of the default session, moved and scaled; text apart, which tells the true numbers. */
+/* The test fails unless frames of the default session, moved and scaled, have the same pixels; without text, which
+ * shows the coordinates. */
 static void assert_same_frames_elsewhere(renderer *r, view_camera camera, double scale, double offset)
 {
     const view v = view_of(320, 180, camera, VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT));
@@ -286,7 +287,7 @@ static void frame_does_not_depend_on_place_and_scale_of_the_world(void **state)
     renderer_close(r);
 }
 
-/* Far ends, ends behind the eye, everything at once: the frame is made, of colours of the theme. */
+/* Segments to far points and to points behind the eye, all in one frame: it is drawn, in colours of the theme. */
 static void segments_to_far_points_are_drawn(void **state)
 {
     (void)state;
@@ -315,7 +316,7 @@ static void segments_to_far_points_are_drawn(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        /* The one with a child process comes first: Mesa's threads do not survive a fork. */
+        /* The test with a child process comes first, because Mesa's threads do not survive a fork. */
         cmocka_unit_test(invalid_size_is_refused_before_a_context_is_opened),
         cmocka_unit_test(error_names_a_size_out_of_range),
         cmocka_unit_test(renderer_names_its_libraries),

@@ -45,8 +45,8 @@ static void program_and_library_record_the_same_bytes(void **state)
     assert_same_folders(a.path, b.path, NULL);
 }
 
-/* Where a renderer runs: vector width in bits, processor features and threads, so that each two values of different
- * columns meet in one row. */
+/* Environments of a renderer: vector width in bits, processor features and threads. Every pair of values from different
+ * columns occurs in a row. */
 static const command_setting machines[] = {
     {.environment = {"LP_NATIVE_VECTOR_WIDTH=128", "GALLIUM_OVERRIDE_CPU_CAPS=nosse", "LP_NUM_THREADS=0"}},
     {.environment = {"LP_NATIVE_VECTOR_WIDTH=128", "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "LP_NUM_THREADS=3"}},
@@ -62,8 +62,8 @@ static const command_setting machines[] = {
 
 #define MACHINES (sizeof machines / sizeof machines[0])
 
-/* Widths under which a context crashes before it has drawn one frame, as Mesa 26 does under 512 bits, tell nothing of
- * the bytes. Found once, by a program of its own each. */
+/* Vector widths with which a context crashes before it has drawn a frame, as Mesa 26 does with 512 bits, are skipped. A
+ * program for each width finds them once. */
 static const char *const widths[] = {"LP_NATIVE_VECTOR_WIDTH=128", "LP_NATIVE_VECTOR_WIDTH=256",
                                      "LP_NATIVE_VECTOR_WIDTH=512"};
 
@@ -113,7 +113,7 @@ static bool can_draw(const command_setting *machine, draw_context kind)
     return true;
 }
 
-/* On every machine, by every context that the program has, GL alone draws the bytes that integers fill. */
+/* In every environment, every context of the program draws with GL the bytes that integers draw. */
 static void assert_same_on_every_machine(const temp_folder *own, const char *session, const char *view)
 {
     const place plain = place_in(own, "plain");
@@ -162,7 +162,7 @@ static void session_with_all_features_is_the_same_on_every_machine(void **state)
     assert_same_on_every_machine(*state, session.path, "--size 160x90 --every 20 --camera top");
 }
 
-/* Otherwise the tests above would compare a renderer with itself. */
+/* Otherwise the tests above would compare equal renderers. */
 static void environment_of_a_poor_processor_reaches_each_context(void **state)
 {
     static const struct {
@@ -203,7 +203,7 @@ static void every_camera_is_the_same_on_a_poor_processor(void **state)
     }
 }
 
-/* Film a session, and the session.json of that film; both must be the same. */
+/* Record a session, and then the session.json of that recording; both recordings must be equal. */
 static void assert_plays_again(void **state, const octree_session *session)
 {
     const place a = place_in(*state, "a"), b = place_in(*state, "b");
@@ -251,7 +251,7 @@ static void session_with_awkward_numbers_replays_from_its_recording(void **state
     assert_plays_again(state, &session);
 }
 
-/* The points come from a file beside the session, and the recording has them inline. */
+/* The points come from a file beside the session; the recording contains them. */
 static void recording_of_a_file_of_points_replays_in_any_folder(void **state)
 {
     const place session = place_in(*state, "s.json"), points = place_in(*state, "points.txt");

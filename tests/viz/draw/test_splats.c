@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A picture in colours. */
+/* A drawn picture with its colours. */
 typedef struct lit {
     renderer *renderer;
     uint8_t *indices;
@@ -31,7 +31,7 @@ static void add_point(scene *s, uint64_t id, double x, double y, double z, theme
         (scene_marker){.id = id, .at = {x, y, z}, .color = color, .style = {.layer = LAYER_POINTS, .role = ROLE_OWN}});
 }
 
-/* A grid in the plane z = at + slope * y, its points `spacing` apart. */
+/* Add a grid of points in the plane z = at + slope * y, `spacing` apart. */
 static void add_ground(scene *s, double from, double to, double spacing, double at, double slope)
 {
     uint64_t id = s->markers.count;
@@ -89,7 +89,6 @@ static void nearest_point_wins_in_any_order_and_lowest_id_breaks_ties(void **sta
     }
 }
 
-/* No size is dust. */
 static void surface_has_no_holes_at_any_picture_size(void **state)
 {
     (void)state;
@@ -110,7 +109,7 @@ static void surface_has_no_holes_at_any_picture_size(void **state)
     }
 }
 
-/* Points at random places of a plane, of which the budget leaves one in eight. */
+/* Points at random places of a plane, of which the budget keeps one in eight. */
 static void thinned_surface_has_almost_no_holes(void **state)
 {
     (void)state;
@@ -144,7 +143,7 @@ static void thinned_surface_has_almost_no_holes(void **state)
     release(&l, &s);
 }
 
-/* Of a column of the picture through the ground. */
+/* The number of colours in a column of the picture through the ground. */
 static size_t colors_of_column(const lit *l, const scene *s)
 {
     bool seen[256] = {false};
@@ -160,7 +159,7 @@ static size_t colors_of_column(const lit *l, const scene *s)
     return colors;
 }
 
-/* The ground falls away from the eye through all bands. */
+/* The ground slopes away from the eye through all bands. */
 static void sloping_ground_is_shaded_evenly_without_bands(void **state)
 {
     (void)state;
@@ -213,7 +212,6 @@ static void density_is_the_number_of_points_of_a_pixel(void **state)
     }
 }
 
-/* What pick says is at a sample is whose colour it has. */
 static void each_sample_has_the_colour_of_the_picked_point(void **state)
 {
     (void)state;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A picture's pixels that lie in a box. */
+/* The pixels of a picture that lie in a box. */
 typedef struct mask {
     uint8_t *covered;
     int width, height;
@@ -33,7 +33,7 @@ static mask cover_text(const scene *s)
     return m;
 }
 
-/* Drawn with its text and without, a scene differs inside the boxes alone, and somewhere there. */
+/* The test fails unless a scene, drawn with text and without, differs, and only inside the boxes. */
 static void check_scene(scene *s)
 {
     const mask m = cover_text(s);
@@ -80,7 +80,7 @@ static void keep_box(const draw_box *box, void *context)
     *(draw_box *)context = *box;
 }
 
-/* The same words with a rim have a box that is larger on all sides, and the quads of both. */
+/* With a rim, the same words have a box that is larger on all sides, and the quads of letters and rim. */
 static void letters_have_a_rim(void **state)
 {
     (void)state;
@@ -108,7 +108,7 @@ static void letters_have_a_rim(void **state)
     scene_release(&s);
 }
 
-/* As the ranks of neighbours in a close-up. */
+/* For example the ranks of neighbours in a close-up. */
 static void labels_at_the_border_are_not_cut(void **state)
 {
     (void)state;

@@ -12,7 +12,7 @@
 #include "point_world.h"
 #include "octree/sample.h"
 
-/* The names of clouds say what is hostile about them. */
+/* Clouds at the limits of doubles; the name says what is special. */
 typedef struct hostile {
     const char *name;
     double positions[4][3];
@@ -48,7 +48,7 @@ static const hostile clouds[] = {
 
 enum { CLOUDS = sizeof clouds / sizeof clouds[0] };
 
-/* Of positions of its own, which building frees. */
+/* A cloud with a copy of these positions, which building a tree frees. */
 static cloud copy_cloud(const void *positions, size_t count)
 {
     cloud c = {.positions = malloc(count * sizeof *c.positions), .count = count};
@@ -72,7 +72,7 @@ static void world_holds_every_point_and_is_valid_for_a_tree(void **state)
         octreel_error error = {""};
         if (!inspect_build(&c, &def, NULL, NULL, &made, &error))
             fail_msg("%s: %s", clouds[i].name, error.text);
-        assert_null(c.positions); /* not there twice while the tree is built */
+        assert_null(c.positions); /* building the tree has freed the positions */
         if (made.outside + made.refused != 0)
             fail_msg("%s: points are left out", clouds[i].name);
         assert_int_equal(octree_count(made.tree), c.count);
@@ -81,19 +81,19 @@ static void world_holds_every_point_and_is_valid_for_a_tree(void **state)
     }
 }
 
-/* Half of a side, which does not overflow. */
+/* Half the length of a side; the whole length could overflow. */
 static double half_side(const octree_box *box, int axis)
 {
     return box->max[axis] / 2 - box->min[axis] / 2;
 }
 
-/* A face at the end of the doubles cannot be farther out. */
+/* Whether a face is at the limit of doubles, beyond which it cannot be moved. */
 static bool is_cut_off(const octree_box *box, int axis)
 {
     return box->min[axis] == -DBL_MAX || box->max[axis] == DBL_MAX;
 }
 
-/* Rounding moves a face by at most an ulp of it, here doubled. */
+/* Twice the ulp of a face, by which rounding moves it at most. */
 static double rounding_of(const octree_box *box, int axis)
 {
     const double face = fmax(fabs(box->min[axis]), fabs(box->max[axis]));
@@ -116,8 +116,8 @@ static void world_is_a_cube_up_to_rounding(void **state)
     }
 }
 
-/* Half of the side that the issue names: the largest extent, at least 4 ulp of the largest coordinate, and 1 where all
- * points are equal. */
+/* Half of the expected side: the largest extent, but at least 4 ulp of the largest coordinate, and 1 if all points are
+ * equal. */
 static double half_of_smallest(const hostile *h)
 {
     double half = 0, largest = 0;
@@ -154,7 +154,7 @@ static void world_is_centred_on_the_points(void **state)
     assert_memory_equal(&box, &expected, sizeof box);
 }
 
-/* Random clouds whose extents and offsets lie anywhere among the exponents. */
+/* Random clouds, whose extents and offsets have any exponent. */
 static void worlds_of_random_extents_hold_their_points(void **state)
 {
     uint64_t random = 3;
@@ -216,8 +216,8 @@ static void tell(uint64_t done, uint64_t total, void *context)
     t->done = done;
 }
 
-/* Part of the points are outside, and one far off, which makes a coarse grid of the world. The nodes are those of one
- * insertion, whose full leaves refuse the same points. */
+/* Some points are outside, and one is far away, so that the world is large and its cells are coarse. The nodes are
+ * those of inserting one point at a time, with the same points refused by full leaves. */
 static void large_cloud_is_inserted_in_portions(void **state)
 {
     enum { COUNT = 200000 };
@@ -295,7 +295,7 @@ static void statistics_name_the_values_of_the_points(void **state)
     (void)state;
     assert_true(cloud_parse("a.xyz", (const unsigned char *)text, sizeof text - 1, &c, &error));
     assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
-    assert_int_equal(c.values.count, 0); /* the inspection has them */
+    assert_int_equal(c.values.count, 0); /* the inspection has taken the values over */
     cloud_release(&c);
     assert_prints(&made, false, "\n  values    color 0-255; intensity -7.5 to 65535 of 2 points; classes 2, 6\n");
     assert_prints(&made, true,

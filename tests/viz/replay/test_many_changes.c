@@ -14,7 +14,7 @@
 
 enum { POINTS = 6000, TICKS = 3 };
 
-/* Points that all move far; `extra` comes at this tick, to where it makes a node split. */
+/* Record a session in which all points move far. The point `extra` is inserted at this tick, and makes a node split. */
 static place film_swarm(const temp_folder *own, const char *name, uint64_t extra_at, uint64_t every)
 {
     static octree_body bodies[POINTS];
@@ -31,7 +31,7 @@ static place film_swarm(const temp_folder *own, const char *name, uint64_t extra
         for (int axis = 0; axis < 3; axis++)
             bodies[i].velocity[axis] = (double)random_below(&random, 401) - 200;
     }
-    for (size_t i = 0; i < 2; i++) { /* two that stay, in the corner of the third */
+    for (size_t i = 0; i < 2; i++) { /* two resting points, next to the extra one */
         bodies[i] = (octree_body){.id = i + 1, .position = {-998 + (double)i, -998, -998}};
     }
     session.bodies = bodies;
@@ -64,7 +64,7 @@ static void ticks_with_many_changes_have_short_lines_and_verify(void **state)
     assert_string_equal(report.findings[0].fact, "splits");
 }
 
-/* The lines as earlier versions wrote them. */
+/* Rewrite ticks.jsonl as earlier versions wrote it, with lists of all addresses. */
 static void list_all(const place *folder)
 {
     octree_game *game;
@@ -108,7 +108,8 @@ static void assert_says(const char *command, const place *a, const place *b, con
     command_release(&result);
 }
 
-/* A point comes a tick earlier: at the next tick the trees are the same, and only one of them has just split there. */
+/* In one session a point is inserted a tick earlier: at the next tick the trees are equal, but only one of them has
+ * just split there. */
 static void cause_names_one_node_of_many_changes(void **state)
 {
     const place a = film_swarm(*state, "a", 2, 1), b = film_swarm(*state, "b", 1, 1);

@@ -79,7 +79,7 @@ static void picking_does_not_change_later_frames(void **state)
 
 /* ---- Elements alone ----------------------------------------------------------------------------------------- */
 
-/* The same scene with no element but one, which is no box. */
+/* The same scene with only one element, which is not a box. */
 static scene alone(const scene *s, scene_element element)
 {
     scene one = *s;
@@ -106,7 +106,7 @@ static scene alone(const scene *s, scene_element element)
     return one;
 }
 
-/* Wherever it is seen it has, alone, the same colour. */
+/* The test fails unless the element, drawn alone, has the same colour wherever it is visible. */
 static void check_alone(renderer *r, const scene *s, const uint8_t *frame, const uint32_t *numbers, uint32_t number)
 {
     scene one = alone(s, scene_element_at(s, number));
@@ -147,7 +147,7 @@ static void element_is_picked_only_where_it_is_visible(void **state)
     }
 }
 
-/* As many as need three bytes, each one pixel. */
+/* Their numbers need three bytes; each element is one pixel. */
 static void hundred_thousand_elements_are_distinguished(void **state)
 {
     enum { WIDTH = 400, HEIGHT = 300 };
@@ -175,7 +175,7 @@ static void hundred_thousand_elements_are_distinguished(void **state)
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
-/* Both ends of a line in the picture, of what is before the camera; false where nothing is. */
+/* The ends of a line in the picture, cut where it is behind the camera. False: it is entirely behind. */
 static bool see_line(const scene *s, const double from[3], const double to[3], double a[2], double b[2])
 {
     const camera *c = &s->camera;
@@ -197,7 +197,7 @@ static bool see_line(const scene *s, const double from[3], const double to[3], d
     return true;
 }
 
-/* How far a place of the picture is from the picture of a line. */
+/* The distance of a place in the picture from a line. */
 static double distance_to_line(const scene *s, const double from[3], const double to[3], const double place[2])
 {
     double a[2], b[2];
@@ -210,7 +210,7 @@ static double distance_to_line(const scene *s, const double from[3], const doubl
     return sqrt(x * x + y * y);
 }
 
-/* How far a place is from the nearest of a box's edges. */
+/* The distance of a place in the picture from the nearest edge of a box. */
 static double distance_to_box(const scene *s, const octree_box *box, const double place[2])
 {
     double nearest = INFINITY;
@@ -272,8 +272,8 @@ static scene_box node_of(octree_address id, double x0, double x1, uint8_t depth)
                        .style = {.layer = LAYER_NODES, .role = (uint8_t)theme_node_role(depth), .width = 1}};
 }
 
-/* A row of cells of one colour is one stroke; each of its pixels is the cell's that it lies on, or the whole row's
- * where that has a box too. */
+/* The edges of a row of cells in one colour are merged into one stroke. Each of its pixels belongs to the cell at that
+ * place, or to the whole row if that is a box, too. */
 static void check_row(view_camera camera, bool within)
 {
     enum { CELLS = 8, STEPS = 640 };
@@ -286,7 +286,7 @@ static void check_row(view_camera camera, bool within)
         scene_add_box(&s, node_of(100, -80, 80, 2));
     renderer *r = open_renderer_for(&s);
     uint32_t *numbers = pick(r, &s);
-    double depths[2][3]; /* of the upper edges along x: no other crosses the nearer one */
+    double depths[2][3]; /* depths of the upper edges along x; no other edge crosses the nearer one */
     camera_transform(&s.camera, (double[]){0, -50, 50}, depths[0]);
     camera_transform(&s.camera, (double[]){0, 50, 50}, depths[1]);
     const double y = depths[0][2] <= depths[1][2] ? -50 : 50;
@@ -294,12 +294,12 @@ static void check_row(view_camera camera, bool within)
     for (int at = 0; at < CELLS * STEPS; at++) {
         double pixel[2];
         if (at % STEPS < STEPS / 8 || at % STEPS > STEPS * 7 / 8)
-            continue; /* corners, where several edges meet */
+            continue; /* several edges meet in corners */
         const double x = -80 + 20.0 * at / STEPS, place[3] = {x, y, 50};
         pixel_of(&s, place, pixel);
         const double off[2] = {pixel[0] - floor(pixel[0]) - 0.5, pixel[1] - floor(pixel[1]) - 0.5};
         if (fabs(off[0]) > 0.2 || fabs(off[1]) > 0.2)
-            continue; /* by rounding the line may light another */
+            continue; /* after rounding the line may draw the pixel beside it */
         if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= v.width || pixel[1] >= v.height)
             continue;
         const size_t sample = (size_t)pixel[1] * (size_t)v.width + (size_t)pixel[0];

@@ -30,7 +30,7 @@ static size_t peak_of(const place *folder, bool same)
     return heap_peak();
 }
 
-/* Each as large as a file may become, be it one line, many, or a line that nests. */
+/* Each text is as large as a file may be: one line, many lines, or a deeply nested line. */
 static void ticks_jsonl_takes_no_more_memory_than_its_session(void **state)
 {
     static const struct {

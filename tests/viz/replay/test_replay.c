@@ -19,7 +19,7 @@
 #include "ticks_write.h"
 #include "recording_file.h"
 
-/* What a tick has a digest of each: its line, and from every camera its view and the arrays of its scene. */
+/* The digests of a tick: of its line, and for every camera of the view and of each array of the scene. */
 enum { LINE, VIEW, BOXES, SEGMENTS, MARKERS, PANELS, LABELS, COLUMNS };
 static const char *const columns[COLUMNS] = {"line", "view", "boxes", "segments", "markers", "panels", "labels"};
 
@@ -40,8 +40,8 @@ static octree_session random_session_of_all_kinds(void)
 
 enum { BODIES = 60, TICKS = 120 };
 
-/* Bodies that all move, in a world and with velocities that are no round numbers: nearly every operation rounds, and
- * one that was fused with another would show. */
+/* All points move, and neither the world nor the velocities are round numbers: nearly every operation rounds, and a
+ * fused multiply-add would change a digest. */
 static octree_session session_that_rounds(void)
 {
     static octree_body bodies[BODIES];
@@ -84,7 +84,7 @@ enum { SESSIONS = sizeof sessions / sizeof sessions[0] };
 
 /* ---- Digests ------------------------------------------------------------------------------------------------ */
 
-/* Of a scene with one of its arrays alone; with none of them it is that of its view and camera. */
+/* The digest of a scene with only one of its arrays; without any it covers the view and the camera. */
 static uint64_t digest_alone(const scene *s, int column)
 {
     scene alone = *s;
@@ -129,7 +129,7 @@ static row digest_tick(const char *session, const octree_game *game, scene *s)
     return r;
 }
 
-/* Play a session and hand over the row of each tick. */
+/* Play a session and pass the row of each tick to a function. */
 static void play(int which, void (*handle)(const row *r, void *context), void *context)
 {
     const octree_session session = sessions[which].make();
@@ -181,7 +181,7 @@ static bool read_row(FILE *in, row *r)
     return true;
 }
 
-/* The file, from the first row of a session on. */
+/* Open the file of digests at the first row of a session. */
 static FILE *open_rows(const char *session)
 {
     FILE *in = fopen(REPLAY_DIGESTS, "r");

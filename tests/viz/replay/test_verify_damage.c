@@ -7,7 +7,7 @@
 #include "recordings.h"
 #include "verified.h"
 
-#define FLIPS 24 /* of each file */
+#define FLIPS 24 /* changed bytes in each file */
 
 static place film_tiny(const temp_folder *own)
 {
@@ -22,7 +22,7 @@ static place film_tiny(const temp_folder *own)
     return folder;
 }
 
-/* Trouble counts as noticed. */
+/* Whether verify reports a difference or an error. */
 static bool is_noticed(const place *folder)
 {
     const verify_options options = {.progress = NULL};
@@ -36,7 +36,7 @@ static bool is_noticed(const place *folder)
     return !verified || report.count > 0;
 }
 
-/* Change single bytes, all over a file and its ends, in a way that the round of a loop chooses. */
+/* Change single bytes, all over a file and at its ends, each time in another way. */
 static void assert_changes(const place *folder, const char *name, bool all_noticed)
 {
     static const unsigned char flips[] = {0x01, 0x20, 0x80, 0xff};
@@ -75,7 +75,7 @@ static void every_changed_byte_of_a_frame_is_found(void **state)
     assert_changes(&folder, "frame_000002.png", true);
 }
 
-/* A blank more or less, or a layer that shows nothing, makes no other frame; and who drew is not compared. */
+/* An additional blank or an empty layer changes no frame, and the renderer is not compared. */
 static void no_change_of_the_view_or_renderer_file_does_harm(void **state)
 {
     const place folder = film_tiny(*state);
@@ -99,7 +99,7 @@ static void renderer_json_is_read_only_if_it_is_small(void **state)
     assert_false(is_noticed(&folder));
 }
 
-/* A recording from elsewhere must not have files read that are none of its own, nor have points made without end. */
+/* A recording from a stranger must not make octreel read other files, or generate points without end. */
 static void session_json_that_names_a_file_of_points_is_refused(void **state)
 {
     static const char *const points[] = {"{\"file\": \"../points.xyz\"}",

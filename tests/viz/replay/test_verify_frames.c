@@ -15,7 +15,7 @@
 #include "png_chunks.h"
 #include "image_digest.h"
 
-/* The texts of a frame, as they are; `pixels` in the place of the digest of its pixels, unless it is null. */
+/* Write a frame with the texts of its scene; `pixels`, unless it is null, replaces the digest of its pixels. */
 static void write_with_texts(const char *path, const image *frame, const char *pixels)
 {
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
@@ -32,13 +32,13 @@ static void write_with_texts(const char *path, const image *frame, const char *p
 static void recompressed_frame_is_identical(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
-    image frame = assert_read_rgb(path.path); /* what was written has a palette */
+    image frame = assert_read_rgb(path.path); /* the recorded frame has a palette */
     write_with_texts(path.path, &frame, NULL);
     image_release(&frame);
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
 }
 
-/* Octreel before recording version 3 wrote digests of this kind. */
+/* Before version 3 of recordings, Octreel wrote digests of this kind. */
 static void frame_with_the_digest_of_an_older_version_is_identical(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
@@ -88,7 +88,6 @@ static void frame_that_is_a_pipe_is_not_opened(void **state)
     }
 }
 
-/* Nobody can say whether it differs. */
 static void frame_without_read_permission_is_an_error(void **state)
 {
     const temp_folder *own = *state;
@@ -98,7 +97,7 @@ static void frame_without_read_permission_is_an_error(void **state)
     assert_int_equal(chmod(own->name, 0755), 0);
     const bool root = geteuid() == 0;
     if (root && seteuid(65534) != 0)
-        skip(); /* root of a container that has no other user */
+        skip(); /* root can read everything, and this container has no other user */
     const verify_options options = {0};
     verify_report report;
     octreel_error error = {""};
@@ -159,7 +158,7 @@ static void frame_without_text_chunks_is_found(void **state)
     assert_null(strstr(report.findings[0].text, "drawn now"));
 }
 
-/* The pixels are right, and one text is wrong. */
+/* The pixels are correct, and one text chunk is wrong. */
 static void frame_with_a_changed_text_chunk_is_found(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
@@ -182,7 +181,7 @@ static void frame_with_edited_pixels_is_found(void **state)
     assert_found(&folder, VERIFY_FRAME, 3, "its pixels do not match its PNG text octreel-pixels");
 }
 
-/* What another renderer would have left: a frame that tells the truth about itself. */
+/* A frame as another renderer would write it: its digest fits its own pixels. */
 static void finding_in_pixels_names_both_renderers(void **state)
 {
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000006.png");
