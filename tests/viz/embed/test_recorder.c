@@ -16,7 +16,7 @@
 
 enum { TICKS = 40 };
 
-/* The trees that were handed over are those that the recording tells of. */
+/* The test fails unless the recording has the trees that the program passed. */
 static void record_and_compare(void **state, const octreel_recorder_def *def, moving_tree *m)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -43,7 +43,7 @@ static void recording_has_the_tree_of_every_tick_and_replays_to_the_same_bytes(v
     moving_tree_release(&m);
 }
 
-/* Leaves hold one point and do not split far: most moves meet a full one, and points change places. */
+/* Leaves hold one point and there are few levels: most moves meet a full leaf, and points exchange places. */
 static void points_near_full_leaves_are_recorded_in_an_order_that_is_accepted(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -96,7 +96,7 @@ static size_t count_in_lines(const char *folder, const char *text)
     return count;
 }
 
-/* The player is one of the points, whenever it is there; the others are what it may collide with. */
+/* The player is one of the points, whenever that exists; the others are the points that it may collide with. */
 static void player_is_the_point_with_its_id_while_that_exists(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -113,13 +113,13 @@ static void player_is_the_point_with_its_id_while_that_exists(void **state)
     def.player = (octree_player){.kind = OCTREE_PLAYER_BODY, .id = 9, .box_size = 1};
     octreel_recorder *recorder = open_recorder(&def);
     assert_int_equal(octree_insert(tree, rest, 1), OCTREE_OK);
-    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 0: not there */
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 0: does not exist */
     assert_int_equal(octree_insert(tree, away, 9), OCTREE_OK);
-    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 1: far off */
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 1: far from the others */
     assert_int_equal(octree_move(tree, away, 9, near), OCTREE_OK);
     assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 2: a hit */
     assert_int_equal(octree_remove(tree, near, 9), OCTREE_OK);
-    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 3: gone */
+    assert_int_equal(octreel_recorder_tick(recorder, tree, &asked), OCTREEL_OK); /* 3: removed */
     close_recorder(recorder);
     octree_destroy(tree);
     assert_int_equal(count_in_lines(folder.path, "\"player\": null"), 2);
@@ -128,7 +128,7 @@ static void player_is_the_point_with_its_id_while_that_exists(void **state)
     assert_films_again(&folder, &again, 4);
 }
 
-/* Without a player: what the program asked for one of its points, leaving it out. */
+/* Without a player: a query at one of the program's points, which leaves that point out. */
 static void query_at_a_point_leaves_out_that_point(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -155,7 +155,7 @@ static void query_at_a_point_leaves_out_that_point(void **state)
     assert_films_again(&folder, &again, 1);
 }
 
-/* Somebody else's tree: nothing but boxes. */
+/* A foreign tree, of which only boxes are recorded. */
 static void shapes_are_recorded_without_a_tree(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -186,7 +186,7 @@ static void disabled_recorder_does_nothing(void **state)
     octree_destroy(tree);
 }
 
-/* The program comes faster than its frames are drawn: what is refused is a gap, and nothing after it is lost. */
+/* The program is faster than its frames are drawn: a refused tick is a gap, and nothing after it is lost. */
 static void full_queue_is_reported_if_the_caller_never_waits(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -229,7 +229,7 @@ static void recorder_does_not_change_signal_handling(void **state)
     assert_int_equal(sigprocmask(SIG_SETMASK, NULL, &after), 0);
     for (int signal = 1; signal < 32; signal++)
         assert_int_equal(sigismember(&before, signal), sigismember(&after, signal));
-    octreel_recorder_destroy(recorder); /* closes it, too */
+    octreel_recorder_destroy(recorder); /* also closes the recorder */
     moving_tree_release(&m);
     assert_nothing_half_written(folder.path);
     assert_true(file_exists(place_below(folder.path, "index.html").path));

@@ -23,7 +23,7 @@ static octreel_recorder *open_small(const char *folder, size_t ring)
     return open_recorder(&def);
 }
 
-/* One of each kind; the arrays are the program's again once the call returns. */
+/* Record a query of each kind. The arrays belong to the program again when the call returns. */
 static octreel_status ask_all(octreel_recorder *recorder, uint64_t nearest)
 {
     uint64_t answers[][3] = {{nearest}, {11, 10}, {10, 11, 12}, {13}};

@@ -13,7 +13,7 @@
 #include "moving_tree.h"
 #include "recordings.h"
 
-/* A program that is killed while it records some thirty ticks. */
+/* Kill a program while it records some thirty ticks. */
 static void record_and_die(const place *folder)
 {
     const pid_t child = fork();
@@ -29,7 +29,8 @@ static void record_and_die(const place *folder)
     assert_true(child > 0 && waitpid(child, &status, 0) == child && WIFSIGNALED(status));
 }
 
-/* What was handed over, but for what was in the queue. The last line may be torn, where the disk was full, say. */
+/* All passed ticks are recorded, except those in the queue. The last line may be torn, for example after a full disk.
+ */
 static void recording_of_a_crashed_program_is_resumed(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -43,7 +44,7 @@ static void recording_of_a_crashed_program_is_resumed(void **state)
     assert_done(&result);
     command_release(&result);
     const size_t ticks = for_each_line(folder.path, NULL, NULL);
-    assert_true(ticks > 10 && ticks <= 30); /* the queue holds 16 */
+    assert_true(ticks > 10 && ticks <= 30); /* the queue holds 16 ticks */
     assert_films_again(&folder, &again, ticks);
     assert_false(file_exists(live.path));
 }

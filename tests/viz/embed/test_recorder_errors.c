@@ -130,7 +130,7 @@ static void recording_is_replaced_on_request(void **state)
         close_recorder(recorder);
     }
     assert_films_again(&folder, &again, 3);
-    octreel_recorder *ring = NULL, *idle = open_recorder(&def); /* no tick: it stays */
+    octreel_recorder *ring = NULL, *idle = open_recorder(&def); /* neither gets a tick */
     assert_int_equal(octreel_recorder_close(idle), OCTREEL_NOTHING);
     octreel_recorder_destroy(idle);
     assert_same_folders(folder.path, again.path, NULL);
@@ -144,7 +144,7 @@ static void recording_is_replaced_on_request(void **state)
     assert_int_equal(for_each_line(folder.path, NULL, NULL), 2);
 }
 
-/* By the same process, too. */
+/* Not even by the same process. */
 static void recording_in_progress_is_not_replaced(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -163,7 +163,7 @@ static void recording_in_progress_is_not_replaced(void **state)
     assert_films_again(&folder, &again, 5);
 }
 
-/* A tick that is refused, with the status and a part of the sentence. */
+/* The test fails unless a tick is refused with this status and a sentence with this part. */
 static void assert_refused(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about,
                            octreel_status why, const char *part)
 {
@@ -184,7 +184,7 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
         {.kind = OCTREE_QUERY_RANGE, .skip = OCTREE_SKIP_COINCIDENT},
         {.kind = OCTREE_QUERY_RADIUS, .epsilon = -1},
         {.kind = OCTREE_QUERY_NEAREST, .skip = OCTREE_SKIP_ID, .skip_id = UINT64_C(1) << 53},
-        {.kind = OCTREE_QUERY_NEAREST, .at_player = true}, /* there is none */
+        {.kind = OCTREE_QUERY_NEAREST, .at_player = true}, /* there is no player */
         {.kind = OCTREE_QUERY_KINDS},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -245,7 +245,8 @@ static void refuse_modes(octreel_recorder *recorder, const octree *tree)
     assert_int_equal(status, OCTREEL_FLOAT_MODE);
 }
 
-/* Between two ticks of a program everything is tried: all of it is gaps, and what the program did is between them. */
+/* Between two ticks of a program, every invalid call is tried: all of them are gaps, and the program's changes are
+ * recorded with the next tick. */
 static void refused_tick_is_a_gap_and_nothing_else_is_lost(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -306,7 +307,7 @@ static void recorder_without_a_tick_reports_it_and_leaves_no_recording(void **st
     moving_tree_release(&m);
 }
 
-/* Hand ticks over until one is refused, which the worker may be some ticks late to know. */
+/* Record ticks until one is refused; the worker may notice the error some ticks late. */
 static void record_until_broken(octreel_recorder *recorder, moving_tree *m, const char *part)
 {
     octreel_status status = OCTREEL_OK;
@@ -323,7 +324,7 @@ static void record_until_broken(octreel_recorder *recorder, moving_tree *m, cons
     octreel_recorder_destroy(recorder);
 }
 
-/* What --resume does. */
+/* Resume the recording, as octreel record --resume does. */
 static void resume(const place *folder)
 {
     const place path = place_below(folder->path, "session.json");
@@ -361,7 +362,7 @@ static void unwritable_frame_ends_the_recording_and_resume_completes_it(void **s
     assert_films_again(&folder, &again, 8);
 }
 
-/* The disk is full when ticks.jsonl has some forty lines: its worker has the signal of it blocked. */
+/* The disk is full when ticks.jsonl has some forty lines. The worker blocks the signal of the file limit. */
 static void full_disk_ends_the_recording_and_resume_completes_it(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -382,7 +383,7 @@ static void full_disk_ends_the_recording_and_resume_completes_it(void **state)
     const uint64_t ticks = ticks_of(&folder);
     assert_true(ticks > 5);
     resume(&folder);
-    assert_films_again(&folder, &again, ticks + 1); /* the tick in hand is not lost */
+    assert_films_again(&folder, &again, ticks + 1); /* the tick that failed is not lost */
 }
 
 static void vanished_folder_ends_the_recording(void **state)
@@ -398,7 +399,7 @@ static void vanished_folder_ends_the_recording(void **state)
     moving_tree_release(&m);
 }
 
-/* Between opening and tick 0 somebody else has taken the folder. */
+/* Between opening and tick 0 another process has taken the folder. */
 static void failed_first_tick_leaves_no_recording(void **state)
 {
     const place folder = place_in(*state, "film");

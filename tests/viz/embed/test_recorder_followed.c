@@ -13,7 +13,7 @@
 
 enum { TICKS = 60, MOST = 3000 };
 
-/* A program, and what is done to its tree. */
+/* A program and the pending changes to its tree. */
 typedef struct program {
     octree *tree;
     uint64_t random, next_id;
@@ -32,7 +32,7 @@ static void random_place(program *p, double at[3])
         at[0] = -0.0;
 }
 
-/* Some of the points, and where each is to go. */
+/* Choose some points, and where each is to move. */
 static size_t choose(program *p, size_t most)
 {
     brute all = {0};
@@ -75,14 +75,14 @@ static void insert_at_once(program *p)
     assert_int_equal(octree_insert_many(p->tree, p->points, count, NULL, NULL), OCTREE_OK);
 }
 
-/* As a program may move a point: in at its new place, and then out of its old one. */
+/* Insert a point at its new position, and then remove it from the old one. */
 static void insert_then_remove(program *p)
 {
     const size_t count = choose(p, 20);
     for (size_t i = 0; i < count; i++)
         if (octree_insert(p->tree, p->to[i], p->points[i].id) == OCTREE_OK &&
             octree_remove(p->tree, p->points[i].position, p->points[i].id) != OCTREE_OK)
-            octree_remove(p->tree, p->to[i], p->points[i].id); /* it was moved already: undone */
+            octree_remove(p->tree, p->to[i], p->points[i].id); /* the point was moved already: undo the insertion */
 }
 
 static void there_and_back(program *p)
@@ -93,7 +93,7 @@ static void there_and_back(program *p)
             octree_move(p->tree, p->to[i], p->points[i].id, p->points[i].position);
 }
 
-/* Two points of one id, until the next of these. */
+/* Add a second point with an existing id, or remove it again. */
 static void twin(program *p)
 {
     static const double corner[3] = {31, 31, 31};
@@ -104,7 +104,7 @@ static void twin(program *p)
         octree_insert(p->tree, corner, p->points[0].id);
 }
 
-/* An id that no file can have, until the next of these. */
+/* Add a point with an id that no file can hold, or remove it again. */
 static void large_id(program *p)
 {
     static const double corner[3] = {-31, 31, 31};
@@ -140,7 +140,7 @@ static void change(program *p)
         seldom[random_below(&p->random, sizeof seldom / sizeof *seldom)](p);
 }
 
-/* The same contents in a tree of its own, which has nothing to tell. */
+/* A tree with the same contents, but without a log of changes. */
 static octree *copy_tree(const octree *tree)
 {
     const octree_def def = octree_definition(tree);
@@ -163,7 +163,7 @@ static octreel_recorder *record_into(const program *p, const char *folder, size_
     return open_recorder(&def);
 }
 
-/* A recorder is handed the tree, and another a copy; a third sees the tree now and then. All say the same. */
+/* One recorder gets the tree, another one a copy, and a third one the tree in some ticks. All must record the same. */
 static void play(program *p, octreel_recorder *recorders[3])
 {
     for (int tick = 0; tick < TICKS; tick++) {
@@ -232,7 +232,7 @@ static size_t memory_of(const octree *tree)
     return stats.memory;
 }
 
-/* Two trees in turn are two logs, and neither tells what happened to the other. */
+/* Two alternating trees have two logs, which do not contain each other's changes. */
 static void alternating_trees_are_not_confused(void **state)
 {
     const octree_def def = define(world, 4, 6, OCTREE_GROW);
@@ -262,8 +262,8 @@ static void alternating_trees_are_not_confused(void **state)
     assert_same_folders(folders[0].path, folders[1].path, NULL);
 }
 
-/* It keeps its changes while few of them are recorded, and not where all points move. One leaf holds all: no move takes
- * memory but to be kept. */
+/* A tree keeps its log while few points change, but not if all points move. One leaf holds all points, so that moves
+ * take no other memory. */
 static void tree_keeps_its_changes_while_they_are_few(void **state)
 {
     enum { COUNT = 4000, FEW = 6, CALM = 14, ALL = 20 };

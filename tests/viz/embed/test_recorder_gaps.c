@@ -27,7 +27,7 @@ static octreel_recorder *open_small(octree *tree, const char *folder, size_t rin
     return recorder;
 }
 
-/* Whether the tick of each letter is taken ('.') or not: one id twice ('i'), or a query with a NaN ('q'). */
+/* Record a tick for each letter: '.' is accepted; 'i', an id twice, and 'q', a query with NaN, are refused. */
 static void record_pattern(octreel_recorder *recorder, octree *tree, const char *pattern)
 {
     const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
@@ -53,7 +53,7 @@ static void assert_ends(octreel_recorder *recorder, octreel_status status, octre
         fail_msg("%s", octreel_recorder_error(recorder));
 }
 
-/* The line of each tick of the pattern. */
+/* The test fails unless the line of a tick fits its letter. */
 static void check_line(const char *line, size_t number, void *context)
 {
     const char *pattern = context;
@@ -67,7 +67,8 @@ static void check_line(const char *line, size_t number, void *context)
         assert_true(strstr(line, "\"gap\"") == NULL && strstr(line, "\"frame\""));
 }
 
-/* Record a pattern; its recording has a line for each tick, and a frame for each that is known. */
+/* Record a pattern. The test fails unless the recording has a line for each tick, and a frame for each accepted tick.
+ */
 static void check_pattern(void **state, const char *pattern, const char *sentence)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");
@@ -118,14 +119,14 @@ static void refused_ticks_alone_make_no_recording(void **state)
     assert_false(file_exists(place_below(folder.path, "recording.json").path));
 }
 
-/* Tick 0 of the recording is one that is known, and no other. */
+/* Tick 0 of the recording must be an accepted tick. */
 static void ring_keeps_gaps(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again"), more = place_in(*state, "more");
     uint64_t first;
     octree *tree = make_tree(cube(-100, 100), 4, 8, OCTREE_GROW);
     octreel_recorder *recorder = open_small(tree, NULL, 3);
-    record_pattern(recorder, tree, "q..qi..i"); /* of which "..i" without gaps before: 2 to 7 */
+    record_pattern(recorder, tree, "q..qi..i"); /* the ring keeps ticks 2 to 7 of it */
     assert_ends(recorder, octreel_recorder_write(recorder, folder.path, &first), OCTREEL_GAPS,
                 "3 of 6 ticks were refused and are gaps in the recording; the first is tick 1: queries[0]");
     assert_int_equal(first, 2);
@@ -164,7 +165,7 @@ static void verify_and_record_report_gaps(void **state)
     command_release(&result);
 }
 
-/* A frame that somebody put into a gap is not the recording's. */
+/* A frame at the tick of a gap does not belong to the recording. */
 static void frame_in_a_gap_is_found(void **state)
 {
     const place folder = place_in(*state, "film"), gap = frame_place(folder.path, 2);

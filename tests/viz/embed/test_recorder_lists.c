@@ -13,7 +13,7 @@
 
 enum { TICKS = 30 };
 
-/* Record the same program, by this source at each tick in turn. */
+/* Record the same program, with these sources in turn. */
 static void record_by(const char *folder, const moving_tree_source sources[2], size_t ring)
 {
     moving_tree m;
@@ -67,7 +67,7 @@ typedef struct film {
     octreel_recorder *recorder;
 } film;
 
-/* The definition is the default one, which refuses where a leaf is full; its leaves hold one point. */
+/* The default definition, which refuses points in full leaves; its leaves hold one point. */
 static film open_film(void **state, size_t ring)
 {
     film f = {.folder = place_in(*state, "film")};
@@ -93,7 +93,7 @@ static octreel_status change_tick(film *f, octree_edit_kind kind, uint64_t id, d
     return octreel_recorder_tick(f->recorder, NULL, &(octreel_tick_info){.changes = &edit, .change_count = 1});
 }
 
-/* What is stored, tick by tick: a blank between ticks; '-' is a gap, 'R' a tick with a refusal. */
+/* Append the ids of the stored points of a tick and a blank; '-' for a gap, and 'R' for a tick with a refusal. */
 static void note_points(const char *line, size_t number, void *context)
 {
     char *told = context, *end = told + strlen(told);
@@ -118,7 +118,7 @@ static void assert_told(film *f, octreel_status closes, const char *expected)
 
 static const octree_point three[] = {{{1, 1, 1}, 7}, {{1, 1, 1}, 3}, {{1, 1, 1}, 5}};
 
-/* Of a vector that is empty the data are null. */
+/* An empty C++ vector has null data. */
 static void omitted_list_is_empty_and_omitted_changes_are_none(void **state)
 {
     film f = open_film(state, 0);
@@ -162,7 +162,7 @@ static void point_outside_the_world_is_refused_until_it_returns(void **state)
     assert_told(&f, OCTREEL_OK, "R1 1 2 R1 R1 2 R1 1");
 }
 
-/* Tick 0 of a ring has those that are outside by then. */
+/* Tick 0 of a ring has the points that are outside by then. */
 static void ring_remembers_points_outside_the_world(void **state)
 {
     film f = open_film(state, 3);
@@ -177,7 +177,7 @@ static void ring_remembers_points_outside_the_world(void **state)
 
 /* ---- Refused ticks ------------------------------------------------------------------------------------------ */
 
-/* The other changes are made, and come with the next tick. */
+/* The other changes are recorded with the next tick. */
 static void changes_of_a_refused_tick_are_not_lost(void **state)
 {
     film f = open_film(state, 0);
@@ -255,7 +255,7 @@ static void points_from_two_sources_are_refused(void **state)
     octree_destroy(tree);
 }
 
-/* While a queue is full, point 3 goes to and fro: what comes of it is one change. */
+/* While the queue is full, point 3 moves to and fro: the result is one change. */
 static void waiting_changes_are_combined(void **state)
 {
     film f = open_film(state, 0);

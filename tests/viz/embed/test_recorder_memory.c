@@ -19,8 +19,8 @@ static octree_full_leaf full_leaf_of(moving_tree_source source)
     return source == MOVING_TREE ? OCTREE_REFUSE : OCTREE_GROW;
 }
 
-/* Record, with one call that gets no more than `count` allocations: where it is refused it is made again, and is two
- * ticks then. False when none failed. */
+/* Record, and let one call succeed in no more than `count` allocations. A refused call is repeated, which makes two
+ * ticks of it. False if no allocation failed. */
 static bool record_with_failure(octreel_recorder *recorder, moving_tree_source source, long count,
                                 uint64_t digests[TICKS + 1], bool *refused)
 {
@@ -32,7 +32,7 @@ static bool record_with_failure(octreel_recorder *recorder, moving_tree_source s
     for (int tick = 0; tick < TICKS; tick++) {
         if (tick == BEFORE) {
             for (int i = 0; i < 20; i++)
-                moving_tree_step(&m); /* so that there are more points than at any time before, perhaps */
+                moving_tree_step(&m); /* so that the arrays may have to grow */
             moving_edits_make(&edits, &m);
             fail_allocations_after(count);
             const octreel_status status = record_tick_from(recorder, &m, source, &edits);
@@ -51,7 +51,7 @@ static bool record_with_failure(octreel_recorder *recorder, moving_tree_source s
     return failed;
 }
 
-/* How a recorder is opened in this test: its tree is that of a moving_tree. */
+/* The definition of this test's recorder, for the tree of a moving_tree. */
 static octreel_recorder_def definition(const char *folder, moving_tree_source source, size_t ring)
 {
     moving_tree m;
@@ -126,12 +126,13 @@ static bool has_failed(octreel_status status)
     return status != OCTREEL_OK && status != OCTREEL_GAPS;
 }
 
-/* One allocation fails in the thread that films: where not all is recorded, that is said. Whether one failed. */
+/* One allocation fails in the thread that films; if the recording is incomplete, the recorder must report it. Returns
+ * whether an allocation failed. */
 static bool film_with_failure(const place *folder, moving_tree_source source, size_t ring, long count)
 {
     uint64_t digests[FILMED], told[FILMED];
     octreel_recorder_def def = definition(folder->path, source, ring);
-    def.every = 0; /* Mesa has memory */
+    def.every = 0; /* no frames: allocations of Mesa are not tested */
     octreel_recorder *recorder = open_recorder(&def);
     octreel_status status = OCTREEL_OK;
     moving_tree m;
@@ -174,7 +175,8 @@ static void lack_of_memory_while_recording_is_reported(void **state)
             const place folder = place_in(*state, name);
             met = film_with_failure(&folder, rows[i].source, rows[i].ring, count);
         }
-        assert_true(count > 10); /* more where the library is linked in: of a shared one none fails here */
+        assert_true(count >
+                    10); /* more if the library is linked statically; in a shared one no allocation fails here */
     }
 }
 

@@ -12,7 +12,7 @@
 
 static const octree_point points[] = {{{-4, 0, 0}, 10}, {{4, 0, 0}, 11}};
 
-/* A root with a leaf on either side of x = 0. */
+/* A root with one leaf on each side of x = 0. */
 static const octree_foreign_node halves[] = {
     {.id = 1, .box = {{-8, -8, -8}, {8, 8, 8}}},
     {.id = 2, .has_parent = true, .parent = 1, .box = {{-8, -8, -8}, {0, 8, 8}}, .kind = "leaf"},
@@ -31,7 +31,7 @@ static octreel_recorder *open_small(const char *folder, size_t ring)
     return open_recorder(&def);
 }
 
-/* The program looks for what is nearest to a place on the left, and leaves one leaf out. */
+/* Record a query for the nearest point on the left, which prunes one leaf. */
 static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree *foreign, uint64_t pruned)
 {
     uint64_t answer = 10, visited[] = {1, 5 - pruned};
@@ -47,7 +47,7 @@ static octreel_status tick(octreel_recorder *recorder, const octree_foreign_tree
     return octreel_recorder_tick(recorder, NULL, &about);
 }
 
-/* The number of the nodes in force of each tick; '-' where there are none, 'W' where something is wrong. */
+/* Append the number of current nodes of a tick; '-' if there are none, 'W' if something is wrong. */
 static void note_nodes(const char *line, size_t number, void *context)
 {
     static const char counted[] = "\"foreign_nodes\": {\"count\": ";
@@ -71,7 +71,7 @@ static void nodes_are_recorded_with_ticks_and_checked(void **state)
     octreel_recorder *recorder = open_small(folder.path, 0);
     assert_int_equal(tick(recorder, NULL, 0), OCTREEL_OK);
     assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
-    assert_int_equal(tick(recorder, NULL, 2), OCTREEL_OK); /* the leaf that holds the answer */
+    assert_int_equal(tick(recorder, NULL, 2), OCTREEL_OK); /* prunes the leaf that holds the answer */
     assert_int_equal(tick(recorder, &one_node, 0), OCTREEL_OK);
     assert_int_equal(tick(recorder, &two_leaves, 3), OCTREEL_OK);
     assert_int_equal(tick(recorder, &no_node, 0), OCTREEL_OK);
@@ -91,7 +91,7 @@ static void nodes_of_tick_0_are_recorded(void **state)
     assert_films_again(&folder, &again, 2);
 }
 
-/* What was said before the first tick of the ring holds there. */
+/* Nodes passed before the first tick of the ring are still current in it. */
 static void ring_remembers_the_current_nodes(void **state)
 {
     const place folder = place_in(*state, "film"), again = place_in(*state, "again");

@@ -10,7 +10,7 @@
 
 enum { TICKS = 60 };
 
-/* The digests of the trees of all ticks. */
+/* Record all ticks and store the digests of their trees. */
 static void record_all(octreel_recorder *recorder, moving_tree *m, uint64_t digests[TICKS])
 {
     for (int tick = 0; tick < TICKS; tick++) {
@@ -73,7 +73,6 @@ static void ring_that_is_not_full_has_all_ticks(void **state)
     check_ring(state, OCTREE_REFUSE, TICKS + 1);
 }
 
-/* A ring of all ticks is what would have been filmed at once. */
 static void ring_records_the_same_as_a_recorder_without_a_ring(void **state)
 {
     const place ring = place_in(*state, "ring"), live = place_in(*state, "live");
@@ -94,7 +93,7 @@ static void ring_records_the_same_as_a_recorder_without_a_ring(void **state)
     assert_same_folders(ring.path, live.path, NULL);
 }
 
-/* An assertion may fire more than once; and the program may round as it likes when it does. */
+/* A program may write its ring more than once, for example at each failed assertion, and in any rounding mode. */
 static void ring_continues_after_it_was_written(void **state)
 {
     const place first = place_in(*state, "first"), second = place_in(*state, "second");
@@ -111,7 +110,7 @@ static void ring_continues_after_it_was_written(void **state)
     assert_int_equal(fesetround(FE_TONEAREST), 0);
     assert_int_equal(written, OCTREEL_OK);
     assert_int_equal(octreel_recorder_write(recorder, first.path, NULL), OCTREEL_BAD_FOLDER);
-    record_steps(recorder, &m, 1); /* which is two steps after the last */
+    record_steps(recorder, &m, 1); /* two steps after the last tick */
     assert_written(recorder, &second, TICKS + 1 - 10);
     assert_tells(&first, digests + TICKS - 10, 10);
     digests[0] = octree_digest(m.tree);

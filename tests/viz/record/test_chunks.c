@@ -24,7 +24,7 @@ static void film_chunk(const octree_session *session, const char *folder, uint64
     assert_filmed(session, &options);
 }
 
-/* All of it at once, and in three chunks, the last one first. */
+/* The whole session as one recording; film_chunks() records it in three chunks, the last one first. */
 static place film_whole(void **state)
 {
     const place folder = place_in(*state, "whole");
@@ -54,7 +54,7 @@ static void assert_joined(const char *folder)
     assert_int_equal(summary.ticks, TICKS);
 }
 
-/* The sentence holds both, and nothing is written or removed. */
+/* The test fails unless joining is refused with a sentence that contains both parts, and changes no file. */
 static void assert_not_joined(const char *folder, const char *what, const char *reason)
 {
     film_options options = {.folder = folder};
@@ -93,7 +93,7 @@ static void joined_chunks_have_the_bytes_of_one_recording(void **state)
     const place whole = film_whole(state), chunks = film_chunks(state);
     assert_joined(chunks.path);
     assert_same_folders(whole.path, chunks.path, NULL);
-    assert_joined(chunks.path); /* and once more */
+    assert_joined(chunks.path); /* joining again changes nothing */
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
@@ -133,7 +133,8 @@ static void session_with_edits_and_every_third_frame_joins(void **state)
     options.folder = chunks.path;
     film_summary sum = {0};
     for (uint64_t at = 0; at < all.ticks; at += 31) {
-        const film_options chunk = chunk_of(options, at, at + 31); /* the last one reaches beyond the end */
+        const film_options chunk =
+            chunk_of(options, at, at + 31); /* the last chunk reaches beyond the end of the session */
         const film_summary summary = assert_filmed(&made.session, &chunk);
         sum.ticks += summary.ticks;
         sum.frames += summary.frames;
@@ -216,7 +217,7 @@ static void missing_files_of_the_recording_are_named(void **state)
 
 /* ---- What is wrong ------------------------------------------------------------------------------------------ */
 
-/* Lines that are not of their ticks, or name no scene, or another one than the frame shows. */
+/* Lines of other ticks, without a scene digest, or with the digest of another scene than the frame's. */
 static void line_of_another_tick_or_frame_is_named(void **state)
 {
     const place chunks = film_chunks(state), lines = place_below(chunks.path, "ticks_5_11.jsonl");
@@ -362,7 +363,7 @@ static void folder_with_chunks_is_refused_for_a_whole_recording(void **state)
 
 /* ---- The program -------------------------------------------------------------------------------------------- */
 
-/* At the same time, into a folder that is not there yet. */
+/* All processes start at the same time, and the folder does not exist yet. */
 static void four_processes_record_the_bytes_of_one(void **state)
 {
     const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");
@@ -394,12 +395,12 @@ static void gnu_parallel_records_the_chunks(void **state)
                         "$_ += 64 =}' ::: "
                         "$(seq 0 64 252) && \"$program\" join %s",
                         octreel_program(), chunks.path, chunks.path);
-    assert_int_equal(result.status, 0); /* parallel may ask to be cited */
+    assert_int_equal(result.status, 0); /* parallel may print a request for citation */
     command_release(&result);
     assert_same_folders(whole.path, chunks.path, NULL);
 }
 
-/* The script of the README's array job, each task with the number that Slurm gives it. */
+/* The script of the README's array job; each task gets its number as from Slurm. */
 static void slurm_tasks_record_the_chunks(void **state)
 {
     const place whole = place_in(*state, "whole"), chunks = place_in(*state, "chunks");

@@ -19,7 +19,7 @@
 
 enum { DEFAULT_TICKS = 253, DEFAULT_FRAMES = 253 };
 
-/* A small film of the default session, every tick. */
+/* Record every tick of the default session in small frames. */
 static film_summary film_default(const char *folder)
 {
     const octree_session session = octree_session_default();
@@ -52,7 +52,7 @@ static void default_session_makes_253_whole_frames_and_nothing_else(void **state
     assert_nothing_half_written(folder.path);
 }
 
-/* A text of a frame is this digest. */
+/* The test fails unless a text chunk of a frame is this digest. */
 static void assert_text(const char *path, const char *keyword, const char *expected)
 {
     char text[64];
@@ -60,7 +60,7 @@ static void assert_text(const char *path, const char *keyword, const char *expec
     assert_string_equal(text, expected);
 }
 
-/* What a recording's frames are held against. */
+/* The expected contents of a recording's frames. */
 typedef struct traced {
     const char *folder;
     uint64_t session;
@@ -96,7 +96,7 @@ static void every_frame_names_its_tick_and_digests(void **state)
     free(session);
 }
 
-/* Play along with the lines. */
+/* Play the next tick and compare it with its line. */
 static void assert_next_tick(const char *line, size_t number, void *context)
 {
     octree_game *game = context;
@@ -145,10 +145,10 @@ static void summary_counts_the_ticks_of_each_event(void **state)
     const film_summary summary = film_default(place_in(*state, "film").path);
     assert_memory_equal(summary.events, events, sizeof events);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        assert_true((events[i] > 0) == (1u << i != OCTREE_EVENT_WRONG)); /* the default session meets all else */
+        assert_true((events[i] > 0) == (1u << i != OCTREE_EVENT_WRONG)); /* the default session has all other events */
 }
 
-/* Only ticks 0, 60, 120 ... have frames, and those are the frames of the whole film. */
+/* Only ticks 0, 60, 120 ... have frames, which equal those of the whole recording. */
 static void assert_sixtieth(const char *line, size_t number, void *context)
 {
     json_t *tick = json_read(line);
@@ -181,7 +181,7 @@ static void every_option_draws_the_same_frames_of_fewer_ticks(void **state)
         if (tick % 60 != 0)
             remove(place_below(whole.path, name).path);
     }
-    static const char *const named[] = {"ticks.jsonl", "index.html"}; /* these name the frames */
+    static const char *const named[] = {"ticks.jsonl", "index.html"}; /* the files that contain names of frames */
     for (size_t i = 0; i < 2; i++) {
         remove(place_below(whole.path, named[i]).path);
         remove(place_below(part.path, named[i]).path);
@@ -256,7 +256,7 @@ static void recording_json_keeps_the_view(void **state)
     free(text);
 }
 
-/* What a progress function is told. */
+/* The calls of a progress function. */
 typedef struct steps {
     uint64_t calls;
 } steps;

@@ -29,7 +29,7 @@ static void need_ffmpeg(void)
     skip();
 }
 
-/* Film, and say what the program says. The caller frees it. */
+/* Record, and return the program's report. The caller frees it. */
 static char *filmed_and_told(const film_options *options)
 {
     char *text;
@@ -45,7 +45,7 @@ static char *filmed_and_told(const film_options *options)
     return text;
 }
 
-/* The line of events counts ticks, and the line below it what was refused in them. */
+/* The line of events counts ticks, and the next line counts the refusals in them. */
 static void edit_of_a_missing_point_is_reported_as_refused(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -156,7 +156,7 @@ static void assert_shell_done(const char *format, ...)
     command_release(&result);
 }
 
-/* Run the command that ends the last line. */
+/* Run the command at the end of the last line. */
 static void run_command(const char *told)
 {
     static const char before[] = "\nits index.html shows it in a browser; as a film: ";
@@ -165,7 +165,7 @@ static void run_command(const char *told)
     assert_shell_done("{ %s\n} </dev/null", line + sizeof before - 1);
 }
 
-/* What ffprobe sees in a file. */
+/* The properties that ffprobe reports of a file. */
 typedef struct probe {
     int width, height, frames;
     char pixels[16];
@@ -202,7 +202,7 @@ static image frame_at(const film_options *options, uint64_t index)
     return assert_read(place_below(options->folder, name).path);
 }
 
-/* Frame by frame, the pictures of the animation are those of the recording. */
+/* The test fails unless the animation consists of the recording's pictures. */
 static void assert_animation(const temp_folder *own, const char *path, const film_options *options, int frames)
 {
     char folder[32];
@@ -227,7 +227,7 @@ static bool is_black(image_color color)
     return color.r == 0 && color.g == 0 && color.b == 0;
 }
 
-/* Every tenth frame is a tile, in reading order; beyond the last there is black. */
+/* The test fails unless every tenth frame is a tile, in reading order, and the tiles after the last one are black. */
 static void assert_sheet(const char *path, const film_options *options, int frames)
 {
     image sheet = assert_read(path);
@@ -251,9 +251,9 @@ static void assert_sheet(const char *path, const film_options *options, int fram
     image_release(&sheet);
 }
 
-/* A recording, and what must come of it. */
+/* A recording, and the expected results of its commands. */
 typedef struct row {
-    const char *name; /* of the folder */
+    const char *name; /* name of the folder */
     uint64_t every;
     int width, height, frames;
 } row;
@@ -281,7 +281,7 @@ static void printed_commands_use_every_frame(void **state)
 static void printed_commands_use_every_frame_of_a_recording_with_gaps(void **state)
 {
     need_ffmpeg();
-    assert_row(*state, &(row){"gaps", 4, 63, 37, 9}); /* and yuv420p takes no odd sides */
+    assert_row(*state, &(row){"gaps", 4, 63, 37, 9}); /* yuv420p does not allow odd sides */
 }
 
 static void printed_commands_work_for_a_single_frame(void **state)
@@ -297,7 +297,6 @@ static void printed_commands_quote_special_characters(void **state)
     assert_row(*state, &(row){"-it's c:d 50%d 5$ [x]*", 8, 64, 36, 5});
 }
 
-/* The same, from the program. */
 static void program_prints_the_commands(void **state)
 {
     need_ffmpeg();
@@ -310,7 +309,7 @@ static void program_prints_the_commands(void **state)
     assert_film(place_below(folder.path, "film.mp4").path, &options.view, 5);
 }
 
-/* Of a recording that is called frames, as in its examples. */
+/* The examples of the help use a recording with the name "frames". */
 static void help_has_commands_for_an_animation_and_a_sheet(void **state)
 {
     need_ffmpeg();
@@ -349,7 +348,7 @@ static void assert_told(const char *folder, uint64_t frames, const char *part)
     free(text);
 }
 
-/* For a shell none is an option, for cd none lies elsewhere. */
+/* No name is taken for an option by the shell, or looked up elsewhere by cd. */
 static void folder_names_are_quoted_for_shells(void **state)
 {
     static const char *const rows[][2] = {
@@ -367,7 +366,7 @@ static void folder_names_are_quoted_for_shells(void **state)
 
 #define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, temp_folder_make, nested_folder_remove)
 
-/* What is said of so many of everything. */
+/* The test fails unless a report with this number of everything has these words. */
 static void assert_counted(uint64_t count, const char *joined, const char *stopped)
 {
     const film_summary summary = {.ticks = count,

@@ -10,7 +10,7 @@
 #include "fixture.h"
 #include "folder.h"
 
-/* The user that owns nothing, for tests that run as root, whom no permission stops. */
+/* A user without any permissions, for tests that run as root, to whom no permission applies. */
 enum { NOBODY = 65534 };
 
 static void assert_prepared(const char *folder)
@@ -20,7 +20,7 @@ static void assert_prepared(const char *folder)
         fail_msg("%s", error.text);
 }
 
-/* The sentence names the folder and holds the reason. */
+/* The test fails unless the folder is refused with a sentence that names it and contains the reason. */
 static void assert_unprepared(const char *folder, const char *reason)
 {
     octreel_error error = {""};
@@ -72,7 +72,7 @@ static void link_to_a_folder_is_a_folder(void **state)
     assert_unprepared(place_in(*state, "dangling").path, "cannot create the folder");
 }
 
-/* A file that a recording would write over may be all that is left of somebody's work. */
+/* A file that a recording would overwrite may be the only copy of a user's work. */
 static void folder_with_any_file_of_a_recording_is_refused_and_unchanged(void **state)
 {
     static const char *const names[] = {"frame_000000.png", "frame_000252.png", "frame_1000000.png", "ticks.jsonl",
@@ -124,7 +124,7 @@ static void folder_without_permission_is_refused_with_the_reason(void **state)
     assert_int_equal(chmod(own->name, 0755), 0);
     const bool root = geteuid() == 0;
     if (root && seteuid(NOBODY) != 0)
-        skip(); /* root of a container that has no other user */
+        skip(); /* root can write everything, and this container has no other user */
     octreel_error error = {""};
     const bool prepared = folder_prepare(film.path, &error);
     if (root)
@@ -136,7 +136,6 @@ static void folder_without_permission_is_refused_with_the_reason(void **state)
     assert_int_equal(chmod(sealed.path, 0755), 0);
 }
 
-/* However long the path: what went wrong must not be cut off. */
 static void reason_is_not_cut_after_a_long_path(void **state)
 {
     char name[3 * 201 + 8] = "";
@@ -175,7 +174,7 @@ static void files_are_written_and_replaced_whole(void **state)
     assert_int_equal(temp_folder_count(folder), 2);
 }
 
-/* Writing fails as late as when the file is closed. */
+/* Writing may fail as late as when the file is closed. */
 static void unwritable_file_leaves_the_old_file_and_no_part(void **state)
 {
     const temp_folder *folder = *state;

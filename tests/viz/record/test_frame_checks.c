@@ -17,7 +17,7 @@
 
 static uint64_t wrong_after = UINT64_MAX; /* ticks after which the integer rasterizer is wrong by one sample */
 static uint64_t filmed;                   /* ticks so far */
-static unsigned loads;                    /* of libraries, by dlopen() */
+static unsigned loads;                    /* number of libraries loaded by dlopen() */
 
 void __real_fill_quads(const quad *quads, size_t count, renderer_part part, uint8_t *bytes);
 void __wrap_fill_quads(const quad *quads, size_t count, renderer_part part, uint8_t *bytes);
@@ -109,7 +109,7 @@ static void last_frame_of_a_session_without_a_known_end_is_checked(void **state)
     assert_int_equal(summary.checks.count, 2);
 }
 
-/* Two pictures that differ in the first pixel alone. */
+/* The test fails unless both pictures were kept, and differ only in the first pixel. */
 static void assert_kept(const char *prefix)
 {
     image pictures[2];

@@ -12,8 +12,8 @@
 
 #define FILM "record --size 160x90 --every 9"
 
-/* From a limit that stops the first file to one that stops ticks.jsonl in its last lines, and then index.html, which
- * has more bytes; frames have some 2400. With room again the same words, and --resume, complete it. */
+/* The limits stop the first file, ... then the last lines of ticks.jsonl, and then index.html, which is the largest
+ * file; frames have some 2400 bytes. With room again, the same command and --resume complete the recording. */
 static void full_disk_leaves_only_whole_files_and_resume_completes_them(void **state)
 {
     static const size_t limits[] = {1,    100,  190,  400,  1500,  2000,  2300, 2420,
@@ -38,7 +38,7 @@ static void full_disk_leaves_only_whole_files_and_resume_completes_them(void **s
     }
 }
 
-/* Somebody takes the folder away after a few ticks. */
+/* Remove the folder after a few ticks. */
 static void take_away(uint64_t done, uint64_t total, void *context)
 {
     const char *folder = context;
@@ -79,7 +79,7 @@ static void recording_that_fits_the_disk_succeeds(void **state)
     assert_nothing_half_written(folder.path);
 }
 
-/* Each file of the folder in its turn meets a folder in its way. */
+/* A folder has the name of each file of the recording in turn. */
 static void error_names_each_unwritable_file(void **state)
 {
     static const char *const names[] = {"recording.json", "session.json", "renderer.json"};
@@ -111,7 +111,8 @@ static void unwritable_list_of_nodes_is_named(void **state)
 {
     const place points = place_in(*state, "points.txt"), full = place_in(*state, "nodes.csv");
     file_write_text(points.path, "1 2 3\n4 5 6\n");
-    assert_int_equal(symlink("/dev/full", full.path), 0); /* so that root cannot harm the device by a rename */
+    assert_int_equal(symlink("/dev/full", full.path),
+                     0); /* a link, so that root cannot replace the device by a rename */
     command_result result = run_octreel(NULL, "inspect %s --nodes %s", points.path, full.path);
     assert_non_null(strstr(result.err, full.path));
     assert_trouble(&result, "No space left on device");

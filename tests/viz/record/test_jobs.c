@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_jobs.c - a recording by several processes has the bytes of one process, even if a process is stopped or killed.
  */
-#define _GNU_SOURCE /* leases of files, where there are any */
+#define _GNU_SOURCE /* for leases of files, if the system has them */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -21,7 +21,7 @@
 #include "recordings.h"
 #include "tick_lines.h"
 
-/* Far more than is filmed before a signal comes. */
+/* A session of far more ticks than are recorded before a signal comes. */
 #define LONG_SESSION                                                                                                   \
     "{\"octreel\": \"session\", \"version\": 2, \"points\": {\"sample\": \"clustered\", \"count\": 200, \"seed\": "    \
     "1}, "                                                                                                             \
@@ -102,7 +102,7 @@ static void default_is_one_job_per_core_with_enough_frames_for_each(void **state
     assert_int_equal(film_default_jobs(&session, &options), 1);
     options = chunk_of(small_film("film"), 500, 510);
     assert_int_equal(film_default_jobs(&session, &options), 1);
-    options = chunk_of(small_film("film"), 100000, 100001); /* what is refused later */
+    options = chunk_of(small_film("film"), 100000, 100001); /* sessions that are refused later */
     assert_int_equal(film_default_jobs(&session, &options), 1);
 }
 
@@ -115,7 +115,7 @@ static void refused_session_is_reported_once_and_writes_nothing(void **state)
     assert_int_equal(temp_folder_count(*state), 0);
 }
 
-/* What is left is completed to the bytes of a film that was left alone. */
+/* The test fails unless the stopped recording is resumed to the bytes of an uninterrupted one. */
 static void assert_resumes(void **state, const char *folder, const char *session)
 {
     const place whole = place_in(*state, "whole");
@@ -145,7 +145,7 @@ static void error_names_a_killed_job(void **state)
         kill(-b.pid, SIGKILL);
         command_result ended = wait_for_end(&b);
         command_release(&ended);
-        skip(); /* no /proc */
+        skip(); /* the system has no /proc */
     }
     kill(job, SIGKILL);
     command_result result = wait_for_end(&b);
@@ -169,7 +169,7 @@ static void stopped_jobs_report_the_command_to_continue(void **state)
         background b =
             start_octreel("record %s --size 160x90 --jobs %d -o %s", session.path, i % 2 == 0 ? 2 : 1, folder.path);
         wait_for_file(&b, frame_place(folder.path, 4).path);
-        kill(i < 2 ? b.pid : -b.pid, sent); /* to one, as kill does, or to all, as a terminal does */
+        kill(i < 2 ? b.pid : -b.pid, sent); /* send to one process, as kill does, or to all, as a terminal does */
         command_result result = wait_for_end(&b);
         assert_int_equal(result.status, 128 + sent);
         snprintf(sentence, sizeof sentence, " record --resume -o %s\n", folder.path);
@@ -199,7 +199,8 @@ static void stopped_recording_of_several_jobs_is_resumed(void **state)
     assert_resumes(state, folder.path, session.path);
 }
 
-/* Whoever opens this file waits until the lease is given back, for up to 45 s; -1 where there are no leases. */
+/* Take a lease of a file: a process that opens the file waits until the lease is given back, for up to 45 s. Returns -1
+ * if the system has no leases. */
 static int lease(const char *path)
 {
 #ifdef F_SETLEASE
@@ -213,11 +214,11 @@ static int lease(const char *path)
     return -1;
 }
 
-/* A job that does not get on with its frame ends with the process that started it, and not after the frame: it waits
- * for a file that another process holds. */
+/* A job that waits for a file, which another process holds, ends with the process that started it, and not only after
+ * its frame. */
 static void killing_the_parent_ends_jobs_within_a_frame(void **state)
 {
-    enum { PATIENCE = 20000 }; /* milliseconds, where it does not end */
+    enum { PATIENCE = 20000 }; /* milliseconds until the test fails */
     const place folder = place_in(*state, "film");
     char said[256];
     assert_recorded("--jobs 1 --keys wdnwdnwdnwdnwdnwdnwdn", folder.path);
@@ -226,7 +227,7 @@ static void killing_the_parent_ends_jobs_within_a_frame(void **state)
     if (held < 0)
         skip();
     background b = start_octreel("record --resume --jobs 2 -o %s", folder.path);
-    wait_for_file(&b, frame_place(folder.path, 20).path); /* of the other job, which is far beyond */
+    wait_for_file(&b, frame_place(folder.path, 20).path); /* a frame of the other job, which has got far beyond */
     kill(b.pid, SIGKILL);
     struct pollfd all_ended = {.fd = b.err, .events = POLLIN};
     const bool ended = poll(&all_ended, 1, PATIENCE) == 1 && read(b.err, said, sizeof said) == 0;
@@ -240,7 +241,7 @@ static void killing_the_parent_ends_jobs_within_a_frame(void **state)
     command_release(&result);
 }
 
-/* Its jobs end by themselves: no further frame appears. */
+/* The jobs end by themselves: no further frame appears. */
 static void killing_the_parent_leaves_no_job(void **state)
 {
     const struct timespec while_frames_end = {0, 200000000};
@@ -248,7 +249,7 @@ static void killing_the_parent_leaves_no_job(void **state)
     background b = start_octreel("record %s --size 160x90 --every 100 --jobs 2 -o %s", session.path, folder.path);
     wait_for_file(&b, frame_place(folder.path, 300).path);
     kill(b.pid, SIGKILL);
-    command_result result = wait_for_end(&b); /* at the end of all who could write to stderr */
+    command_result result = wait_for_end(&b); /* returns when every process that could write to stderr has ended */
     assert_int_equal(result.status, 128 + SIGKILL);
     command_release(&result);
     nanosleep(&while_frames_end, NULL);
@@ -275,7 +276,7 @@ static void ignored_signals_stay_ignored(void **state)
     assert_int_equal(for_each_line(folder.path, NULL, NULL), 253);
 }
 
-/* What this process sends to its jobs does not go out; see tests/CMakeLists.txt. */
+/* Messages of this process to its jobs fail; see tests/CMakeLists.txt. */
 static pid_t fails_in;
 
 ssize_t __real_send(int socket, const void *bytes, size_t size, int how);
@@ -289,7 +290,7 @@ ssize_t __wrap_send(int socket, const void *bytes, size_t size, int how)
     return -1;
 }
 
-/* They would wait for it, and this process for them. */
+/* Otherwise the jobs would wait for their work, and this process for the jobs. */
 static void jobs_that_never_got_their_work_are_not_awaited(void **state)
 {
     const place folder = place_in(*state, "film");

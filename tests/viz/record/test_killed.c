@@ -29,7 +29,7 @@ enum { MOST = 512 };
 
 static const char KEYS[] = "wd";
 
-/* A folder as it was at each call, alike ones but once. */
+/* Copies of a folder at each call; equal copies are kept once. */
 typedef struct remains {
     const temp_folder *own;
     place folder;
@@ -73,7 +73,7 @@ static bool keep_remains(size_t call, void *context)
     return true;
 }
 
-/* Run a command that works on a folder; the test is skipped where it cannot be followed. */
+/* Run a command on a folder and copy the folder at each call. The test is skipped if the program cannot be traced. */
 static remains remains_of(void **state, const char *command, const char *folder)
 {
     remains r = {.own = *state, .folder = place_in(*state, folder)};
@@ -122,7 +122,7 @@ static void assert_object_whole(const char *path)
     free(text);
 }
 
-/* Files that say by their name that they are not finished may be anything. */
+/* The test fails unless every file is whole, except .part files. */
 static void assert_all_whole(const char *folder)
 {
     listing names = folder_list(folder);
@@ -174,12 +174,12 @@ static void recording_killed_at_any_call_is_resumed(void **state)
 {
     const place whole = film_whole(state);
     const remains r = remains_of(state, FILM " -o", "film");
-    assert_true(r.count > 20); /* a file made, written and renamed is three, and there are eight */
+    assert_true(r.count > 20); /* creating, writing and renaming a file are three calls, and there are eight files */
     assert_same_folders(whole.path, r.folder.path, NULL);
     assert_all_resume(&r, whole.path);
 }
 
-/* A frame is gone, and a file; lines are wrong, and what others have left lies about. */
+/* A frame and another file are missing, lines are wrong, and files of earlier runs are left over. */
 static void resumed_recording_killed_at_any_call_is_resumed_again(void **state)
 {
     const place whole = film_whole(state), film = place_in(*state, "film");
@@ -232,7 +232,7 @@ static void join_killed_at_any_call_is_repeated(void **state)
 typedef struct killing {
     place folder;
     size_t at;
-    uint64_t digest; /* of the folder at that call */
+    uint64_t digest; /* digest of the folder at that call */
 } killing;
 
 static bool kill_at(size_t call, void *context)

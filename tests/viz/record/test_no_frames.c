@@ -14,7 +14,7 @@
 #include "verified.h"
 
 enum { TICKS = 7 };
-#define KEYS "wdnwea" /* of TICKS ticks, tick 0 included */
+#define KEYS "wdnwea" /* TICKS ticks, with tick 0 */
 
 static film_options no_frames(const char *folder)
 {
@@ -60,7 +60,7 @@ static void verify_checks_only_the_ticks(void **state)
     assert_int_equal(report.findings[1].kind, VERIFY_FRAME);
 }
 
-/* By jobs, resumed, or joined from chunks: the same bytes. */
+/* The bytes are the same with several jobs, when resumed, and when joined from chunks. */
 static void jobs_chunks_and_resume_give_the_same_files(void **state)
 {
     const place film = place_in(*state, "film"), jobs = place_in(*state, "jobs"), resumed = place_in(*state, "resumed"),
@@ -106,7 +106,7 @@ static void frames_cannot_be_added_later(void **state)
     assert_non_null(strstr(error.text, "has another view"));
 }
 
-/* Nothing is written of a session of which a page would not play. */
+/* No file is written if a page could not play the session. */
 static void session_too_large_for_a_page_is_refused(void **state)
 {
     char *keys = malloc(PAGE_MOST_SESSION + 2), *text;

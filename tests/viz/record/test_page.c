@@ -15,13 +15,13 @@
 #include "page.h"
 #include "page_html.h"
 
-/* The user that owns nothing, for tests that run as root, whom no permission stops. */
+/* A user without any permissions, for tests that run as root, to whom no permission applies. */
 enum { NOBODY = 65534 };
 
 static const char ABOUT[] = "{\"octreel\": \"recording\",\n\"size\": [160, 90], \"every\": 1\n}\n";
 static const char TICK[] = "{\"tick\": 0, \"key\": null, \"events\": [], \"tree\": {\"nodes\": 1}}\n";
 
-/* A recording by hand. */
+/* Write the files of a recording by hand. */
 static place recording_of(void **state, const char *ticks)
 {
     const place folder = place_in(*state, "film");
@@ -38,7 +38,8 @@ static void assert_page_written(const char *folder)
         fail_msg("%s", error.text);
 }
 
-/* The sentence holds both parts, and no page is there, nor a part of one. */
+/* The test fails unless writing the page fails with a sentence that contains both parts, and leaves no page and no part
+ * of one. */
 static void assert_no_page(const char *folder, const char *part, const char *reason)
 {
     octreel_error error = {""};
@@ -54,7 +55,7 @@ static char *page_of(const char *folder)
     return file_read(place_below(folder, "index.html").path, NULL);
 }
 
-/* What stands in the page between the tags of the facts; the caller frees it. */
+/* The facts that the page contains; the caller frees them. */
 static char *facts_of(const char *folder)
 {
     static const char tag[] = "<script type=\"application/x-ndjson\" id=\"facts\">";
@@ -66,7 +67,7 @@ static char *facts_of(const char *folder)
     return page;
 }
 
-/* The next line at *at, which is moved behind it. */
+/* The next line at *at; *at moves past it. */
 static char *next_line(char **at)
 {
     char *line = *at, *end = strchr(line, '\n');
@@ -102,7 +103,7 @@ static void page_has_the_facts_of_every_tick(void **state)
     free(facts);
 }
 
-/* From a recording that lies there, the same bytes come once more. */
+/* From an existing recording the same bytes are written again. */
 static void page_can_be_rewritten_later(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -118,7 +119,7 @@ static void page_can_be_rewritten_later(void **state)
     free(second);
 }
 
-/* Bytes written in letters may spell anything: words that are far longer than those of a text are taken out. */
+/* Remove words that are far longer than those of a text: encoded bytes may spell anything. */
 static void blank_letters(char *page)
 {
     enum { LONGEST = 10000 };
@@ -130,7 +131,7 @@ static void blank_letters(char *page)
     }
 }
 
-/* No address, no import, no further file but those that are named by the facts. */
+/* The page contains no address and no import, and no file names except in the facts. */
 static void page_loads_no_other_file(void **state)
 {
     static const char *const foreign[] = {"http:", "https:", "//cdn", "src=\"", "@import", "url(", "import(", "fetch("};
@@ -187,7 +188,7 @@ static void recording_without_ticks_has_a_page(void **state)
     free(facts);
 }
 
-/* A tick that refused a million points: the page stays small, and tells how many there were. */
+/* A tick refused a million points: the page counts them and stays small. */
 static void a_million_refusals_are_counted_and_not_embedded(void **state)
 {
     enum { COUNT = 1000000 };
@@ -265,7 +266,7 @@ static void unwritable_folder_is_named(void **state)
     assert_int_equal(chmod(own->name, 0755), 0);
     const bool root = geteuid() == 0;
     if (root && seteuid(NOBODY) != 0)
-        skip(); /* root of a container that has no other user */
+        skip(); /* root can write everything, and this container has no other user */
     octreel_error error = {""};
     const bool written = page_write(folder.path, &error);
     if (root)
@@ -276,7 +277,7 @@ static void unwritable_folder_is_named(void **state)
     assert_non_null(strstr(error.text, "Permission denied"));
 }
 
-/* When everything else is written: the recording is whole, and the page is what is missed. */
+/* The page is written last: the recording is whole, and only the page is missing. */
 static void record_reports_an_unwritable_page(void **state)
 {
     const place folder = place_in(*state, "film"), part = place_below(folder.path, "index.html.part");

@@ -12,12 +12,12 @@
 
 #define CUT "Loading. If this sentence stays, the page is cut off or damaged: copy or record it again."
 
-/* A recording of a few ticks, and what was said of pages made of its page. */
+/* A recording of a few ticks, and the reports of damaged copies of its page. */
 typedef struct driven {
     void *folder; /* a temp_folder */
     place page;
     json_t *given;
-    char *said; /* null where the page cannot play */
+    char *said; /* null if the page cannot play */
 } driven;
 
 static void give(driven *d, const char *name, const char *text, size_t size, const char *before)
@@ -27,7 +27,7 @@ static void give(driven *d, const char *name, const char *text, size_t size, con
     assert_int_equal(json_array_append_new(d->given, one), 0);
 }
 
-/* The page with one letter of an element's text changed, so far behind its beginning. */
+/* Write a copy of the page in which one letter of an element's text is changed, this far behind its beginning. */
 static void give_changed(driven *d, const char *name, char *text, const char *element, size_t offset)
 {
     char *at = strstr(text, element);

@@ -13,12 +13,12 @@
 #include "recordings.h"
 #include "session_file.h"
 
-enum { LAST = 252 }; /* tick of the default session */
+enum { LAST = 252 }; /* last tick of the default session */
 
-/* A recording of the default session, and what its page said while drive_plays.js played it. */
+/* A recording of the default session, and the reports of its page from drive_plays.js. */
 typedef struct driven {
     void *folder; /* a temp_folder */
-    char *said;   /* null where the page cannot play */
+    char *said;   /* null if the page cannot play */
 } driven;
 
 static int drive_page(void **state)
@@ -57,7 +57,7 @@ static void page_plays_the_ticks_of_the_recording_in_any_order(void **state)
 {
     const driven *d = need_page(state);
     assert_reported_value(d->said, "plays by itself", "true");
-    assert_reported_value(d->said, "begins with its memory in use", "true"); /* malloc() may have the rest of it */
+    assert_reported_value(d->said, "begins with its memory in use", "true"); /* malloc() may use the rest */
     assert_reported_ticks(d->said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
 }
 
@@ -177,7 +177,7 @@ static void page_without_frames_draws_at_once(void **state)
     assert_reported_value(alone.said, "begins", "0 true false driven 253 ticks · 160 × 90 · iso");
     assert_reported_ticks(alone.said, "tick", place_in(d->folder, "film").path, LAST + 1, false);
     assert_reported_value(alone.said, "given back", "true 252");
-    assert_reported_value(alone.said, "bar before", "; "); /* nothing is there to go back from */
+    assert_reported_value(alone.said, "bar before", "; "); /* there is no earlier state to return to */
     assert_reported_value(alone.said, "bar looked at", "Back to the session; ");
     assert_reported_value(alone.said, "bar played on", "Back to the session; Played on from tick 252: w");
     assert_reported_value(alone.said, "bar given back", "; ");
@@ -185,7 +185,7 @@ static void page_without_frames_draws_at_once(void **state)
     free(alone.said);
 }
 
-/* As where the program was not built for pages. */
+/* As in a build of octreel without WebAssembly. */
 static void page_that_cannot_draw_explains_the_remedy(void **state)
 {
     const driven *d = need_page(state);

@@ -14,7 +14,7 @@
 
 #define HEADER "{\"octreel\": \"session\", \"version\": 2, "
 
-/* Parts of a session after the start of its header: first those that are read, then those that are refused. */
+/* Parts of a session after the start of its header: accepted ones first, then refused ones. */
 static const char *const texts[] = {
     "\"keys\": \"ww\"}",
     "\"points\": [[1, -0, 0.5e-3], [1E+2, 123456789012345678901, 5e-324], [0.1, 2.2250738585072011e-308, "
@@ -72,7 +72,7 @@ typedef struct reading {
     void *folder; /* a temp_folder */
     place page;
     json_t *given;
-    char *said; /* null where the page cannot play */
+    char *said; /* null if the page cannot play */
 } reading;
 
 static void give(reading *r, const char *text, size_t size)
@@ -80,7 +80,7 @@ static void give(reading *r, const char *text, size_t size)
     assert_int_equal(json_array_append_new(r->given, json_stringn(text, size)), 0);
 }
 
-/* Bytes of a session are exchanged, and some texts end early. */
+/* Write damaged sessions: some bytes are replaced, and some texts are truncated. */
 static void give_faulty(reading *r)
 {
     static const char bytes[] = "{}[],:\"\\ \n0129.-+eEutfn";
@@ -162,7 +162,8 @@ static void assert_session_is(const octree_session *session, const char *said)
     free(text);
 }
 
-/* Whether octreel reads text i. The line of an error may be that of the byte before it: parsers differ there. */
+/* Returns whether octreel accepts text i; the test fails unless the page agrees. The line of an error may be that of
+ * the byte before: parsers differ there. */
 static bool assert_read_alike(const reading *r, size_t i)
 {
     octreel_error error;

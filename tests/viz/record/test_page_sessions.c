@@ -19,7 +19,7 @@
 
 enum { CLICKS = 50, CLICK_RADIUS = 2, CLICKED_TICKS = 5, CLICKED_SESSIONS = 4 };
 
-/* Sessions that have between them all that session.txt tells of, but for files of points, which no page has. */
+/* Sessions that together have every feature of session.txt except files of points, which a page cannot read. */
 static const struct {
     const char *name, *text;
 } written[] = {
@@ -55,19 +55,19 @@ static const struct {
 
 enum { WRITTEN = sizeof written / sizeof written[0], RANDOM = 3, FILMED = WRITTEN + RANDOM + CLICKED_SESSIONS };
 
-/* Recordings, and what a page said of their sessions and of those of golden/. */
+/* Recordings, and the reports of a page that plays their sessions and those of golden/. */
 typedef struct driven {
     void *folder; /* a temp_folder */
     place films[FILMED];
     char names[FILMED][32];
     json_t *given;
-    picture held; /* each pick would load what draws once more */
-    char *said;   /* null where the page cannot play */
+    picture held; /* kept open, so that not every pick opens a renderer */
+    char *said;   /* null if the page cannot play */
 } driven;
 
 /* ---- What is played ----------------------------------------------------------------------------------------- */
 
-/* The text of a session and its view, as a recording has them. */
+/* Write the text of a session and its view, as in a recording, for the page's script. */
 static void give(driven *d, const char *name, const char *session, json_t *view, json_t *ticks, int clicks, bool taken)
 {
     json_t *one = json_pack("{s:s, s:s, s:o, s:o, s:i, s:b}", "name", name, "session", session, "view", view, "ticks",
@@ -81,7 +81,7 @@ static json_t *ticks_of_clicks(void)
     return json_pack("[i, i, i, i, i]", 0, 7, 22, 41, 59);
 }
 
-/* Film a session, and give it: all its ticks, or those in which is clicked. */
+/* Record a session, and write it for the page's script: all its ticks, or those with clicks. */
 static void film_and_give(driven *d, size_t i, const char *name, const octree_session *session, film_options options,
                           bool clicked)
 {
@@ -124,7 +124,7 @@ static void give_random(driven *d)
     }
 }
 
-/* The paper's session, from several views. */
+/* Write the paper's session with several views for the page's script. */
 static void give_clicked(driven *d)
 {
     char keys[60];

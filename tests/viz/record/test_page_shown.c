@@ -14,11 +14,11 @@
 #include "tick_lines.h"
 #include "page.h"
 
-enum { LAST = 252 }; /* tick of the default session */
+enum { LAST = 252 }; /* last tick of the default session */
 
 static const char ABSENT[] = "\xe2\x80\x93";
 
-/* A film of the default session, and what its page said while tests/support/viz/drive_viewer.js used it. */
+/* A recording of the default session, and the reports of its page from tests/support/viz/drive_viewer.js. */
 typedef struct driven {
     void *folder; /* a temp_folder */
     char *said;   /* null without a browser */
@@ -56,7 +56,7 @@ static void assert_said(const driven *d, const char *what, const char *expected)
 
 /* ---- Facts -------------------------------------------------------------------------------------------------- */
 
-/* The line that comes next; its value. */
+/* The value of the next line. */
 static char *take_value(char **at, const char *what)
 {
     char *line = *at;
@@ -79,7 +79,7 @@ static void assert_shown(const char *what, const char *shown, const json_t *valu
         fail_msg("%s: \"%s\" is shown", what, shown);
 }
 
-/* Entries with ", " between them. */
+/* The entries are separated by ", ". */
 static void assert_entries_shown(const char *what, char *shown, const json_t *list)
 {
     for (size_t i = 0; i < json_array_size(list); i++) {

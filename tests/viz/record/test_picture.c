@@ -285,13 +285,14 @@ static void diagonal_line_has_no_gap(void **state)
     }
 }
 
-/* The inverse of camera_unit on one axis, for worlds of modest size. */
+/* The inverse of camera_unit() on one axis, for worlds of moderate size. */
 static double world_at(const camera *c, int axis, double unit)
 {
     return c->origin[axis] + (unit + c->half[axis]) / 2 * c->size;
 }
 
-/* Boxes from nothing to some pixels, one at a time; flat and long ones too. */
+/* The test fails unless single boxes of every size, from a point to some pixels, flat and long ones too, are visible at
+ * their place. */
 static void assert_boxes_leave_a_mark(scene_stroke style)
 {
     static const double sizes[] = {0, 1e-300, 1e-9, 0.01, 0.3, 0.7, 0.99, 1, 1.01, 1.5, 3, 40};
@@ -328,7 +329,7 @@ static void dashed_box_of_any_size_is_visible_at_its_place(void **state)
     assert_boxes_leave_a_mark(STROKE_DASHED);
 }
 
-/* The line to a neighbour that is very near, too. */
+/* Also the line to a very near neighbour. */
 static void segment_of_any_length_is_visible_at_its_place(void **state)
 {
     (void)state;
@@ -376,7 +377,7 @@ static void thousand_points_on_a_pixel_look_like_one(void **state)
     scene_release(&many);
 }
 
-/* What is partly outside of the picture is cut off at its edge, and what is all outside is not there. */
+/* Panels and markers that are partly outside are clipped, and those that are entirely outside are invisible. */
 static void panels_and_markers_are_clipped_at_the_border(void **state)
 {
     (void)state;
@@ -413,7 +414,7 @@ static void panels_and_markers_are_clipped_at_the_border(void **state)
     }
 }
 
-/* A line of four pixels for every four pixels of a row: a single one that is missing leaves a hole. */
+/* There is a line of four pixels for every four pixels of a row: a single missing line leaves a hole. */
 static void hundred_thousand_segments_are_all_drawn(void **state)
 {
     (void)state;
@@ -422,7 +423,7 @@ static void hundred_thousand_segments_are_all_drawn(void **state)
     scene s = empty_scene(&v, &world);
     const camera *c = &s.camera;
     for (uint64_t i = 0; i < 100000; i++) {
-        const double x = (double)(i % 250 * 4), y = (double)(i / 250) + 0.5; /* pixels, to be undone by the camera */
+        const double x = (double)(i % 250 * 4), y = (double)(i / 250) + 0.5; /* pixels, converted back by the camera */
         scene_segment line = line_of(0, 0, 0, 0, 0, 0);
         line.id = i;
         for (int end = 0; end < 2; end++) {
@@ -437,7 +438,7 @@ static void hundred_thousand_segments_are_all_drawn(void **state)
     scene_release(&s);
 }
 
-/* The later layer of two at one place is the one that is seen, whatever their depth and order in the list. */
+/* Of two layers at one place the later one is visible, whatever their depth and order in the list. */
 static void later_layers_are_drawn_on_top(void **state)
 {
     (void)state;

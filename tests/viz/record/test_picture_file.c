@@ -9,7 +9,7 @@
 #include "png_by_hand.h"
 #include "scenes.h"
 
-/* Draw a busy scene with these many samples, write it, and leave it open. */
+/* Draw a busy scene with this number of samples, write it, and leave it open. */
 static picture write_picture(int samples, const char *path)
 {
     picture p;
@@ -45,7 +45,7 @@ static void decoded_pixels_equal_the_drawn_pixels(void **state)
     }
 }
 
-/* No alpha, in the pixels or beside them; no gamma, profile or date that could change a colour or a byte. */
+/* No alpha, and no gamma, profile or date that could change a colour or a byte. */
 static void file_is_opaque_and_has_no_colour_profile(void **state)
 {
     static const char allowed[] = "IHDR PLTE tEXt IDAT IEND";

@@ -16,7 +16,7 @@ static void open_it(replay *r, const place *folder)
         fail_msg("%s", error.text);
 }
 
-/* The scene of a tick is the one that its frame says it is of. */
+/* The test fails unless the scene of a tick has the digest in its frame. */
 static void check_scene(replay *r, const place *folder, uint64_t tick)
 {
     octreel_error error = {""};
@@ -41,7 +41,7 @@ static void scenes_equal_those_of_the_frames_in_any_order(void **state)
     replay_close(&r);
 }
 
-/* Heat adds up from tick 0: going back must begin anew. */
+/* Heat adds up from tick 0: going back must restart it. */
 static void heat_is_correct_after_going_back(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -68,7 +68,7 @@ static void renderer_is_opened_once_and_draws_the_frame(void **state)
     renderer *first = replay_renderer(&r, &any, &error);
     assert_non_null(first);
     check_scene(&r, &folder, 6);
-    check_scene(&r, &folder, 3); /* from the start again */
+    check_scene(&r, &folder, 3); /* restarts */
     assert_ptr_equal(replay_renderer(&r, &any, &error), first);
     assert_true(picture_draw(&r.playback.picture, &r.playback.scene, &error));
     image frame = assert_whole_frame(frame_place(folder.path, 3).path, SMALL_WIDTH, SMALL_HEIGHT);

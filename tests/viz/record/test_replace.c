@@ -23,12 +23,12 @@ static void film(const char *folder, const char *options)
     command_release(&result);
 }
 
-/* A recording of five ticks, a copy of it, and one of three ticks that would come in its place. */
+/* A recording of five ticks, a copy of it, and a recording of three ticks that replaces it. */
 typedef struct films {
     place old, copy, new;
 } films;
 
-static films filmed; /* once for all tests */
+static films filmed; /* recorded once for all tests */
 
 static int film_once(void **state)
 {
@@ -200,7 +200,7 @@ static void refused_replacement_keeps_the_recording(void **state)
     assert_same_folders(f.old.path, f.copy.path, NULL);
 }
 
-/* The disk is full at one file after the other, the first frame included. */
+/* The disk is full at one file after the other, including the first frame. */
 static void failed_first_tick_restores_the_recording(void **state)
 {
     const films f = film_all(state);
@@ -213,7 +213,7 @@ static void failed_first_tick_restores_the_recording(void **state)
     }
 }
 
-/* Move the recording aside as a process does that is killed after so many files. */
+/* Move files of the recording aside, like a process that is killed after this number of files. */
 static void set_aside(const place *folder, size_t count)
 {
     const place aside = place_below(folder->path, ASIDE);
@@ -227,8 +227,7 @@ static void set_aside(const place *folder, size_t count)
     listing_release((listing *)&names);
 }
 
-/* What a killed replacement has left is the recording that was there: it is put back where nothing comes in its place,
- * and else replaced. */
+/* After a killed replacement the old recording is restored, unless a new one is recorded. */
 static void killed_replacement_is_repaired(void **state)
 {
     const command_setting full = {.file_limit = 1};
@@ -237,7 +236,7 @@ static void killed_replacement_is_repaired(void **state)
         set_aside(&f.old, count);
         if (count > 12)
             file_write_text(place_below(f.old.path, "recording.json.part").path, "{");
-        if (count > 18) { /* all of it: the new one has begun */
+        if (count > 18) { /* all files: the new recording has begun */
             file_write_text(place_below(f.old.path, "recording.json").path, "{\"octreel\": \"recording\"}");
             file_write_text(place_below(f.old.path, "frame_000009.png").path, "");
         }
@@ -252,7 +251,7 @@ static void killed_replacement_is_repaired(void **state)
     assert_same_folders(f.old.path, f.new.path, NULL);
 }
 
-/* Killed while it removed what was aside: the new recording stays what it is. */
+/* The process was killed while it removed the old files: the new recording stays. */
 static void remains_of_a_removed_recording_are_removed(void **state)
 {
     const command_setting full = {.file_limit = 1};

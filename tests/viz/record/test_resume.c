@@ -95,7 +95,7 @@ static void summary_of_a_resumed_recording_covers_all_ticks(void **state)
     film_options options = small_film(folder.path), again = resumed(folder.path), whole = small_film(other.path);
     uint64_t ticks = 30;
     session.keys = "wwwwwwwwwwwwwwwwwwwwwdddddddddddddddddddddeeeeeeeeeeeeeeeee";
-    options.view.budget = again.view.budget = whole.view.budget = 5; /* so that there is more to count */
+    options.view.budget = again.view.budget = whole.view.budget = 5; /* so that frames leave out elements */
     const film_options stopped = stopped_after(options, &ticks);
     assert_filmed(&session, &stopped);
     film_summary a = assert_filmed(&session, &again), b = assert_filmed(&session, &whole);
@@ -106,7 +106,7 @@ static void summary_of_a_resumed_recording_covers_all_ticks(void **state)
     assert_memory_equal(&a, &b, sizeof a);
 }
 
-/* The player's box reaches beyond the largest double. What a kept frame leaves out is counted too. */
+/* The player's box reaches beyond the largest double. Elements that a kept frame leaves out are counted, too. */
 static void elements_left_out_are_counted_in_kept_frames(void **state)
 {
     const place folder = place_in(*state, "film");
@@ -164,7 +164,7 @@ static void flip_a_bit(const char *path)
     free(bytes);
 }
 
-/* All texts are as they were, and the PNG is whole: only the pixels tell. */
+/* Change a pixel of a frame. Its text chunks are unchanged, and the PNG is whole: only the pixels differ. */
 static void paint_a_pixel(const char *path)
 {
     static const char *const keywords[] = {"octreel-tick", "octreel-session", "octreel-scene", "octreel-pixels"};
@@ -175,7 +175,7 @@ static void paint_a_pixel(const char *path)
         assert_true(image_read_text(path, keywords[i], values[i], sizeof values[i]));
         texts[i] = (image_text){keywords[i], values[i]};
     }
-    image frame = assert_read_rgb(path); /* two entries of a palette may be one colour */
+    image frame = assert_read_rgb(path); /* two entries of a palette may be the same colour */
     frame.pixels[3000] ^= 1;
     assert_true(image_write_png(&frame, path, texts, 4, &error));
     image_release(&frame);
@@ -341,7 +341,7 @@ static void resume_reads_session_and_view_from_the_recording(void **state)
         command_release(&result);
         assert_same_folders(a.path, b.path, NULL);
         result = run_octreel(NULL, "record --resume --size 160x90 %s -o %s", views[i], b.path);
-        assert_done(&result); /* the same words again are the same film */
+        assert_done(&result); /* the same command makes the same recording */
         command_release(&result);
         assert_same_folders(a.path, b.path, NULL);
     }

@@ -41,7 +41,7 @@ static void make_folder(const char *path)
     command_release(&result);
 }
 
-/* The folder stays as it is, to the byte. */
+/* The test fails unless the command is refused with this sentence and the folder stays unchanged. */
 static void assert_refused(void **state, const char *arguments, const char *folder, const char *sentence)
 {
     static int count;
@@ -89,7 +89,7 @@ static void resume_with_the_same_options_continues_a_recording_that_just_began(v
 
 /* ---- Frames ------------------------------------------------------------------------------------------------- */
 
-/* Nothing says whose frames they are, whatever the command line says. */
+/* The folder does not say which session the frames belong to, whatever the command line says. */
 static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
 {
     static const char *const names[] = {"recording.json", "session.json"};
@@ -103,7 +103,7 @@ static void frames_without_a_view_or_a_session_are_not_replaced(void **state)
     }
 }
 
-/* Of a program that died while it recorded itself. */
+/* The folder of a program that crashed while it recorded itself. */
 static void session_in_progress_is_not_replaced_by_another(void **state)
 {
     const place whole = recorded(state, "whole"), film = copy_of(state, whole.path, "film");
@@ -121,7 +121,7 @@ static void other_session_is_refused_before_a_file_is_written(void **state)
     assert_refused(state, "--resume --size 64x48 --keys wwd", film.path, "session.json: is another session");
 }
 
-/* The file is as octreel writes one: only the frames tell. */
+/* The file has the form that octreel writes: only the frames show the change. */
 static void session_edited_after_recording_is_refused(void **state)
 {
     const place film = recorded(state, "film"), other = place_in(*state, "other");
