@@ -22,9 +22,9 @@ const char *octree_node_visit_name(octree_node_visit visit)
 
 static octree_status check_node(const octree_foreign_node *node)
 {
-    octree_status status = check_finite(node->box.min);
+    octree_status status = check_finite_position(node->box.min);
     if (status == OCTREE_OK)
-        status = check_finite(node->box.max);
+        status = check_finite_position(node->box.max);
     if (status == OCTREE_OK)
         status = check_box(&node->box);
     if (status != OCTREE_OK)
@@ -33,7 +33,7 @@ static octree_status check_node(const octree_foreign_node *node)
         return OCTREE_BAD_SIZE;
     if (node->has_points && node->points.count && !node->points.ids)
         return OCTREE_NULL_ARGUMENT;
-    if (!is_text(node->kind, sizeof node->kind))
+    if (!is_printable_text(node->kind, sizeof node->kind))
         return OCTREE_BAD_TEXT;
     return (unsigned)node->precision < OCTREE_PRECISIONS ? OCTREE_OK : OCTREE_BAD_OPTION;
 }
@@ -158,7 +158,7 @@ static bool copy_nodes(foreign *f, const octree_foreign_tree *tree)
     for (size_t i = 0; i < tree->node_count; i++)
         ids += tree->nodes[i].has_points ? tree->nodes[i].points.count : 0;
     const size_t size = tree->node_count * sizeof *tree->nodes + ids * sizeof(uint64_t);
-    f->nodes = size ? arena_take(f->memory, size) : NULL;
+    f->nodes = size ? arena_allocate(f->memory, size) : NULL;
     f->size = f->nodes ? size : 0;
     if (!f->nodes)
         return size == 0;
@@ -230,11 +230,11 @@ static void sum_points_below(foreign *f)
         }
 }
 
-octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
+octree_status foreign_set_nodes(foreign *f, const octree_foreign_tree *tree)
 {
     octree_foreign_state *state = &f->state;
     size_t fault;
-    arena_give(f->memory, f->nodes, f->size);
+    arena_free(f->memory, f->nodes, f->size);
     f->places.count = f->keys.count = f->marks.count = f->visits.count = 0;
     if (!copy_nodes(f, tree))
         return OCTREE_NO_MEMORY;
@@ -262,7 +262,7 @@ octree_status foreign_install(foreign *f, const octree_foreign_tree *tree)
 
 void foreign_release(foreign *f)
 {
-    arena_give(f->memory, f->nodes, f->size);
+    arena_free(f->memory, f->nodes, f->size);
     list_release(f->memory, &f->places, sizeof(octree_foreign_place));
     list_release(f->memory, &f->keys, sizeof(foreign_key));
     list_release(f->memory, &f->marks, sizeof(foreign_mark));
@@ -274,7 +274,7 @@ void foreign_release(foreign *f)
     list_release(f->memory, &f->unlisted, sizeof(unlisted_point));
 }
 
-size_t foreign_find(const foreign *f, uint64_t id)
+size_t foreign_find_node(const foreign *f, uint64_t id)
 {
     return find_place(&f->keys, id);
 }

@@ -31,7 +31,7 @@ typedef struct foreign_mark {
     uint64_t query; /* the other members count only if this is foreign.query */
     octree_node_visit visit;
     bool reported;
-    size_t pending; /* only in foreign_install(): the number of children whose points are not summed yet */
+    size_t pending; /* only in foreign_set_nodes(): the number of children whose points are not summed yet */
 } foreign_mark;
 
 /* The current nodes and what is known of them. Valid when all zero but `memory`: there are no nodes yet. */
@@ -57,11 +57,11 @@ typedef struct foreign {
 } foreign;
 
 /* Copy nodes and make them current. Returns OK, NO_MEMORY, or an error of octree_foreign_check(). */
-octree_status foreign_install(foreign *f, const octree_foreign_tree *tree);
+octree_status foreign_set_nodes(foreign *f, const octree_foreign_tree *tree);
 void foreign_release(foreign *f);
 
 /* The index of the node with an id; SIZE_MAX where there is none. */
-size_t foreign_find(const foreign *f, uint64_t id);
+size_t foreign_find_node(const foreign *f, uint64_t id);
 
 /* The index of the first holding of a point; its other holdings follow. */
 size_t foreign_first_holding(const foreign *f, uint64_t point);
@@ -75,7 +75,7 @@ void foreign_begin_tick(foreign *f);
 /* After all changes of a tick: find what is wrong with the nodes apart from queries. False when there is no memory.
  * Cost: nothing if neither the nodes nor the tree changed; else O(n log n) for n nodes, points and listed ids, and one
  * range search for each leaf that lists no points. */
-bool foreign_check(foreign *f, const audited_points *points);
+bool foreign_check_nodes(foreign *f, const audited_points *points);
 
 /* Record which nodes a query named, and what is wrong with that. `answer` is the index of the query's answer among
  * those of the tick. False when there is no memory. */

@@ -61,7 +61,7 @@ static judged_point judge_point(const judge_state *s, const octree_point *point)
     judged_point p = {.point = *point, .target = s->asked.target};
     for (int i = 0; i < 3; i++)
         p.at[i] = s->rounds ? round_to_float(point->position[i]) : point->position[i];
-    p.square = metric_point(&s->metric, p.at);
+    p.square = metric_square(&s->metric, p.at);
     return p;
 }
 
@@ -223,8 +223,8 @@ static void collect_nearest(judge_state *s, double slack)
 static void list_rounded_exact_answer(judge_state *s)
 {
     const octree *tree = s->about->points->tree;
-    const double slack =
-        2 * largest_rounding(tree); /* in space a point moves by up to sqrt(3) times the largest rounding on an axis */
+    /* in space a point moves by up to sqrt(3) times the largest rounding on an axis */
+    const double slack = 2 * largest_rounding(tree);
     s->collected = &s->judge->exact;
     if (finds_neighbors(s)) {
         collect_nearest(s, slack);

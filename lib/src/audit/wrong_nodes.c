@@ -31,7 +31,7 @@ static const struct {
     [OCTREE_NODE_OUTSIDE_POINT] = {"outside_point", "it lists a point outside its box"},
     [OCTREE_NODE_REPEATED_POINT] = {"repeated_point", "it lists a point more than once"},
     [OCTREE_NODE_LOST_POINT] = {"lost_point", "a point is in no node"},
-    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query visit it, and it is not there"},
+    [OCTREE_NODE_UNKNOWN_NODE] = {"unknown_node", "a query names it, but no such node is there"},
     [OCTREE_NODE_PRUNED_POINT] = {"pruned_point", "a query pruned it, and its answer lacks a point in it"},
 };
 
@@ -282,7 +282,7 @@ static bool find_standing_faults(foreign *f, const audited_points *points)
     return f->checked;
 }
 
-bool foreign_check(foreign *f, const audited_points *points)
+bool foreign_check_nodes(foreign *f, const audited_points *points)
 {
     if (!f->state.given)
         return true;
@@ -311,7 +311,7 @@ static foreign_mark *marks_of(const foreign *f)
 static bool record_node_visit(const node_query *q, octree_node_visit visit, uint64_t id)
 {
     foreign *f = q->foreign;
-    const size_t place = foreign_find(f, id);
+    const size_t place = foreign_find_node(f, id);
     if (place == SIZE_MAX)
         return report_wrong_node(
             f, place, (octree_wrong_node){.kind = OCTREE_NODE_UNKNOWN_NODE, .node = id, .answer = q->answer});

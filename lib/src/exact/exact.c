@@ -22,7 +22,7 @@ typedef struct decomposed {
     int sign;
 } decomposed;
 
-static decomposed decompose(double value)
+static decomposed decompose_double(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -66,7 +66,7 @@ static void add_shifted(exact_sum *sum, int sign, uint64_t value, int offset)
 
 void exact_add_product(exact_sum *sum, int factor, double a, double b)
 {
-    const decomposed p = decompose(a), q = decompose(b);
+    const decomposed p = decompose_double(a), q = decompose_double(b);
     const int sign = p.sign * q.sign * (factor < 0 ? -1 : 1);
     const int offset = p.exponent + q.exponent + 2 * 1074 + (factor == 2 || factor == -2);
     const uint64_t p_low = p.mantissa & UINT32_MAX, p_high = p.mantissa >> 32;

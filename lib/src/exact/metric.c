@@ -9,8 +9,8 @@
  * real distances with exact sums (exact.h). So nearly every comparison is one of doubles, and none is wrong.
  *
  * Why not exact arithmetic throughout: it is far too slow. Why not an epsilon: it has no right value,
- * and ties would depend on the order of insertion. Cost: metric_points() compares two points at a time with SSE2; the
- * exact comparison adds up to twelve products. Worlds of subnormal coordinates use integers (float_rules.h).
+ * and ties would depend on the order of insertion. Cost: metric_scan_points() compares two points at a time with SSE2;
+ * the exact comparison adds up to twelve products. Worlds of subnormal coordinates use integers (float_rules.h).
  */
 #include "metric.h"
 #include "exact.h"
@@ -77,7 +77,8 @@ static metric_scan scan_pairs(const metric *m, const octree_point *points, unsig
 }
 #endif
 
-metric_scan metric_points(const metric *m, const octree_point *points, unsigned count, double reach, double squares[])
+metric_scan metric_scan_points(const metric *m, const octree_point *points, unsigned count, double reach,
+                               double squares[])
 {
 #ifdef OCTREE_SSE2
     if (count > 1 && !(m->grain > 0))
@@ -85,7 +86,7 @@ metric_scan metric_points(const metric *m, const octree_point *points, unsigned 
 #endif
     metric_scan scan = {0, INFINITY};
     for (unsigned i = 0; i < count; i++) {
-        squares[i] = metric_point(m, points[i].position);
+        squares[i] = metric_square(m, points[i].position);
         scan.within |= (uint64_t) !(squares[i] > reach) << i;
         scan.least = squares[i] < scan.least ? squares[i] : scan.least;
     }
@@ -96,8 +97,9 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
 {
     /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, fewer where coordinates are equal.
      */
+    /* many points at one position are compared often */
     if (same_position(a, b))
-        return 0; /* many points at one position are compared often */
+        return 0;
     exact_sum sum;
     exact_clear(&sum);
     for (int i = 0; i < 3; i++) {

@@ -31,7 +31,7 @@ static inline double metric_scaled(const metric *m, double x)
 }
 
 /* The scaled squared distance of a point: (dx^2 + dy^2) + dz^2, in that order on every machine. */
-static inline double metric_point(const metric *m, const double p[3])
+static inline double metric_square(const metric *m, const double p[3])
 {
     const double x = metric_scaled(m, p[0]) - m->scaled[0];
     const double y = metric_scaled(m, p[1]) - m->scaled[1];
@@ -39,17 +39,18 @@ static inline double metric_point(const metric *m, const double p[3])
     return (x * x + y * y) + z * z;
 }
 
-/* The squares of up to 64 points, bit for bit those of metric_point(): the least one, and a mask of the points whose
+/* The squares of up to 64 points, bit for bit those of metric_square(): the least one, and a mask of the points whose
  * square is not above a limit. */
 typedef struct metric_scan {
     uint64_t within;
     double least;
 } metric_scan;
 
-metric_scan metric_points(const metric *m, const octree_point *points, unsigned count, double reach, double squares[]);
+metric_scan metric_scan_points(const metric *m, const octree_point *points, unsigned count, double reach,
+                               double squares[]);
 
 /* A mask of the squares that are not above a limit. Without branches, because they would be unpredictable. */
-static inline uint64_t metric_within(const double squares[], unsigned count, double reach)
+static inline uint64_t metric_mask_within(const double squares[], unsigned count, double reach)
 {
     uint64_t within = 0;
     unsigned i = 0;

@@ -18,7 +18,7 @@ static inline bool same_position(const double a[3], const double b[3])
 #endif
 }
 
-static inline bool is_finite(const double p[3])
+static inline bool is_finite_position(const double p[3])
 {
     return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
 }

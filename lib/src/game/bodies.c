@@ -29,7 +29,7 @@ static size_t find_body_slot(const bodies *b, uint64_t id)
 void bodies_release(bodies *b, arena *memory)
 {
     list_release(memory, &b->items, sizeof(moving_body));
-    arena_give(memory, b->slots, b->slot_count * sizeof *b->slots);
+    arena_free(memory, b->slots, b->slot_count * sizeof *b->slots);
 }
 
 moving_body *bodies_find(const bodies *b, uint64_t id)
@@ -46,10 +46,10 @@ static bool make_room_in_slots(bodies *b, arena *memory, size_t count)
     if (2 * count <= b->slot_count)
         return true;
     const size_t slot_count = b->slot_count ? 2 * b->slot_count : 64;
-    uint32_t *slots = arena_take(memory, slot_count * sizeof *slots);
+    uint32_t *slots = arena_allocate(memory, slot_count * sizeof *slots);
     if (!slots)
         return false;
-    arena_give(memory, b->slots, b->slot_count * sizeof *slots);
+    arena_free(memory, b->slots, b->slot_count * sizeof *slots);
     memset(slots, 0, slot_count * sizeof *slots);
     b->slots = slots;
     b->slot_count = slot_count;
@@ -156,7 +156,7 @@ static void bounce_on_axis(const moving_body *body, const octree_box *world, dou
 
 /* The position and velocity of a body at a tick. Most bodies have not reached a face yet; one test without branches
  * finds that. */
-static octree_body body_at(const moving_body *body, const octree_box *world, uint64_t tick)
+static octree_body body_at_tick(const moving_body *body, const octree_box *world, uint64_t tick)
 {
     octree_body now = {.id = body->id};
     const double ticks = (double)(tick - body->since);
@@ -174,7 +174,7 @@ static octree_body body_at(const moving_body *body, const octree_box *world, uin
 /* Restart the motion of a body at another position, with its velocity at this tick. */
 static void restart_motion(moving_body *body, const octree_box *world, const double place[3], uint64_t tick)
 {
-    const octree_body now = body_at(body, world, tick);
+    const octree_body now = body_at_tick(body, world, tick);
     for (int i = 0; i < 3; i++)
         if (now.velocity[i] != 0) /* 0 also stands for a body that is too fast to follow: it keeps its velocity */
             body->velocity[i] = now.velocity[i];
@@ -223,7 +223,7 @@ bool game_record_refusal(octree_game *game, uint64_t id, octree_status why, cons
 }
 
 /* Record a refusal by the tree, which is part of the game. False when there is no memory, here or in the tree. */
-static bool record_status(octree_game *game, uint64_t id, octree_status status, const double position[3])
+static bool record_if_refused(octree_game *game, uint64_t id, octree_status status, const double position[3])
 {
     return status == OCTREE_OK || (status != OCTREE_NO_MEMORY && game_record_refusal(game, id, status, position));
 }
@@ -255,14 +255,14 @@ octree_status game_check_body(const octree_game *game, const octree_body *body)
 {
     if (is_players_id(game, body->id) || bodies_find(&game->bodies, body->id))
         return OCTREE_DUPLICATE;
-    return is_finite(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
+    return is_finite_position(body->velocity) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
 bool game_add_body(octree_game *game, const octree_body *body, octree_status status)
 {
     if (status == OCTREE_OK)
         return bodies_add(&game->bodies, &game->memory, body, motion_start_tick(game));
-    return record_status(game, body->id, status, body->position);
+    return record_if_refused(game, body->id, status, body->position);
 }
 
 static bool insert_body(octree_game *game, const octree_body *body)
@@ -280,7 +280,7 @@ static bool remove_body(octree_game *game, uint64_t id)
     const octree_status status = body ? game_remove(game, body->position, id) : OCTREE_NOT_FOUND;
     if (status == OCTREE_OK)
         bodies_remove(&game->bodies, body);
-    return record_status(game, id, status, nowhere);
+    return record_if_refused(game, id, status, nowhere);
 }
 
 static bool move_body(octree_game *game, uint64_t id, const double to[3])
@@ -291,7 +291,7 @@ static bool move_body(octree_game *game, uint64_t id, const double to[3])
         store_body_position(body, to, game->tick.number);
         restart_motion(body, &game->session->tree.world, to, motion_start_tick(game));
     }
-    return record_status(game, id, status, to);
+    return record_if_refused(game, id, status, to);
 }
 
 static bool apply_edit(octree_game *game, const octree_edit *edit)
@@ -322,7 +322,7 @@ typedef struct motion {
 /* Allocate the four arrays in one block, which begins with the points. */
 static bool motion_allocate(motion *m, arena *memory, size_t room)
 {
-    *m = (motion){.room = room, .points = arena_take(memory, room * MOVE_SIZE)};
+    *m = (motion){.room = room, .points = arena_allocate(memory, room * MOVE_SIZE)};
     if (!m->points)
         return false;
     m->to = (double(*)[3])(m->points + room);
@@ -333,7 +333,7 @@ static bool motion_allocate(motion *m, arena *memory, size_t room)
 
 static void motion_release(motion *m, arena *memory)
 {
-    arena_give(memory, m->points, m->room * MOVE_SIZE);
+    arena_free(memory, m->points, m->room * MOVE_SIZE);
 }
 
 static void add_move(motion *m, const bodies *all, size_t index, const double to[3])
@@ -349,9 +349,10 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
 {
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
+        /* A body at rest keeps its bits: body_at_tick() would turn -0.0 into +0.0. */
         if (!is_moving(body->velocity))
-            continue; /* keep its bits: body_at() would turn -0.0 into +0.0 */
-        const octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
+            continue;
+        const octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
         if (memcmp(now.position, body->position, sizeof now.position) != 0)
             add_move(m, &game->bodies, i, now.position);
     }
@@ -386,7 +387,7 @@ static bool apply_motion(octree_game *game, motion *m, bool edited)
             if (edited)
                 restart_motion(body, &game->session->tree.world, m->to[i], motion_start_tick(game));
         }
-        ok = record_status(game, body->id, m->statuses[i], m->to[i]);
+        ok = record_if_refused(game, body->id, m->statuses[i], m->to[i]);
     }
     return ok;
 }
@@ -459,7 +460,7 @@ bool game_list_movers(octree_game *game)
         const moving_body *body = &bodies_items(all)[i];
         if (!is_moving(body->velocity))
             continue;
-        octree_body now = body_at(body, &game->session->tree.world, game->tick.number);
+        octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
         /* the stored position: a full leaf may have refused the move */
         memcpy(now.position, body->position, sizeof now.position);
         /* a body that is too fast to follow does not move */

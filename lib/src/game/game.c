@@ -55,10 +55,11 @@ static bool collect_hit_points(octree_game *game, const octree_point *self)
 {
     const octree_tick *tick = &game->tick;
     const double *from = tick->swept ? tick->from : tick->attempt;
-    const octree_search how = game_search(game, &game->tick.hit_cost);
+    const octree_search how = game_search_options(game, &game->tick.hit_cost);
     hit_collector found = {game, {&game->memory, &game->hits, false}};
+    /* The arguments are valid, so the search cannot fail. */
     octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size, self, &how, collect_hit,
-                         &found); /* cannot fail: the arguments are valid */
+                         &found);
     return !found.hits.failed;
 }
 
@@ -66,7 +67,6 @@ static bool collect_hit_points(octree_game *game, const octree_point *self)
 static bool collect_hit_moved_bodies(octree_game *game)
 {
     const sweep box = {game->tick.from, game->tick.attempt, game->session->player.box_size};
-    point_collector hits = {&game->memory, &game->hits, false};
     for (size_t i = 0; i < game->bodies.items.count; i++) {
         const moving_body *body = &bodies_items(&game->bodies)[i];
         if (!was_moved_in_tick(game, body) || body->id == game->session->player.id)
@@ -76,7 +76,7 @@ static bool collect_hit_moved_bodies(octree_game *game)
             continue;
         octree_point hit = {.id = body->id};
         memcpy(hit.position, body->position, sizeof hit.position);
-        if (!collect_point(&hit, &hits))
+        if (!list_push(&game->memory, &game->hits, &hit, sizeof hit))
             return false;
     }
     return true;
@@ -88,8 +88,8 @@ static bool list_hit_origins(octree_game *game)
     const octree_point *hits = game->hits.items;
     game->hit_from.count = 0;
     for (size_t i = 0; i < game->hits.count; i++) {
-        const moving_body *body =
-            bodies_find(&game->bodies, hits[i].id); /* not null: every point except the player's is a body */
+        /* not null: every point except the player's is a body */
+        const moving_body *body = bodies_find(&game->bodies, hits[i].id);
         const double *from = was_moved_in_tick(game, body) ? body->before : hits[i].position;
         if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))
             return false;
@@ -123,19 +123,19 @@ static int key_direction(char key, int axis)
 
 /* Record that the player stays. With sweep the collision test is repeated for a waiting player, so that it finds the
  * bodies that move into it. */
-static bool refuse_step(octree_game *game, octree_status why, const double to[3])
+static bool refuse_player_step(octree_game *game, octree_status why, const double to[3])
 {
     return game_record_refusal(game, game->session->player.id, why, to) &&
            (!game->session->player.sweep || test_collision(game, game->tick.player));
 }
 
 /* Make a step whose end is inside the world and free of hits. A full leaf can still refuse it. */
-static bool make_step(octree_game *game, const int64_t steps[3], const double to[3])
+static bool make_player_step(octree_game *game, const int64_t steps[3], const double to[3])
 {
     const uint64_t id = game->session->player.id;
     const octree_status status = game_move(game, game->tick.player, id, to);
     if (status != OCTREE_OK)
-        return status != OCTREE_NO_MEMORY && refuse_step(game, status, to);
+        return status != OCTREE_NO_MEMORY && refuse_player_step(game, status, to);
     memcpy(game->steps, steps, sizeof game->steps);
     memcpy(game->tick.player, to, sizeof game->tick.player);
     game->tick.events |= OCTREE_EVENT_MOVED;
@@ -178,7 +178,7 @@ static bool step_player(octree_game *game)
         game->tick.events |= OCTREE_EVENT_REFUSED;
         return test_collision(game, game->tick.player);
     }
-    return test_collision(game, to) && (game->hits.count > 0 || make_step(game, steps, to));
+    return test_collision(game, to) && (game->hits.count > 0 || make_player_step(game, steps, to));
 }
 
 /* ---- The end of a tick -------------------------------------------------------------------------------------- */
@@ -211,9 +211,9 @@ audited_points game_audited_points(const octree_game *game)
 static bool check_foreign_nodes(octree_game *game, const octree_foreign_tree *replacement)
 {
     const audited_points points = game_audited_points(game);
-    if (replacement && foreign_install(&game->foreign, replacement) != OCTREE_OK)
+    if (replacement && foreign_set_nodes(&game->foreign, replacement) != OCTREE_OK)
         return false;
-    return foreign_check(&game->foreign, &points);
+    return foreign_check_nodes(&game->foreign, &points);
 }
 
 /* Check the foreign nodes; ask the queries and show the shapes of the tick, then those of every tick. */
@@ -313,7 +313,7 @@ octree_status octree_game_create(const octree_session *session, octree_game **ga
     if (status != OCTREE_OK)
         return status;
     arena memory = {.allocator = octree_definition(tree).allocator};
-    octree_game *made = arena_take(&memory, sizeof *made);
+    octree_game *made = arena_allocate(&memory, sizeof *made);
     if (!made) {
         octree_destroy(tree);
         return OCTREE_NO_MEMORY;
@@ -341,7 +341,7 @@ void octree_game_destroy(octree_game *game)
 #define RELEASE(name, shown_count, type) list_release(&memory, &game->name, sizeof(type));
     GAME_LISTS(RELEASE)
 #undef RELEASE
-    arena_give(&memory, game, sizeof *game);
+    arena_free(&memory, game, sizeof *game);
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -393,8 +393,9 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
         return OCTREE_BAD_KEY;
     const octree_input own = session_input(game->session, game->tick.number + 1), *input = given ? given : &own;
     begin_tick(game, input->gap ? '.' : key);
+    /* in a gap the player does not move */
     if (input->gap)
-        update_player(game); /* in a gap the player does not move */
+        update_player(game);
     else if (!play_changes(game, input))
         return OCTREE_NO_MEMORY;
     return finish_tick(game, input);

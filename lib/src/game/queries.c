@@ -39,8 +39,11 @@ static bool ask_in_game(octree_game *game, const octree_query *query, bool by_ke
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return false;
-    query_run run = {
-        game->tree, game_search(game, NULL), {&game->memory, &game->found_points, false}, &game->found_neighbors, NULL};
+    query_run run = {game->tree,
+                     game_search_options(game, NULL),
+                     {&game->memory, &game->found_points, false},
+                     &game->found_neighbors,
+                     NULL};
     run.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     run.how.skip_id = game->session->player.id;
     const size_t points = game->found_points.count, neighbors = game->found_neighbors.count;
@@ -94,7 +97,7 @@ static void record_visit(octree_address node, octree_trace_kind touch, void *con
     game->lost_visits |= !list_push(&game->memory, &game->visits, &visit, sizeof visit);
 }
 
-octree_search game_search(octree_game *game, octree_cost *cost)
+octree_search game_search_options(octree_game *game, octree_cost *cost)
 {
     return (octree_search){.cost = cost, .trace = record_visit, .trace_context = game};
 }

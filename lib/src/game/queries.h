@@ -7,7 +7,7 @@
 #include "octree/game.h"
 
 /* A search whose cost is added to *cost, and whose visited nodes are recorded in the tick. `cost` may be null. */
-octree_search game_search(octree_game *game, octree_cost *cost);
+octree_search game_search_options(octree_game *game, octree_cost *cost);
 
 /* Ask some of a tick's queries, which have been checked, or the query of the key n if this is the tick's key. False
  * when there is no memory. */

@@ -51,20 +51,20 @@ static octree_status check_shape(const octree_shape *shape)
     if ((unsigned)shape->kind >= OCTREE_SHAPE_KINDS)
         return OCTREE_BAD_OPTION;
     const bool extends = shape->kind == OCTREE_SHAPE_BOX || shape->kind == OCTREE_SHAPE_SEGMENT;
-    octree_status status = check_finite(shape->at);
+    octree_status status = check_finite_position(shape->at);
     if (status == OCTREE_OK && extends)
-        status = check_finite(shape->to);
+        status = check_finite_position(shape->to);
     for (int i = 0; status == OCTREE_OK && shape->kind == OCTREE_SHAPE_BOX && i < 3; i++)
         if (shape->at[i] > shape->to[i])
             status = OCTREE_BAD_RANGE;
-    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_text(shape->text, sizeof shape->text))
+    if (status == OCTREE_OK && shape->kind == OCTREE_SHAPE_LABEL && !is_printable_text(shape->text, sizeof shape->text))
         status = OCTREE_BAD_TEXT;
     return status;
 }
 
 static octree_status check_gap(const octree_gap *gap)
 {
-    return *gap->why && is_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
+    return *gap->why && is_printable_text(gap->why, sizeof gap->why) ? OCTREE_OK : OCTREE_BAD_TEXT;
 }
 
 octree_status octree_input_check(const octree_input *input)
@@ -166,7 +166,7 @@ static size_t collect_finite_bodies(octree_game *game, octree_point *points)
     size_t count = 0;
     for (size_t i = 0; i < game->session->body_count; i++) {
         const octree_body *body = &game->session->bodies[i];
-        if (!is_finite(body->velocity))
+        if (!is_finite_position(body->velocity))
             continue;
         for (int axis = 0; axis < 3; axis++)
             game->fastest = larger(game->fastest, fabs(body->velocity[axis]));
@@ -185,7 +185,7 @@ static octree_status add_bodies(octree_game *game, const octree_status *statuses
         octree_status status = game_check_body(game, body);
         if (status == OCTREE_OK)
             status = *statuses;
-        statuses += is_finite(body->velocity);
+        statuses += is_finite_position(body->velocity);
         if (status == OCTREE_DUPLICATE)
             return status;
         if (!game_add_body(game, body, status))
@@ -199,15 +199,15 @@ octree_status game_load_bodies(octree_game *game)
     const size_t room = game->session->body_count;
     if (room == 0 || room > SIZE_MAX / sizeof(octree_point))
         return room ? OCTREE_NO_MEMORY : OCTREE_OK;
-    octree_point *points = arena_take(&game->memory, room * sizeof *points);
-    octree_status *statuses = arena_take(&game->memory, room * sizeof *statuses);
+    octree_point *points = arena_allocate(&game->memory, room * sizeof *points);
+    octree_status *statuses = arena_allocate(&game->memory, room * sizeof *statuses);
     octree_status status = OCTREE_NO_MEMORY;
     if (points && statuses)
         status = octree_insert_many(game->tree, points, collect_finite_bodies(game, points), statuses, NULL);
     if (status == OCTREE_OK)
         status = add_bodies(game, statuses);
-    arena_give(&game->memory, points, room * sizeof *points);
-    arena_give(&game->memory, statuses, room * sizeof *statuses);
+    arena_free(&game->memory, points, room * sizeof *points);
+    arena_free(&game->memory, statuses, room * sizeof *statuses);
     return status;
 }
 

@@ -53,7 +53,7 @@ static octree_status check_member(const octree_query *query, const octree_query_
     case OCTREE_MEMBER_BOX:
         return check_box(value);
     case OCTREE_MEMBER_POSITION:
-        return member->bit == OCTREE_QUERY_HAS_TARGET && query->at_player ? OCTREE_OK : check_finite(value);
+        return member->bit == OCTREE_QUERY_HAS_TARGET && query->at_player ? OCTREE_OK : check_finite_position(value);
     case OCTREE_MEMBER_LENGTH:
         return check_length(*(const double *)value);
     case OCTREE_MEMBER_COUNT:
@@ -88,7 +88,7 @@ octree_status octree_query_check(const octree_query *query)
         return OCTREE_BAD_OPTION;
     if (query->skip == OCTREE_SKIP_COINCIDENT && !(about->members & OCTREE_QUERY_HAS_TARGET))
         return OCTREE_BAD_OPTION;
-    octree_status status = check_search(&(octree_search){.skip = query->skip, .epsilon = query->epsilon});
+    octree_status status = check_search_options(&(octree_search){.skip = query->skip, .epsilon = query->epsilon});
     for (size_t i = OCTREE_QUERY_MEMBERS; status == OCTREE_OK && i-- > 0;)
         if (about->members & octree_query_member_at(i)->bit)
             status = check_member(query, octree_query_member_at(i));
@@ -178,8 +178,9 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
         run->how.skip = query->skip;
         run->how.skip_id = query->skip_id;
     }
+    /* the exact answer judges; epsilon is what the foreign answer may deviate by */
     if (query_is_judged(query))
-        run->how.epsilon = 0; /* the exact answer judges; epsilon is what the foreign answer may deviate by */
+        run->how.epsilon = 0;
     else if (query->epsilon > 0)
         run->how.epsilon = query->epsilon;
     octree_status status = query_rules_of(query->kind)->ask(run, answer);
@@ -196,7 +197,7 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
 /* Copy a list's items to a block of exactly their size and release the list. Null for no items or no memory. */
 static void *move_to_block(arena *memory, list *l, size_t item_size)
 {
-    void *items = l->count ? arena_take(memory, l->count * item_size) : NULL;
+    void *items = l->count ? arena_allocate(memory, l->count * item_size) : NULL;
     if (items)
         memcpy(items, l->items, l->count * item_size);
     list_release(memory, l, item_size);
@@ -235,8 +236,8 @@ void octree_answer_release(const octree *tree, octree_answer *answer)
     if (!tree || !answer)
         return;
     arena memory = {.allocator = tree->def.allocator};
-    arena_give(&memory, (void *)answer->points, answer->count * sizeof *answer->points);
-    arena_give(&memory, (void *)answer->neighbors, answer->count * sizeof *answer->neighbors);
+    arena_free(&memory, (void *)answer->points, answer->count * sizeof *answer->points);
+    arena_free(&memory, (void *)answer->neighbors, answer->count * sizeof *answer->neighbors);
     *answer = (octree_answer){0};
 }
 

@@ -108,11 +108,11 @@ static void scan_points(search *s, const octree_point *points, unsigned count)
 {
     neighbor_heap *found = &s->found;
     double squares[SCAN_POINTS];
-    const metric_scan scan = metric_points(&found->metric, points, count, found->point_reach, squares);
+    const metric_scan scan = metric_scan_points(&found->metric, points, count, found->point_reach, squares);
     const double reach = neighbor_heap_reach(found, scan.least);
     uint64_t left = scan.within;
     if (reach < found->point_reach && (left & (left - 1)))
-        left = metric_within(squares, count, reach);
+        left = metric_mask_within(squares, count, reach);
     for (; left; left &= left - 1) {
         const unsigned i = bits_lowest(left);
         if (!(squares[i] > found->point_reach))
@@ -321,9 +321,9 @@ static octree_status check_and_search(const octree *tree, const double target[3]
     if (!tree || !target || (!neighbors && k > 0))
         return OCTREE_NULL_ARGUMENT;
     const octree_search search = search_or_default(how);
-    octree_status status = check_finite(target);
+    octree_status status = check_finite_position(target);
     if (status == OCTREE_OK)
-        status = check_search(&search);
+        status = check_search_options(&search);
     if (status == OCTREE_OK && k > 0)
         *count = search_tree(tree, target, k, radius, &search, neighbors);
     return status;
@@ -363,9 +363,9 @@ static octree_status check_batch_arguments(const octree *tree, const double (*ta
         return OCTREE_NULL_ARGUMENT;
     if (count > UINT32_MAX)
         return OCTREE_TOO_MANY;
-    octree_status status = check_search(how);
+    octree_status status = check_search_options(how);
     for (size_t i = 0; status == OCTREE_OK && i < count; i++)
-        status = check_finite(targets[i]);
+        status = check_finite_position(targets[i]);
     return status;
 }
 
@@ -404,8 +404,8 @@ static void search_targets_of_share(size_t number, void *context)
         octree_neighbor nearest;
         const uint32_t place = b->order[i].place;
         if (i + PREFETCH_AHEAD < end) {
-            prefetch(&b->targets[b->order[i + PREFETCH_AHEAD].place]);
-            prefetch(&b->neighbors[b->order[i + PREFETCH_AHEAD].place]);
+            prefetch_memory(&b->targets[b->order[i + PREFETCH_AHEAD].place]);
+            prefetch_memory(&b->neighbors[b->order[i + PREFETCH_AHEAD].place]);
         }
         const bool one = search_tree(b->tree, b->targets[place], 1, NO_RADIUS, &how, &nearest) == 1;
         if (one)
@@ -419,8 +419,9 @@ static void search_in_morton_order(target_batch *b, arena *memory)
 {
     run_tasks(b->tree, find_codes_of_share, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
+    /* the caller's tracer need not be thread-safe */
     if (b->how.trace)
-        b->tasks = 1; /* the caller's tracer need not be thread-safe */
+        b->tasks = 1;
     run_tasks(b->tree, search_targets_of_share, b->tasks, b);
     for (unsigned i = 0; b->how.cost && i < b->tasks; i++)
         add_cost(b->how.cost, &b->costs[i]);
@@ -436,10 +437,10 @@ octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3
     arena memory = {.allocator = tree->def.allocator}; /* queries do not change the tree's own byte count */
     target_batch b = {tree, targets, count, search, neighbors, found, .tasks = count_tasks(tree, count)};
     const size_t size = count <= SIZE_MAX / 2 / sizeof(morton_item) ? 2 * count * sizeof(morton_item) : SIZE_MAX;
-    b.order = size < SIZE_MAX ? arena_take(&memory, size) : NULL;
+    b.order = size < SIZE_MAX ? arena_allocate(&memory, size) : NULL;
     if (!b.order)
         return OCTREE_NO_MEMORY;
     search_in_morton_order(&b, &memory);
-    arena_give(&memory, b.order, size);
+    arena_free(&memory, b.order, size);
     return OCTREE_OK;
 }

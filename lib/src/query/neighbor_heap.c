@@ -48,12 +48,13 @@ static bool is_skipped(const neighbor_heap *h, const octree_point *point)
 
 static bool is_within_radius(const neighbor_heap *h, const octree_point *point, double square)
 {
-    return h->radius < 0 || is_within(&h->metric, h->how.mode, point, square, h->radius, h->radius_square);
+    return h->radius < 0 || is_within_ball(&h->metric, h->how.mode, point, square, h->radius, h->radius_square);
 }
 
 static int compare_near_tie(const neighbor_heap *h, const octree_point *p, const octree_point *q, double square)
 {
-    const int order = is_trusted(h->how.mode, square) ? 0 : metric_compare(h->metric.target, p->position, q->position);
+    const int order =
+        is_compared_as_double(h->how.mode, square) ? 0 : metric_compare(h->metric.target, p->position, q->position);
     return order ? order : octree_compare_points(p, q);
 }
 
@@ -77,7 +78,7 @@ static unsigned slot_of_key(double key)
     return bits & (FEW_NEIGHBORS - 1);
 }
 
-static double make_key(double square, unsigned place)
+static double make_slot_key(double square, unsigned place)
 {
     uint64_t bits;
     memcpy(&bits, &square, sizeof bits);
@@ -112,7 +113,7 @@ static void begin_few_neighbors(neighbor_heap *h)
     for (int i = 0; i < FEW_FIRST; i++)
         h->few.keys[i] = -1;
     for (unsigned i = 0; i < h->k; i++)
-        h->few.keys[FEW_FIRST + i] = make_key(2 * METRIC_FINITE, i); /* greater than the key of any point */
+        h->few.keys[FEW_FIRST + i] = make_slot_key(2 * METRIC_FINITE, i); /* greater than the key of any point */
 }
 
 /* Insert a key in ascending order and drop the key at `last`. Without branches, because they would be unpredictable:
@@ -161,8 +162,8 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, do
         return;
     f->points[place] = point;
     f->squares[place] = square;
-    insert_key(f->keys, last,
-               make_key(square < METRIC_FINITE ? square : METRIC_FINITE, place)); /* the square may be NaN */
+    /* the square may be NaN */
+    insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
     if (h->count < h->k)
         return;
     if (f->keys[last - 1] >= certainly_below(f->keys[last]))

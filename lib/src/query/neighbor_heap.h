@@ -15,9 +15,8 @@
  * ascend, except that the last of k keys belongs to the neighbour that is farthest by exact comparison. */
 #define FEW_BITS 5
 #define FEW_NEIGHBORS (1 << FEW_BITS)
-#define FEW_FIRST                                                                                                      \
-    3 /* index of the first key; smaller sentinels before it let pairwise insertion run past the start                 \
-       */
+/* Index of the first key. The smaller sentinels before it let pairwise insertion run past the start. */
+#define FEW_FIRST 3
 typedef struct few_neighbors {
     double keys[FEW_FIRST + FEW_NEIGHBORS];
     double squares[FEW_NEIGHBORS]; /* indexed by slot, like `points` */
@@ -29,10 +28,9 @@ typedef struct neighbor_heap {
     octree_search how;
     double radius; /* negative: the distance is not limited */
     double radius_square;
-    double
-        shrink; /* 1 / (1 + epsilon)^2, rounded up: the factor of the farthest square beyond which nodes are pruned */
-    double point_reach;     /* a point with a greater square is not among the k nearest */
-    double node_reach;      /* a node with a greater square contains none of the k nearest */
+    double shrink;      /* 1 / (1 + epsilon)^2, rounded up: nodes are pruned beyond the farthest square times this */
+    double point_reach; /* a point with a greater square is not among the k nearest */
+    double node_reach;  /* a node with a greater square contains none of the k nearest */
     octree_neighbor *items; /* the caller's array; `distance` holds scaled squares until the end */
     size_t count, k;
     few_neighbors few; /* used instead of `items` until the end if k <= FEW_NEIGHBORS */

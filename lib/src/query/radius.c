@@ -73,9 +73,10 @@ static uint64_t scan_ball_points(const void *shape, const octree_point *points, 
     const ball *b = shape;
     double squares[SCAN_POINTS];
     uint64_t found = 0;
-    for (uint64_t left = metric_points(&b->metric, points, count, b->reach, squares).within; left; left &= left - 1) {
+    for (uint64_t left = metric_scan_points(&b->metric, points, count, b->reach, squares).within; left;
+         left &= left - 1) {
         const unsigned i = bits_lowest(left);
-        found |= (uint64_t)is_within(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square) << i;
+        found |= (uint64_t)is_within_ball(&b->metric, b->mode, &points[i], squares[i], b->radius, b->square) << i;
     }
     return found;
 }
@@ -100,7 +101,7 @@ static octant_masks measure_root(ball *b, const octree *tree)
     return (octant_masks){!(near > b->reach), far < b->whole};
 }
 
-static double squared(double length)
+static double square_of(double length)
 {
     return length * length;
 }
@@ -112,11 +113,10 @@ static void search_ball(const octree *tree, const double center[3], double radiu
     b.metric = metric_make(tree->scale, is_subnormal_world(tree), center);
     b.mode = how->mode;
     b.radius = radius;
-    b.square = squared(radius * tree->scale);
+    b.square = square_of(radius * tree->scale);
     b.reach = metric_above(b.square);
-    b.whole = metric_below(
-        squared(radius * tree->scale +
-                how->epsilon * tree->scale)); /* scaled before they are added: the sum of the lengths may overflow */
+    /* Lengths are scaled before they are added, because their sum may overflow. */
+    b.whole = metric_below(square_of(radius * tree->scale + how->epsilon * tree->scale));
     region r = {tree, &b, enter_ball_cell, scan_ball_points, visit, context, .meter.how = how};
     region_search(&r, measure_root(&b, tree));
 }
@@ -127,9 +127,9 @@ octree_status octree_radius(const octree *tree, const double center[3], double r
     if (!tree || !center || !visit)
         return OCTREE_NULL_ARGUMENT;
     const octree_search search = search_or_default(how);
-    octree_status status = check_search(&search);
+    octree_status status = check_search_options(&search);
     if (status == OCTREE_OK)
-        status = check_finite(center);
+        status = check_finite_position(center);
     if (status == OCTREE_OK)
         status = check_length(radius);
     if (status == OCTREE_OK)

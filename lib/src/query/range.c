@@ -35,7 +35,7 @@ octree_status octree_range_search(const octree *tree, const octree_box *box, con
     const octree_search search = search_or_default(how);
     octree_status status = check_box(box);
     if (status == OCTREE_OK)
-        status = check_search(&search);
+        status = check_search_options(&search);
     if (status == OCTREE_OK)
         search_box(tree, box, &search, visit, context);
     return status;
@@ -146,7 +146,7 @@ octree_status octree_collision_box(const double center[3], double box_size, octr
 {
     if (!center || !box)
         return OCTREE_NULL_ARGUMENT;
-    octree_status status = check_finite(center);
+    octree_status status = check_finite_position(center);
     if (status == OCTREE_OK)
         status = check_length(box_size);
     for (int i = 0; status == OCTREE_OK && i < 3; i++) {

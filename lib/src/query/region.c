@@ -32,7 +32,7 @@ static bool visit_points_below(region *r, const node *n)
         const node *next = stack[--size];
         for (unsigned i = bits_count8(next->octants); i-- > 0;) {
             stack[size++] = &children_of(next)[i];
-            prefetch(children_of(next)[i].below);
+            prefetch_memory(children_of(next)[i].below);
         }
         if (next->octants)
             continue;
@@ -45,7 +45,7 @@ static bool visit_points_below(region *r, const node *n)
 
 static bool take_whole_node(region *r, const node *n, octree_address address)
 {
-    meter_take(&r->meter, address);
+    meter_take_whole(&r->meter, address);
     if (r->visit)
         return visit_points_below(r, n);
     r->count += n->count;
@@ -85,7 +85,7 @@ static bool queue_leaf(descent *d, const node *leaf)
 static void prefetch_children(const frame *f)
 {
     for (unsigned pending = f->pending; pending; pending &= pending - 1)
-        prefetch(child_at(f->node, bits_lowest(pending))->below);
+        prefetch_memory(child_at(f->node, bits_lowest(pending))->below);
 }
 
 static void open_node(descent *d, const node *n, octree_address address, unsigned octant)
@@ -200,8 +200,8 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const int32_t middle = low + half, high = low + size;
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
-        meets &= bits_if(s->near.min[i] < middle, below) |
-                 bits_if(middle <= s->near.max[i], above); /* the node itself meets the box */
+        /* the node itself meets the box */
+        meets &= bits_if(s->near.min[i] < middle, below) | bits_if(middle <= s->near.max[i], above);
         inside &= (bits_if(s->whole.min[i] < low, below) & bits_if(middle <= s->whole.max[i], below)) |
                   (bits_if(s->whole.min[i] < middle, above) & bits_if(high <= s->whole.max[i], above));
     }

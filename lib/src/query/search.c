@@ -8,18 +8,18 @@ octree_search search_or_default(const octree_search *how)
     return how ? *how : (octree_search){0};
 }
 
-octree_status check_search(const octree_search *how)
+octree_status check_search_options(const octree_search *how)
 {
     if ((unsigned)how->skip > OCTREE_SKIP_COINCIDENT || (unsigned)how->mode > OCTREE_FAST)
         return OCTREE_BAD_OPTION;
     return check_length(how->epsilon);
 }
 
-octree_status check_finite(const double position[3])
+octree_status check_finite_position(const double position[3])
 {
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    return is_finite(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
+    return is_finite_position(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
 octree_status check_length(double length)
@@ -42,7 +42,7 @@ octree_status check_box(const octree_box *box)
     return OCTREE_OK;
 }
 
-bool is_text(const char *text, size_t size)
+bool is_printable_text(const char *text, size_t size)
 {
     size_t length = 0;
     while (length < size && text[length] >= ' ' && text[length] <= '~')

@@ -15,10 +15,10 @@
 octree_search search_or_default(const octree_search *how);
 
 /* Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
-octree_status check_search(const octree_search *how);
+octree_status check_search_options(const octree_search *how);
 
 /* Returns OK, FLOAT_MODE, or NOT_FINITE. */
-octree_status check_finite(const double position[3]);
+octree_status check_finite_position(const double position[3]);
 
 /* Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
 octree_status check_length(double length);
@@ -27,7 +27,7 @@ octree_status check_length(double length);
 octree_status check_box(const octree_box *box);
 
 /* Whether `size` bytes hold printable ASCII characters and a final zero. */
-bool is_text(const char *text, size_t size);
+bool is_printable_text(const char *text, size_t size);
 
 /* The maximum of two numbers that are not NaN. fmax() would be a function call. */
 static inline double larger(double a, double b)
@@ -36,17 +36,17 @@ static inline double larger(double a, double b)
 }
 
 /* Whether a square is compared without exact arithmetic: in FAST mode, unless it overflowed. */
-static inline bool is_trusted(octree_mode mode, double square)
+static inline bool is_compared_as_double(octree_mode mode, double square)
 {
     return mode == OCTREE_FAST && square < HUGE_VAL;
 }
 
 /* Whether a point with this scaled square is within a radius, whose scaled square is given too. The caller has already
  * excluded points that are certainly farther. */
-static inline bool is_within(const metric *m, octree_mode mode, const octree_point *point, double square, double radius,
-                             double radius_square)
+static inline bool is_within_ball(const metric *m, octree_mode mode, const octree_point *point, double square,
+                                  double radius, double radius_square)
 {
-    if (is_trusted(mode, square))
+    if (is_compared_as_double(mode, square))
         return square <= radius_square;
     if (square < metric_below(radius_square))
         return true;
@@ -83,7 +83,7 @@ static inline void meter_visit(meter *m, octree_address address)
 }
 
 /* Record a node that is inside the region. */
-static inline void meter_take(meter *m, octree_address address)
+static inline void meter_take_whole(meter *m, octree_address address)
 {
     m->count.taken++;
     meter_trace(m, address, OCTREE_TRACE_TAKEN);

@@ -217,7 +217,7 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
     if (status == OCTREE_OK)
         status = octree_collision_box(to, box_size, &end);
     if (status == OCTREE_OK)
-        status = check_search(&search);
+        status = check_search_options(&search);
     if (status != OCTREE_OK)
         return status;
     for (int i = 0; i < 3; i++) { /* the box around the whole step */

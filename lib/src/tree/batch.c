@@ -25,12 +25,12 @@ static morton_item *allocate_items(const batch *b, size_t each)
     /* unreachable: size_t has 64 bits, and a batch has at most UINT32_MAX points */
     if (b->count >= SIZE_MAX / sizeof(morton_item) / each - 1)
         return NULL;
-    return arena_take(&b->tree->store.memory, each * (b->count + 1) * sizeof(morton_item));
+    return arena_allocate(&b->tree->store.memory, each * (b->count + 1) * sizeof(morton_item));
 }
 
 static void release_items(const batch *b, morton_item *items, size_t each)
 {
-    arena_give(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
+    arena_free(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
 }
 
 /* The lists of a move share one allocation. With several, malloc returns their pages to the system and page faults
@@ -66,7 +66,7 @@ static octree_status check_point_and_destination(const batch *b, size_t place, u
 static void collect_valid_points(batch *b, size_t first, size_t count)
 {
     uint64_t codes[TOGETHER];
-    morton_codes(b->tree->axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
+    compute_morton_codes(b->tree->axes, b->points[first].position, sizeof *b->points / sizeof(double), count, codes);
     for (size_t i = 0; i < count; i++) {
         const size_t place = first + i;
         const octree_status status = check_point_and_destination(b, place, &codes[i]);
@@ -175,7 +175,7 @@ octree_status collect_batch_points(batch *b)
     if (b->inserts && b->tree->root.count == 0 && ids_ascend(b) && !choose_grid(b, b->count))
         return OCTREE_NO_MEMORY;
     if (b->grid > 0) {
-        b->cells = arena_take(&b->store->memory, b->count * sizeof *b->cells);
+        b->cells = arena_allocate(&b->store->memory, b->count * sizeof *b->cells);
         if (!b->cells)
             return OCTREE_NO_MEMORY;
         run_tasks(b->tree, find_cells_of_share, count_tasks(b->tree, b->count), b);
@@ -202,7 +202,7 @@ void release_batch(batch *b)
     release_repetitions(b);
     release_division(b);
     release_items(b, b->lists, shared_list_count(b));
-    arena_give(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
+    arena_free(&b->tree->store.memory, b->cells, b->count * sizeof *b->cells);
 }
 
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth)

@@ -67,9 +67,9 @@ static inline octree_point arriving_point(const batch *b, const morton_item *ite
 /* Prefetch the caller's point of an item: points are in the caller's order, not in that of the items. */
 static inline void prefetch_item(const batch *b, const morton_item *item)
 {
-    prefetch(&b->points[item->place]);
+    prefetch_memory(&b->points[item->place]);
     if (b->to)
-        prefetch(&b->to[item->place]);
+        prefetch_memory(&b->to[item->place]);
 }
 
 /* The point of an item: an arriving point of the caller, or a stored point. */

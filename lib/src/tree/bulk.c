@@ -233,8 +233,8 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
     const bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
     const size_t copies_size = lies_in_tree_memory(b.tree, b.points, b.count) ? b.count * sizeof *b.points : 0;
     const size_t statuses_size = logs && !b.statuses ? b.count * sizeof *b.statuses : 0;
-    octree_point *copies = copies_size ? arena_take(memory, copies_size) : NULL;
-    octree_status *statuses = statuses_size ? arena_take(memory, statuses_size) : NULL;
+    octree_point *copies = copies_size ? arena_allocate(memory, copies_size) : NULL;
+    octree_status *statuses = statuses_size ? arena_allocate(memory, statuses_size) : NULL;
     if (copies)
         b.points = memcpy(copies, b.points, copies_size);
     if (statuses)
@@ -248,8 +248,8 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
         change_log_stop(log, memory);
     if (status == OCTREE_OK && done)
         *done = b.done;
-    arena_give(memory, copies, copies_size);
-    arena_give(memory, statuses, statuses_size);
+    arena_free(memory, copies, copies_size);
+    arena_free(memory, statuses, statuses_size);
     return status;
 }
 

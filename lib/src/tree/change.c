@@ -18,7 +18,7 @@ static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant,
     node leaf = {0};
     if (!leaf_append(&tree->store, &leaf, point))
         return OCTREE_NO_MEMORY;
-    node *group = pool_take(&tree->store.nodes, children + 1);
+    node *group = pool_allocate(&tree->store.nodes, children + 1);
     if (!group) {
         leaf_release(&tree->store, &leaf);
         return OCTREE_NO_MEMORY;
@@ -26,7 +26,7 @@ static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant,
     memcpy(group, parent->below, index * sizeof(node));
     group[index] = leaf;
     memcpy(group + index + 1, children_of(parent) + index, (children - index) * sizeof(node));
-    pool_give(&tree->store.nodes, parent->below, children);
+    pool_free(&tree->store.nodes, parent->below, children);
     parent->below = group;
     parent->octants |= (uint8_t)(1u << octant);
     return OCTREE_OK;
@@ -46,7 +46,7 @@ static unsigned find_octant(const shares *s, const double p[3])
            (unsigned)(p[2] >= s->planes[2]);
 }
 
-static void count_point(shares *s, const octree_point *point)
+static void count_in_octant(shares *s, const octree_point *point)
 {
     const unsigned octant = find_octant(s, point->position);
     s->counts[octant]++;
@@ -59,8 +59,8 @@ static shares count_points_by_octant(const octree *tree, cell c, const node *ful
     for (int i = 0; i < 3; i++)
         s.planes[i] = plane_at(&tree->axes[i], c.low[i] + cell_size(c.depth + 1));
     for (uint32_t i = 0; i < full->count; i++)
-        count_point(&s, &leaf_points(full)[i]);
-    count_point(&s, point);
+        count_in_octant(&s, &leaf_points(full)[i]);
+    count_in_octant(&s, point);
     return s;
 }
 
@@ -89,7 +89,7 @@ static bool create_leaves(octree *tree, node *group, const shares *s)
 static bool make_split_node(octree *tree, node *made, const node *full, const octree_point *point, const shares *s)
 {
     const unsigned children = bits_count8(s->mask);
-    node *group = pool_take(&tree->store.nodes, children);
+    node *group = pool_allocate(&tree->store.nodes, children);
     if (!group)
         return false;
     memset(group, 0, children * sizeof(node));
@@ -118,7 +118,7 @@ static bool make_grown_leaf(octree *tree, node *made, const node *full, const oc
 static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
-        node *only = pool_take(&tree->store.nodes, 1);
+        node *only = pool_allocate(&tree->store.nodes, 1);
         if (!only) {
             node_release(&tree->store, bottom);
             return false;
@@ -175,8 +175,8 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
                                          : add_child_leaf(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
-    const unsigned inner =
-        is_leaf ? p.depth : p.depth + 1; /* leaf_append() has already counted the point in the leaf */
+    /* leaf_append() has already counted the point in the leaf */
+    const unsigned inner = is_leaf ? p.depth : p.depth + 1;
     for (unsigned i = 0; i < inner; i++)
         p.nodes[i]->count++;
     tree->version++;
@@ -223,7 +223,7 @@ void remove_empty_child(octree *tree, node *parent, node *child)
     const unsigned children = bits_count8(parent->octants), index = (unsigned)(child - group);
     leaf_release(&tree->store, child);
     memmove(child, child + 1, (children - index - 1) * sizeof(node));
-    pool_give(&tree->store.nodes, group + children - 1, 1);
+    pool_free(&tree->store.nodes, group + children - 1, 1);
     unsigned octant = 0;
     while (!(parent->octants >> octant & 1) || child_index(parent, octant) != index)
         octant++;

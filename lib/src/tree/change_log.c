@@ -28,7 +28,7 @@ uint64_t change_log_limit(const octree *tree)
 void change_log_stop(change_log *log, arena *memory)
 {
     atomic_store_explicit(&log->name, 0, memory_order_relaxed);
-    arena_give(memory, log->items, log->room * sizeof *log->items);
+    arena_free(memory, log->items, log->room * sizeof *log->items);
     log->items = NULL;
     log->room = 0;
     log->first = ++log->next; /* invalidates all older cursors */
@@ -39,12 +39,12 @@ void change_log_stop(change_log *log, arena *memory)
 static bool grow_ring(change_log *log, arena *memory)
 {
     const size_t room = log->room ? 2 * log->room : 16;
-    octree_change *items = arena_take(memory, room * sizeof *items); /* cannot overflow: see list_append() */
+    octree_change *items = arena_allocate(memory, room * sizeof *items); /* cannot overflow: see list_append() */
     if (!items)
         return false;
     for (uint64_t i = log->first; i < log->next; i++)
         items[i & (room - 1)] = log->items[i & (log->room - 1)];
-    arena_give(memory, log->items, log->room * sizeof *items);
+    arena_free(memory, log->items, log->room * sizeof *items);
     log->items = items;
     log->room = room;
     return true;

@@ -7,7 +7,7 @@
 void create_division(batch *b)
 {
     const unsigned tasks = count_tasks(b->tree, b->count);
-    b->division = tasks > 1 ? arena_take(&b->store->memory, sizeof *b->division) : NULL;
+    b->division = tasks > 1 ? arena_allocate(&b->store->memory, sizeof *b->division) : NULL;
     if (!b->division)
         return;
     memset(b->division, 0, sizeof *b->division);
@@ -17,7 +17,7 @@ void create_division(batch *b)
 
 void release_division(batch *b)
 {
-    arena_give(&b->store->memory, b->division, sizeof *b->division);
+    arena_free(&b->store->memory, b->division, sizeof *b->division);
     b->division = NULL;
 }
 

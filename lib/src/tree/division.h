@@ -87,6 +87,6 @@ bool build_node_by_tasks(batch *b, cell c, span items, node *made);
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made);
 
 /* Add the successor of a node to the plan. False when there is no memory; the successor is then released. */
-bool plan_patch(batch *b, node *at, const node *made);
+bool plan_replacement(batch *b, node *at, const node *made);
 
 #endif

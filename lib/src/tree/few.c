@@ -44,7 +44,7 @@ typedef struct descents {
 
 static void find_point_codes(descents *w, const octree *tree, const octree_point *points, size_t count)
 {
-    morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
+    compute_morton_codes(tree->axes, points->position, sizeof *points / sizeof(double), count, w->codes);
     for (size_t i = 0; i < count; i++)
         w->statuses[i] = complete_code(tree, points[i].position, &w->codes[i]);
 }
@@ -71,10 +71,7 @@ static void descend_together(descents *w, octree *tree, const octree_point *poin
             }
             w->nodes[depth + 1][i] = child;
             left[next++] = i;
-            if (child->octants)
-                prefetch(child->below);
-            else
-                leaf_prefetch(child);
+            prefetch_node(child);
         }
         going = next;
     }
@@ -145,7 +142,7 @@ octree_status insert_few(batch *b)
 {
     arena *memory = &b->tree->store.memory;
     const size_t count = b->count, points_size = count * sizeof *b->points, size = 2 * count * sizeof *b->statuses;
-    insertions f = {.batch = b, .full = arena_take(memory, points_size), .statuses = arena_take(memory, size)};
+    insertions f = {.batch = b, .full = arena_allocate(memory, points_size), .statuses = arena_allocate(memory, size)};
     batch full = {.tree = b->tree, .points = f.full, .inserts = true};
     octree_status status = f.full && f.statuses ? OCTREE_OK : OCTREE_NO_MEMORY;
     for (size_t i = 0; status == OCTREE_OK && i < count; i += TOGETHER)
@@ -160,8 +157,8 @@ octree_status insert_few(batch *b)
     for (size_t i = 0, next = 0; status == OCTREE_OK && b->statuses && i < count; i++)
         b->statuses[i] = f.statuses[i] == OCTREE_FULL ? full.statuses[next++] : f.statuses[i];
     b->done += full.done;
-    arena_give(memory, f.full, points_size);
-    arena_give(memory, f.statuses, size);
+    arena_free(memory, f.full, points_size);
+    arena_free(memory, f.statuses, size);
     return status;
 }
 
@@ -297,7 +294,7 @@ static void carry_out_removals(removals *r)
 octree_status remove_few(batch *b)
 {
     arena *memory = &b->tree->store.memory;
-    removals r = {.batch = b, .found = arena_take(memory, b->count * sizeof *r.found)};
+    removals r = {.batch = b, .found = arena_allocate(memory, b->count * sizeof *r.found)};
     if (!r.found)
         return OCTREE_NO_MEMORY;
     for (size_t i = 0; i < b->count; i += TOGETHER)
@@ -308,7 +305,7 @@ octree_status remove_few(batch *b)
     else
         undo_removals(&r);
     b->done = r.count;
-    arena_give(memory, r.found, b->count * sizeof *r.found);
+    arena_free(memory, r.found, b->count * sizeof *r.found);
     list_release(memory, &r.mergings, sizeof(merging));
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;
 }

@@ -60,7 +60,8 @@ static size_t count_crowded_samples(const batch *b, unsigned depth, uint32_t *co
     for (size_t i = 0; i < samples; i += GRID_TOGETHER) {
         uint32_t cells[GRID_TOGETHER];
         const size_t count = samples - i < GRID_TOGETHER ? samples - i : GRID_TOGETHER;
-        grid_cells(b->tree->axes, depth, positions + i * SAMPLE_STEP * stride, SAMPLE_STEP * stride, count, cells);
+        compute_grid_cells(b->tree->axes, depth, positions + i * SAMPLE_STEP * stride, SAMPLE_STEP * stride, count,
+                           cells);
         for (size_t k = 0; k < count; k++)
             if (cells[k] != GRID_NONE)
                 counts[cells[k]]++;
@@ -79,11 +80,11 @@ bool choose_grid(batch *b, size_t total)
         depth++;
     for (; b->grid == 0 && depth <= GRID_DEEPEST && depth <= def->max_depth && cell_count_at(depth) <= total; depth++) {
         const size_t size = cell_count_at(depth) * sizeof(uint32_t);
-        uint32_t *counts = arena_take(&b->store->memory, size);
+        uint32_t *counts = arena_allocate(&b->store->memory, size);
         if (!counts)
             return false;
         const size_t crowded = count_crowded_samples(b, depth, counts, 2 * room * b->count / (total * SAMPLE_STEP) + 2);
-        arena_give(&b->store->memory, counts, size);
+        arena_free(&b->store->memory, counts, size);
         if (crowded <= b->count / SAMPLE_STEP / 8)
             b->grid = depth;
     }
@@ -93,12 +94,12 @@ bool choose_grid(batch *b, size_t total)
 void find_grid_cells(const batch *b, const octree_point *points, size_t count, uint32_t *cells, octree_status *statuses)
 {
     const octree *tree = b->tree;
-    grid_cells(tree->axes, b->grid, points->position, sizeof *points / sizeof(double), count, cells);
+    compute_grid_cells(tree->axes, b->grid, points->position, sizeof *points / sizeof(double), count, cells);
     for (size_t i = 0; i < count; i++) {
         const bool unsure = cells[i] == GRID_UNSURE;
         const octree_status status = unsure ? check_position(tree, points[i].position) : OCTREE_OK;
         if (unsure && status == OCTREE_OK)
-            cells[i] = grid_cell(tree->axes, b->grid, points[i].position);
+            cells[i] = compute_grid_cell(tree->axes, b->grid, points[i].position);
         if (statuses)
             statuses[i] = status;
     }
@@ -118,8 +119,8 @@ static size_t append_grid_items(const batch *b, size_t first, size_t count, octr
         wanted += b->cells[i] != GRID_NONE && !(filter && filter[b->cells[i]]);
     if (wanted == 0)
         return 0;
-    morton_codes(b->tree->axes, moves ? b->to[place] : points->position, moves ? 3 : sizeof *points / sizeof(double),
-                 count, codes);
+    compute_morton_codes(b->tree->axes, moves ? b->to[place] : points->position,
+                         moves ? 3 : sizeof *points / sizeof(double), count, codes);
     for (size_t i = 0; made < wanted; i++) {
         if (b->cells[first + i] == GRID_NONE || (filter && filter[b->cells[first + i]]))
             continue;
@@ -204,7 +205,7 @@ static bool make_grid_children(filling *f, cell c, size_t index, node *made)
     for (unsigned octant = 0; octant < 8; octant++)
         octants |= bits_if(parts[octant] > 0, 1u << octant);
     const unsigned children = bits_count8(octants);
-    node *group = pool_take(&f->whole->store->nodes, children);
+    node *group = pool_allocate(&f->whole->store->nodes, children);
     *made = (node){.below = group, .count = f->counts[c.depth][index], .octants = (uint8_t)octants};
     if (!group)
         return false;
@@ -257,9 +258,8 @@ static void write_points_of_share(size_t number, void *context)
     const batch *b = f->whole;
     octree_point **next = f->next + number * cell_count_at(f->depth);
     const size_t first = share_start(f->count, f->tasks, number), end = share_start(f->count, f->tasks, number + 1);
-    const size_t middle = end < b->count     ? end
-                          : first < b->count ? b->count
-                                             : first; /* the end of the caller's points in this share */
+    /* The end of the caller's points in this share; the copies of stored points follow. */
+    const size_t middle = end < b->count ? end : first < b->count ? b->count : first;
     if (first < middle)
         write_points_to_leaves(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
     if (middle < end)
@@ -282,7 +282,7 @@ static bool build_crowds(filling *f)
 {
     batch *b = f->whole;
     const size_t size = 2 * f->crowded * sizeof(morton_item);
-    morton_item *items = size ? arena_take(&b->store->memory, size) : NULL;
+    morton_item *items = size ? arena_allocate(&b->store->memory, size) : NULL;
     if (!items)
         return size == 0;
     morton_item *rest = items;
@@ -291,7 +291,7 @@ static bool build_crowds(filling *f)
     morton_sort(items, items + f->crowded, make_grid_items(b, f->next, items), 0, 0);
     for (size_t i = 0; ok && i < f->crowds.count; rest += crowds[i++].count)
         ok = build_node(b, crowds[i].cell, (span){rest, crowds[i].count}, crowds[i].at);
-    arena_give(&b->store->memory, items, size);
+    arena_free(&b->store->memory, items, size);
     return ok;
 }
 
@@ -316,14 +316,14 @@ bool build_from_grid(batch *b, node *made)
 {
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
-    const size_t cells = cell_count_at(f.depth),
-                 most = f.count / cells + 1; /* so that the tables are not larger than the points */
+    const size_t cells = cell_count_at(f.depth);
+    const size_t most = f.count / cells + 1; /* with more tasks the tables would be larger than the points */
     f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
     const size_t size = (cell_count_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;
     const size_t next_size = f.tasks * cells * sizeof *f.next;
-    f.shares = arena_take(memory, size);
-    f.next = arena_take(memory, next_size);
+    f.shares = arena_allocate(memory, size);
+    f.next = arena_allocate(memory, next_size);
     bool ok = f.shares && f.next;
     if (ok) {
         memset(f.shares, 0, size);
@@ -334,7 +334,7 @@ bool build_from_grid(batch *b, node *made)
         ok = build_tree_from_counts(&f, made);
     }
     list_release(memory, &f.crowds, sizeof(crowd));
-    arena_give(memory, f.shares, size);
-    arena_give(memory, f.next, next_size);
+    arena_free(memory, f.shares, size);
+    arena_free(memory, f.next, next_size);
     return ok;
 }

@@ -43,7 +43,7 @@ static octree_point *create_hashed_block(arena *memory, uint32_t room)
     const uint64_t size = sizeof(hashed_header) + room * (uint64_t)sizeof(octree_point) + slots * sizeof(uint32_t);
     if (size > SIZE_MAX)
         return NULL;
-    hashed_header *header = arena_take(memory, (size_t)size);
+    hashed_header *header = arena_allocate(memory, (size_t)size);
     if (!header)
         return NULL;
     *header = (hashed_header){.room = room, .mask = (uint32_t)(slots - 1), .size = size};
@@ -54,7 +54,7 @@ static octree_point *create_hashed_block(arena *memory, uint32_t room)
 
 static void release_hashed_block(arena *memory, octree_point *points)
 {
-    arena_give(memory, hashed_header_of(points), (size_t)hashed_header_of(points)->size);
+    arena_free(memory, hashed_header_of(points), (size_t)hashed_header_of(points)->size);
 }
 
 /* The slot of a pair, or the empty one where the search ends. */
@@ -129,7 +129,7 @@ bool leaf_create(store *s, node *leaf, uint32_t count)
         leaf->room = LEAF_HASHED;
     } else {
         leaf->room = (uint8_t)leaf_block_room(count);
-        leaf->below = pool_take(&s->points, leaf->room);
+        leaf->below = pool_allocate(&s->points, leaf->room);
     }
     return leaf->below != NULL;
 }
@@ -141,7 +141,7 @@ void leaf_release(store *s, const node *leaf)
     if (is_hashed(leaf))
         release_hashed_block(&s->memory, leaf->below);
     else
-        pool_give(&s->points, leaf->below, leaf->room);
+        pool_free(&s->points, leaf->below, leaf->room);
 }
 
 static uint32_t current_room(const node *leaf)
@@ -198,15 +198,16 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
     if (is_hashed(leaf)) {
         remove_from_hashed(leaf->below, leaf->count, index);
         leaf->count--;
+        /* Without memory for a smaller block the leaf keeps its block. */
         if (leaf->count < hashed_header_of(leaf->below)->room / 4)
-            change_leaf_room(s, leaf, leaf->count); /* without memory the leaf keeps its room */
+            change_leaf_room(s, leaf, leaf->count);
         return;
     }
     octree_point *points = leaf_points(leaf);
     leaf->count--;
     points[index] = points[leaf->count];
     const unsigned room = leaf_block_room(leaf->count);
-    pool_give(&s->points, points + room, leaf->room - room);
+    pool_free(&s->points, points + room, leaf->room - room);
     leaf->room = (uint8_t)room;
     if (room == 0)
         leaf->below = NULL;
@@ -256,7 +257,7 @@ void node_release_unshared(store *s, const node *n, const node *other)
         const node *counterpart = child_at(other, octant);
         node_release_unshared(s, child++, counterpart ? counterpart : &none);
     }
-    pool_give(&s->nodes, n->below, bits_count8(n->octants));
+    pool_free(&s->nodes, n->below, bits_count8(n->octants));
 }
 
 void node_release(store *s, const node *n)

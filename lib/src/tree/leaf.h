@@ -60,7 +60,7 @@ static inline node *child_at(const node *n, unsigned octant)
 
 /* Start loading memory that will be read soon. Affects speed only. The empty assembly statement counts as a side
  * effect: without it GCC treats a function that only prefetches as pure and drops calls to it. */
-static inline void prefetch(const void *memory)
+static inline void prefetch_memory(const void *memory)
 {
 #if defined(__GNUC__)
     __builtin_prefetch(memory);
@@ -79,7 +79,16 @@ static inline void leaf_prefetch(const node *leaf)
     const uintptr_t points = (uintptr_t)leaf->below;
     for (uint32_t i = 0; i < leaf->count && i < POOL_MAX_UNITS; i += TOGETHER)
         for (uint32_t k = i; k < i + TOGETHER; k += A_LINE)
-            prefetch((const void *)(points + k * sizeof(octree_point)));
+            prefetch_memory((const void *)(points + k * sizeof(octree_point)));
+}
+
+/* Prefetch the children or the points of a node. */
+static inline void prefetch_node(const node *n)
+{
+    if (n->octants)
+        prefetch_memory(n->below);
+    else
+        leaf_prefetch(n);
 }
 
 /* The index of the pair (position, id), or LEAF_NONE. */

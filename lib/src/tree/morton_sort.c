@@ -39,7 +39,7 @@ static void insertion_sort(morton_item *items, size_t count)
     }
 }
 
-static bool contains_code(const morton_item *items, size_t count, uint64_t code)
+static bool has_code(const morton_item *items, size_t count, uint64_t code)
 {
     for (size_t i = 0; i < count; i++)
         if (items[i].code == code)
@@ -55,7 +55,7 @@ static bool has_equal_codes(const morton_item *items, size_t count)
     for (size_t i = 0; i < count; i++) {
         const unsigned hash = (unsigned)(items[i].code * UINT64_C(0x9e3779b97f4a7c15) >> 52);
         const uint64_t bit = UINT64_C(1) << hash % 64;
-        if ((filter[hash / 64] & bit) && contains_code(items, i, items[i].code))
+        if ((filter[hash / 64] & bit) && has_code(items, i, items[i].code))
             return true;
         filter[hash / 64] |= bit;
     }
@@ -227,7 +227,7 @@ static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, siz
     pass p = {.sorter = *s, .from = items, .to = other, .count = count, .left = left - LEVELS, .in_place = !in_place};
     p.tasks = count_tasks(s->tree, count);
     p.shift = 3 * p.left;
-    p.counts = arena_take(s->memory, p.tasks * sizeof *p.counts);
+    p.counts = arena_allocate(s->memory, p.tasks * sizeof *p.counts);
     if (!p.counts) {
         sort_on_this_thread(s, items, other, count, left, in_place);
         return;
@@ -235,7 +235,7 @@ static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, siz
     run_tasks(s->tree, count_digits, p.tasks, &p);
     sum_digit_counts(&p);
     run_tasks(s->tree, scatter_items_of_share, p.tasks, &p);
-    arena_give(s->memory, p.counts, p.tasks * sizeof *p.counts);
+    arena_free(s->memory, p.counts, p.tasks * sizeof *p.counts);
     assign_cells_to_tasks(&p);
     run_tasks(s->tree, sort_cells, p.tasks, &p);
     for (unsigned task = 0; task < p.tasks; task++)

@@ -164,8 +164,8 @@ bool simulate_moves_in_order(batch *b)
     store *s = &b->tree->store;
     const size_t count = 2 * b->valid.count + 1;
     const bool refuses = b->tree->def.full_leaf == OCTREE_REFUSE;
-    simulation r = {.batch = b, .pairs = arena_take(&s->memory, count * sizeof *r.pairs)};
-    r.counts = refuses ? arena_take(&s->memory, count * sizeof *r.counts) : NULL;
+    simulation r = {.batch = b, .pairs = arena_allocate(&s->memory, count * sizeof *r.pairs)};
+    r.counts = refuses ? arena_allocate(&s->memory, count * sizeof *r.counts) : NULL;
     const bool ok = r.pairs && (r.counts || !refuses) && count <= UINT32_MAX &&
                     leaf_create(s, &r.points, (uint32_t)count) &&
                     (!refuses || leaf_create(s, &r.cells, (uint32_t)count));
@@ -173,8 +173,8 @@ bool simulate_moves_in_order(batch *b)
         simulate_all_moves(&r);
     leaf_release(s, &r.points);
     leaf_release(s, &r.cells);
-    arena_give(&s->memory, r.pairs, count * sizeof *r.pairs);
-    arena_give(&s->memory, r.counts, count * sizeof *r.counts);
+    arena_free(&s->memory, r.pairs, count * sizeof *r.pairs);
+    arena_free(&s->memory, r.counts, count * sizeof *r.counts);
     return ok;
 }
 
@@ -192,7 +192,7 @@ static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arr
     const size_t sum = leaf->count + moved + arriving.count, room = 2 * sum * sizeof(morton_item);
     arena *memory = &b->store->memory;
     /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */
-    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(memory, room) : NULL;
+    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_allocate(memory, room) : NULL;
     if (!all)
         return true;
     for (uint32_t i = 0; i < leaf->count; i++)
@@ -204,7 +204,7 @@ static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arr
     bool crowded = false;
     for (size_t i = 0; !crowded && i + capacity < sum; i++)
         crowded = is_inseparable(b->tree, c, all + i, capacity + 1);
-    arena_give(memory, all, room);
+    arena_free(memory, all, room);
     return crowded;
 }
 

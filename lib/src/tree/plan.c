@@ -142,7 +142,7 @@ static void apply_leaf_edit(batch *b, const edit *e)
     while (taken < e->arriving.count)
         e->points[count++] = arriving_point(b, &e->arriving.items[taken++]);
     if (e->room_left < e->room)
-        pool_give(&b->store->points, e->points + e->room_left, e->room - e->room_left);
+        pool_free(&b->store->points, e->points + e->room_left, e->room - e->room_left);
 }
 
 static void apply_plan(batch *b)
@@ -234,7 +234,7 @@ octree_status rebuild_from_batch(batch *b)
 /* ---- Restructuring ------------------------------------------------------------------------------------------ */
 
 /* Make the plan. False when there is no memory; then only patches and edits remain, to be dropped. */
-static bool make_plan(batch *b)
+static bool plan_changes(batch *b)
 {
     octree *tree = b->tree;
     node made = {0};
@@ -248,7 +248,7 @@ static bool make_plan(batch *b)
     if (!ok)
         node_release_unshared(&tree->store, &made, &tree->root);
     combine_part_flags(b);
-    return ok && plan_patch(b, &tree->root, &made);
+    return ok && plan_replacement(b, &tree->root, &made);
 }
 
 octree_status restructure_tree(batch *b)
@@ -258,7 +258,7 @@ octree_status restructure_tree(batch *b)
     if (b->grid || (stored > 0 && b->leaving.count == stored && b->arriving.count == stored))
         return rebuild_from_batch(b);
     create_part_pools(b, b->arriving.count > b->leaving.count ? b->arriving.count - b->leaving.count : 0);
-    const bool ok = make_plan(b);
+    const bool ok = plan_changes(b);
     apply_or_drop_plan(b, ok && !(b->to && (b->duplicate || b->overflow)));
     join_part_pools(b);
     return ok ? OCTREE_OK : OCTREE_NO_MEMORY;

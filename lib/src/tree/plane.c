@@ -25,7 +25,7 @@ static void add_exactly(double a, double b, double sum[2])
 }
 
 /* The 31 most significant bits of a double; their product with the 22 bits of a key is exact. */
-static double high_bits(double value)
+static double high_31_bits(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -52,13 +52,14 @@ axis axis_make(double min, double max)
 {
     axis a = {.min = min, .max = max, .unit = 1, .keys_per_unit = (double)PLANE_GRID / (max - min)};
     a.subnormal = fabs(min) < SUBNORMAL_HALF && fabs(max) < SUBNORMAL_HALF;
+    /* Small coordinates are scaled, so that their halves are not subnormal. */
     if (fabs(min) < 0x1p-900 && fabs(max) < 0x1p-900)
-        a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100; /* scaled, so that halves are not subnormal */
+        a.unit = a.subnormal ? 0x1p-1074 : 0x1p-100;
     const double low = min / a.unit / 2, high = max / a.unit / 2;
     double half[2];
     add_exactly(high, low, a.center);
     add_exactly(high, -low, half);
-    a.half[0] = high_bits(half[0]);
+    a.half[0] = high_31_bits(half[0]);
     a.half[1] = half[0] - a.half[0];
     a.half[2] = half[1];
     a.guess_error = 0x1p-29 + 2 * (fmax(fabs(min), fabs(max)) * 0x1p-52 + 0x1p-1074) * a.keys_per_unit;
@@ -227,7 +228,7 @@ static inline void cells_of_two(const axis axes[3], unsigned depth, const double
 
 #endif
 
-void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes)
+void compute_morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes)
 {
     axis_pair pairs[3];
     uint64_t last[2];
@@ -240,8 +241,8 @@ void morton_codes(const axis axes[3], const double *positions, size_t stride, si
     }
 }
 
-void grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
-                uint32_t *cells)
+void compute_grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
+                        uint32_t *cells)
 {
     axis_pair pairs[3];
     uint32_t last[2];

@@ -140,18 +140,18 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
 
 /* The Morton codes of `count` positions, `stride` doubles apart. Positions without a certain code get MORTON_UNSURE;
  * call morton_code() for those that are in the world. */
-void morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
+void compute_morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
 
 /* The greatest depth of a grid: 2 million cells, numbered by the most significant bits of their codes. */
 #define GRID_DEEPEST 7
 #define GRID_UNSURE UINT32_MAX
 
-/* morton_codes() for the cells of a grid; GRID_UNSURE without a certain code. */
-void grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
-                uint32_t *cells);
+/* compute_morton_codes() for the cells of a grid; GRID_UNSURE without a certain code. */
+void compute_grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
+                        uint32_t *cells);
 
 /* The grid cell of one position of the world. */
-static inline uint32_t grid_cell(const axis axes[3], unsigned depth, const double position[3])
+static inline uint32_t compute_grid_cell(const axis axes[3], unsigned depth, const double position[3])
 {
     return (uint32_t)(morton_code(axes, position) >> 3 * (OCTREE_MAX_DEPTH - depth));
 }

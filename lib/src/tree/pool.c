@@ -67,7 +67,7 @@ static void unlock_owner(arena *a)
         arena_unlock(a->shared);
 }
 
-void *arena_take(arena *a, size_t size)
+void *arena_allocate(arena *a, size_t size)
 {
     arena *owner = lock_owner(a);
     void *memory = owner->allocator.allocate(size, owner->allocator.context);
@@ -76,7 +76,7 @@ void *arena_take(arena *a, size_t size)
     return memory;
 }
 
-void arena_give(arena *a, void *memory, size_t size)
+void arena_free(arena *a, void *memory, size_t size)
 {
     if (!memory)
         return;
@@ -95,7 +95,7 @@ void pool_release(pool *p)
 {
     for (struct slab *slab = p->slabs; slab;) {
         struct slab *next = slab->next;
-        arena_give(p->memory, slab, slab->size);
+        arena_free(p->memory, slab, slab->size);
         slab = next;
     }
     pool_init(p, p->memory, p->unit);
@@ -124,7 +124,7 @@ static void *take_first_free_block(pool *p, unsigned units)
     return block;
 }
 
-void pool_give(pool *p, void *block, unsigned units)
+void pool_free(pool *p, void *block, unsigned units)
 {
     p->freed_units += units;
     add_free_block(p, block, units);
@@ -157,7 +157,7 @@ enum { FEW_SLABS = 64 };
 /* All slabs sorted by address; null if there are few or there is no memory. */
 static struct slab **sort_slabs(pool *p)
 {
-    struct slab **sorted = p->slab_count > FEW_SLABS ? arena_take(p->memory, p->slab_count * sizeof *sorted) : NULL;
+    struct slab **sorted = p->slab_count > FEW_SLABS ? arena_allocate(p->memory, p->slab_count * sizeof *sorted) : NULL;
     size_t count = 0;
     for (struct slab *slab = p->slabs; sorted && slab; slab = slab->next)
         sorted[count++] = slab;
@@ -240,7 +240,7 @@ static void join_free_blocks(pool *p)
     for (struct slab *slab = p->slabs; slab; slab = slab->next)
         add_free_runs(p, slab);
     p->freed_units = 0;
-    arena_give(p->memory, sorted, p->slab_count * sizeof *sorted);
+    arena_free(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
 /* A new slab is an eighth of the pool, so that at most an eighth is unused. The first slab of a task's pool has the
@@ -259,11 +259,11 @@ static bool add_slab(pool *p)
     const size_t units = next_slab_bytes(p) / p->unit;
     const size_t header = sizeof(struct slab) + bit_words_for(units) * sizeof(uint64_t);
     const size_t size = header + CACHE_LINE + units * p->unit;
-    struct slab *slab = arena_take(p->memory, size);
+    struct slab *slab = arena_allocate(p->memory, size);
     if (!slab)
         return false;
-    add_free_block(p, p->fresh,
-                   (unsigned)p->fresh_units); /* fewer than POOL_MAX_UNITS, otherwise no slab would be needed */
+    /* The unused units are fewer than POOL_MAX_UNITS, otherwise no slab would be needed. */
+    add_free_block(p, p->fresh, (unsigned)p->fresh_units);
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
     *slab =
@@ -303,7 +303,7 @@ static void *borrow_block(pool *p, unsigned units)
     return block;
 }
 
-void *pool_take(pool *p, unsigned units)
+void *pool_allocate(pool *p, unsigned units)
 {
     void *block = take_free_block(p, units);
     if (!block && p->borrows) {
@@ -391,12 +391,12 @@ void *list_append(arena *memory, list *l, size_t item_size)
 {
     if (l->count == l->room) {
         const size_t room = l->room ? 2 * l->room : 16;
-        void *items = arena_take(memory, room * item_size); /* no overflow: no allocation exceeds PTRDIFF_MAX */
+        void *items = arena_allocate(memory, room * item_size); /* no overflow: no allocation exceeds PTRDIFF_MAX */
         if (!items)
             return NULL;
         if (l->count)
             memcpy(items, l->items, l->count * item_size);
-        arena_give(memory, l->items, l->room * item_size);
+        arena_free(memory, l->items, l->room * item_size);
         l->items = items;
         l->room = room;
     }
@@ -405,7 +405,7 @@ void *list_append(arena *memory, list *l, size_t item_size)
 
 void list_release(arena *memory, list *l, size_t item_size)
 {
-    arena_give(memory, l->items, l->room * item_size);
+    arena_free(memory, l->items, l->room * item_size);
     *l = (list){0};
 }
 

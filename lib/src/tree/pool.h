@@ -39,8 +39,8 @@ static inline void arena_unlock(arena *a)
 octree_allocator default_allocator(void);
 
 /* Allocate memory; null when there is none. Release it with the same size; null is allowed. */
-void *arena_take(arena *a, size_t size);
-void arena_give(arena *a, void *memory, size_t size);
+void *arena_allocate(arena *a, size_t size);
+void arena_free(arena *a, void *memory, size_t size);
 
 typedef struct pool {
     arena *memory;
@@ -64,10 +64,10 @@ void pool_init(pool *p, arena *memory, size_t unit);
 void pool_release(pool *p);
 
 /* Allocate a block of 1..POOL_MAX_UNITS units; null when there is no memory. */
-void *pool_take(pool *p, unsigned units);
+void *pool_allocate(pool *p, unsigned units);
 
 /* Free a block, or any run of units within a block. */
-void pool_give(pool *p, void *block, unsigned units);
+void pool_free(pool *p, void *block, unsigned units);
 
 /* Make a pool for a task. If much of the tree's pool is free, the task borrows blocks from it before it grows; the
  * total memory then depends slightly on the order of tasks. Fixed shares would not, but when points always arrive in

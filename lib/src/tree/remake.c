@@ -86,9 +86,9 @@ static size_t bit_map_size(const id_table *t)
 
 static void release_id_table(arena *memory, id_table *t)
 {
-    arena_give(memory, (void *)t->stored, t->stored_count * sizeof *t->stored);
-    arena_give(memory, t->bits, bit_map_size(t));
-    arena_give(memory, t->places, t->slot_count * sizeof *t->places);
+    arena_free(memory, (void *)t->stored, t->stored_count * sizeof *t->stored);
+    arena_free(memory, t->bits, bit_map_size(t));
+    arena_free(memory, t->places, t->slot_count * sizeof *t->places);
     *t = (id_table){0};
 }
 
@@ -112,7 +112,7 @@ static bool set_id_bits(const batch *b, id_table *t, bool *differ)
 }
 
 /* Enter all ids into the hash table. False if two are equal. */
-static bool hash_ids(const batch *b, id_table *t)
+static bool enter_ids_by_hash(const batch *b, id_table *t)
 {
     for (size_t i = 0; i < b->count; i++) {
         const size_t slot = find_id_slot(t, b->points, b->points[i].id);
@@ -127,12 +127,12 @@ static bool hash_ids(const batch *b, id_table *t)
  * around the first one. False when there is no memory. *differ becomes false if two ids are equal; the table is then
  * unusable.
  */
-static bool enter_ids(const batch *b, id_table *t, size_t reach, bool *differ)
+static bool fill_id_table(const batch *b, id_table *t, size_t reach, bool *differ)
 {
     arena *memory = &b->tree->store.memory;
     t->least = b->points[0].id - reach / 2 * b->count; /* modulo 2^64 */
     t->slot_count = reach * b->count;
-    t->bits = arena_take(memory, bit_map_size(t));
+    t->bits = arena_allocate(memory, bit_map_size(t));
     if (!t->bits)
         return false;
     memset(t->bits, 0, bit_map_size(t));
@@ -143,11 +143,11 @@ static bool enter_ids(const batch *b, id_table *t, size_t reach, bool *differ)
     t->slot_count = 64;
     while (t->slot_count < 2 * b->count)
         t->slot_count *= 2;
-    t->places = arena_take(memory, t->slot_count * sizeof *t->places);
+    t->places = arena_allocate(memory, t->slot_count * sizeof *t->places);
     if (!t->places)
         return false;
     memset(t->places, 0, t->slot_count * sizeof *t->places);
-    *differ = hash_ids(b, t);
+    *differ = enter_ids_by_hash(b, t);
     t->stored_count = t->slot_count;
     return true;
 }
@@ -156,7 +156,7 @@ bool check_ids_differ(const batch *b, bool *differ)
 {
     id_table t = {0};
     *differ = ids_ascend(b);
-    const bool ok = *differ || enter_ids(b, &t, 64, differ);
+    const bool ok = *differ || fill_id_table(b, &t, 64, differ);
     release_id_table(&b->tree->store.memory, &t);
     return ok;
 }
@@ -164,11 +164,11 @@ bool check_ids_differ(const batch *b, bool *differ)
 /* Make the table of all moves. False when there is no memory. *differ becomes false if two moves have the same id. */
 static bool make_move_table(const batch *b, id_table *t, bool *differ)
 {
-    if (!enter_ids(b, t, 8, differ))
+    if (!fill_id_table(b, t, 8, differ))
         return false;
     if (!*differ)
         return true;
-    t->stored = arena_take(&b->tree->store.memory, t->stored_count * sizeof *t->stored);
+    t->stored = arena_allocate(&b->tree->store.memory, t->stored_count * sizeof *t->stored);
     if (t->stored)
         memset((void *)t->stored, 0, t->stored_count * sizeof *t->stored);
     return t->stored != NULL;
@@ -243,7 +243,7 @@ static bool is_valid_move(const remake *r, size_t place, const octree_point *sto
         return true;
     if (check_in_world(b->tree, b->to[place]) != OCTREE_OK)
         return false;
-    *to = b->grid ? grid_cell(b->tree->axes, b->grid, b->to[place]) : 0;
+    *to = b->grid ? compute_grid_cell(b->tree->axes, b->grid, b->to[place]) : 0;
     return true;
 }
 
@@ -256,12 +256,12 @@ static void check_move_group(const remake *r, size_t first, size_t count, findin
         stored[i] =
             atomic_load_explicit(find_stored_entry(&r->ids, b->points, b->points[first + i].id), memory_order_relaxed);
         if (stored[i])
-            prefetch(stored[i]);
+            prefetch_memory(stored[i]);
     }
     if (b->grid)
-        grid_cells(b->tree->axes, b->grid, b->to[first], 3, count, r->cells + first);
+        compute_grid_cells(b->tree->axes, b->grid, b->to[first], 3, count, r->cells + first);
     else
-        memset(r->cells + first, 0xff, count * sizeof *r->cells); /* GRID_NONE */
+        memset(r->cells + first, 0xff, count * sizeof *r->cells); /* sets all to GRID_NONE */
     for (size_t i = 0; i < count; i++) {
         const size_t place = first + i;
         const bool made = is_valid_move(r, place, stored[i], &r->cells[place]);
@@ -307,13 +307,13 @@ static octree_status sort_and_build(batch *b, size_t total)
 {
     arena *memory = &b->store->memory;
     const size_t unsorted = b->tree->def.full_leaf == OCTREE_REFUSE ? 0 : unsorted_limit(b->tree);
-    morton_item *lists = arena_take(memory, 2 * total * sizeof *lists);
+    morton_item *lists = arena_allocate(memory, 2 * total * sizeof *lists);
     if (!lists)
         return OCTREE_NO_MEMORY;
     b->arriving = (span){lists, make_grid_items(b, NULL, lists)};
     morton_sort_tasks(b->tree, memory, lists, lists + total, total, unsorted, true);
     const octree_status status = rebuild_from_batch(b);
-    arena_give(memory, lists, 2 * total * sizeof *lists);
+    arena_free(memory, lists, 2 * total * sizeof *lists);
     return status;
 }
 
@@ -365,7 +365,7 @@ octree_status remake_tree(batch *b, bool *settled)
 {
     arena *memory = &b->store->memory;
     const size_t stored = b->tree->root.count, cells = (b->count + stored) * sizeof(uint32_t);
-    remake *r = arena_take(memory, sizeof *r);
+    remake *r = arena_allocate(memory, sizeof *r);
     octree_status status = OCTREE_NO_MEMORY;
     *settled = true;
     if (!r)
@@ -373,14 +373,14 @@ octree_status remake_tree(batch *b, bool *settled)
     r->whole = b;
     r->count = b->count;
     r->ids = (id_table){0};
-    r->staying = arena_take(memory, stored * sizeof *r->staying);
-    r->cells = arena_take(memory, cells);
+    r->staying = arena_allocate(memory, stored * sizeof *r->staying);
+    r->cells = arena_allocate(memory, cells);
     if (r->staying && r->cells)
         status = check_moves_and_build(r, settled);
     b->grid = 0;
-    arena_give(memory, r->staying, stored * sizeof *r->staying);
-    arena_give(memory, r->cells, cells);
+    arena_free(memory, r->staying, stored * sizeof *r->staying);
+    arena_free(memory, r->cells, cells);
     release_id_table(memory, &r->ids);
-    arena_give(memory, r, sizeof *r);
+    arena_free(memory, r, sizeof *r);
     return status;
 }

@@ -86,7 +86,7 @@ static bool make_leaf_of_items(batch *b, span items, node *made)
         if (item->index == MORTON_NEW)
             prefetch_item(b, item);
         else
-            prefetch(&b->stored[item->index]);
+            prefetch_memory(&b->stored[item->index]);
     }
     for (size_t i = 0; i < taken; i++) {
         const octree_point point = point_of_item(b, &items.items[i]);
@@ -175,7 +175,7 @@ static bool build_children(batch *b, cell c, span items, node *made)
 {
     span shares[8];
     const unsigned octants = divide_items_by_octant(items, c.depth, shares), children = bits_count8(octants);
-    node *group = pool_take(&b->store->nodes, children);
+    node *group = pool_allocate(&b->store->nodes, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
         return false;
@@ -196,7 +196,7 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
     /* unreachable: size_t has 64 bits, and leaves and batches have at most UINT32_MAX points */
-    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_take(&b->store->memory, room) : NULL;
+    morton_item *all = sum <= SIZE_MAX / 2 / sizeof *all ? arena_allocate(&b->store->memory, room) : NULL;
     if (!all)
         return false;
     size_t count = 0;
@@ -214,7 +214,7 @@ static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span ar
         morton_sort(all, all + sum, sum, c.depth, unsorted_limit(b->tree));
     b->stored = leaf_points(old);
     const bool ok = build_node_by_tasks(b, c, (span){all, sum}, made);
-    arena_give(&b->store->memory, all, room);
+    arena_free(&b->store->memory, all, room);
     return ok;
 }
 
@@ -300,7 +300,7 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
     return true;
 }
 
-bool plan_patch(batch *b, node *at, const node *made)
+bool plan_replacement(batch *b, node *at, const node *made)
 {
     if (at->below == made->below && at->count == made->count) /* equal blocks imply equal octants and room */
         return true;
@@ -324,7 +324,7 @@ static bool change_child(batch *b, const node *old, cell c, unsigned octant, con
         return ok;
     if (!ok)
         node_release_unshared(b->store, &successor, child);
-    return ok && plan_patch(b, child, &successor);
+    return ok && plan_replacement(b, child, &successor);
 }
 
 /* Change some children of a node whose set of octants stays the same. */
@@ -368,7 +368,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     if (octants == old->octants)
         return change_same_children(b, old, c, out, in, made);
     const unsigned children = bits_count8(octants);
-    node *group = pool_take(&b->store->nodes, children);
+    node *group = pool_allocate(&b->store->nodes, children);
     *made = (node){.below = group, .octants = (uint8_t)octants};
     if (!group)
         return false;

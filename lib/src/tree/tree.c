@@ -40,8 +40,9 @@ static octree_status check_definition(const octree_def *def)
 
 static octree_def clamp_definition(octree_def def)
 {
+    /* The capacity until the tree has points. */
     if (def.leaf_capacity == OCTREE_AUTO)
-        def.leaf_capacity = octree_def_default().leaf_capacity; /* until the tree has points */
+        def.leaf_capacity = octree_def_default().leaf_capacity;
     if (def.leaf_capacity > UINT32_MAX)
         def.leaf_capacity = UINT32_MAX;
     if (def.max_depth > OCTREE_MAX_DEPTH)
@@ -62,7 +63,7 @@ octree_status octree_create(const octree_def *def, octree **tree)
     if (status != OCTREE_OK)
         return status;
     arena memory = {.allocator = clamp_definition(*def).allocator};
-    octree *made = arena_take(&memory, sizeof *made);
+    octree *made = arena_allocate(&memory, sizeof *made);
     if (!made)
         return OCTREE_NO_MEMORY;
     *made = (octree){.def = clamp_definition(*def), .store.memory = memory, .scale = metric_scale(&def->world)};
@@ -82,7 +83,7 @@ void octree_destroy(octree *tree)
         return;
     octree_clear(tree);
     arena memory = tree->store.memory;
-    arena_give(&memory, tree, sizeof *tree);
+    arena_free(&memory, tree, sizeof *tree);
 }
 
 octree_status octree_clear(octree *tree)
@@ -155,13 +156,13 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     if (status != OCTREE_OK)
         return status;
     const size_t count = octree_count(tree), size = (count + 1) * sizeof(octree_point);
-    octree_point *points = arena_take(&other->store.memory, size);
+    octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
     }
-    arena_give(&other->store.memory, points, size);
+    arena_free(&other->store.memory, points, size);
     if (status == OCTREE_OK)
         swap_contents(tree, other);
     octree_destroy(other);
@@ -192,7 +193,7 @@ octree_status check_position(const octree *tree, const double position[3])
         return OCTREE_FLOAT_MODE;
     if (box_contains(&tree->def.world, position))
         return OCTREE_OK;
-    return is_finite(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
+    return is_finite_position(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
 }
 
 path find_path(const octree *tree, uint64_t code)

@@ -83,13 +83,13 @@ static bool make_sample(sample *s, octree *tree)
 {
     const size_t count = octree_count(tree), cell = choose_cell_points(&s->mix);
     s->room = count < 2 * MOST_CELL ? count : 2 * MOST_CELL;
-    s->points = arena_take(&tree->store.memory, s->room * sizeof *s->points);
+    s->points = arena_allocate(&tree->store.memory, s->room * sizeof *s->points);
     if (!s->points)
         return false;
     octree_walk(tree, copy_selected_cell,
                 &(cell_picker){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
-    qsort(s->points, s->count, sizeof *s->points,
-          octree_compare_points); /* makes the sample independent of the order in leaves */
+    /* makes the sample independent of the order in leaves */
+    qsort(s->points, s->count, sizeof *s->points, octree_compare_points);
     return true;
 }
 
@@ -238,11 +238,11 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
-    s.neighbors = arena_take(memory, size);
+    s.neighbors = arena_allocate(memory, size);
     const bool ok = make_sample(&s, tree) && s.neighbors;
     const octree_status status = ok ? choose_capacity(&s, tree->def, capacity) : OCTREE_NO_MEMORY;
-    arena_give(memory, s.neighbors, size);
-    arena_give(memory, s.points, s.room * sizeof *s.points);
+    arena_free(memory, s.neighbors, size);
+    arena_free(memory, s.points, s.room * sizeof *s.points);
     return status;
 }
 

@@ -28,13 +28,8 @@ typedef struct walk {
 static void prefetch_children(const node *n)
 {
     const unsigned children = bits_count8(n->octants);
-    for (unsigned i = 0; i < children; i++) {
-        const node *child = &children_of(n)[i];
-        if (child->octants)
-            prefetch(child->below);
-        else
-            leaf_prefetch(child);
-    }
+    for (unsigned i = 0; i < children; i++)
+        prefetch_node(&children_of(n)[i]);
 }
 
 /* The splitting planes of a cell. */
@@ -140,7 +135,7 @@ static const char *check_inner_node(const octree *tree, const node *n, cell c)
 
 /* The closed box in which the points of a leaf lie. A cell excludes its upper planes, except the world's maximum faces.
  */
-static octree_box points_box(octree_box box, cell c)
+static octree_box box_of_leaf_points(octree_box box, cell c)
 {
     for (int i = 0; i < 3; i++)
         if (c.low[i] + cell_size(c.depth) != PLANE_GRID)
@@ -149,7 +144,7 @@ static octree_box points_box(octree_box box, cell c)
 }
 
 /* Whether a leaf holds a point again before its own index. Ids are compared first, because they usually differ. */
-static bool is_repeated(const node *n, uint32_t index)
+static bool is_stored_twice(const node *n, uint32_t index)
 {
     const octree_point *points = leaf_points(n), *point = &points[index];
     if (n->room == LEAF_HASHED)
@@ -162,7 +157,7 @@ static bool is_repeated(const node *n, uint32_t index)
 
 static const char *check_leaf(const octree *tree, const node *n, cell c, const octree_box *bounds)
 {
-    const octree_box box = points_box(*bounds, c);
+    const octree_box box = box_of_leaf_points(*bounds, c);
     if (!fits_leaf(tree, n->count) && can_split(tree, c))
         return "a leaf that could split is over its capacity";
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)
@@ -172,7 +167,7 @@ static const char *check_leaf(const octree *tree, const node *n, cell c, const o
         if (!box_contains(&box, position))
             return box_contains(&tree->def.world, position) ? "a point is not in its leaf's cell"
                                                             : "a point is outside the world";
-        if (is_repeated(n, i))
+        if (is_stored_twice(n, i))
             return "a pair of position and id is stored twice";
     }
     return NULL;

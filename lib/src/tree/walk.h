@@ -10,7 +10,7 @@
 static inline void prefetch_below(const node *n)
 {
     for (unsigned i = bits_count8(n->octants); i-- > 0;)
-        prefetch(children_of(n)[i].below);
+        prefetch_memory(children_of(n)[i].below);
 }
 
 /* Add one node to the statistics. */
