@@ -12,13 +12,13 @@ enum { FRAME_QUERIES = 1000, FRAME_HITS = 10 };
 
 typedef enum manner { AT_ONCE, SINGLY, ANEW } manner;
 
-/* The points that change, from and to, and all points before and after. */
+/* The points that change, with their positions before and after the tick, and all points before and after it. */
 typedef struct ticks {
     octree_point *from, *to;      /* `count` of them */
-    octree_point *before, *after; /* all, in the order of the workload's */
-    double (*places[2])[3];       /* of `from` and of `to` */
+    octree_point *before, *after; /* all points, in the order of the workload */
+    double (*places[2])[3];       /* positions of `from` and of `to` */
     size_t count;
-    bool back; /* the next tick moves what moved back */
+    bool back; /* the next tick moves the points back */
 } ticks;
 
 static void ticks_free(ticks *t)
@@ -48,7 +48,7 @@ static bool ticks_make(ticks *t, const workload *w, size_t percent)
     for (size_t i = 0; i < t->count; i++) {
         t->from[i] = w->picks[i];
         t->to[i] = workload_step(w, &w->picks[i], &random);
-        t->after[t->to[i].id] = t->to[i]; /* ids are places */
+        t->after[t->to[i].id] = t->to[i]; /* ids are indices */
         memcpy(t->places[0][i], t->from[i].position, sizeof t->places[0][i]);
         memcpy(t->places[1][i], t->to[i].position, sizeof t->places[1][i]);
     }
@@ -71,7 +71,7 @@ static double change(contender *c, manner how, batch_kind kind, const ticks *t)
     return done == t->count ? time / (double)t->count : NAN;
 }
 
-/* Both are done in every round; the one that is asked for is told. */
+/* Every round does both; the time of the requested one is returned. */
 static bool change_in_rounds(contender *c, manner how, batch_kind kind, const ticks *t, int round)
 {
     const double removal = change(c, how, BATCH_REMOVE, t), insertion = change(c, how, BATCH_INSERT, t);

@@ -74,7 +74,7 @@ static void take_op(void *to, const char *entry)
     o->ops[i] = true;
 }
 
-/* What no option named is all of it. */
+/* Without options, everything is measured. */
 static void fill_defaults(options *o)
 {
     static const size_t counts[] = {10000, 100000, 1000000};

@@ -18,7 +18,7 @@ const char program_name[] = "octreel-diff-bench";
 
 enum { ROUNDS_AT_MOST = 99, ARGUMENTS = 24, PATH_ROOM = 512 };
 
-/* Who compares, and what says "different" in its exit status. */
+/* A program that compares, and the exit status by which it says "different". */
 typedef struct contender {
     const char *name, *program;
     const char *before[4], *behind[2]; /* arguments before the two files, and behind them */
@@ -87,7 +87,7 @@ static bool copy(const bench *b, const char *from, const char *to)
     return run_quietly(argv);
 }
 
-/* 32 levels of green on colours that lie on every line: the background's. */
+/* Shift the background, which is on every line, by 32 levels of green. */
 static bool shift_palette(const bench *b, const char *from, const char *to)
 {
     char source[PATH_ROOM], target[PATH_ROOM];
@@ -133,7 +133,7 @@ static void run_once(contender *c, const char *x, const char *y, int round)
     c->status = run.status;
 }
 
-/* One line: what was compared, and each contender's time and verdict; octreel's must be the right one. */
+/* Print one line: the compared pictures, and the time and verdict of each program. Octreel's verdict must be right. */
 static void compare(bench *b, const char *what, const char *x, const char *y, bool differs, unsigned who)
 {
     char of_x[PATH_ROOM], of_y[PATH_ROOM];
@@ -180,7 +180,7 @@ static bool compare_pairs(bench *b, const char *size, const char *aa)
     return true;
 }
 
-/* All frames of the default session, three of them replaced; and these three by themselves. */
+/* Compare all frames of the default session, three of them replaced; then only these three. */
 static bool compare_folders(bench *b)
 {
     static const char *const pairs[][2] = {

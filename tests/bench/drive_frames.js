@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_frames.js - times the page that it is behind of, FRAMES of its ticks long, and says what it found in one line
- * of the console. */
+/* drive_frames.js - runs behind a page, times FRAMES of its ticks, and prints the results in a line of the console. */
 
 const SCRUBS = Math.min(FRAMES, 30);
 const {interaction} = octreel;
 
 const rest = ms => new Promise(done => setTimeout(done, ms));
 
-/* The browser's own start is not the page's: the page is timed when it is loaded once more. */
+/* The page is timed when it is loaded a second time, without the start of the browser. */
 async function loadAgain()
 {
     if (sessionStorage.getItem("again"))
@@ -18,7 +17,7 @@ async function loadAgain()
     await new Promise(() => {});
 }
 
-/* As the slider does: the picture, the facts and the marks. */
+/* Show a tick as the slider does: picture, facts and marks. */
 async function show(tick)
 {
     octreel.goTo(tick);
@@ -27,7 +26,7 @@ async function show(tick)
     while (interaction.player.engine.tick !== tick);
 }
 
-/* Milliseconds a frame, ticks in order, with all that the browser does until it takes the next. */
+/* Milliseconds per frame, for ticks in order, with all work of the browser. */
 async function timeFrames()
 {
     const {length} = interaction.player, start = performance.now();
@@ -36,7 +35,7 @@ async function timeFrames()
     return (performance.now() - start) / FRAMES;
 }
 
-/* Milliseconds until a frame is drawn and given to the browser. */
+/* Milliseconds to draw a frame and pass it to the browser. */
 async function timeDrawing()
 {
     const {player, live} = interaction, start = performance.now();
@@ -47,7 +46,7 @@ async function timeDrawing()
     return (performance.now() - start) / FRAMES;
 }
 
-/* The longest way to a tick at random, once the page has played ahead. */
+/* The longest time to reach a random tick after the page has played ahead. */
 async function timeScrubbing()
 {
     const {player} = interaction;
@@ -63,7 +62,7 @@ async function timeScrubbing()
     return longest;
 }
 
-/* The browser counts buffers as JavaScript's, but not the memories of modules. */
+/* The browser's count of JavaScript memory includes buffers, but not the memories of modules. */
 function countMemory()
 {
     const {engine, scout} = interaction.player;

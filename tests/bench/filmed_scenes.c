@@ -38,7 +38,7 @@ view filmed_whole_view(const filmed_scene *scene)
     return v;
 }
 
-/* Every key that a session has, again and again, without the one that ends it. */
+/* Repeat all keys of a session except q, which ends it. */
 static char *repeat_keys(const char *keys, uint64_t count)
 {
     char *repeated = calloc(count + 1, 1);
@@ -80,7 +80,7 @@ static void ask(octree_query *queries, size_t count, size_t asked, const octree_
     }
 }
 
-/* The ids of an answer into `ids`, where that is not null; their number. */
+/* Store the ids of an answer in `ids`, unless that is null. Returns their number. */
 static size_t ids_of(const octree_answer *answer, uint64_t *ids)
 {
     for (size_t i = 0; ids && i < answer->count; i++)
@@ -88,8 +88,8 @@ static size_t ids_of(const octree_answer *answer, uint64_t *ids)
     return answer->count;
 }
 
-/* Play the session without answers. What the game says is what the program answers: its ids go to `ids`; null: they are
- * counted. */
+/* Play the session without answers, and use the game's answers as those of the program: the ids go to `ids`; null: they
+ * are only counted. */
 static bool play_answers(filmed_session *made, uint64_t *ids, size_t *count)
 {
     octree_game *game;

@@ -29,19 +29,19 @@ static double now(void)
     return read_clock(CLOCK_MONOTONIC);
 }
 
-/* What this process, which has one thread, has had of a processor: whatever else the machine does meanwhile. */
+/* The processor time of this process, which has one thread, independent of the load of the machine. */
 static double worked(void)
 {
     return read_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-/* A filming under way, in its own process. */
+/* The state of a recording in its own process. */
 typedef struct work {
     const filming_order *order;
     filming *result;
-    double started; /* before there was this process */
-    double begun;   /* when the frames that are counted began */
-    uint64_t apart; /* frames that are start-up: one a process */
+    double started; /* time before the process was started */
+    double begun;   /* time when the first counted frame began */
+    uint64_t apart; /* number of start-up frames, one per process */
     octree_session *session;
 } work;
 
@@ -86,7 +86,7 @@ static bool film_octreel(work *w)
     return true;
 }
 
-/* One frame, and how long its parts take; the second encoding is that of pixels which somebody knows. */
+/* Record one frame and time its parts. The second encoding is of pixels that are in the cache. */
 static bool film_part(work *w, playback *p, const char *again, double spent[3])
 {
     film_step step;

@@ -7,12 +7,12 @@
 
 typedef enum filming_who {
     FILM_NAIVE,    /* see naive.h: one process, one thread */
-    FILM_OCTREEL,  /* film_session(), by as many processes as asked for */
-    FILM_PARTS,    /* what Octreel does for a frame, part by part: one process */
-    FILM_CHECKED,  /* the same, where OSMesa also draws the first, every 100th and the last frame */
-    FILM_ASKED,    /* the same, with the scene's queries */
-    FILM_ANSWERED, /* which a program has answered */
-    FILM_PAGE,     /* the page of a recording, see page_timing.h: frames are drawn, and none is written */
+    FILM_OCTREEL,  /* film_session(), with `jobs` processes */
+    FILM_PARTS,    /* the parts of a frame one after the other: one process */
+    FILM_CHECKED,  /* FILM_PARTS, with the checks of --fill checked */
+    FILM_ASKED,    /* FILM_PARTS, with the scene's queries */
+    FILM_ANSWERED, /* FILM_ASKED, with the answers of a program */
+    FILM_PAGE,     /* the page of a recording, see page_timing.h: frames are drawn, but not written */
     FILM_KINDS
 } filming_who;
 
@@ -20,24 +20,24 @@ typedef struct filming_order {
     const filmed_scene *scene;
     filming_who who;
     uint64_t frames;
-    unsigned jobs;       /* of FILM_OCTREEL */
-    const char *folder;  /* where there is room for frames; what is put there is removed again */
-    const char *browser; /* of FILM_PAGE */
+    unsigned jobs;       /* number of processes of FILM_OCTREEL */
+    const char *folder;  /* folder for the frames, which are removed again */
+    const char *browser; /* the browser of FILM_PAGE */
 } filming_order;
 
-/* Milliseconds; what a kind does not measure is 0. */
+/* Milliseconds; 0: not measured by this kind. */
 typedef struct filming {
     double first_ms;           /* from the start of the process until its first frame is written; of FILM_CHECKED: the
                                   processor time of the first frame, in which Mesa is loaded */
-    double frame_ms;           /* a frame, by the clock on the wall, start-up apart; in parts: of a processor */
-    double draw_ms, encode_ms; /* of a processor, the two parts of a frame: all up to its pixels, and its file */
-    double floor_ms;           /* of a processor: what the encoder alone takes for these pixels */
-    double mib;                /* the most memory of the process, or of the largest where there are several */
-    double scrub_ms, page_kb;  /* of a page: see page_timing.h */
-    char trouble[512];         /* why it failed; "" when it did not */
+    double frame_ms;           /* wall-clock time of a frame without start-up; of FILM_PARTS: processor time */
+    double draw_ms, encode_ms; /* processor time of the two parts of a frame: until its pixels, and its file */
+    double floor_ms;           /* processor time of the encoder alone for these pixels */
+    double mib;                /* peak memory of the process, or of the largest one */
+    double scrub_ms, page_kb;  /* see page_timing.h */
+    char trouble[512];         /* reason of a failure; "" if there is none */
 } filming;
 
-/* False with filming.trouble. */
+/* False: failed, see filming.trouble. */
 bool film_scene(const filming_order *order, filming *result);
 
 #endif

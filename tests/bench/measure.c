@@ -16,7 +16,7 @@ static void tell_medians(lineup *l, int rounds)
         l->of[i].ns = median(l->of[i].round_ns, (size_t)rounds);
 }
 
-/* Peers measure distances in rounded doubles. */
+/* Peers compute distances in doubles, with rounding errors. */
 static bool alike(const peer_answer *a, const peer_answer *b)
 {
     return a->count == b->count && a->ids == b->ids &&
@@ -39,7 +39,7 @@ outcome measure_compare(const lineup *l, int i, const char *op, const workload *
     return MEASURED;
 }
 
-/* After a change every tree is asked for the points about some targets. */
+/* After a change, compare the points around some targets in every tree. */
 static outcome probe(const lineup *l, int i, const char *op, const workload *w, peer_answer (*answers)[PROBES])
 {
     const size_t count = w->query_count < PROBES ? w->query_count : PROBES;
@@ -56,7 +56,7 @@ static outcome check_done(const contender *c, const char *op, size_t done, size_
     return UNLIKE;
 }
 
-/* What was removed is inserted again; what was moved moves back. */
+/* Undo changes: insert removed points again, and move points back. */
 static size_t undo(const contender *c, const changes *asked)
 {
     return asked->kind == PEER_MOVE ? c->peer->change[PEER_MOVE](c->self, asked->to, asked->points, asked->count)

@@ -13,13 +13,13 @@ typedef struct contender {
     const peer *peer;
     void *self;
     peer_ask ask;  /* null for changes */
-    size_t points; /* in the tree, before and after the operation */
-    double ns;     /* an operation: the median of the rounds */
-    size_t memory; /* bytes, with these points */
+    size_t points; /* number of points in the tree, before and after the operation */
+    double ns;     /* time of an operation: the median of the rounds */
+    size_t memory; /* bytes of the tree with these points */
     double round_ns[ROUNDS_AT_MOST];
 } contender;
 
-/* The contenders of an operation; the first is the one that the others are compared with. */
+/* The contenders of an operation; the others are compared with the first. */
 typedef struct lineup {
     contender of[RIVALS_AT_MOST];
     int count;
@@ -27,11 +27,11 @@ typedef struct lineup {
 
 typedef enum outcome { MEASURED, UNLIKE, OUT_OF_MEMORY } outcome;
 
-/* Changes to time. A tree is made anew by PEER_BUILD and PEER_INSERT; after the others it is put back as it was. */
+/* Changes to time. PEER_BUILD and PEER_INSERT make the tree anew; after other changes the tree is restored. */
 typedef struct changes {
-    const char *op; /* its name, for messages */
+    const char *op; /* name of the operation in messages */
     peer_change_kind kind;
-    const octree_point *points, *to; /* `to` is read by moves alone */
+    const octree_point *points, *to; /* `to` is only used by moves */
     size_t count;
 } changes;
 
@@ -41,11 +41,11 @@ typedef struct questions {
     size_t count;
 } questions;
 
-/* Compare answers with those of the first contender. UNLIKE has said on stderr what differs. */
+/* Compare answers with those of the first contender. UNLIKE: stderr says what differs. */
 outcome measure_compare(const lineup *l, int i, const char *op, const workload *w, size_t count,
                         const peer_answer *expected, const peer_answer *given);
 
-/* Time all contenders, `rounds` times in turn. UNLIKE has said on stderr what differs. */
+/* Time all contenders in turn, `rounds` times. UNLIKE: stderr says what differs. */
 outcome measure_changes(lineup *l, const workload *w, const changes *asked, int rounds);
 outcome measure_asks(lineup *l, const workload *w, const questions *asked, int rounds);
 

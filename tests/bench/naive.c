@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The library is opened at run time: a program that is linked with it would have paid for its start already. */
+/* The library is opened at run time, because a program linked with it would pay for its start before the measurement.
+ */
 #define GL_FUNCTIONS(X)                                                                                                \
     X(void, Viewport, (GLint, GLint, GLsizei, GLsizei))                                                                \
     X(void, ClearColor, (GLfloat, GLfloat, GLfloat, GLfloat))                                                          \
@@ -157,7 +158,7 @@ static void add_box(naive *n, const scene_box *box)
 
 /* ---- The picture -------------------------------------------------------------------------------------------- */
 
-/* What camera_transform() and camera_project() do, as one matrix, column by column. */
+/* The matrix of camera_transform() and camera_project(), column by column. */
 static void look_through(naive *n, const camera *c)
 {
     const double near = c->near, far = c->far_depth * 2, w = 2.0 / n->width, h = 2.0 / n->height;
@@ -199,7 +200,7 @@ static void draw_lines(naive *n, const scene *s, bool in_picture)
     flush(n, GL_LINES);
 }
 
-/* Markers come with those of one size in a row: the points, and the few others. */
+/* Markers of one size follow each other: the points, and the few others. */
 static void draw_markers(naive *n, const scene *s)
 {
     for (size_t i = 0; i < s->markers.count; i++) {
@@ -223,7 +224,7 @@ static void draw_panels(naive *n, const scene *s)
     flush(n, GL_QUADS);
 }
 
-/* The parts of a letter whose cell is at x and y. */
+/* Draw the rectangles of a letter whose cell is at x and y. */
 static void draw_letter(naive *n, const lettering *l, const scene_label *label, char letter, double x, double y)
 {
     const glyph_set *set = &glyph_sets[l->face];

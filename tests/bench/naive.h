@@ -12,7 +12,7 @@
 
 typedef struct naive naive;
 
-/* For pictures of this size; null, and a sentence, where there is no OSMesa. */
+/* Open a renderer for pictures of this size. Null, with a reason, if there is no OSMesa. */
 naive *naive_open(int width, int height, const char **why);
 void naive_close(naive *n);
 

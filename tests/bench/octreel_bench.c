@@ -21,7 +21,7 @@ typedef struct options {
     int rounds;
     uint64_t frames;
     const char *folder;
-    const char *browser; /* null once it is known that pages cannot be measured */
+    const char *browser; /* null if pages cannot be measured */
     bool json;
 } options;
 
@@ -159,7 +159,7 @@ static uint64_t count_frames(const options *o, const filmed_scene *scene, filmin
     uint64_t frames = o->frames / (uint64_t)scene->shorter;
     if (who == FILM_NAIVE)
         frames /= (uint64_t)scene->naive_shorter;
-    if (who == FILM_CHECKED) /* as many as a short recording has, so that frame 100 and the last are checked */
+    if (who == FILM_CHECKED) /* as many frames as a short recording, so that frame 100 and the last are checked */
         frames = frames < 253 ? frames : 253;
     else if (who == FILM_PARTS || who == FILM_ASKED || who == FILM_ANSWERED)
         frames /= 5;
@@ -183,7 +183,7 @@ static void leave_pages_out(options *o, const char *why)
     o->browser = NULL;
 }
 
-/* All of them, round by round in turn. */
+/* Measure all kinds in turn, round by round. */
 static void measure(options *o, const filmed_scene *scene, filming result[FILM_KINDS])
 {
     static filming rounds[FILM_KINDS][ROUNDS_AT_MOST];
@@ -237,7 +237,7 @@ static double floor_of(const filming *parts)
     return parts->floor_ms / (parts->draw_ms + parts->encode_ms);
 }
 
-/* Each process of a recording on a core of its own. */
+/* The speed with each process on a core of its own, as a multiple of the naive renderer's. */
 static double times_by_cpu(const filming result[FILM_KINDS])
 {
     const filming *naive = &result[FILM_NAIVE], *parts = &result[FILM_PARTS];
@@ -262,7 +262,8 @@ static void print_octreel(const filmed_scene *scene, const filming result[FILM_K
            f->first_ms, first, f->mib, memory, parts->draw_ms, parts->encode_ms, 100 * floor_of(parts));
 }
 
-/* The cost of the checks, by processor time in one process. Loading Mesa is not part of a frame: it is in first_ms. */
+/* Print the cost of the checks, in processor time of one process. Loading Mesa is in first_ms, not in the time of a
+ * frame. */
 static void print_checked(const filmed_scene *scene, const filming result[FILM_KINDS])
 {
     const filming *f = &result[FILM_CHECKED], *parts = &result[FILM_PARTS];
@@ -283,13 +284,13 @@ static void print_checked_json(const filmed_scene *scene, const filming result[F
         f->first_ms - parts->first_ms, f->mib);
 }
 
-/* What judging adds to a frame, as a share of one without queries. */
+/* The additional time of comparing answers, as a share of a frame without queries. */
 static double judging_of(const filming result[FILM_KINDS])
 {
     return (result[FILM_ANSWERED].frame_ms - result[FILM_ASKED].frame_ms) / result[FILM_PARTS].frame_ms;
 }
 
-/* All by a processor's time, in one process. */
+/* Print the cost of queries, in processor time of one process. */
 static void print_asked(const filmed_scene *scene, const filming result[FILM_KINDS])
 {
     for (int who = FILM_ASKED; who <= FILM_ANSWERED; who++) {
@@ -369,7 +370,7 @@ int main(int argc, char **argv)
         filming result[FILM_KINDS];
         if (!o.scenes[i])
             continue;
-        fflush(stdout); /* a child has a copy of what is not written */
+        fflush(stdout); /* a child would write a copy of the buffer */
         measure(&o, &filmed_scenes[i], result);
         if (o.json) {
             print_json(&filmed_scenes[i], result);

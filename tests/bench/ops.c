@@ -4,7 +4,7 @@
 
 #include "peers.h"
 
-/* A goal of 1.5 was set when a search took twice as long: what a batch shared is now prefetched by each search alone.
+/* The goal was 1.5 when a search took twice as long; now each single search prefetches what only a batch shared before.
  */
 #define SINGLE_SEARCHES "no goal on one thread: single searches prefetch as well; an executor divides a batch"
 #define GRID "where so much moves each tick and points are spread evenly, use a grid that is built anew"
@@ -73,7 +73,7 @@ static bool fill(contender *c, const workload *w, peer_change_kind change, const
     return c->self && c->peer->change[change](c->self, points, NULL, count) == count;
 }
 
-/* The trees of all peers that can be filled in this way. */
+/* Fill the trees of all peers that have this operation. */
 static bool fill_all(lineup *l, const workload *w, peer_change_kind change)
 {
     for (int i = 0; all_peers[i]; i++) {
@@ -84,7 +84,7 @@ static bool fill_all(lineup *l, const workload *w, peer_change_kind change)
     return true;
 }
 
-/* An octree from which half of the points were removed again, and one that never held them. */
+/* An octree from which half of the points were removed, and one that never held them. */
 static bool fill_churned(lineup *l, const workload *w)
 {
     const size_t left = w->count - w->half;
@@ -95,7 +95,8 @@ static bool fill_churned(lineup *l, const workload *w)
            fill(fresh, w, PEER_BUILD, w->picks + w->half, left);
 }
 
-/* An octree that is tuned for each operation before it is measured, and those that it must not fall behind. */
+/* An octree that is tuned for each operation before it is measured, and octrees of all capacities, which must not be
+ * faster. */
 static bool fill_tuned(lineup *l, const workload *w)
 {
     static const struct {
@@ -140,7 +141,7 @@ static void empty_stage(lineup *l)
             l->of[i].peer->destroy(l->of[i].self);
 }
 
-/* Those of the stage that have this operation; the octree is first in every stage. */
+/* The contenders of the stage that have this operation; the octree is first in every stage. */
 static lineup choose(const op *o, const lineup *all)
 {
     lineup chosen = {0};
@@ -216,7 +217,7 @@ static outcome run_stage(const bool wanted[OPS], stage at, workload *w, int roun
 
 outcome run_ops(const bool wanted[OPS], workload *w, int rounds, report_op *report, void *context)
 {
-    /* Changes are proved by asking for the points about the targets. */
+    /* Changes are checked by queries for the points around the targets. */
     outcome result = workload_size_targets(w, PEER_RADIUS, 20) ? MEASURED : OUT_OF_MEMORY;
     for (int at = 0; result == MEASURED && at < STAGES; at++)
         if (stage_is_wanted(wanted, (stage)at))

@@ -150,7 +150,7 @@ static size_t any_kind(trial *t)
     return at;
 }
 
-/* The first `count` operations in the life of a tree. Returns how many were right. */
+/* Run the first `count` operations on a tree. Returns the number of right ones. */
 static uint64_t play(trial *t, uint64_t seed, size_t scene, uint64_t count, tally *sums)
 {
     uint64_t done = 0;

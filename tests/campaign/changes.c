@@ -50,7 +50,7 @@ static octree_status apply(octree *tree, change *c)
     }
 }
 
-/* One point of many: what the model says, and whether it happened. */
+/* Apply one change of many to the model. Returns the status that the tree must return. */
 static octree_status apply_one(model *m, const change *c, size_t i)
 {
     const octree_point *p = &c->points[i];
@@ -73,7 +73,7 @@ static bool compare_many(trial *t, change *c)
                                                 change_names[c->kind], c->done, c->happened);
 }
 
-/* What the tree said, against the model. */
+/* Compare the results of the tree and of the model. */
 static bool compare(trial *t, change *c, octree_status status)
 {
     octree_status expected = OCTREE_OK;
@@ -107,7 +107,7 @@ static bool compare(trial *t, change *c, octree_status status)
     return true;
 }
 
-/* Let an allocation fail, if there is one: the change is then refused, and the tree as it was. */
+/* Let an allocation of the change fail, if there is one: the change must be refused and leave the tree unchanged. */
 static bool fail_first(trial *t, change *c, octree_status *status)
 {
     const uint64_t version = octree_version(t->tree);
@@ -146,7 +146,7 @@ static bool do_change(trial *t, change *c)
     return true;
 }
 
-/* Insertions and removals keep the number of points about the population. */
+/* Insertions and removals keep the number of points near the population of the scene. */
 static bool has_enough(trial *t)
 {
     return below(t, 2 * t->population) < t->model.count;
@@ -203,7 +203,7 @@ bool change_remove_many(trial *t)
     return do_change(t, &c);
 }
 
-/* At times a pair moves on, another one moves to where it was, or all move. */
+/* In some batches a point moves to the place that another one leaves, or all points move. */
 bool change_move_many(trial *t)
 {
     change c = {.kind = MOVE_MANY};
@@ -223,7 +223,7 @@ bool change_move_many(trial *t)
     return do_change(t, &c);
 }
 
-/* A larger world: by a part, or so much that all points crowd together in it. */
+/* A slightly larger world, or one so large that all points share few cells. */
 static octree_box larger(trial *t, octree_box world)
 {
     const int doublings = below(t, 2) == 0 ? 0 : (int)below(t, 22);
@@ -235,7 +235,7 @@ static octree_box larger(trial *t, octree_box world)
     return world;
 }
 
-/* The scene's own, a larger one, one that is cut off, or a bad one. */
+/* The world of the scene, a larger one, one that excludes points, or an invalid one. */
 static octree_box another_world(trial *t)
 {
     octree_box world = t->model.def.world;

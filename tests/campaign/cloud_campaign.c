@@ -19,7 +19,7 @@ const char program_name[] = "octreel-cloud-campaign";
 
 enum { SECONDS = 20, MOST_FINDINGS = 10, MOST_CHANGES = 4 };
 
-/* AddressSanitizer takes all addresses that there are. */
+/* AddressSanitizer reserves the whole address space. */
 #ifdef OCTREEL_SANITIZED
 #define LIMIT "unlimited"
 #else
@@ -71,7 +71,7 @@ typedef struct damaged {
     size_t size;
 } damaged;
 
-/* A number that counts and offsets are not expected to be, of 1 to 8 bytes. */
+/* Write an unusual number for a count or an offset, of 1 to 8 bytes. */
 static void put_extreme(damaged *d, size_t at)
 {
     static const uint64_t extremes[] = {0, 1, 0x7f, 0xff, 0x7fffffff, 0xffffffff, UINT64_MAX, 1000000000000};
@@ -81,7 +81,7 @@ static void put_extreme(damaged *d, size_t at)
         memcpy(d->bytes + at, &number, size);
 }
 
-/* Some bytes once more, at another place. */
+/* Copy some bytes to another place. */
 static void repeat_bytes(damaged *d, size_t from, size_t at)
 {
     const size_t most = d->size - from, size = 1 + (size_t)below(most < 64 ? most : 64);
@@ -142,7 +142,7 @@ static bool is_one_line(const char *text)
     return strncmp(text, "octreel: ", 9) == 0 && end[0] == '\n' && end[1] == 0;
 }
 
-/* Why a run is wrong; null where it is not. What follows the points may be noted. */
+/* Returns why a run is wrong; null: it is right. A note about data after the points is allowed. */
 static const char *judge(const command_result *run)
 {
     if (run->status == 124)

@@ -34,11 +34,11 @@
 enum { CALLS = 64, PAGES = 4096, SITES = 65536, SITE_CALLS = 8, PATIENCE = 60 /* seconds */ };
 
 static const char *const HELPERS[] = {"libc.", "libm.", "libpng", "libz.", "libjansson", "liblzf", "failing."};
-static const char *const OWN[] = {"octreel", "liboctree"}; /* how names of the program's own files begin */
+static const char *const OWN[] = {"octreel", "liboctree"}; /* beginnings of the names of the program's own files */
 
 typedef enum owner { UNKNOWN, PROGRAM, HELPER, OTHER } owner;
 
-/* Which fails, and how many there were. */
+/* The number of the call that fails, and the number of calls so far. */
 typedef struct nth {
     unsigned long at; /* 0: none */
     bool all_later;
@@ -77,7 +77,7 @@ static owner look_up(const void *code)
     return begins_with_any(name, HELPERS, sizeof HELPERS / sizeof *HELPERS) ? HELPER : OTHER;
 }
 
-/* Looking up takes a while, and Mesa allocates much: pages of code are kept in mind. */
+/* Pages of code are cached, because a look-up is slow and Mesa allocates often. */
 static owner owner_of(const void *code)
 {
     static _Atomic uintptr_t known[PAGES]; /* a page and its owner */
@@ -115,7 +115,7 @@ static void note(void)
     close(file);
 }
 
-/* Of two sites whose hashes begin alike the second is missed. */
+/* If the hashes of two sites begin alike, the second is missed. */
 static void note_site(unsigned long number)
 {
     static atomic_bool known[SITES];
@@ -131,7 +131,7 @@ static void note_site(unsigned long number)
     close(file);
 }
 
-/* `caller` null: whoever asks counts. */
+/* `caller` null: every call counts. */
 static bool fails(nth *what, const void *caller)
 {
     if (!ready || what->at == 0 || inside)
@@ -170,13 +170,13 @@ __attribute__((constructor)) static void prepare(void)
     ready = true;
 }
 
-/* What comes is not the program's: tests/support/program/coverage_end.c calls it. */
+/* Later calls are not the program's: tests/support/program/coverage_end.c calls this. */
 void failing_end(void)
 {
     ready = false;
 }
 
-/* The function of that name that would be called without this file. */
+/* Find the function of this name that would be called without this file. */
 static void find_next(const char *name, void *function)
 {
     void *symbol = dlsym(RTLD_NEXT, name);
@@ -222,7 +222,7 @@ int pthread_create(pthread_t *made, const pthread_attr_t *how, void *(*run)(void
 
 /* ---- Calls of the system ---------------------------------------------------------------------------------------- */
 
-/* Those that fail without having done anything. */
+/* Calls that fail without having done anything. */
 #define PLAIN_CALLS(X)                                                                                                 \
     X(int, rename, -1, (const char *from, const char *to), (from, to))                                                 \
     X(int, fsync, -1, (int file), (file))                                                                              \
@@ -257,7 +257,7 @@ int pthread_create(pthread_t *made, const pthread_attr_t *how, void *(*run)(void
     }
 PLAIN_CALLS(PLAIN_CALL)
 
-/* What reads and writes may also do less than is asked for: under EINTR it does. */
+/* Reads and writes may also transfer less than requested: with EINTR they do. */
 ssize_t read(int file, void *bytes, size_t size)
 {
     ssize_t (*next)(int, void *, size_t);
@@ -278,7 +278,7 @@ int open(const char *path, int how, ...)
     return fails(&call, CALLER) ? -1 : next(path, how, mode);
 }
 
-/* What is closed is closed, and what it had to write may be lost. */
+/* A failing close() closes the file, but may lose data. */
 int close(int file)
 {
     int (*next)(int);
@@ -314,7 +314,7 @@ static void spoil_writing(FILE *stream)
     inside = false;
 }
 
-/* Its first transfer may fail. */
+/* The first transfer of the stream may fail. */
 static FILE *opened(FILE *stream, const char *mode, const void *caller)
 {
     if (stream && fails(&call, caller))

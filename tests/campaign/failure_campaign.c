@@ -29,7 +29,7 @@ enum { MOST = 100000, MOST_FINDINGS = 10, VERDICT = 20 /* bytes that hold it, of
 
 #define SMALL "--size 64x36"
 
-/* What each command works on, made in a folder that every run begins with a copy of. */
+/* The files on which the commands work. Every run begins with a copy of them. */
 static const char PREPARE[] =
     "unset CI && mkdir given && cd given && "
     "printf '0 0 0\\n1 2 3\\n4 5 6\\n7 1 2\\n' >points.xyz && "
@@ -68,7 +68,7 @@ static const char PREPARE[] =
     "mkdir frames frames_other && cp film/*.png frames && cp other/*.png frames_other && "
     "printf 'frame_000001.png\\n' >list";
 
-/* Each is run in a copy of that folder. */
+/* The commands; each runs in a copy of the folder. */
 static const struct {
     const char *name, *line;
 } commands[] = {
@@ -119,7 +119,7 @@ static const struct {
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-/* What fails: its name here, that of its number for what is preloaded, and by which errors. */
+/* A kind of failure: its name, the variable of its number for the preloaded library, and its errors. */
 static const struct family {
     const char *name, *variable;
     int errors[4], error_count;
@@ -191,8 +191,8 @@ static void read_options(int argc, char **argv)
 
 /* ---- One run --------------------------------------------------------------------------------------------------- */
 
-/* In "<folder>/run", a new copy of "<folder>/given", where the n-th of what the variable names fails; 0: nothing does;
- * ULONG_MAX: nor then, and "<folder>/sites" lists which is the first of its site. */
+/* Run a command in "<folder>/run", a new copy of "<folder>/given". The n-th call of the kind fails; 0: none fails;
+ * ULONG_MAX: none fails, and "<folder>/sites" lists the first call of each site. */
 static command_result run_one(const char *folder, const char *line, const char *variable, uint64_t n, int error)
 {
     return run_script(
@@ -207,8 +207,8 @@ static bool ends_with(const char *text, const char *end)
     return length >= part && strcmp(text + length - part, end) == 0;
 }
 
-/* Names that say that a file is not finished, or that the next command removes it; who drew, and how long it took,
- * which may differ. */
+/* Whether a file may have any contents: an unfinished file, a file that the next command removes, and files with the
+ * renderer or times. */
 static bool may_be_anything(const char *name)
 {
     return *name == '.' || strcmp(name, "times") == 0 || strcmp(name, "octreel-replaced") == 0 ||
@@ -216,8 +216,8 @@ static bool may_be_anything(const char *name)
            strstr(name, ".json.ticks_") || strcmp(name, "renderer.json") == 0;
 }
 
-/* `whole` is null where there is none without trouble. Lines are added to a log, and pages and reports tell what there
- * is: each may be shorter than without trouble. So may be the session of a stream, which frames name. */
+/* Whether a file is acceptable. `whole` is the file of a run without a failure, or null. Logs, pages and reports may be
+ * shorter than it, and so may the session of a stream, whose digest frames contain. */
 static bool is_whole_so_far(const char *name, const char *bytes, size_t size, const char *whole)
 {
     if (ends_with(name, ".png"))
@@ -242,8 +242,8 @@ static bool is_same(const char *path, const char *bytes, size_t size)
     return same;
 }
 
-/* Each final file is as before or as without trouble. Returns the first that is not, below the folder; or an empty
- * text. */
+/* Returns the first file in the folder that is neither as before nor as after a run without a failure; "" if there is
+ * none. */
 static place find_torn(const char *folder, const char *below)
 {
     place torn = {""};
@@ -284,7 +284,7 @@ static bool is_one_sentence(const char *said)
     return strncmp(said, "octreel: ", 9) == 0 && end && end[1] == 0;
 }
 
-/* Whether the same was written, but for the name of a context that draws in the place of one that could not. */
+/* Whether two runs printed the same, except for the name of the context, if one replaced another. */
 static bool is_same_output(const command_result *run, const command_result *without)
 {
     static const char member[] = "\"drawn_now\": \"";
@@ -296,7 +296,7 @@ static bool is_same_output(const command_result *run, const command_result *with
            strcmp(strchr(drawer, ','), strchr(usual, ',')) == 0;
 }
 
-/* Why a run is wrong; null where it is not. `without` met no trouble. */
+/* Returns why a run is wrong; null: it is right. `without` is the run without a failure. */
 static const char *judge(const command_result *run, const command_result *without, const char *torn)
 {
     if (run->status >= 128)
@@ -312,7 +312,7 @@ static const char *judge(const command_result *run, const command_result *withou
     return is_one_sentence(run->err) ? NULL : "did not say one sentence";
 }
 
-/* What was done there, and said. */
+/* Print the command and its output. */
 static void tell(const char *folder, const char *name, const char *variable, uint64_t n, int error,
                  const command_result *run, const char *why)
 {
@@ -325,7 +325,7 @@ static void tell(const char *folder, const char *name, const char *variable, uin
     free(calls);
 }
 
-/* Returns whether there was an n-th. */
+/* Returns whether the command made n calls. */
 static bool fail_one(const char *folder, size_t command, const struct family *family, uint64_t n, int error,
                      const command_result *without, size_t *findings)
 {
@@ -346,7 +346,7 @@ static int error_by_turns(const struct family *family, size_t turn)
     return family->errors[turn % (size_t)family->error_count];
 }
 
-/* Each site once, by one error after the other. Returns how many runs there were. */
+/* Let the first call of each site fail, with one error after the other. Returns the number of runs. */
 static size_t fail_sites(const char *folder, size_t command, const struct family *family, const command_result *without,
                          size_t *findings)
 {
@@ -363,7 +363,7 @@ static size_t fail_sites(const char *folder, size_t command, const struct family
     return runs;
 }
 
-/* Returns how many were wrong. */
+/* Returns the number of wrong runs. */
 static size_t fail_each(const char *folder, size_t command, const struct family *family)
 {
     size_t findings = 0, runs = 0;
@@ -387,7 +387,7 @@ static size_t fail_each(const char *folder, size_t command, const struct family 
     return findings;
 }
 
-/* No path with a blank can be preloaded: the library is copied, and named from where a command runs. */
+/* Paths with blanks cannot be preloaded: the library is copied, and named relative to the folder of the run. */
 static void prepare(const temp_folder *own)
 {
     const shell_word library = shell_quote(OCTREEL_FAILING);
@@ -398,7 +398,8 @@ static void prepare(const temp_folder *own)
     command_release(&made);
 }
 
-/* Without WebAssembly no page can be made. A quick campaign takes the families by turns. */
+/* Whether a command is tested with a kind of failure: without WebAssembly no page can be made, and a quick campaign
+ * takes one kind per command in turn. */
 static bool is_asked(size_t command, const struct family *family)
 {
     return (!asked.quick || family == &families[command % FAMILIES]) &&
@@ -419,7 +420,7 @@ static void failed_call_is_an_error_and_leaves_whole_files(void **state)
     assert_int_equal(findings, 0);
 }
 
-/* llvmpipe would wait for ever for the first that is missing. */
+/* llvmpipe would wait for the first missing thread forever. */
 static void work_is_done_if_threads_cannot_be_started(void **state)
 {
     static const char *const lines[] = {"verify film", "inspect points.xyz " SMALL " --fill gl -o tree.png",

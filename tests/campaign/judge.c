@@ -27,7 +27,7 @@ static bool fail_with(trial *t, const char *question, const char *what, const oc
                       p->position[2], what);
 }
 
-/* Each found point is taken out of the verdicts; what must be found and is left was missed. */
+/* Each found point is removed from the verdicts; points that must be found and are left were missed. */
 static bool judge_each(trial *t, const char *question, bool whole)
 {
     for (size_t i = 0; i < t->found.count && i < POINTS_AT_MOST; i++) {

@@ -5,16 +5,16 @@
 
 #include "trial.h"
 
-/* Forget what was found; the visitor will ask to stop at a call, or never for 0. */
+/* Forget the found points. The visitor stops at this call; 0: never. */
 void gather_begin(trial *t, size_t stop_at);
 
 /* The visitor; its context is &trial.found. */
 bool gather(const octree_point *point, void *context);
 
-/* Whether each point was found once that must be, and none that must not, by trial.verdicts. */
+/* Whether each point that must be found was found once, and no other, by trial.verdicts. */
 bool judge(trial *t, const char *question);
 
-/* The same of a visitor that stopped: as many calls as it allowed, and nothing but what belongs. */
+/* The same for a visitor that stopped: the right number of calls, and only points of the answer. */
 bool judge_stopped(trial *t, const char *question);
 
 #endif

@@ -73,8 +73,8 @@ octree_status model_check(const model *m, const double at[3])
     return box_holds(&m->def.world, at) ? OCTREE_OK : OCTREE_OUTSIDE;
 }
 
-/* The smallest cell that a leaf can have at a position: down by the planes that are drawn, until the depth is reached
- * or none of the three planes lies inside its cell. */
+/* The smallest cell that a leaf can have at a position: down the planes, until the greatest depth is reached or no
+ * plane lies inside the cell. */
 static octree_address smallest_cell(const octree_def *def, const double at[3])
 {
     octree_address address = OCTREE_ROOT;
@@ -102,7 +102,7 @@ static octree_address cell_in(const octree_def *def, const double at[3])
     return def->full_leaf == OCTREE_REFUSE ? smallest_cell(def, at) : 0;
 }
 
-/* A leaf that cannot be split holds just the points of one smallest cell. */
+/* A leaf that cannot split holds the points of one smallest cell. */
 static bool is_full(const model *m, octree_address cell)
 {
     size_t count = 0;

@@ -7,9 +7,9 @@
 #include "octree/octree.h"
 
 typedef struct model {
-    octree_def def; /* as in force */
+    octree_def def; /* the current definition */
     octree_point *points;
-    octree_address *cells; /* of each point: the smallest that a leaf can have there; 0 where no leaf refuses */
+    octree_address *cells; /* of each point: the smallest cell of a leaf there; 0: no leaf refuses points */
     uint64_t *seals;       /* of each point: a digest of its bits */
     size_t count, room;
 } model;
@@ -20,14 +20,14 @@ typedef struct model {
 void model_begin(model *m, const octree_def *def);
 void model_end(model *m);
 
-/* What the function of the library must return, done to the model where that is OCTREE_OK. */
+/* Apply the change to the model if the library must accept it. Returns the status that the library must return. */
 octree_status model_insert(model *m, const double at[3], uint64_t id);
 octree_status model_remove(model *m, const double at[3], uint64_t id);
 octree_status model_move(model *m, const double from[3], uint64_t id, const double to[3]);
 octree_status model_reworld(model *m, const octree_box *world);
 void model_clear(model *m);
 
-/* The index of a pair, compared as numbers; and of a point with the very same bits. Or MODEL_NONE. */
+/* The index of a pair, compared as numbers; and the index of a point with exactly the same bits. Or MODEL_NONE. */
 size_t model_find(const model *m, const double at[3], uint64_t id);
 size_t model_find_bits(const model *m, const octree_point *point);
 

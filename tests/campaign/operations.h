@@ -5,7 +5,8 @@
 
 #include "trial.h"
 
-/* Do it once, with random arguments, to the tree and to the model. False when they differ; trial.fault says how. */
+/* Run the operation once, with random arguments, on the tree and on the model. False: they differ, and trial.fault says
+ * how. */
 typedef bool operation(trial *t);
 
 /* changes.c */

@@ -19,7 +19,7 @@
 
 const char program_name[] = "octreel-page-campaign";
 
-enum { INPUTS_A_PAGE = 20000 }; /* after which there is another browser, by another seed */
+enum { INPUTS_A_PAGE = 20000 }; /* then another browser starts, with another seed */
 
 typedef struct options {
     uint64_t seed, inputs;
@@ -64,7 +64,7 @@ static uint64_t number_said(const char *said, const char *what)
     return number;
 }
 
-/* Returns the inputs that there were. */
+/* Returns the number of inputs. */
 static uint64_t drive(const temp_folder *own, const place *page, uint64_t seed, uint64_t inputs)
 {
     const place given = place_in(own, "given.js");

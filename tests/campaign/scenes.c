@@ -50,7 +50,7 @@ static void place_lattice(scene *s, uint64_t *random)
     sample_into(s, OCTREE_SAMPLE_LATTICE, random);
 }
 
-/* Coordinates i * unit, for whole i that lie in the world: many ties, and where the unit rounds, near ties. */
+/* Coordinates i * unit for whole i in the world: many ties and, if the unit rounds, near ties. */
 static void place_on_grid(scene *s, uint64_t *random, double unit)
 {
     for (size_t i = 0; i < s->count; i++)
@@ -70,7 +70,7 @@ static void place_tenths(scene *s, uint64_t *random)
     place_on_grid(s, random, 0.1);
 }
 
-/* The focus plus or minus one of a few offsets on each axis, and up to two doubles more. */
+/* The focus plus or minus one of a few offsets on each axis, and up to two doubles beside it. */
 static void place_mirrored(scene *s, uint64_t *random)
 {
     double offsets[4][3];
@@ -134,7 +134,7 @@ static void place_magnitudes(scene *s, uint64_t *random)
         }
 }
 
-/* So near the middle of the world that squares of distances vanish. */
+/* So near to the middle of the world that squares of distances underflow. */
 static void place_vanishing(scene *s, uint64_t *random)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -144,7 +144,7 @@ static void place_vanishing(scene *s, uint64_t *random)
     }
 }
 
-/* Towards a corner of the world, each some halvings nearer: leaves at every depth. */
+/* Towards a corner of the world, each place some halvings nearer: leaves of every depth. */
 static void place_towards_a_corner(scene *s, uint64_t *random)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -207,7 +207,7 @@ const char *scene_name(size_t kind)
     return kind < scene_kinds() ? kinds[kind].name : NULL;
 }
 
-/* Rounding may carry a place out of its world. */
+/* Rounding may move a place out of the world. */
 static void keep_inside(scene *s)
 {
     for (size_t i = 0; i < s->count; i++)

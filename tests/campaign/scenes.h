@@ -10,9 +10,9 @@ enum { PLACES_AT_MOST = 1024 };
 typedef struct scene {
     const char *name;
     octree_box world;
-    double places[PLACES_AT_MOST][3]; /* in the world; points share them, queries aim at them */
+    double places[PLACES_AT_MOST][3]; /* places in the world, which points share and queries use */
     size_t count;
-    double focus[3]; /* what mirrored places are mirrored about; elsewhere any place of the world */
+    double focus[3]; /* centre of mirrored places; in other scenes any place of the world */
 } scene;
 
 /* The number of scenes, and the name of each: null from there on. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_campaign.js - so many random inputs (`given.inputs`), as events of the page: keys, drags, clicks, wheels,
- * scrubs, controls, questions, dropped files. Now and then what is shown is held against an engine that has played the
- * same session from its beginning and knows nothing of the page. */
+/* drive_campaign.js - makes this number of random inputs (`given.inputs`), as events of the page: keys, drags, clicks,
+ * wheels, scrubs, controls, queries, dropped files. At intervals it compares the page with a separate engine that plays
+ * the same session from its beginning. */
 "use strict";
 
 const INPUTS_A_CHECK = 150, MOST_FINDINGS = 20;
@@ -25,7 +25,7 @@ const FILES = [
 const faults = new Map();
 let inputs = 0, checks = 0;
 
-Element.prototype.setPointerCapture = () => {}; /* there is no pointer */
+Element.prototype.setPointerCapture = () => {}; /* synthetic events have no pointer to capture */
 URL.createObjectURL = () => "#";
 
 function find(what)
@@ -119,7 +119,7 @@ function clickButton()
     oneOf(buttons).click();
 }
 
-/* What is done, and how often. */
+/* The inputs, and how often each is made. */
 const ACTS = [
     [30, press], [20, () => drag(byId("stage"))], [12, () => click(byId("stage"))], [12, wheel], [10, scrub],
     [6, () => drag(byId("scrub"))], [3, type], [5, clickButton], [6, ask], [1, () => drop(oneOf(FILES))],
@@ -131,7 +131,7 @@ const ACTS = [
 ];
 const TIMES = ACTS.flatMap(([times, act]) => Array(times).fill(act));
 
-/* ---- What must be so ---------------------------------------------------------------------------------------- */
+/* ---- Checks ------------------------------------------------------------------------------------------------- */
 
 const withoutFrame = text => {
     const {frame, scene, ...facts} = JSON.parse(text);
@@ -149,7 +149,7 @@ async function settle()
     }
 }
 
-/* The tick as it is shown, and as it is played from the beginning. */
+/* Compare the shown tick with the same tick, played from the beginning. */
 async function check()
 {
     await settle();

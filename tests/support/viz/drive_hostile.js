@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_hostile.js - opens pages that are not as octreel wrote them (`given`: names and texts), each in a frame, and
- * uses what there is of them. */
+/* drive_hostile.js - opens damaged pages (`given`: names and texts), each in a frame, and uses the controls that they
+ * have. */
 "use strict";
 
-/* Before and behind a page: what it may not do in a frame, what it lacks, what is looked at. */
+/* Scripts before and after a page: they replace what does not work in a frame, remove features, and make parts of the
+ * page visible to this script. */
 const BEFORE = "<script>var faults = []; history.replaceState = () => {}; requestAnimationFrame = setTimeout;" +
     "addEventListener('error', event => faults.push(event.message)); MORE<\/script>";
 const BEHIND = "<script>var viewer = () => octreel;<\/script>";

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_plays.js - plays the session of a recording in its page, in order and not, as people would: a line
- * "what<tab>value" of what it sees. */
+/* drive_plays.js - plays the session of a recording in its page, in any order of ticks, like a user, and reports lines
+ * "name<tab>value". */
 "use strict";
 
 async function sayTicks()
@@ -20,7 +20,7 @@ function sayPicks()
     }
 }
 
-/* What is asked is answered by the library, and gone with the tick. */
+/* Queries are answered by the library, and disappear with the tick. */
 async function sayAnswers()
 {
     const digest = player().engine.digest();
@@ -35,7 +35,7 @@ async function sayAnswers()
     say("asked nothing", player().engine.digest() === digest);
 }
 
-/* What the bar offers, and says of what was played. */
+/* Report the buttons and the text of the bar. */
 function sayBar(when)
 {
     const [back, taken] = ["live-end", "taken"].map(id => byId(id).hidden ? "" : byId(id).textContent);
@@ -63,8 +63,8 @@ async function sayTakenOver()
     await interaction.start();
 }
 
-/* Whatever is done to the page, it goes on, and a tick is the same tick. Pictures are not waited for: the browser's
- * clock would run ahead. */
+/* Random inputs: the page keeps working, and ticks stay the same. The script does not wait for pictures, because the
+ * browser's clock would run ahead. */
 function act()
 {
     const gestures = [
@@ -97,7 +97,7 @@ async function sayRandom()
         await sayTick("again", random(octreel.last + 1));
 }
 
-/* What comes late finds that the page draws no longer, or other ticks. */
+/* Replies that come late find that the page no longer draws, or has other ticks. */
 async function leaveMeanwhile()
 {
     await interaction.start();
@@ -121,7 +121,7 @@ async function sayDropped(name, text, more = {})
     say(`dropped ${name.includes("\n") ? "marked" : name}`, `${player() === before} ${byId("told").textContent}`);
 }
 
-/* A page without frames, to which nothing is done, and then what leaves what it shows. */
+/* A page without frames: its first picture without any input, and then inputs that leave it. */
 async function driveAlone()
 {
     const isShown = () => byId("stage").querySelector("canvas.live")?.dataset.tick === String(octreel.tick);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_reads.js - opens each text of `given` as a session, and says the session that was read or the error. */
+/* drive_reads.js - opens each text of `given` as a session, and reports the session that was read or the error. */
 "use strict";
 
 function readByPage(engine, text)

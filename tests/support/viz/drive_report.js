@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_report.js - uses a page of evidence as people do, and says what it shows: a line "what<tab>value" each. It waits
- * for what the page tells of itself, and never for a time in which it should be done. */
+/* drive_report.js - uses a page of evidence like a user, and reports what it shows in lines "name<tab>value". It waits
+ * for states that the page shows, and never for a length of time. */
 "use strict";
 
 const said = [], errors = [];
@@ -26,7 +26,7 @@ async function until(isSo, what)
     }
 }
 
-/* All of the frame that was asked for is seen. */
+/* True if the requested frame is completely visible. */
 const settled = () => until(() => shownFrame() === textOf("frame"), `the pictures of ${textOf("frame")}`);
 
 function press(key, target = document.body)
@@ -113,7 +113,7 @@ function saySwipe()
     say("swipe by keys", at("handle").getAttribute("aria-valuenow"));
 }
 
-/* The picture that is seen, from change to change. */
+/* Report the visible picture after each change. */
 async function sayBlink()
 {
     const seen = [];
@@ -196,7 +196,7 @@ function sayHelp()
     at("help").close();
 }
 
-/* What is ticked by keys and buttons, and what would be saved as accept.txt. */
+/* Tick findings by keys and buttons, and report the text that would be saved as accept.txt. */
 async function sayTicks()
 {
     let saved = Promise.resolve("nothing");
@@ -222,7 +222,7 @@ async function sayTicks()
     say("ticked none", textOf("ticked"));
 }
 
-/* Over how many frames there are bars, and where a click at the end of them leads. */
+/* Report the number of bars, and the frame that a click at their end shows. */
 async function sayCurve()
 {
     const canvas = document.querySelector("#curve canvas"), context = canvas.getContext("2d"), {left, top, width} =

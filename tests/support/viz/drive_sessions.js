@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_sessions.js - plays what it is given (`given`: sessions with their views) in any order of ticks, clicks in
- * them, and plays on from them. */
+/* drive_sessions.js - plays sessions (`given`, with their views) in any order of ticks, clicks in them, and continues
+ * to play from them. */
 "use strict";
 
 const PICK_RADIUS_ASKED = 2, TURNS = 3, MOST_KEYS = 12;
@@ -24,7 +24,7 @@ async function sayPlayed({name, session, view, ticks, clicks})
     }
 }
 
-/* Several times from any tick, those that were played before among them; and what came of it is saved. */
+/* Continue to play several times, from any tick, also from ticks played before, and report the saved session. */
 async function sayTaken({name, session, view})
 {
     await play({session, view});

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* drive_viewer.js - uses a recording's page as people do, and says what it shows: a line "what<tab>value" each. */
+/* drive_viewer.js - uses a recording's page like a user, and reports what it shows in lines "name<tab>value". */
 "use strict";
 
 const said = [];
@@ -11,8 +11,8 @@ function say(what, value)
 
 const wait = ms => new Promise(done => setTimeout(done, ms));
 
-/* What comes is waited for, for as long as it takes. The browser's clock is no measure of that: it jumps ahead whenever
- * the page waits, while a picture is decoded by processes whose time is another. */
+/* Wait for a state of the page, however long it takes. The browser's virtual clock cannot limit the wait: it jumps
+ * ahead when the page waits for other processes, which decode pictures in real time. */
 async function until(isSo, what)
 {
     for (let i = 0; !isSo(); i++) {
@@ -68,7 +68,7 @@ function sayKeys()
     }
 }
 
-/* Where a key leads until it leads no further. */
+/* Report the ticks that a key reaches, until nothing changes. */
 function sayWalk(name, key)
 {
     const ticks = [];
@@ -120,7 +120,7 @@ async function sayFrame(name)
 
 const isPlaying = () => document.body.classList.contains("playing");
 
-/* Until it ends by itself, or so many ticks were seen. */
+/* Play until the page stops by itself, or has shown this number of ticks. */
 async function sayPlayed(name, most)
 {
     const seen = [];
