@@ -59,7 +59,7 @@ static void take_set(void *to, const char *entry)
     options *o = to;
     octree_sample_kind kind;
     if (!octree_sample_parse(entry, &kind))
-        stop_with_error("there is no set \"%s\"; --help lists them", entry);
+        stop_with_error("unknown set \"%s\"; --help lists all sets", entry);
     o->sets[kind] = true;
 }
 
@@ -70,7 +70,7 @@ static void take_op(void *to, const char *entry)
     while (i < OPS && strcmp(all_ops[i].name, entry) != 0)
         i++;
     if (i == OPS)
-        stop_with_error("there is no operation \"%s\"; --help lists them", entry);
+        stop_with_error("unknown operation \"%s\"; --help lists all operations", entry);
     o->ops[i] = true;
 }
 
@@ -126,7 +126,7 @@ static options read_options(int argc, char **argv)
         }
     }
     if (optind < argc)
-        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("unknown argument \"%s\"; see --help", argv[optind]);
     fill_defaults(&o);
     return o;
 }
@@ -142,7 +142,7 @@ static int run_workload(const options *o, octree_sample_kind set, size_t count)
         workload_free(&w);
     }
     if (result == OUT_OF_MEMORY)
-        stop_with_error("there is no memory for %zu points", count);
+        stop_with_error("out of memory for %zu points", count);
     return result == UNLIKE ? EXIT_FINDING : EXIT_DONE;
 }
 

@@ -251,13 +251,13 @@ int main(int argc, char **argv)
         b.quick |= option == 'q';
     }
     if (optind < argc)
-        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("unknown argument \"%s\"; see --help", argv[optind]);
     for (int i = 0; i < CONTENDERS; i++)
         b.of[i].there = program_exists(b.of[i].program);
     tell_who_is_missing(&b);
     strcpy(b.folder, "diff_bench_XXXXXX");
     if (!mkdtemp(b.folder))
-        stop_with_error("a folder for the frames: %s", strerror(errno));
+        stop_with_error("cannot create a folder for the frames: %s", strerror(errno));
     const bool ok = run_all(&b);
     const char *const clean_up[] = {"rm", "-r", b.folder, NULL};
     exit_with_status(run_quietly(clean_up) && ok ? (b.failed ? EXIT_FINDING : EXIT_DONE) : EXIT_TROUBLE);

@@ -70,14 +70,14 @@ static void take_scene(void *to, const char *entry)
     while (i < FILMED_SCENES && strcmp(filmed_scenes[i].name, entry) != 0)
         i++;
     if (i == FILMED_SCENES)
-        stop_with_error("there is no scene \"%s\"; --help lists them", entry);
+        stop_with_error("unknown scene \"%s\"; --help lists all scenes", entry);
     o->scenes[i] = true;
 }
 
 static void take_folder(options *o, const char *folder)
 {
     if (strlen(folder) >= FOLDER_ROOM - 64 || access(folder, W_OK) != 0)
-        stop_with_error("--folder takes a folder that can be written to, not \"%.100s\"", folder);
+        stop_with_error("--folder takes a writable folder, not \"%.100s\"", folder);
     o->folder = folder;
 }
 
@@ -123,7 +123,7 @@ static options read_options(int argc, char **argv)
     for (int name; (name = getopt_long(argc, argv, "h", names, NULL)) != -1;)
         take_option(&o, name, optarg);
     if (optind < argc)
-        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("unknown argument \"%s\"; see --help", argv[optind]);
     const bool none[FILMED_SCENES] = {false};
     if (memcmp(o.scenes, none, sizeof none) == 0)
         memset(o.scenes, true, sizeof o.scenes);

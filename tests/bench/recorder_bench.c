@@ -47,7 +47,7 @@ static octree *make_tree(const program *p, double (*places)[3])
     def.full_leaf = OCTREE_GROW;
     if (octree_create(&def, &tree) != OCTREE_OK ||
         octree_sample(OCTREE_SAMPLE_CLUSTERED, 1, &def.world, p->points, places) != OCTREE_OK)
-        stop_with_error("there is no memory");
+        stop_with_error("out of memory");
     for (size_t i = 0; i < p->points; i++)
         if (octree_insert(tree, places[i], i) != OCTREE_OK)
             stop_with_error("a point is refused");
@@ -147,9 +147,9 @@ int main(int argc, char **argv)
         count = 1;
     }
     if (optind < argc)
-        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("unknown argument \"%s\"; see --help", argv[optind]);
     if (!mkdtemp(folder))
-        stop_with_error("a folder for the recording: %s", strerror(errno));
+        stop_with_error("cannot create a folder for the recording: %s", strerror(errno));
     printf("%8s %8s %12s %12s %15s %12s %10s\n", "points", "moved", "own us", "recorder us", "goal", "slowest us",
            "first ms");
     for (size_t i = 0; i < count; i++) {
@@ -160,6 +160,6 @@ int main(int argc, char **argv)
     const char *const clean_up[] = {"rm", "-r", folder, NULL};
     program_run run;
     if (!run_program(clean_up, &run) || run.status != 0)
-        stop_with_error("%s cannot be removed", folder);
+        stop_with_error("cannot remove %s", folder);
     exit_with_status(EXIT_DONE);
 }

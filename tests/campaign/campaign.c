@@ -100,7 +100,7 @@ static size_t read_scene(const char *text)
     for (size_t i = 0; i < scene_kinds(); i++)
         if (strcmp(scene_name(i), text) == 0)
             return i;
-    stop_with_error("there is no scene \"%s\"; --help lists them", text);
+    stop_with_error("unknown scene \"%s\"; --help lists all scenes", text);
 }
 
 static options read_options(int argc, char **argv)
@@ -136,7 +136,7 @@ static options read_options(int argc, char **argv)
         }
     }
     if (optind < argc)
-        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("unknown argument \"%s\"; see --help", argv[optind]);
     return o;
 }
 

@@ -52,7 +52,7 @@ static options read_options(int argc, char **argv)
             exit(EXIT_TROUBLE); /* getopt has said why */
         }
     if (optind < argc)
-        stop_with_error("there is no argument \"%s\"; try --help", argv[optind]);
+        stop_with_error("unknown argument \"%s\"; see --help", argv[optind]);
     return o;
 }
 

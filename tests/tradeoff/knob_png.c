@@ -131,7 +131,7 @@ static bytes read_whole(const char *path)
     bytes b = {.room = (size_t)1 << 24}; /* no frame here is as large */
     FILE *file = fopen(path, "rb");
     if (!file)
-        stop_with_error("%s cannot be read", path);
+        stop_with_error("cannot read %s", path);
     b.at = resize_memory(NULL, b.room);
     b.size = fread(b.at, 1, b.room, file);
     fclose(file);

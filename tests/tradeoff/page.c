@@ -48,7 +48,7 @@ static void write_plot(const knob *k, const char *folder, FILE *out)
     snprintf(path, sizeof path, "%s/%s.png", folder, k->name);
     FILE *plot = fopen(path, "rb");
     if (!plot)
-        stop_with_error("%s cannot be read", path);
+        stop_with_error("cannot read %s", path);
     fprintf(out,
             "<img alt=\"%s: what is measured against what is proven, and what it costs\" "
             "src=\"data:image/png;base64,",
@@ -145,7 +145,7 @@ void page_write(const chapter *chapters, size_t count, const run *r, bool plotte
     snprintf(path, sizeof path, "%s/tradeoff.html", r->folder);
     FILE *out = fopen(path, "w");
     if (!out)
-        stop_with_error("%s cannot be written", path);
+        stop_with_error("cannot write %s", path);
     write_head(r, plotted, out);
     fputs("<ul>\n", out);
     for (size_t i = 0; i < count; i++) {
@@ -158,5 +158,5 @@ void page_write(const chapter *chapters, size_t count, const run *r, bool plotte
         write_chapter(&chapters[i], r, plotted, out);
     fputs("</body></html>\n", out);
     if (fclose(out) != 0)
-        stop_with_error("%s cannot be written", path);
+        stop_with_error("cannot write %s", path);
 }

@@ -152,7 +152,7 @@ static char *text_of(void (*write)(const table *t, FILE *out), const table *t)
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out)
-        stop_with_error("there is no memory");
+        stop_with_error("out of memory");
     write(t, out);
     fclose(out);
     return text;

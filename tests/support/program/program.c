@@ -23,7 +23,7 @@ void *resize_memory(void *old, size_t size)
 {
     void *new = realloc(old, size > 0 ? size : 1);
     if (!new)
-        stop_with_error("there is no memory");
+        stop_with_error("out of memory");
     return new;
 }
 
@@ -50,6 +50,6 @@ void parse_list(void *options, char *list, parse_entry *take)
 _Noreturn void exit_with_status(int status)
 {
     if (fflush(stdout) != 0 || ferror(stdout))
-        stop_with_error("the results cannot be written to standard output");
+        stop_with_error("cannot write the results to standard output");
     exit(status);
 }

@@ -78,7 +78,7 @@ void wait_for_file(background *b, const char *path)
         return;
     kill(b->pid, SIGKILL);
     const command_result result = wait_for_end(b);
-    fail_msg("%s does not come; octreel ended with status %d: %s", path, result.status, result.err);
+    fail_msg("%s was not created; octreel ended with status %d: %s", path, result.status, result.err);
 }
 
 static pid_t parent_of(const char *pid)

@@ -122,7 +122,7 @@ char *browser_drive_all(const temp_folder *own, const char *page, const char *co
     char *text = browser_open(own, driven.path, ""), *said = strstr(text, begin);
     const size_t size = strlen(text);
     if (said == NULL)
-        fail_msg("the page did not come to its end: %s", text + (size < 400 ? 0 : size - 400));
+        fail_msg("the script of the page did not finish: %s", text + (size < 400 ? 0 : size - 400));
     *strstr(said, "</pre>") = '\0';
     decode(said);
     const size_t length = strlen(said + sizeof begin - 1);
@@ -140,7 +140,7 @@ char *find_reported_value(const char *said, const char *what)
     const int length = snprintf(line, sizeof line, "\n%s\t", what);
     const char *found = strstr(said, line);
     if (found == NULL)
-        fail_msg("nothing is said about %s", what);
+        fail_msg("the page reported no value for %s", what);
     found += length;
     return strndup(found, strcspn(found, "\n"));
 }

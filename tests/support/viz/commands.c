@@ -283,9 +283,9 @@ void assert_trouble(command_result *result, const char *part)
     static const char prefix[] = "octreel: ";
     const char *end = strchr(result->err, '\n');
     if (strstr(result->err, part) == NULL)
-        fail_msg("stderr says \"%s\" and not \"%s\"", result->err, part);
+        fail_msg("stderr is \"%s\" and does not contain \"%s\"", result->err, part);
     if (end == NULL || end[1] != '\0' || strncmp(result->err, prefix, sizeof prefix - 1) != 0)
-        fail_msg("not one line of octreel's: \"%s\"", result->err);
+        fail_msg("stderr is not a single line from octreel: \"%s\"", result->err);
     assert_string_equal(result->out, "");
     assert_int_equal(result->status, 2);
     command_release(result);

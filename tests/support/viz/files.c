@@ -51,7 +51,7 @@ char *file_read(const char *path, size_t *size)
 {
     FILE *file = fopen(path, "rb");
     if (file == NULL)
-        fail_msg("%s cannot be read", path);
+        fail_msg("cannot read %s", path);
     assert_int_equal(fseek(file, 0, SEEK_END), 0);
     const long length = ftell(file);
     assert_true(length >= 0);
@@ -70,7 +70,7 @@ void file_write(const char *path, const void *bytes, size_t size)
 {
     FILE *file = fopen(path, "wb");
     if (file == NULL)
-        fail_msg("%s cannot be written", path);
+        fail_msg("cannot write %s", path);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
 }
@@ -96,7 +96,7 @@ listing folder_list(const char *folder)
     struct dirent **entries;
     const int found = scandir(folder, &entries, is_entry, NULL);
     if (found < 0)
-        fail_msg("%s cannot be listed", folder);
+        fail_msg("cannot list %s", folder);
     const size_t count = found < 0 ? 0 : (size_t)found;
     names.names = calloc(count + 1, sizeof *names.names);
     assert_non_null(names.names);

@@ -109,7 +109,7 @@ static void assert_whole_file(const char *folder, const char *name)
 {
     const place file = place_below(folder, name);
     if (strstr(name, ".part") != NULL)
-        fail_msg("%s is left", file.path);
+        fail_msg("%s is left over", file.path);
     if (strncmp(name, "frame_", 6) == 0) {
         image frame = assert_whole_frame(file.path, SMALL_WIDTH, SMALL_HEIGHT);
         image_release(&frame);

@@ -27,7 +27,7 @@ png_storage png_storage_at(int i)
                 return s;
         }
     }
-    fail_msg("there are %d ways of storing, not %d", n, PNG_STORAGES);
+    fail_msg("there are %d kinds of storage, not %d", n, PNG_STORAGES);
     return (png_storage){0};
 }
 

@@ -20,7 +20,7 @@ static int without_ci(void **state)
 static void assert_says(const char *text, const char *part)
 {
     if (!strstr(text, part))
-        fail_msg("\"%s\" does not say \"%s\"", text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", text, part);
 }
 
 /* Two versions of three frames, of which 2.png differs; and the paths of the test. */

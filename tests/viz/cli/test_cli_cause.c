@@ -31,7 +31,7 @@ static recorded_pair film_pair(const temp_folder *own, size_t capacity)
 static void assert_says(const command_result *result, const char *part)
 {
     if (!strstr(result->out, part))
-        fail_msg("\"%s\" does not say \"%s\"", result->out, part);
+        fail_msg("\"%s\" does not contain \"%s\"", result->out, part);
 }
 
 static void headline_is_the_second_line_and_causes_follow_their_frames(void **state)

@@ -108,7 +108,7 @@ static void progress_is_shown_only_on_a_terminal(void **state)
     command_result quiet = run_octreel(NULL, "inspect %s", a.path);
     assert_done(&quiet);
     if (!command_has_terminals()) {
-        print_message("a container without /dev/pts: there is no terminal to show progress on\n");
+        print_message("this container has no /dev/pts: progress on a terminal is not tested\n");
         command_release(&quiet);
         skip();
     }

@@ -112,7 +112,7 @@ static void assert_all_completed(void **state, const shell *s, const completed *
     const temp_folder *own = *state;
     char lines[2048] = "";
     if (!is_program_installed(s->name)) {
-        print_message("%s is not installed: nobody completes\n", s->name);
+        print_message("%s is not installed: its completions are not tested\n", s->name);
         skip();
     }
     for (size_t i = 0; i < count; i++)
@@ -158,7 +158,7 @@ static void skip_without_terminals(void)
 {
     const int one = open("/dev/ptmx", O_RDWR | O_NOCTTY);
     if (one < 0) {
-        print_message("no pseudoterminal can be opened: nobody completes\n");
+        print_message("no pseudoterminal can be opened: completions of zsh are not tested\n");
         skip();
     }
     close(one);

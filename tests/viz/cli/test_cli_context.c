@@ -17,7 +17,7 @@ static void need_contexts(bool osmesa, bool egl)
 {
     if ((draw_context_built(DRAW_OSMESA) || !osmesa) && (draw_context_built(DRAW_EGL) || !egl))
         return;
-    print_message("the program is built without a context that this is about\n");
+    print_message("octreel was built without a context that this test needs\n");
     skip();
 }
 

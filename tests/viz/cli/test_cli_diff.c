@@ -15,7 +15,7 @@ static void assert_ends(command_result *result, int status, const char *part)
     assert_string_equal(result->err, "");
     assert_int_equal(result->status, status);
     if (!strstr(result->out, part))
-        fail_msg("\"%s\" does not say \"%s\"", result->out, part);
+        fail_msg("\"%s\" does not contain \"%s\"", result->out, part);
     command_release(result);
 }
 

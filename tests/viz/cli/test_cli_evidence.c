@@ -29,7 +29,7 @@ static twins make_twins_of(void **state)
 static void assert_says(const char *text, const char *part)
 {
     if (!strstr(text, part))
-        fail_msg("\"%s\" does not say \"%s\"", text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", text, part);
 }
 
 static void assert_file_says(const char *path, const char *part)

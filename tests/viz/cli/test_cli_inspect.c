@@ -264,7 +264,7 @@ static void missing_node_is_refused_and_nothing_is_written(void **state)
                                             addresses[i], picture.path, csv.path);
         assert_trouble(&result, addresses[i]);
         if (file_exists(picture.path) || file_exists(csv.path))
-            fail_msg("--node %s is refused, and a file is made all the same", addresses[i]);
+            fail_msg("--node %s is refused, but a file is written", addresses[i]);
     }
 }
 

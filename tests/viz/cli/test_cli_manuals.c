@@ -112,7 +112,7 @@ static void assert_content(void **state, const char *program, const char *comman
 {
     const temp_folder *own = *state;
     if (!is_program_installed(program)) {
-        print_message("%s is not installed: nobody judges the manuals\n", program);
+        print_message("%s is not installed: the manuals are not checked\n", program);
         skip();
     }
     for (size_t i = 0; i <= page_count; i++) {
@@ -151,7 +151,7 @@ static void library_manual_has_every_function(void **state)
             continue;
         snprintf(wanted, sizeof wanted, "%.*s(", (int)(end - at), at);
         if (!strstr(manual, wanted))
-            fail_msg("octree(3) does not tell of %s", wanted);
+            fail_msg("octree(3) does not describe %s", wanted);
         found++;
     }
     assert_true(found > 40);
@@ -168,7 +168,7 @@ static void assert_names_are_told(const char *json, const char *text)
         snprintf(name, sizeof name, "%.*s", (int)length, at);
         at += length;
         if (*at == ':' && !strstr(text, name))
-            fail_msg("octreel help does not tell of %s", name);
+            fail_msg("octreel help does not describe %s", name);
     }
 }
 
@@ -237,7 +237,7 @@ static void manual_describes_every_kind_of_finding(void **state)
     command_result told = run_octreel(NULL, "help verify");
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (!strstr(told.out, kinds[i]))
-            fail_msg("octreel help verify does not tell of %s", kinds[i]);
+            fail_msg("octreel help verify does not describe %s", kinds[i]);
     command_release(&told);
 }
 

@@ -49,7 +49,7 @@ static void assert_mistakes(void **state, const mistake *rows, size_t count)
         command_result result = run_script("cd %s && env -u CI ./octreel %s", own->name, rows[i].arguments);
         assert_trouble(&result, rows[i].sentence);
         if (temp_folder_count(own) != before)
-            fail_msg("octreel %s makes something", rows[i].arguments);
+            fail_msg("octreel %s writes a file", rows[i].arguments);
     }
 }
 
@@ -285,7 +285,7 @@ static void assert_explains(const char *help, const char *name, const char *word
     char line[160];
     snprintf(line, sizeof line, " %s %s ", name, words);
     if (strstr(help, line) == NULL)
-        fail_msg("nothing says%s", line);
+        fail_msg("the help does not contain%s", line);
 }
 
 static void help_explains_every_value_and_key(void **state)

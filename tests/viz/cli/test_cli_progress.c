@@ -15,7 +15,7 @@ static command_result film_on(void **state, const command_setting *terminal)
     static int count;
     char name[16];
     if (!command_has_terminals()) {
-        print_message("a container without /dev/pts: there is no terminal to show progress on\n");
+        print_message("this container has no /dev/pts: progress on a terminal is not tested\n");
         skip();
     }
     snprintf(name, sizeof name, "film%d", count++);

@@ -330,7 +330,7 @@ static void progress_is_shown_on_a_terminal(void **state)
 {
     static const command_setting terminal = {.terminal = true};
     if (!command_has_terminals()) {
-        print_message("a container without /dev/pts: there is no terminal to show progress on\n");
+        print_message("this container has no /dev/pts: progress on a terminal is not tested\n");
         skip();
     }
     const place quiet = place_in(*state, "quiet"), shown = place_in(*state, "shown");

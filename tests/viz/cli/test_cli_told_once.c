@@ -38,7 +38,7 @@ static twins film_twice(void **state)
 static void assert_says(const char *text, const char *part)
 {
     if (!strstr(text, part))
-        fail_msg("\"%s\" does not say \"%s\"", text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", text, part);
 }
 
 static void frames_with_one_cause_are_one_finding_with_one_picture(void **state)

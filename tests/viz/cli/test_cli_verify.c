@@ -75,7 +75,7 @@ static void other_renderer_can_differ_only_in_pixels(void **state)
 {
     static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
     if (!draw_context_built(DRAW_EGL)) {
-        print_message("the program is built without EGL: no other renderer can be asked for\n");
+        print_message("octreel was built without EGL: no other renderer can be tested\n");
         skip();
     }
     const place folder = film_short(*state);
@@ -187,7 +187,7 @@ static void progress_is_shown_only_on_a_terminal(void **state)
 {
     static const command_setting terminal = {.terminal = true};
     if (!command_has_terminals()) {
-        print_message("a container without /dev/pts: there is no terminal to show progress on\n");
+        print_message("this container has no /dev/pts: progress on a terminal is not tested\n");
         skip();
     }
     const place folder = film_short(*state);

@@ -90,7 +90,7 @@ static void change_game(const job *j)
 static void assert_says(const char *text, const char *part)
 {
     if (strstr(text, part) == NULL)
-        fail_msg("\"%s\" does not say \"%s\"", text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", text, part);
 }
 
 static void assert_summary_says(const job *j, const char *part)

@@ -31,7 +31,7 @@ static command_result accept_all(const place *reference, const place *frames)
 static void assert_says(command_result *result, const char *part)
 {
     if (!strstr(result->out, part))
-        fail_msg("\"%s\" does not say \"%s\"", result->out, part);
+        fail_msg("\"%s\" does not contain \"%s\"", result->out, part);
 }
 
 /* A reference and a later state of it: 1 unchanged, 2 changed, 3 gone, 4 new. */

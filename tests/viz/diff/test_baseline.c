@@ -174,7 +174,7 @@ static void malformed_line_is_refused_with_its_number(void **state)
         diff_side side;
         octreel_error error = {""};
         if (parse(cases[i].text, &side, &error) || !strstr(error.text, cases[i].part))
-            fail_msg("case %zu: \"%s\" does not say \"%s\"", i, error.text, cases[i].part);
+            fail_msg("case %zu: \"%s\" does not contain \"%s\"", i, error.text, cases[i].part);
         diff_side_release(&side);
     }
 }

@@ -14,7 +14,7 @@ static void need_both_kinds(void)
 {
     if (draw_context_built(DRAW_OSMESA) && draw_context_built(DRAW_EGL))
         return;
-    print_message("one kind of context is built: there is nothing to compare\n");
+    print_message("only one kind of context was built: nothing is compared\n");
     skip();
 }
 

@@ -99,7 +99,7 @@ static void assert_refused(const char *why)
     renderer *r = renderer_open(SIDE, SIDE, &(renderer_choice){.fill = DRAW_FILL_GL}, &error);
     assert_null(r);
     if (!strstr(error.text, why))
-        fail_msg("\"%s\" does not say \"%s\"", error.text, why);
+        fail_msg("\"%s\" does not contain \"%s\"", error.text, why);
     memset(&fault, 0, sizeof fault);
 }
 
@@ -181,7 +181,7 @@ static void assert_not_opened(draw_context kind, const char *why)
     octreel_error error = {""};
     assert_null(renderer_open(SIDE, SIDE, &(renderer_choice){.context = kind, .fill = DRAW_FILL_GL}, &error));
     if (!strstr(error.text, why))
-        fail_msg("without %s: \"%s\" does not say \"%s\"", unknown ? unknown : "libraries", error.text, why);
+        fail_msg("without %s: \"%s\" does not contain \"%s\"", unknown ? unknown : "libraries", error.text, why);
 }
 
 static void need(draw_context kind)

@@ -78,7 +78,7 @@ static void assert_refused(const temp_folder *own, const font *f, const char *wh
     command_result made = convert(own, f);
     assert_int_equal(made.status, 2);
     if (!strstr(made.err, why))
-        fail_msg("\"%s\" does not say \"%s\"", made.err, why);
+        fail_msg("\"%s\" does not contain \"%s\"", made.err, why);
     command_release(&made);
 }
 
@@ -123,7 +123,7 @@ static void assert_fails(const char *arguments, const char *why)
     command_result made = run_script("'%s' %s", OCTREEL_FACES_CONVERT, arguments);
     assert_int_equal(made.status, 2);
     if (!strstr(made.err, why))
-        fail_msg("\"%s\" does not say \"%s\"", made.err, why);
+        fail_msg("\"%s\" does not contain \"%s\"", made.err, why);
     command_release(&made);
 }
 

@@ -172,7 +172,7 @@ static void every_reference_has_a_frame(void **state)
     const exhibit *e = *state;
     for (size_t i = 0; i < e->gallery->result.count; i++)
         if (e->gallery->result.pairs[i].finding == FOUND_NO_FRAME)
-            fail_msg("nobody draws %s", e->gallery->result.pairs[i].a->path);
+            fail_msg("no test draws %s", e->gallery->result.pairs[i].a->path);
 }
 
 static int run_exhibits(gallery *g, struct CMUnitTest *tests, exhibit *exhibits)

@@ -86,7 +86,7 @@ static char *replaced(const char *text, const char *old, const char *new)
     char *made = malloc(strlen(text) + strlen(new) + 1);
     assert_non_null(made);
     if (!at || strstr(at + 1, old))
-        fail_msg("%s stands there once", old);
+        fail_msg("%s does not occur exactly once", old);
     sprintf(made, "%.*s%s%s", (int)(at - text), text, new, at + strlen(old));
     return made;
 }

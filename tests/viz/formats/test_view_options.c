@@ -13,7 +13,7 @@ static bool parses(const view_option *option, const char *text, view *v, const c
     octreel_error error = {""};
     const bool parsed = option->parse(option, text, v, &error);
     if (!parsed && !strstr(error.text, part))
-        fail_msg("\"%s\" does not say \"%s\"", error.text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", error.text, part);
     return parsed;
 }
 
@@ -44,7 +44,7 @@ static void help_names_the_default_of_every_row(void **state)
             skip = skip || strcmp(option->name, elsewhere[n]) == 0;
         snprintf(expected, sizeof expected, "(default %s", option->standard ? option->standard : "");
         if (!skip && !strstr(option->help, expected))
-            fail_msg("the help of --%s does not say \"%s\"", option->name, expected);
+            fail_msg("the help of --%s does not contain \"%s\"", option->name, expected);
     }
 }
 

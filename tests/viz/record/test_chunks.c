@@ -63,7 +63,7 @@ static void assert_not_joined(const char *folder, const char *what, const char *
     listing before = folder_list(folder);
     assert_false(join_chunks(&options, &summary, &error));
     if (strstr(error.text, what) == NULL || strstr(error.text, reason) == NULL)
-        fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, what, reason);
+        fail_msg("\"%s\" does not contain both \"%s\" and \"%s\"", error.text, what, reason);
     listing after = folder_list(folder);
     assert_int_equal(before.count, after.count);
     listing_release(&before);
@@ -324,7 +324,7 @@ static void assert_not_filmed(const octree_session *session, const film_options 
     octreel_error error = {""};
     assert_false(film_session(session, options, &summary, &error));
     if (strstr(error.text, what) == NULL || strstr(error.text, reason) == NULL)
-        fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, what, reason);
+        fail_msg("\"%s\" does not contain both \"%s\" and \"%s\"", error.text, what, reason);
 }
 
 static void chunk_of_another_recording_is_refused_and_changes_nothing(void **state)

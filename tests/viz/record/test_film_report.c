@@ -25,7 +25,7 @@ static void need_ffmpeg(void)
 {
     if (has_ffmpeg())
         return;
-    print_message("ffmpeg is not installed: the lines are not run\n");
+    print_message("ffmpeg is not installed: the commands are not run\n");
     skip();
 }
 

@@ -26,7 +26,7 @@ static void assert_unprepared(const char *folder, const char *reason)
     octreel_error error = {""};
     assert_false(folder_prepare(folder, &error));
     if (strstr(error.text, folder) == NULL || strstr(error.text, reason) == NULL)
-        fail_msg("\"%s\" names not both %s and \"%s\"", error.text, folder, reason);
+        fail_msg("\"%s\" does not contain both %s and \"%s\"", error.text, folder, reason);
 }
 
 static void new_folders_are_made_with_their_parents(void **state)

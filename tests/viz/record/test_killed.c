@@ -80,7 +80,7 @@ static remains remains_of(void **state, const char *command, const char *folder)
     char arguments[2048];
     snprintf(arguments, sizeof arguments, "%s %s", command, r.folder.path);
     if (!trace_octreel(arguments, r.folder.path, keep_remains, &r)) {
-        print_message("this system does not let a process be followed\n");
+        print_message("this system does not allow tracing of processes\n");
         skip();
     }
     return r;

@@ -45,7 +45,7 @@ static void assert_no_page(const char *folder, const char *part, const char *rea
     octreel_error error = {""};
     assert_false(page_write(folder, &error));
     if (strstr(error.text, part) == NULL || strstr(error.text, reason) == NULL)
-        fail_msg("\"%s\" tells not both \"%s\" and \"%s\"", error.text, part, reason);
+        fail_msg("\"%s\" does not contain both \"%s\" and \"%s\"", error.text, part, reason);
     assert_false(file_exists(place_below(folder, "index.html").path));
     assert_false(file_exists(place_below(folder, "index.html.part").path));
 }

@@ -104,7 +104,7 @@ static void assert_says(const char *command, const place *a, const place *b, con
     command_result result = run_octreel(NULL, "%s %s %s --json --causes all", command, a->path, b->path);
     assert_int_equal(result.status, 1);
     if (!strstr(result.out, part))
-        fail_msg("\"%.3000s\" does not say \"%s\"", result.out, part);
+        fail_msg("\"%.3000s\" does not contain \"%s\"", result.out, part);
     command_release(&result);
 }
 

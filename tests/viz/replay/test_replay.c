@@ -202,7 +202,7 @@ static void assert_row(const row *r, void *context)
 {
     row pinned;
     if (!read_row(context, &pinned) || strcmp(pinned.session, r->session) != 0 || pinned.tick != r->tick)
-        fail_msg("session %s has a tick %" PRIu64 ", which is not pinned", r->session, r->tick);
+        fail_msg("session %s has a tick %" PRIu64 " without pinned digests", r->session, r->tick);
     for (int i = 0; i < COLUMNS; i++)
         if (r->digests[i] != pinned.digests[i])
             fail_msg("session %s: tick %" PRIu64
@@ -217,7 +217,7 @@ static void assert_replays(int which)
     FILE *in = open_rows(sessions[which].name);
     play(which, assert_row, in);
     if (read_row(in, &behind) && strcmp(behind.session, sessions[which].name) == 0)
-        fail_msg("session %s ends before tick %" PRIu64 ", which is pinned", behind.session, behind.tick);
+        fail_msg("session %s ends before the pinned tick %" PRIu64, behind.session, behind.tick);
     fclose(in);
 }
 

@@ -48,7 +48,7 @@ static void assert_changes(const place *folder, const char *name, bool all_notic
         bytes[at] = (char)((unsigned char)bytes[at] ^ flips[i % 4]);
         file_write(file.path, bytes, size);
         if (!is_noticed(folder) && all_noticed)
-            fail_msg("%s: byte %zu was changed, and nobody noticed", name, at);
+            fail_msg("%s: byte %zu was changed, but no difference is reported", name, at);
         bytes[at] = (char)((unsigned char)bytes[at] ^ flips[i % 4]);
     }
     file_write(file.path, bytes, size);

@@ -48,7 +48,7 @@ static void assert_refused(const char *a, const char *b, const char *folder, con
     octreel_error error = {""};
     assert_false(evidence_prepare(folder, &sides[0], &sides[1], &error));
     if (!strstr(error.text, part) || !strstr(error.text, folder))
-        fail_msg("\"%s\" does not say \"%s\"", error.text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", error.text, part);
     diff_side_release(&sides[0]);
     diff_side_release(&sides[1]);
 }

@@ -119,7 +119,7 @@ static void assert_said_part(void **state, const char *what, const char *part)
     skip_without_browser();
     char *value = find_reported_value(((driven *)*state)->said, what);
     if (!strstr(value, part))
-        fail_msg("%s: \"%s\" does not say \"%s\"", what, value, part);
+        fail_msg("%s: \"%s\" does not contain \"%s\"", what, value, part);
     free(value);
 }
 

@@ -42,7 +42,7 @@ static char *report_text(comparison_of *made, const evidence *e, reporter *write
 static void assert_says(const char *text, const char *part)
 {
     if (!strstr(text, part))
-        fail_msg("\"%s\" does not say \"%s\"", text, part);
+        fail_msg("\"%s\" does not contain \"%s\"", text, part);
 }
 
 /* Three frames that are the same, differ and cannot be read. */
