@@ -48,7 +48,7 @@ static const void *get_item(const json_counted *list, int kind, size_t index)
     return (const char *)list->items + index * rows[kind].size;
 }
 
-octree_input session_input(const octree_session *session)
+octree_input session_all_input(const octree_session *session)
 {
     return (octree_input){.edits = session->edits,
                           .edit_count = session->edit_count,
@@ -314,7 +314,7 @@ void session_write_header(const octree_session *session, const point_values *val
         if (first < all.count)
             set_list(&standing, i, get_item(&all, i, first), all.count - first);
     }
-    const session_header header = {*session, session_input(&standing), values};
+    const session_header header = {*session, session_all_input(&standing), values};
     json_writer writer = {.out = out, .context = values};
     json_write_object(&writer, session_header_members, &header);
     json_write_end_line(&writer);
@@ -356,7 +356,7 @@ bool session_write(const octree_session *session, const point_values *values, FI
             if (count > 0)
                 *list = (json_counted){get_item(list, i, count), list->count - count};
         }
-        const octree_input input = session_input(&now);
+        const octree_input input = session_all_input(&now);
         session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);

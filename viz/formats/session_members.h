@@ -71,8 +71,9 @@ bool session_append_standing(json_reader *r);
 /* Make a session of the header and the lists. The loader keeps the ownership of all arrays. */
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS]);
 
-/* What happens at the tick whose items a session holds. */
-octree_input session_input(const octree_session *session);
+/* The input of a tick, made of all edits, queries and shapes of a session, its first gap and its first foreign nodes.
+ */
+octree_input session_all_input(const octree_session *session);
 
 /* Remove all items of the lists and free their memory; session_release_lists() also frees the arrays. */
 void session_clear_lists(session_list lists[SESSION_LISTS]);

@@ -69,7 +69,7 @@ static session_stream_state read_object(session_stream *s, json_object_reader *r
 static octree_input make_input(const session_loader *s)
 {
     const octree_session all = session_assemble(s, s->lists);
-    return session_input(&all);
+    return session_all_input(&all);
 }
 
 /* Check the object here and not only in the game, because only here the line is known. */
