@@ -161,7 +161,7 @@ static int print_first_error(const diff_result *result, const explanation *why)
 
 /* ---- Reports ------------------------------------------------------------------------------------------------- */
 
-typedef bool reporter(FILE *out, const diff_report *report);
+typedef void reporter(FILE *out, const diff_report *report);
 
 static bool write_report(const char *path, reporter *write, const diff_report *report, octreel_error *error)
 {
@@ -170,10 +170,8 @@ static bool write_report(const char *path, reporter *write, const diff_report *r
         return true;
     if (!file_writer_open(&file, path, error))
         return false;
-    if (write(file.stream, report))
-        return file_writer_close(&file, error);
-    error_set(error, "%s: out of memory", file_output_title(path));
-    return file_writer_abandon(&file);
+    write(file.stream, report);
+    return file_writer_close(&file, error);
 }
 
 static void print_report(const arguments *a, const diff_report *report)
@@ -203,8 +201,8 @@ static int write_reports(const arguments *a, diff_report *all)
          write_report(a->outputs[MARKDOWN].path, diff_report_markdown, all, &error);
     if (ok)
         print_report(a, all);
-    if (ok && a->annotate && !diff_report_github(stderr, all))
-        ok = error_no_memory(&error);
+    if (ok && a->annotate)
+        diff_report_github(stderr, all);
     evidence_release(&e);
     if (!ok)
         return print_error("%s", error.text);
@@ -218,7 +216,7 @@ static bool check_files(const arguments *a, const diff_side sides[2], octreel_er
     const output_file outputs[OUTPUTS] = {{"-o", page}, a->outputs[JUNIT], a->outputs[MARKDOWN]};
     bool ok = check_outputs_differ(outputs, OUTPUTS, error);
     for (size_t i = 0; ok && i < OUTPUTS; i++)
-        ok = diff_side_spared(&sides[0], &outputs[i], error) && diff_side_spared(&sides[1], &outputs[i], error);
+        ok = diff_side_check_output(&sides[0], &outputs[i], error) && diff_side_check_output(&sides[1], &outputs[i], error);
     free(page);
     return ok;
 }

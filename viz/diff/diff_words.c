@@ -5,6 +5,8 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
+#include <string.h>
 
 const char *diff_verdict_name(diff_verdict verdict)
 {
@@ -148,4 +150,68 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
                 found[FOUND_SAME_PIXELS] == 1 ? "its" : "their");
     if (found[FOUND_WITHIN])
         fprintf(out, ", %zu forgiven", found[FOUND_WITHIN]);
+}
+
+/* ---- The tolerance ------------------------------------------------------------------------------------------- */
+
+/* Print one item of a list, after "forgiven: " or a comma. */
+static void print_item(FILE *out, bool *first, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs(*first ? "forgiven: " : ", ", out);
+    vfprintf(out, format, arguments);
+    va_end(arguments);
+    *first = false;
+}
+
+static bool any_transparent(const diff_result *result)
+{
+    for (size_t i = 0; i < result->count; i++)
+        if (result->pairs[i].transparent)
+            return true;
+    return false;
+}
+
+/* Whether a rectangle lies outside of all frames, which is probably a mistake of the user. */
+static bool is_outside(const image_rectangle *r, const diff_result *result)
+{
+    bool compared = false;
+    for (size_t i = 0; i < result->count; i++)
+        for (int side = 0; side < 2; side++) {
+            const frame_digest *about = &result->pairs[i].about[side];
+            compared = compared || about->width > 0;
+            if (r->x < about->width && r->y < about->height)
+                return false;
+        }
+    return compared;
+}
+
+void diff_print_tolerance(FILE *out, const diff_result *result)
+{
+    const diff_options *options = &result->options;
+    const image_tolerance *t = &options->tolerance;
+    const size_t other_spaces = diff_count_color_spaces(result);
+    bool first = true;
+    if (t->max_pixels)
+        print_item(out, &first, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural(t->max_pixels));
+    if (t->max_delta > 0)
+        print_item(out, &first, "colours within %g " IMAGE_DELTA_UNIT, t->max_delta);
+    if (t->antialias)
+        print_item(out, &first, "anti-aliasing");
+    for (size_t i = 0; i < t->ignored_count; i++) {
+        const image_rectangle *r = &t->ignored[i];
+        print_item(out, &first, "the %dx%d pixels at (%d,%d)%s", r->width, r->height, r->x, r->y,
+                   is_outside(r, result) ? ", outside every frame that was compared" : "");
+    }
+    if (options->mask)
+        print_item(out, &first, "the layer%s %s", strchr(options->layers, ',') ? "s" : "", options->layers);
+    if (first)
+        fputs("compared exactly", out);
+    if (any_transparent(result))
+        fprintf(out, "; transparent pixels lie over #%02x%02x%02x", options->background.r, options->background.g,
+                options->background.b);
+    if (other_spaces)
+        fprintf(out, "; gamma and colour profiles, which differ in %zu frame%s, are ignored", other_spaces,
+                plural(other_spaces));
 }

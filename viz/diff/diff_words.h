@@ -13,6 +13,9 @@ const char *diff_verdict_name(diff_verdict verdict);
 /* Print the verdict and the counts. The verdict may be worse than that of the result, because explaining may fail. */
 void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdict);
 
+/* Print the tolerance, or that there is none; the background of transparent pixels; and ignored colour spaces. */
+void diff_print_tolerance(FILE *out, const diff_result *result);
+
 /* Print how one pair differs: with its name, and without. */
 void diff_print_pair(FILE *out, const diff_pair *pair);
 void diff_print_difference(FILE *out, const diff_pair *pair);

@@ -7,7 +7,7 @@
 #include "file.h"
 #include "frame_file.h"
 #include "number.h"
-#include "xml.h"
+#include "text.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -265,13 +265,12 @@ static void write_links(const page *p, uint64_t tick)
 }
 
 /* Print a case as a sentence, and its answer as in ticks.jsonl, with all digits. */
-static void write_worst(const page *p, const audit_case *c, bool neighbors, text_stream *words)
+static void write_worst(const page *p, const audit_case *c, bool neighbors)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
     write_links(p, c->tick);
     fputs(", ", p->out);
-    audit_print_case(words->stream, c, neighbors);
-    write_escaped_stream(p->out, words, escape_xml_text);
+    audit_print_case(p->out, c, neighbors);
     fputs("<details><summary>as in ticks.jsonl</summary><pre>", p->out);
     write_escaped(p->out, c->answer, escape_xml_text);
     fputs("</pre></details></li>\n", p->out);
@@ -286,7 +285,7 @@ static void write_nodes(const page *p, const audit_nodes *nodes)
         if (!nodes->kinds[i])
             continue;
         fputs("<li>", p->out);
-        audit_print_fault(p->out, nodes, (octree_wrong_node_kind)i);
+        audit_print_wrong_nodes(p->out, nodes, (octree_wrong_node_kind)i);
         if (nodes->first[i].known)
             write_links(p, nodes->first[i].tick);
         fputs("</li>\n", p->out);
@@ -294,43 +293,29 @@ static void write_nodes(const page *p, const audit_nodes *nodes)
     fputs(nodes->faults ? "</ul>\n</section>\n" : "</section>\n", p->out);
 }
 
-static bool write_kind(const page *p, int of)
+static void write_kind(const page *p, int of)
 {
     const audit_kind *kind = &p->verdict->report->kinds[of];
     const octree_query_traits *about = octree_query_about((octree_query_kind)of);
-    text_stream s;
-    bool ok = text_stream_begin(&s);
     fprintf(p->out, "<section%s><h2>%s</h2>\n<p>",
             audit_kind_passes(kind, &p->verdict->report->limits) ? "" : " class=\"fails\"", about->name);
-    if (ok) {
-        audit_print_kind(s.stream, p->verdict, of);
-        ok = write_escaped_stream(p->out, &s, escape_xml_text);
-    }
+    audit_print_kind(p->out, p->verdict, of);
     fputs("</p>\n", p->out);
     write_chart(p, kind, false);
     if (about->neighbors)
         write_chart(p, kind, true);
     fputs(kind->worst_count ? "<h3>The worst</h3>\n<ol>\n" : "", p->out);
-    for (size_t i = 0; ok && i < kind->worst_count; i++) {
-        ok = text_stream_begin(&s);
-        if (ok)
-            write_worst(p, &kind->worst[i], about->neighbors, &s);
-    }
+    for (size_t i = 0; i < kind->worst_count; i++)
+        write_worst(p, &kind->worst[i], about->neighbors);
     fputs(kind->worst_count ? "</ol>\n</section>\n" : "</section>\n", p->out);
-    return ok;
 }
 
 /* Print the verdict, the path, the limits and, if there is no recording, that frames cannot be linked. */
-static bool write_head(const page *p)
+static void write_head(const page *p)
 {
     const audit_verdict *v = p->verdict;
-    text_stream s;
-    bool ok = text_stream_begin(&s);
     fprintf(p->out, "<h1%s>", audit_passes(v->report) ? "" : " class=\"fails\"");
-    if (ok) {
-        audit_print_all(s.stream, v);
-        ok = write_escaped_stream(p->out, &s, escape_xml_text);
-    }
+    audit_print_all(p->out, v);
     fputs("</h1>\n<p>octreel audit of ", p->out);
     write_escaped(p->out, v->path, escape_xml);
     fputs("</p>\n", p->out);
@@ -341,25 +326,24 @@ static bool write_head(const page *p)
     }
     fputs(p->base
               ? "<p>A point is the worst of its ticks and leads to its frame; larger ones are wrong. The page lets you "
-                "play "
-                "from a tick on.</p>\n"
+                "play from a tick on.</p>\n"
               : "<p>A session has no frames: record it, and audit the recording, for points that lead to them.</p>\n",
           p->out);
-    return ok;
 }
 
 bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 {
     page p = {.out = out, .verdict = verdict};
-    bool ok = find_recording(&p, from);
+    if (!find_recording(&p, from))
+        return false;
     fwrite(audit_page_head, 1, audit_page_head_size, out);
-    ok = ok && write_head(&p);
-    for (int i = 0; ok && i < OCTREE_QUERY_KINDS; i++)
+    write_head(&p);
+    for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
         if (verdict->report->kinds[i].asked)
-            ok = write_kind(&p, i);
+            write_kind(&p, i);
     if (verdict->report->nodes.given)
         write_nodes(&p, &verdict->report->nodes);
     fwrite(audit_page_tail, 1, audit_page_tail_size, out);
     free(p.base);
-    return ok;
+    return true;
 }

@@ -19,8 +19,8 @@ typedef struct audit_verdict {
 void audit_print_text(FILE *out, const audit_verdict *verdict);
 void audit_print_json(FILE *out, const audit_verdict *verdict);
 
-/* Write JUnit XML: a test case for each kind of query, and one for the nodes. Return false if memory runs out. */
-bool audit_print_junit(FILE *out, const audit_verdict *verdict);
+/* Write JUnit XML: a test case for each kind of query, and one for the nodes. */
+void audit_print_junit(FILE *out, const audit_verdict *verdict);
 
 /* Write a self-contained HTML page: charts of recall and ratio over the ticks, whose points link to their frames, and
  * the worst cases. Links are relative to `from`, the folder of the page. A chart has at most AUDIT_PAGE_POINTS points,
@@ -29,7 +29,10 @@ bool audit_print_junit(FILE *out, const audit_verdict *verdict);
 #define AUDIT_PAGE_POINTS 400
 bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from);
 
-/* ---- For this folder ------------------------------------------------------------------------------------------ */
+/* ---- For this folder ------------------------------------------------------------------------------------------
+ *
+ * The printed sentences need no escape in XML and HTML: they hold no "<", "&" or double quote.
+ */
 
 /* "1.7", "infinite". */
 #define AUDIT_RATIO_TEXT 48
@@ -40,12 +43,14 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT]);
 void audit_print_all(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
-void audit_print_nodes_head(FILE *out, const audit_nodes *nodes); /* "nodes: 3 faults" */
-void audit_print_fault(FILE *out, const audit_nodes *nodes,
-                       octree_wrong_node_kind kind); /* its count and its first node */
 void audit_print_limits(FILE *out, const audit_limits *limits);
 
-/* Print a case: the number of the answer in its tick, its fault, and the missing and extra points. */
+/* Print the parts of audit_print_nodes(): "nodes: 3 wrong in 2 ticks, ...", and for one kind of wrong nodes their
+ * number and the first of them. */
+void audit_print_nodes_head(FILE *out, const audit_nodes *nodes);
+void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind);
+
+/* Print a wrong answer: its index in its tick, why it is wrong, and the missing and extra points. */
 void audit_print_case(FILE *out, const audit_case *c, bool neighbors);
 
 #endif

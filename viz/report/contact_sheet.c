@@ -7,13 +7,11 @@
  * released before the next one, so at most one is in memory.
  */
 #include "contact_sheet.h"
-#include "diff_words.h"
 #include "file.h"
 #include "glyphs.h"
 #include "lettering.h"
 #include "png_read.h"
 #include "png_write.h"
-#include "text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -138,83 +136,46 @@ static void put_cell(image *sheet, const diff_report *report, size_t pair, evide
     free(path);
 }
 
-static void print_label(FILE *out, const diff_report *report, size_t group)
-{
-    frame_group_print(out, report->groups, report->result, group, false);
-}
-
-static void print_words(FILE *out, const diff_report *report, size_t group)
-{
-    const size_t first = report->groups->groups[group].first;
-    const char *cause = explanation_cause(report->why, first);
-    if (cause)
-        fputs(cause, out);
-    else
-        diff_print_difference(out, &report->result->pairs[first]);
-}
-
-static bool put_words(image *sheet, int top, void (*print)(FILE *, const diff_report *, size_t),
-                      const diff_report *report, size_t group, image_color color)
-{
-    text_stream s;
-    char *text;
-    if (text_stream_begin(&s))
-        print(s.stream, report, group);
-    if (!text_stream_end(&s, &text))
-        return false;
-    write_text(sheet, GAP, top, LETTERS, text ? text : "", color);
-    free(text);
-    return true;
-}
-
-static bool put_row(image *sheet, const diff_report *report, size_t group, int top)
+static void put_row(image *sheet, const diff_report *report, const frame_group *group, int top)
 {
     for (int i = 0; i < EVIDENCE_PICTURES; i++)
-        put_cell(sheet, report, report->groups->groups[group].first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP),
-                 top + 2 * LINE);
-    return put_words(sheet, top, print_label, report, group, warm_color) &&
-           put_words(sheet, top + LINE, print_words, report, group, text_color);
+        put_cell(sheet, report, group->first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP), top + 2 * LINE);
+    write_text(sheet, GAP, top, LETTERS, group->frames, warm_color);
+    write_text(sheet, GAP, top + LINE, LETTERS, group->cause ? group->cause : group->difference, text_color);
 }
 
-static void print_verdict(FILE *out, const diff_report *report, size_t group)
+static void put_all(image *sheet, const diff_report *report, size_t failing)
 {
-    (void)group;
-    diff_print_summary(out, report);
-    if (report->why->headline)
-        fprintf(out, ": %s", report->why->headline);
-}
-
-static bool put_all(image *sheet, const diff_report *report, size_t unlike)
-{
+    const char *headline = report->why->headline;
+    char line[LETTERS + 2]; /* one letter more than fits shows that the text goes on */
     size_t row = 0;
-    char more[64];
-    bool ok = put_words(sheet, GAP, print_verdict, report, 0, text_color);
+    snprintf(line, sizeof line, "%s%s%s", report->groups->verdict, headline ? ": " : "", headline ? headline : "");
+    write_text(sheet, GAP, GAP, LETTERS, line, text_color);
     for (int i = 0; i < EVIDENCE_PICTURES; i++)
         write_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40, evidence_word((evidence_picture)i),
                    faint_color);
-    for (size_t i = 0; ok && i < report->groups->count && row < CONTACT_SHEET_ROWS; i++)
-        if (diff_finding_verdict(report->result->pairs[report->groups->groups[i].first].finding) != DIFF_SAME)
-            ok = put_row(sheet, report, i, HEAD + GAP + (int)row++ * ROW);
-    snprintf(more, sizeof more, "and %zu more", unlike - row);
-    if (unlike > row)
-        write_text(sheet, GAP, HEAD + GAP + (int)row * ROW, LETTERS, more, faint_color);
-    return ok;
+    for (size_t i = 0; i < report->groups->count && row < CONTACT_SHEET_ROWS; i++)
+        if (frame_group_fails(&report->groups->groups[i], report->result))
+            put_row(sheet, report, &report->groups->groups[i], HEAD + GAP + (int)row++ * ROW);
+    snprintf(line, sizeof line, "and %zu more", failing - row);
+    if (failing > row)
+        write_text(sheet, GAP, HEAD + GAP + (int)row * ROW, LETTERS, line, faint_color);
 }
 
 bool contact_sheet_write(const diff_report *report, octreel_error *error)
 {
-    const size_t unlike = frame_groups_count_unlike(report->groups, report->result);
-    const size_t rows = unlike < CONTACT_SHEET_ROWS ? unlike : CONTACT_SHEET_ROWS;
+    const size_t failing = frame_groups_count_failing(report->groups, report->result);
+    const size_t rows = failing < CONTACT_SHEET_ROWS ? failing : CONTACT_SHEET_ROWS;
     image sheet;
-    if (unlike == 0)
+    if (failing == 0)
         return true;
-    if (!image_create(&sheet, WIDTH, HEAD + GAP + (int)rows * ROW + (unlike > rows ? LINE + GAP : 0), 3))
+    if (!image_create(&sheet, WIDTH, HEAD + GAP + (int)rows * ROW + (failing > rows ? LINE + GAP : 0), 3))
         return error_no_memory(error);
     fill(&sheet, 0, 0, sheet.width, sheet.height, ground);
+    put_all(&sheet, report, failing);
     char *path = path_join(report->evidence->folder, CONTACT_SHEET);
-    const bool ok = (path && put_all(&sheet, report, unlike)) || error_no_memory(error);
-    const bool written = ok && image_write_png(&sheet, path, NULL, 0, error);
+    const bool ok = path ? image_write_png(&sheet, path, NULL, 0, error) : error_no_memory(error);
     image_release(&sheet);
     free(path);
-    return written;
+    return ok;
 }

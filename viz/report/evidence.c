@@ -263,7 +263,7 @@ bool evidence_collect(evidence *e, const char *folder, const diff_result *result
     *e = (evidence){.folder = folder, .pictures = calloc(result->count, sizeof *e->pictures)};
     bool ok = e->pictures || error_no_memory(error);
     for (size_t i = 0; ok && i < result->count; i++)
-        if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && frame_groups_shows(groups, i))
+        if (diff_finding_verdict(result->pairs[i].finding) != DIFF_SAME && frame_groups_is_first(groups, i))
             ok = evidence_draw(&result->pairs[i], &result->options, folder, &e->pictures[i], error);
     if (!ok)
         evidence_release(e);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* groups.c - groups pairs by cause and prints the frames of a group.
+/* groups.c - groups pairs by cause and prints the sentences of reports.
  *
  * The listed pairs are sorted by key and then by index; each run of equal keys is one group, whose first pair has the
  * lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists them in the
@@ -13,6 +13,98 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- Sentences ----------------------------------------------------------------------------------------------- */
+
+static bool are_ticks(const frame_groups *g, const diff_result *result, size_t group)
+{
+    uint64_t tick;
+    for (size_t i = g->groups[group].first; i <= g->groups[group].last; i++)
+        if (g->of[i] == group && !frame_parse_name(diff_pair_name(&result->pairs[i]), &tick))
+            return false;
+    return true;
+}
+
+static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
+{
+    uint64_t tick;
+    if (ticks && frame_parse_name(diff_pair_name(pair), &tick))
+        fprintf(out, "%" PRIu64, tick);
+    else
+        write_escaped(out, diff_pair_name(pair), escape_nothing);
+}
+
+/* Print the names of a group's frames; with `others` without the first. */
+static void print_frames(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
+{
+    const bool ticks = are_ticks(g, result, group);
+    const size_t last = g->groups[group].last, all = g->groups[group].count - others;
+    size_t runs = 0, shown = 0;
+    if (ticks)
+        fputs(all == 1 ? "tick " : "ticks ", out);
+    for (size_t i = g->groups[group].first + others, end; i <= last && runs < GROUP_RUNS; i = end) {
+        for (end = i; end <= last && g->of[end] == group;)
+            end++;
+        if (end > i) {
+            fputs(runs++ ? ", " : "", out);
+            print_frame(out, &result->pairs[i], ticks);
+            if (end - i > 1)
+                fputs(end - i > 2 ? " to " : ", ", out);
+            if (end - i > 1)
+                print_frame(out, &result->pairs[end - 1], ticks);
+        }
+        shown += end - i;
+        end += end == i;
+    }
+    if (shown < all)
+        fprintf(out, " and %zu more", all - shown);
+}
+
+/* The text at *at; move *at behind it. */
+static const char *next_text(const char **at)
+{
+    const char *text = *at;
+    *at += strlen(text) + 1;
+    return text;
+}
+
+/* Print all texts into one block of memory, each with a zero at its end. */
+static bool print_sentences(frame_groups *g, const diff_result *result, const explanation *why)
+{
+    text_stream s;
+    if (!text_stream_begin(&s))
+        return false;
+    diff_print_verdict(s.stream, result, explanation_verdict(why, result));
+    putc(0, s.stream);
+    diff_print_tolerance(s.stream, result);
+    putc(0, s.stream);
+    for (size_t i = 0; i < g->count; i++) {
+        diff_print_pair(s.stream, &result->pairs[g->groups[i].first]);
+        putc(0, s.stream);
+        diff_print_difference(s.stream, &result->pairs[g->groups[i].first]);
+        putc(0, s.stream);
+        print_frames(s.stream, g, result, i, false);
+        putc(0, s.stream);
+        if (g->groups[i].count > 1)
+            print_frames(s.stream, g, result, i, true);
+        putc(0, s.stream);
+    }
+    if (!text_stream_end(&s, &g->sentences))
+        return false;
+    const char *at = g->sentences;
+    g->verdict = next_text(&at);
+    g->tolerance = next_text(&at);
+    for (size_t i = 0; i < g->count; i++) {
+        g->groups[i].cause = explanation_cause(why, g->groups[i].first);
+        g->groups[i].line = next_text(&at);
+        g->groups[i].difference = next_text(&at);
+        g->groups[i].frames = next_text(&at);
+        g->groups[i].others = next_text(&at);
+    }
+    return true;
+}
+
+/* ---- Groups -------------------------------------------------------------------------------------------------- */
 
 /* A pair and the key by which it is sorted. */
 typedef struct keyed_pair {
@@ -34,8 +126,9 @@ static void number_groups(frame_groups *g, size_t pairs, const size_t *first)
         if (first[i] == GROUP_NONE)
             continue;
         if (first[i] == i)
-            g->groups[g->count++] = (frame_group){i, 0};
+            g->groups[g->count++] = (frame_group){.first = i};
         g->of[i] = first[i] == i ? g->count - 1 : g->of[first[i]];
+        g->groups[g->of[i]].last = i;
         g->groups[g->of[i]].count++;
     }
 }
@@ -65,70 +158,31 @@ bool frame_groups_make(frame_groups *g, const diff_result *result, const explana
         number_groups(g, pairs, first);
     free(keyed);
     free(first);
-    return ok;
+    return ok && (print_sentences(g, result, why) || error_no_memory(error));
 }
 
 void frame_groups_release(frame_groups *g)
 {
     free(g->groups);
     free(g->of);
+    free(g->sentences);
     *g = (frame_groups){0};
 }
 
-bool frame_groups_shows(const frame_groups *g, size_t pair)
+bool frame_groups_is_first(const frame_groups *g, size_t pair)
 {
     return g->of[pair] != GROUP_NONE && g->groups[g->of[pair]].first == pair;
 }
 
-size_t frame_groups_count_unlike(const frame_groups *g, const diff_result *result)
+bool frame_group_fails(const frame_group *group, const diff_result *result)
+{
+    return diff_finding_verdict(result->pairs[group->first].finding) != DIFF_SAME;
+}
+
+size_t frame_groups_count_failing(const frame_groups *g, const diff_result *result)
 {
     size_t count = 0;
     for (size_t i = 0; i < g->count; i++)
-        count += diff_finding_verdict(result->pairs[g->groups[i].first].finding) != DIFF_SAME;
+        count += frame_group_fails(&g->groups[i], result);
     return count;
-}
-
-/* ---- Printing ------------------------------------------------------------------------------------------------ */
-
-static bool are_ticks(const frame_groups *g, const diff_result *result, size_t group)
-{
-    uint64_t tick;
-    for (size_t i = g->groups[group].first; i < result->count; i++)
-        if (g->of[i] == group && !frame_parse_name(diff_pair_name(&result->pairs[i]), &tick))
-            return false;
-    return true;
-}
-
-static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
-{
-    uint64_t tick;
-    if (ticks && frame_parse_name(diff_pair_name(pair), &tick))
-        fprintf(out, "%" PRIu64, tick);
-    else
-        write_escaped(out, diff_pair_name(pair), escape_nothing);
-}
-
-void frame_group_print(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
-{
-    const bool ticks = are_ticks(g, result, group);
-    const size_t first = g->groups[group].first + others, all = g->groups[group].count - others;
-    size_t runs = 0, shown = 0;
-    if (ticks)
-        fputs(all == 1 ? "tick " : "ticks ", out);
-    for (size_t i = first, end; i < result->count && runs < GROUP_RUNS; i = end) {
-        for (end = i; end < result->count && g->of[end] == group;)
-            end++;
-        if (end > i) {
-            fputs(runs++ ? ", " : "", out);
-            print_frame(out, &result->pairs[i], ticks);
-            if (end - i > 1)
-                fputs(end - i > 2 ? " to " : ", ", out);
-            if (end - i > 1)
-                print_frame(out, &result->pairs[end - 1], ticks);
-        }
-        shown += end - i;
-        end += end == i;
-    }
-    if (shown < all)
-        fprintf(out, " and %zu more", all - shown);
 }

@@ -28,19 +28,18 @@ void diff_report_text(FILE *out, const diff_report *report);
 void diff_report_json(FILE *out, const diff_report *report);
 
 /* Write JUnit XML for GitHub actions, GitLab and Jenkins: a test case for each frame, because these systems track a
- * case by its name. The first case of a group has all details, the others refer to it. Return false if memory runs out.
- */
-bool diff_report_junit(FILE *out, const diff_report *report);
+ * case by its name. The first case of a group has all details, the others refer to it. */
+void diff_report_junit(FILE *out, const diff_report *report);
 
 /* Write GitHub workflow commands, "::error file=...,title=...::...", which annotate a change: one line for each of the
- * first groups, because GitHub shows only a few for each step. Return false if memory runs out. */
+ * first groups, because GitHub shows only a few for each step. */
 #define DIFF_REPORT_ANNOTATIONS 10
-bool diff_report_github(FILE *out, const diff_report *report);
+void diff_report_github(FILE *out, const diff_report *report);
 
 /* Write a section of GitHub Markdown for the summary of a CI job: the verdict and a table of up to DIFF_REPORT_ROWS
- * groups. Return false if memory runs out. */
+ * groups. */
 #define DIFF_REPORT_ROWS 20
-bool diff_report_markdown(FILE *out, const diff_report *report);
+void diff_report_markdown(FILE *out, const diff_report *report);
 
 /* Write report.html into the folder of evidence: one self-contained page to look through the differences and to tick
  * frames for acceptance. It holds the first DIFF_REPORT_PAGE_FRAMES groups and their pictures, up to
@@ -48,9 +47,5 @@ bool diff_report_markdown(FILE *out, const diff_report *report);
 #define DIFF_REPORT_PAGE_FRAMES 50
 #define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; more slows browsers down */
 bool diff_report_page(const diff_report *report, octreel_error *error);
-
-/* Print one line without its newline: the verdict and the counts; and the tolerance, or that there is none. */
-void diff_print_summary(FILE *out, const diff_report *report);
-void diff_print_tolerance(FILE *out, const diff_report *report);
 
 #endif

@@ -207,7 +207,7 @@ static void write_place(json_writer *w, const diff_report *report)
     json_member_text(w, "folder", e->folder);
     if (page)
         json_member_text(w, "page", page);
-    if (sheet && frame_groups_count_unlike(report->groups, report->result) > 0)
+    if (sheet && frame_groups_count_failing(report->groups, report->result) > 0)
         json_member_text(w, "contact_sheet", sheet);
     json_write_end_object(w);
     free(sheet);

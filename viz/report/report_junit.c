@@ -1,56 +1,45 @@
 /* SPDX-License-Identifier: MIT */
-/* report_junit.c - writes a comparison as JUnit XML: see report.h.
- *
- * Readers require a time for each test case; it is unknown, so it is 0. GitLab and Jenkins show the picture of an
- * ATTACHMENT line if they find the file at its path.
- */
-#include "report.h"
+/* report_junit.c - writes a comparison as JUnit XML: see report.h. GitLab and Jenkins show the picture of an ATTACHMENT
+ * line if they find the file at its path. */
 #include "diff_words.h"
-#include "xml.h"
+#include "junit.h"
+#include "report.h"
 
 #include <stdlib.h>
 
-/* Print all details of the first frame of a group. */
-static void print_finding(FILE *out, const diff_report *report, size_t i)
+static void write_xml(FILE *out, const char *before, const char *text)
 {
-    const size_t group = report->groups->of[i];
-    diff_print_difference(out, &report->result->pairs[i]);
-    if (explanation_cause(report->why, i))
-        fprintf(out, ". Cause: %s", explanation_cause(report->why, i));
-    if (report->groups->groups[group].count > 1) {
-        fputs(". Alike: ", out);
-        frame_group_print(out, report->groups, report->result, group, true);
+    fputs(before, out);
+    write_escaped(out, text, escape_xml);
+}
+
+/* Write why a pair fails: all details for the first pair of a group, only the first pair's name for the others. */
+static void write_message(FILE *out, const diff_report *report, size_t i)
+{
+    const diff_pair *pairs = report->result->pairs;
+    const frame_group *group = &report->groups->groups[report->groups->of[i]];
+    fputs(diff_verdict_name(diff_finding_verdict(pairs[i].finding)), out);
+    if (group->first != i) {
+        write_xml(out, ": like ", diff_pair_name(&pairs[group->first]));
+        return;
     }
+    write_xml(out, ": ", group->difference);
+    if (group->cause)
+        write_xml(out, ". Cause: ", group->cause);
+    if (group->count > 1)
+        write_xml(out, ". Alike: ", group->others);
 }
 
-static const char *name_of_first(const diff_report *report, size_t i)
+/* Some readers show the attribute of a failure and some its text, so both have the message. */
+static void write_failure(FILE *out, const diff_report *report, size_t i)
 {
-    return diff_pair_name(&report->result->pairs[report->groups->groups[report->groups->of[i]].first]);
-}
-
-static bool write_fault(FILE *out, const diff_report *report, size_t i)
-{
-    const diff_pair *pair = &report->result->pairs[i];
-    const diff_verdict verdict = diff_finding_verdict(pair->finding);
-    const char *element = verdict == DIFF_TROUBLE ? "error" : "failure";
-    char *words;
-    text_stream s;
-    if (!text_stream_begin(&s))
-        return false;
-    fprintf(s.stream, "%s: ", diff_verdict_name(verdict));
-    if (frame_groups_shows(report->groups, i))
-        print_finding(s.stream, report, i);
-    else
-        fprintf(s.stream, "like %s", name_of_first(report, i));
-    if (!text_stream_end(&s, &words))
-        return false;
-    fprintf(out, "      <%s type=\"%s\"", element, diff_finding_name(pair->finding));
-    write_attribute(out, "message", words);
-    putc('>', out);
-    write_escaped(out, words, escape_xml); /* some readers show the attribute, some the text */
+    const diff_finding finding = report->result->pairs[i].finding;
+    const char *element = diff_finding_verdict(finding) == DIFF_TROUBLE ? "error" : "failure";
+    fprintf(out, "      <%s type=\"%s\" message=\"", element, diff_finding_name(finding));
+    write_message(out, report, i);
+    fputs("\">", out);
+    write_message(out, report, i);
     fprintf(out, "</%s>\n", element);
-    free(words);
-    return true;
 }
 
 static void write_paths(FILE *out, const diff_report *report, size_t i)
@@ -60,99 +49,73 @@ static void write_paths(FILE *out, const diff_report *report, size_t i)
         char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
         if (path) {
             fprintf(out, "%s: ", evidence_word((evidence_picture)picture));
-            write_escaped(out, path, escape_xml);
-            fputs(picture == EVIDENCE_DIFFERENCE ? "\n[[ATTACHMENT|" : "\n", out);
-            if (picture == EVIDENCE_DIFFERENCE) {
-                write_escaped(out, path, escape_xml);
-                fputs("]]\n", out);
-            }
+            write_xml(out, "", path);
+            putc('\n', out);
+        }
+        if (path && picture == EVIDENCE_DIFFERENCE) {
+            write_xml(out, "[[ATTACHMENT|", path);
+            fputs("]]\n", out);
         }
         free(path);
     }
     fputs("      </system-out>\n", out);
 }
 
-static bool write_case(FILE *out, const diff_report *report, size_t i)
+static void write_case(FILE *out, const diff_report *report, size_t i)
 {
     const diff_pair *pair = &report->result->pairs[i];
-    const bool fails = diff_finding_verdict(pair->finding) != DIFF_SAME;
-    fputs("    <testcase", out);
-    write_attribute(out, "classname", report->b->path);
-    write_attribute(out, "name", diff_pair_name(pair));
-    fputs(" time=\"0\"", out);
-    fputs(fails ? ">\n" : "/>\n", out);
-    if (!fails)
-        return true;
-    if (!write_fault(out, report, i))
-        return false;
+    junit_begin_case(out, report->b->path, diff_pair_name(pair));
+    if (diff_finding_verdict(pair->finding) == DIFF_SAME) {
+        fputs("/>\n", out);
+        return;
+    }
+    fputs(">\n", out);
+    write_failure(out, report, i);
     if (report->evidence && report->evidence->pictures[i])
         write_paths(out, report, i);
     fputs("    </testcase>\n", out);
-    return true;
 }
 
 /* Write the only test case for recordings without frames: their ticks. */
 static void write_ticks_case(FILE *out, const diff_report *report)
 {
     const char *headline = report->why->headline ? report->why->headline : "";
-    fputs("    <testcase", out);
-    write_attribute(out, "classname", report->b->path);
-    fputs(" name=\"ticks.jsonl\" time=\"0\"", out);
+    junit_begin_case(out, report->b->path, "ticks.jsonl");
     if (report->result->verdict == DIFF_SAME) {
         fputs("/>\n", out);
         return;
     }
-    fputs(">\n      <failure type=\"ticks\" message=\"different: ", out);
-    write_escaped(out, headline, escape_xml);
-    fputs("\">different: ", out);
-    write_escaped(out, headline, escape_xml);
+    write_xml(out, ">\n      <failure type=\"ticks\" message=\"different: ", headline);
+    write_xml(out, "\">different: ", headline);
     fputs("</failure>\n    </testcase>\n", out);
 }
 
-static void write_counts(FILE *out, const diff_result *result)
-{
-    const bool ticks_differ = result->by_ticks && result->verdict != DIFF_SAME;
-    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"0\" time=\"0\">\n",
-            result->count + result->by_ticks, diff_count_different(result) + ticks_differ,
-            result->found[FOUND_UNREADABLE]);
-}
-
 /* Write what holds for all cases: the verdict, the headline and the tolerance. */
-static bool write_summary(FILE *out, const diff_report *report)
+static void write_summary(FILE *out, const diff_report *report)
 {
-    text_stream s;
-    if (!text_stream_begin(&s))
-        return false;
-    diff_print_summary(s.stream, report);
-    putc('\n', s.stream);
-    if (report->why->headline)
-        fprintf(s.stream, "%s\n", report->why->headline);
-    diff_print_tolerance(s.stream, report);
-    putc('\n', s.stream);
-    fputs("    <system-out>", out);
-    const bool ok = write_escaped_stream(out, &s, escape_xml_text);
-    fputs("    </system-out>\n", out);
+    write_xml(out, "    <system-out>", report->groups->verdict);
+    if (report->why->headline) {
+        putc('\n', out);
+        write_escaped(out, report->why->headline, escape_xml_text);
+    }
+    write_xml(out, "\n", report->groups->tolerance);
+    fputs("\n    </system-out>\n", out);
     if (report->why->trouble) {
-        fputs("    <system-err>", out);
-        write_escaped(out, report->why->trouble, escape_xml);
+        write_xml(out, "    <system-err>", report->why->trouble);
         fputs("</system-err>\n", out);
     }
-    return ok;
 }
 
-bool diff_report_junit(FILE *out, const diff_report *report)
+void diff_report_junit(FILE *out, const diff_report *report)
 {
-    bool ok = true;
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"octreel diff\"", out);
-    write_counts(out, report->result);
-    fputs("  <testsuite", out);
-    write_attribute(out, "name", report->a->path);
-    write_counts(out, report->result);
-    if (report->result->by_ticks)
+    const diff_result *result = report->result;
+    const bool ticks_differ = result->by_ticks && result->verdict != DIFF_SAME;
+    junit_begin(out, "octreel diff", report->a->path, result->count + result->by_ticks,
+                diff_count_different(result) + ticks_differ, result->found[FOUND_UNREADABLE]);
+    if (result->by_ticks)
         write_ticks_case(out, report);
-    for (size_t i = 0; ok && i < report->result->count; i++)
-        ok = write_case(out, report, i);
-    ok = ok && write_summary(out, report);
-    fputs("  </testsuite>\n</testsuites>\n", out);
-    return ok;
+    for (size_t i = 0; i < result->count; i++)
+        write_case(out, report, i);
+    write_summary(out, report);
+    junit_end(out);
 }

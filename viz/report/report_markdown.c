@@ -38,66 +38,52 @@ static void write_pixels(FILE *out, const diff_pair *pair)
             d->counted.worst_x, d->counted.worst_y);
 }
 
-static bool write_others(FILE *out, const diff_report *report, size_t group)
+static void write_row(FILE *out, const diff_report *report, const frame_group *group, bool causes)
 {
-    text_stream s;
-    if (report->groups->groups[group].count == 1)
-        return true;
-    fprintf(out, " and %zu more: ", report->groups->groups[group].count - 1);
-    if (!text_stream_begin(&s))
-        return false;
-    frame_group_print(s.stream, report->groups, report->result, group, true);
-    return write_escaped_stream(out, &s, escape_markdown);
-}
-
-static bool write_row(FILE *out, const diff_report *report, size_t group, bool causes)
-{
-    const size_t i = report->groups->groups[group].first;
-    const diff_pair *pair = &report->result->pairs[i];
-    const char *cause = explanation_cause(report->why, i);
+    const diff_pair *pair = &report->result->pairs[group->first];
     fputs("| ", out);
     write_name(out, diff_pair_name(pair));
-    bool ok = write_others(out, report, group);
+    if (group->count > 1) {
+        fprintf(out, " and %zu more: ", group->count - 1);
+        write_text(out, group->others);
+    }
     fputs(" | ", out);
     if (pair->finding == FOUND_PIXELS) {
         write_pixels(out, pair);
     } else {
-        text_stream s;
-        ok = text_stream_begin(&s) && ok;
-        if (s.stream)
-            diff_print_difference(s.stream, pair);
-        ok = write_escaped_stream(out, &s, escape_markdown) && ok;
+        write_text(out, group->difference);
         fputs(" |", out);
     }
-    fputs(" |", out);
+    fputs(causes ? " | " : " |", out);
     if (causes) {
-        putc(' ', out);
-        write_text(out, cause ? cause : "");
+        write_text(out, group->cause ? group->cause : "");
         fputs(" |", out);
     }
     putc('\n', out);
-    return ok;
 }
 
-static bool write_table(FILE *out, const diff_report *report)
+static void write_table(FILE *out, const diff_report *report)
 {
     const bool causes = has_causes(report->why);
     size_t rows = 0;
-    bool ok = true;
     fprintf(out, "\n| frame | difference | worst |%s\n|---|---|---|%s\n", causes ? " cause |" : "",
             causes ? "---|" : "");
-    for (size_t i = 0; ok && i < report->groups->count; i++) {
-        const diff_pair *first = &report->result->pairs[report->groups->groups[i].first];
-        if (diff_finding_verdict(first->finding) != DIFF_SAME && rows++ < DIFF_REPORT_ROWS)
-            ok = write_row(out, report, i, causes);
+    for (size_t i = 0; i < report->groups->count; i++) {
+        const frame_group *group = &report->groups->groups[i];
+        if (frame_group_fails(group, report->result) && rows++ < DIFF_REPORT_ROWS)
+            write_row(out, report, group, causes);
     }
     if (rows > DIFF_REPORT_ROWS)
         fprintf(out, "\nand %zu more\n", rows - DIFF_REPORT_ROWS);
-    return ok;
 }
 
-static void write_why(FILE *out, const explanation *why)
+void diff_report_markdown(FILE *out, const diff_report *report)
 {
+    const explanation *why = report->why;
+    const bool fails = frame_groups_count_failing(report->groups, report->result) > 0;
+    fputs("### octreel diff: ", out);
+    write_text(out, report->groups->verdict);
+    fputs("\n\n", out);
     if (why->headline) {
         fputs("**", out);
         write_text(out, why->headline);
@@ -108,46 +94,19 @@ static void write_why(FILE *out, const explanation *why)
         write_text(out, why->trouble);
         fputs("\n\n", out);
     }
-}
-
-static bool write_verdict(FILE *out, const diff_report *report)
-{
-    text_stream s;
-    if (!text_stream_begin(&s))
-        return false;
-    diff_print_summary(s.stream, report);
-    fputs("### octreel diff: ", out);
-    bool ok = write_escaped_stream(out, &s, escape_markdown);
-    fputs("\n\n", out);
-    write_why(out, report->why);
     write_name(out, report->b->path);
     fputs(" against ", out);
     write_name(out, report->a->path);
     fputs(", ", out);
-    if (!ok || !text_stream_begin(&s))
-        return false;
-    diff_print_tolerance(s.stream, report);
-    ok = write_escaped_stream(out, &s, escape_markdown);
+    write_text(out, report->groups->tolerance);
     fputs(".\n", out);
-    return ok;
-}
-
-static bool any_differs(const diff_result *result)
-{
-    return diff_count_different(result) + result->found[FOUND_UNREADABLE] > 0;
-}
-
-bool diff_report_markdown(FILE *out, const diff_report *report)
-{
-    if (!write_verdict(out, report) || (any_differs(report->result) && !write_table(out, report)))
-        return false;
-    if (report->evidence) {
-        fputs("\nEvidence: <code>", out);
-        write_text(out, report->evidence->folder);
-        fputs("/" EVIDENCE_PAGE "</code>", out);
-        if (any_differs(report->result))
-            fputs(", at a glance <code>" CONTACT_SHEET "</code>", out);
-        fputs("\n", out);
-    }
-    return true;
+    if (fails)
+        write_table(out, report);
+    if (!report->evidence)
+        return;
+    fputs("\nEvidence: <code>", out);
+    write_text(out, report->evidence->folder);
+    fputs(fails ? "/" EVIDENCE_PAGE "</code>, at a glance <code>" CONTACT_SHEET "</code>\n"
+                : "/" EVIDENCE_PAGE "</code>\n",
+          out);
 }

@@ -4,7 +4,6 @@
  * Between the page's two halves go the facts, a line of JSON for the whole and one for each group that differs, and
  * then the pictures. They stay on the disk until they are copied, a block at a time.
  */
-#include "diff_words.h"
 #include "evidence_page.h"
 #include "report_json.h"
 #include "text.h"
@@ -14,14 +13,25 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* The first pairs of the groups on the page, in the order of the groups. */
+/* A group on the page, and whether its pictures are embedded. */
+typedef struct page_group {
+    size_t group;
+    bool embedded;
+} page_group;
+
+/* The groups on the page, in the order of the report. */
 typedef struct page {
     const diff_report *report;
     FILE *out;
-    size_t pairs[DIFF_REPORT_PAGE_FRAMES];
-    bool embedded[DIFF_REPORT_PAGE_FRAMES];
+    page_group groups[DIFF_REPORT_PAGE_FRAMES];
     size_t count, left_out;
 } page;
+
+/* The first pair of the n-th group on the page. */
+static size_t first_pair(const page *p, size_t n)
+{
+    return p->report->groups->groups[p->groups[n].group].first;
+}
 
 /* ---- Contents ------------------------------------------------------------------------------------------------ */
 
@@ -46,79 +56,24 @@ static uint64_t pictures_size(const diff_report *report, size_t i)
     return sum;
 }
 
-static void choose_pairs(page *p)
+static void choose_groups(page *p)
 {
-    const diff_result *result = p->report->result;
+    const frame_groups *g = p->report->groups;
     uint64_t room = DIFF_REPORT_PAGE_BYTES;
-    for (size_t group = 0; group < p->report->groups->count; group++) {
-        const size_t i = p->report->groups->groups[group].first;
-        if (diff_finding_verdict(result->pairs[i].finding) == DIFF_SAME)
+    for (size_t group = 0; group < g->count; group++) {
+        if (!frame_group_fails(&g->groups[group], p->report->result))
             continue;
         if (p->count == DIFF_REPORT_PAGE_FRAMES) {
             p->left_out++;
             continue;
         }
-        const uint64_t size = pictures_size(p->report, i);
-        p->embedded[p->count] = size <= room;
+        const uint64_t size = pictures_size(p->report, g->groups[group].first);
+        p->groups[p->count++] = (page_group){group, size <= room};
         room -= size <= room ? size : 0;
-        p->pairs[p->count++] = i;
     }
 }
 
 /* ---- Facts --------------------------------------------------------------------------------------------------- */
-
-/* A line of JSON. It is built in memory because "</" in it would end the HTML element and must be escaped. */
-typedef struct fact_line {
-    text_stream made;
-    json_writer writer;
-} fact_line;
-
-static bool line_begin(fact_line *line)
-{
-    *line = (fact_line){.writer = {.out = NULL}};
-    if (!text_stream_begin(&line->made))
-        return false;
-    line->writer.out = line->made.stream;
-    json_write_begin_object(&line->writer);
-    return true;
-}
-
-/* Escape "<", which occurs only in strings of JSON. */
-static bool line_end(fact_line *line, FILE *out)
-{
-    char *text;
-    json_write_end_object(&line->writer);
-    json_write_end_line(&line->writer);
-    const bool ok = text_stream_end(&line->made, &text);
-    for (const char *at = ok ? text : ""; *at; at++)
-        if (*at == '<')
-            fputs("\\u003c", out);
-        else
-            putc(*at, out);
-    free(text);
-    return ok;
-}
-
-/* Write a member whose text was printed into a stream. */
-static bool write_words(json_writer *w, const char *key, text_stream *s)
-{
-    char *text;
-    if (!text_stream_end(s, &text))
-        return false;
-    json_member_text(w, key, text ? text : "");
-    free(text);
-    return true;
-}
-
-typedef void printer(FILE *out, const diff_report *report);
-
-static bool write_line(json_writer *w, const char *key, printer *print, const diff_report *report)
-{
-    text_stream s;
-    if (text_stream_begin(&s))
-        print(s.stream, report);
-    return write_words(w, key, &s);
-}
 
 /* Write the number of differing pixels of each pair; null if they were not counted, as for pictures of different sizes.
  */
@@ -146,13 +101,12 @@ static void write_curve(json_writer *w, const diff_result *result)
 /* Write for each pair the number of its group on the page, or null. */
 static void write_entries(json_writer *w, const page *p)
 {
-    const frame_groups *g = p->report->groups;
     json_member_begin_array(w, "entries");
     for (size_t i = 0; i < p->report->result->count; i++) {
         size_t n = 0;
-        while (g->of[i] != GROUP_NONE && n < p->count && p->pairs[n] != g->groups[g->of[i]].first)
+        while (n < p->count && p->groups[n].group != p->report->groups->of[i])
             n++;
-        if (g->of[i] != GROUP_NONE && n < p->count)
+        if (n < p->count)
             json_write_integer(w, n);
         else
             json_write_null(w);
@@ -160,19 +114,18 @@ static void write_entries(json_writer *w, const page *p)
     json_write_end_array(w);
 }
 
-static bool write_whole(const page *p)
+static void write_whole(json_writer *w, const page *p)
 {
-    fact_line line;
-    if (!line_begin(&line))
-        return false;
-    diff_json_summary(&line.writer, p->report);
-    const bool ok = write_line(&line.writer, "verdict_words", diff_print_summary, p->report) &&
-                    write_line(&line.writer, "tolerance_words", diff_print_tolerance, p->report);
-    json_member_integer(&line.writer, "different", p->count + p->left_out);
-    json_member_integer(&line.writer, "left_out", p->left_out);
-    write_curve(&line.writer, p->report->result);
-    write_entries(&line.writer, p);
-    return line_end(&line, p->out) && ok;
+    json_write_begin_object(w);
+    diff_json_summary(w, p->report);
+    json_member_text(w, "verdict_words", p->report->groups->verdict);
+    json_member_text(w, "tolerance_words", p->report->groups->tolerance);
+    json_member_integer(w, "different", p->count + p->left_out);
+    json_member_integer(w, "left_out", p->left_out);
+    write_curve(w, p->report->result);
+    write_entries(w, p);
+    json_write_end_object(w);
+    json_write_end_line(w);
 }
 
 /* Write the names of the files beside the page. */
@@ -190,42 +143,50 @@ static void write_files(json_writer *w, const diff_report *report, size_t i)
     json_write_end_object(w);
 }
 
-static bool write_pair(const page *p, size_t n)
+static void write_group(json_writer *w, const page *p, size_t n)
 {
-    const size_t i = p->pairs[n];
-    const diff_pair *pair = &p->report->result->pairs[i];
-    fact_line line;
-    if (!line_begin(&line))
-        return false;
-    diff_json_finding(&line.writer, p->report, i);
-    text_stream words;
-    if (text_stream_begin(&words))
-        diff_print_difference(words.stream, pair);
-    bool ok = write_words(&line.writer, "words", &words);
-    if (text_stream_begin(&words))
-        frame_group_print(words.stream, p->report->groups, p->report->result, p->report->groups->of[i], false);
-    ok = write_words(&line.writer, "frames_words", &words) && ok;
-    diff_json_group(&line.writer, p->report, p->report->groups->of[i]);
-    write_files(&line.writer, p->report, i);
-    json_member_bool(&line.writer, "embedded", p->embedded[n]);
-    return line_end(&line, p->out) && ok;
+    const size_t group = p->groups[n].group;
+    json_write_begin_object(w);
+    diff_json_finding(w, p->report, first_pair(p, n));
+    json_member_text(w, "words", p->report->groups->groups[group].difference);
+    json_member_text(w, "frames_words", p->report->groups->groups[group].frames);
+    diff_json_group(w, p->report, group);
+    write_files(w, p->report, first_pair(p, n));
+    json_member_bool(w, "embedded", p->groups[n].embedded);
+    json_write_end_object(w);
+    json_write_end_line(w);
 }
 
+/* Write lines of JSON. They are built in memory, because "</" in a string would end the HTML element: "<", which occurs
+ * only in strings of JSON, is escaped. */
 static bool write_facts(const page *p, octreel_error *error)
 {
+    text_stream s;
+    char *text;
+    if (text_stream_begin(&s)) {
+        json_writer w = {.out = s.stream};
+        write_whole(&w, p);
+        for (size_t n = 0; n < p->count; n++)
+            write_group(&w, p, n);
+    }
+    if (!text_stream_end(&s, &text))
+        return error_no_memory(error);
     fputs("<script type=\"application/x-ndjson\" id=\"facts\">", p->out);
-    bool ok = write_whole(p);
-    for (size_t n = 0; ok && n < p->count; n++)
-        ok = write_pair(p, n);
+    for (const char *at = text; *at; at++)
+        if (*at == '<')
+            fputs("\\u003c", p->out);
+        else
+            putc(*at, p->out);
     fputs("</script>\n", p->out);
-    return ok || error_no_memory(error);
+    free(text);
+    return true;
 }
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 
 static bool write_picture(const page *p, size_t n, evidence_picture picture, octreel_error *error)
 {
-    char *path = evidence_path(p->report->evidence, p->report->result, p->pairs[n], picture);
+    char *path = evidence_path(p->report->evidence, p->report->result, first_pair(p, n), picture);
     FILE *in = path ? fopen(path, "rb") : NULL;
     if (!in) {
         const int reason = path ? errno : ENOMEM;
@@ -249,8 +210,8 @@ static bool write_pictures(const page *p, octreel_error *error)
     bool ok = true;
     fputs("<template id=\"pictures\">\n", p->out);
     for (size_t n = 0; n < p->count; n++)
-        for (int picture = 0; ok && p->embedded[n] && picture < EVIDENCE_PICTURES; picture++)
-            if (is_embedded(p->report, p->pairs[n], (evidence_picture)picture))
+        for (int picture = 0; ok && p->groups[n].embedded && picture < EVIDENCE_PICTURES; picture++)
+            if (is_embedded(p->report, first_pair(p, n), (evidence_picture)picture))
                 ok = write_picture(p, n, (evidence_picture)picture, error);
     fputs("</template>\n", p->out);
     return ok;
@@ -271,7 +232,7 @@ bool diff_report_page(const diff_report *report, octreel_error *error)
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
         page p = {.report = report, .out = file.stream};
-        choose_pairs(&p);
+        choose_groups(&p);
         ok = write_page(&p, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
     }
     free(path);

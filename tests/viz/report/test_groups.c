@@ -45,7 +45,7 @@ static void frames_are_grouped_by_cause(void **state)
     comparison_of made = make_all(state);
     assert_groups(&made, false, "1.png, 2.png, 5.png\n3.png\n6.png, 7.png\n8.png\n9.png\na.png\n");
     assert_groups(&made, true, "1.png\n2.png\n3.png\n5.png\n6.png\n7.png\n8.png\n9.png\na.png\n");
-    assert_int_equal(frame_groups_count_unlike(&made.groups, &made.result), 9);
+    assert_int_equal(frame_groups_count_failing(&made.groups, &made.result), 9);
     comparison_release(&made);
 }
 

@@ -25,7 +25,7 @@ static comparison_of compare(const char *a, const char *b, const char *cause)
     return made;
 }
 
-typedef bool reporter(FILE *out, const diff_report *report);
+typedef void reporter(FILE *out, const diff_report *report);
 
 static char *report_text(comparison_of *made, const evidence *e, reporter *write)
 {
@@ -34,7 +34,7 @@ static char *report_text(comparison_of *made, const evidence *e, reporter *write
     size_t size;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    assert_true(write(out, &report));
+    write(out, &report);
     assert_int_equal(fclose(out), 0);
     return text;
 }
@@ -234,12 +234,6 @@ static void add_gamma(const char *path)
     png_bytes_save(&made, made.size, path);
 }
 
-static bool report_json(FILE *out, const diff_report *report)
-{
-    diff_report_json(out, report);
-    return true;
-}
-
 static void ignored_gamma_is_reported(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png 2.png");
@@ -254,7 +248,7 @@ static void ignored_gamma_is_reported(void **state)
     text = report_text(&made, NULL, diff_report_markdown);
     assert_says(text, "gamma and colour profiles, which differ in 1 frame, are ignored");
     free(text);
-    text = report_text(&made, NULL, report_json);
+    text = report_text(&made, NULL, diff_report_json);
     assert_says(text, "\"color_spaces_ignored\": 1");
     free(text);
     comparison_release(&made);
