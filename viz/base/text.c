@@ -172,13 +172,16 @@ void write_escaped(FILE *out, const char *text, escape *how)
     }
 }
 
-bool write_escaped_stream(FILE *out, text_stream *s, escape *how)
+char *text_next_line(char **at)
 {
-    char *text;
-    const bool ok = text_stream_end(s, &text);
-    write_escaped(out, text ? text : "", how);
-    free(text);
-    return ok;
+    char *line = *at, *end = line + strcspn(line, "\n");
+    if (!*line)
+        return NULL;
+    *at = *end ? end + 1 : end;
+    if (end > line && end[-1] == '\r')
+        end[-1] = 0;
+    *end = 0;
+    return line;
 }
 
 /* ---- Base64 -------------------------------------------------------------------------------------------------- */

@@ -58,8 +58,9 @@ escape escape_markdown; /* inside a line, a cell of a table, or an element of HT
  * characters that must not be printed, and invalid bytes become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
-/* Close a text stream and write its text escaped. False: out of memory. */
-bool write_escaped_stream(FILE *out, text_stream *s, escape *how);
+/* Cut the next line off a text: end it with a zero, without its line end, and move *at behind it. Returns null at the
+ * end of the text. */
+char *text_next_line(char **at);
 
 /* Write the rest of `in` as base64 (RFC 4648), for data URLs. Errors stay with the streams. */
 void base64_copy(FILE *in, FILE *out);

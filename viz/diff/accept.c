@@ -35,6 +35,18 @@ static bool check_new(const accept_options *o, diff_kind kind, octreel_error *er
                      o->reference);
 }
 
+/* Check that the options fit the reference: a baseline needs a reason, and other references take none. */
+static bool check_options(const accepting *a, octreel_error *error)
+{
+    const accept_options *o = a->options;
+    if (a->reference.kind == DIFF_BASELINE)
+        return o->note.reason ||
+               error_set(error, "%s: accepting into a baseline needs a reason: add --reason TEXT", o->reference);
+    return (!o->note.reason && !o->store && !o->variant) ||
+           error_set(error, "%s: --reason, --store and --variant work with a baseline only, and this is a %s",
+                     o->reference, diff_kind_name(a->reference.kind));
+}
+
 /* A reference that does not exist yet starts as an empty side of the same kind. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
@@ -223,7 +235,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
 {
     accepting a = {.options = options, .out = out};
     const int lock = file_lock_parent_folder(options->reference);
-    const bool ok = open_sides(&a, error) && accept_check_words(&a, error) && accept_check_whole(&a.frames, error) &&
+    const bool ok = open_sides(&a, error) && check_options(&a, error) && accept_check_whole(&a.frames, error) &&
                     (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
                     (a.reference.kind == DIFF_BASELINE ? accept_digests : accept_pictures)(&a, error);
     if (ok && out)

@@ -6,17 +6,6 @@
 
 #include <stdlib.h>
 
-bool accept_check_words(const accepting *a, octreel_error *error)
-{
-    const accept_options *o = a->options;
-    if (a->reference.kind == DIFF_BASELINE)
-        return o->note.reason ||
-               error_set(error, "%s: accepting into a baseline needs a reason: add --reason TEXT", o->reference);
-    return (!o->note.reason && !o->store && !o->variant) ||
-           error_set(error, "%s: --reason, --store and --variant work with a baseline only, and this is a %s",
-                     o->reference, diff_kind_name(a->reference.kind));
-}
-
 /* Store the pictures of all frames that the new baseline accepts, also of unchanged ones: so an empty store fills. */
 static bool store_pictures(const accepting *a, octreel_error *error)
 {
@@ -35,16 +24,10 @@ static bool add_accepted(const accepting *a, diff_side *now, const diff_pair *pa
     frame_digest digest = pair->about[1];
     if (!baseline_add_acceptance(now, &a->options->note, &digest, error))
         return false;
-    const size_t count = pair->a && a->options->variant ? pair->a->variant_count : 0;
-    frame_digest *all = malloc((count + 1) * sizeof *all);
-    if (!all)
-        return error_no_memory(error);
-    for (size_t i = 0; i < count; i++)
-        all[i] = pair->a->variants[i];
-    all[count] = digest;
-    const bool ok = baseline_add_frame(now, pair->b->name, all, count + 1, error);
-    free(all);
-    return ok;
+    const bool keeps = pair->a && a->options->variant;
+    return baseline_add_frame(now, pair->b->name, keeps ? pair->a->variants : &digest,
+                              keeps ? pair->a->variant_count : 1, error) &&
+           (baseline_add_variant(&now->frames[now->count - 1], &digest) || error_no_memory(error));
 }
 
 static bool write_file(const diff_side *now, octreel_error *error)
@@ -58,12 +41,9 @@ static bool write_file(const diff_side *now, octreel_error *error)
 
 bool accept_digests(accepting *a, octreel_error *error)
 {
-    diff_side now = {.path = a->reference.path,
-                     .kind = DIFF_BASELINE,
-                     .background = a->reference.background,
-                     .acceptances = a->reference.acceptances,
-                     .acceptance_count = a->reference.acceptance_count,
-                     .acceptance_room = a->reference.acceptance_room};
+    diff_side now = a->reference;
+    now.frames = NULL;
+    now.count = now.room = 0;
     a->reference.acceptances = NULL; /* `now` owns them */
     a->reference.acceptance_count = 0;
     bool ok = store_pictures(a, error);

@@ -22,25 +22,19 @@ typedef struct file_set {
 } file_set;
 
 /* Copy a file to NAME.part beside its final path. The set takes ownership of `path`; null: out of memory. */
-static bool set_aside(file_set *set, const char *from, char *path, octreel_error *error)
+static bool prepare_copy(file_set *set, const char *from, char *path, octreel_error *error)
 {
     set_file *grown = path ? array_reserve(set->files, set->count + 1, &set->room, sizeof *grown) : NULL;
-    if (!grown) {
-        free(path);
-        return error_no_memory(error);
-    }
-    set->files = grown;
-    set_file *file = &grown[set->count];
-    file->path = path;
-    if (file_copy_prepare(&file->copy, from, path, error)) {
-        set->count++;
+    set->files = grown ? grown : set->files;
+    if (grown ? file_copy_prepare(&grown[set->count].copy, from, path, error) : error_no_memory(error)) {
+        grown[set->count++].path = path;
         return true;
     }
     free(path);
     return false;
 }
 
-static bool put_in_place(file_set *set, octreel_error *error)
+static bool rename_copies(file_set *set, octreel_error *error)
 {
     for (size_t i = 0; i < set->count; i++)
         if (!file_writer_place(&set->files[i].copy, error))
@@ -49,7 +43,7 @@ static bool put_in_place(file_set *set, octreel_error *error)
 }
 
 /* Remove the copies that were not renamed. */
-static void release(file_set *set)
+static void release_set(file_set *set)
 {
     for (size_t i = 0; i < set->count; i++) {
         file_writer_abandon(&set->files[i].copy);
@@ -60,30 +54,20 @@ static void release(file_set *set)
 
 /* ---- The files ----------------------------------------------------------------------------------------------- */
 
-static char *place_of(const accepting *a, const diff_pair *pair)
+static char *copy_final_path(const accepting *a, const diff_pair *pair)
 {
     if (pair->a)
         return strdup(pair->a->path);
     return a->reference.kind == DIFF_PICTURE ? strdup(a->reference.path) : path_join(a->reference.path, pair->b->name);
 }
 
-static bool write_pictures(const accepting *a, file_set *set, octreel_error *error)
-{
-    for (size_t i = 0; i < a->result.count; i++) {
-        const diff_pair *pair = &a->result.pairs[i];
-        if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) &&
-            !set_aside(set, pair->b->path, place_of(a, pair), error))
-            return false;
-    }
-    return true;
-}
-
-static bool copy_fact(const accepting *a, const char *name, file_set *set, octreel_error *error)
+/* Prepare a copy of a recording's file, unless the reference has the same bytes or the recording has no such file. */
+static bool prepare_recording_file(const accepting *a, const char *name, file_set *set, octreel_error *error)
 {
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
     bool ok = (from && to) || error_no_memory(error);
     if (ok && access(from, F_OK) == 0 && !have_same_bytes(from, to)) {
-        ok = set_aside(set, from, to, error);
+        ok = prepare_copy(set, from, to, error);
         to = NULL;
     }
     free(from);
@@ -91,22 +75,28 @@ static bool copy_fact(const accepting *a, const char *name, file_set *set, octre
     return ok;
 }
 
-/* Add the other files of a recording, which describe its frames, and the frames with equal pixels, since their text
- * chunks may name another session. */
-static bool write_facts(const accepting *a, file_set *set, octreel_error *error)
+/* Prepare copies of all files that change. A whole recording also replaces the files that describe its frames, and the
+ * frames with equal pixels, since their text chunks may name another session. */
+static bool prepare_copies(const accepting *a, file_set *set, octreel_error *error)
 {
+    const bool whole = a->reference.kind == DIFF_RECORDING && a->options->names->count == 0;
     bool ok = true;
-    for (size_t i = 0; ok && i < a->result.count; i++)
-        if (a->result.pairs[i].finding == FOUND_SAME_PIXELS)
-            ok = copy_fact(a, diff_pair_name(&a->result.pairs[i]), set, error);
-    for (size_t i = 0; ok && folder_file_name(i); i++)
-        ok = copy_fact(a, folder_file_name(i), set, error);
+    for (size_t i = 0; ok && i < a->result.count; i++) {
+        const diff_pair *pair = &a->result.pairs[i];
+        if (a->actions[i] == CHANGED || a->actions[i] == ADDED)
+            ok = prepare_copy(set, pair->b->path, copy_final_path(a, pair), error);
+        else if (whole && pair->finding == FOUND_SAME_PIXELS)
+            ok = prepare_recording_file(a, diff_pair_name(pair), set, error);
+    }
+    for (size_t i = 0; ok && whole && folder_file_name(i); i++)
+        ok = prepare_recording_file(a, folder_file_name(i), set, error);
     return ok;
 }
 
 /* ---- Replacing ----------------------------------------------------------------------------------------------- */
 
-static bool remove_gone(const accepting *a, octreel_error *error)
+/* Remove the references that have no frame any more. */
+static bool remove_references(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];
@@ -119,10 +109,8 @@ static bool remove_gone(const accepting *a, octreel_error *error)
 static bool replace_files(const accepting *a, octreel_error *error)
 {
     file_set set = {0};
-    const bool facts = a->reference.kind == DIFF_RECORDING && a->options->names->count == 0;
-    const bool ok = write_pictures(a, &set, error) && (!facts || write_facts(a, &set, error)) &&
-                    put_in_place(&set, error) && remove_gone(a, error);
-    release(&set);
+    const bool ok = prepare_copies(a, &set, error) && rename_copies(&set, error) && remove_references(a, error);
+    release_set(&set);
     return ok;
 }
 

@@ -24,10 +24,7 @@ typedef struct accepting {
 bool accept_check_ended(const diff_side *side, octreel_error *error);
 bool accept_check_whole(const diff_side *side, octreel_error *error);
 
-/* Check that the options fit the reference: a baseline needs a reason, and other references take none. */
-bool accept_check_words(const accepting *a, octreel_error *error);
-
-/* Put the pictures into the store, if there is one, and write the baseline. */
+/* Copy the pictures into the store, if there is one, and write the baseline. */
 bool accept_digests(accepting *a, octreel_error *error);
 
 /* Replace the pictures of the reference and, if a whole recording is accepted, its other files. */

@@ -64,7 +64,7 @@ static size_t written_length(const char *name)
     return plain ? stem : length;
 }
 
-/* The name of a frame from its written form; null when there is no memory. The caller frees it. */
+/* The name of a frame from its written form; null if memory runs out. The caller frees it. */
 static char *read_name(const char *written)
 {
     const size_t length = strlen(written);
@@ -144,28 +144,11 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
     return append_acceptance(side, &wanted, error);
 }
 
-/* ---- Reading ------------------------------------------------------------------------------------------------- */
-
-/* Read lowercase hexadecimal digits, exactly as many as given, and the character after them. */
-static bool read_hexadecimal(const char **at, size_t digits, char end, uint64_t *value)
-{
-    if (strspn(*at, "0123456789abcdef") != digits || (*at)[digits] != end)
-        return false;
-    *value = strtoull(*at, NULL, 16);
-    *at += digits + 1;
-    return true;
-}
-
-static bool read_side_length(const char **at, char end, int *value)
-{
-    char *end_of_number;
-    if (**at < '1' || **at > '9')
-        return false;
-    const long length = strtol(*at, &end_of_number, 10);
-    *value = (int)length;
-    *at = end_of_number + 1;
-    return *end_of_number == end && length <= IMAGE_MAX_SIDE;
-}
+/* ---- Reading -------------------------------------------------------------------------------------------------
+ *
+ * Values are read with sscanf() and printed again: a line is valid only if it begins with the text that
+ * baseline_write() writes for its values. This refuses additional blanks, zeros and signs, and capital letters.
+ */
 
 static bool fail_line(const diff_side *side, size_t number, octreel_error *error)
 {
@@ -175,22 +158,29 @@ static bool fail_line(const diff_side *side, size_t number, octreel_error *error
                      side->path, number, 0);
 }
 
+static bool is_side_length(int length)
+{
+    return length > 0 && length <= IMAGE_MAX_SIDE;
+}
+
 /* Read the part of a line after "accepted ". */
 static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_error *error)
 {
-    acceptance a = {{line[0], line[0] ? line[1] : 0, 0}, "", 0, 0, IMAGE_DIGEST_KINDS, NULL};
-    if (!is_id(line) || line[2] != ' ' || strlen(line) < 14 || line[13] != ' ')
+    acceptance a = {.id = ""};
+    char written[64];
+    if (sscanf(line, "%2s %10s %5dx%5d", a.id, a.date, &a.width, &a.height) != 4)
         return fail_line(side, number, error);
-    memcpy(a.date, line + 3, 10);
-    const char *at = line + 14;
-    if (!baseline_is_date(a.date) || !read_side_length(&at, 'x', &a.width) || !read_side_length(&at, ' ', &a.height))
+    const size_t size = (size_t)snprintf(written, sizeof written, "%s %s %dx%d ", a.id, a.date, a.width, a.height);
+    if (strncmp(line, written, size) != 0 || !is_id(a.id) || !baseline_is_date(a.date) || !is_side_length(a.width) ||
+        !is_side_length(a.height))
         return fail_line(side, number, error);
+    char *at = line + size;
     const size_t kind = strcspn(at, " ");
     a.kind = image_digest_kind_find(at, kind);
     if (a.kind == IMAGE_DIGEST_KINDS)
         return error_set(error, "%s:%zu: unknown kind of digest \"%.*s\"; a newer octreel may have written it",
                          side->path, number, kind < 40 ? (int)kind : 40, at);
-    a.reason = line + (at - line) + kind + (at[kind] == ' ');
+    a.reason = at + kind + (at[kind] == ' ');
     if (!baseline_is_reason(a.reason))
         return fail_line(side, number, error);
     const acceptance *other = find_id(side, a.id);
@@ -205,9 +195,12 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
 
 static bool read_digest(diff_side *side, const char *line, size_t number, octreel_error *error)
 {
-    const char *at = line + 3;
     frame_digest digest = {0};
-    if (!is_id(line) || line[2] != ' ' || !read_hexadecimal(&at, 16, ' ', &digest.pixels) || !*at || strchr(at, '/') ||
+    char written[sizeof "7f 0123456789abcdef "], id[3] = "";
+    sscanf(line, "%2s %16" SCNx64, id, &digest.pixels);
+    snprintf(written, sizeof written, "%s %016" PRIx64 " ", id, digest.pixels);
+    const char *at = line + sizeof written - 1;
+    if (strncmp(line, written, sizeof written - 1) != 0 || !is_id(id) || !*at || strchr(at, '/') ||
         has_control_character(at))
         return fail_line(side, number, error);
     const acceptance *by = find_id(side, line);
@@ -236,10 +229,11 @@ static bool read_version(const diff_side *side, const char *line, octreel_error 
 
 static bool read_background(diff_side *side, const char *line, octreel_error *error)
 {
-    static const char word[] = "background ";
-    const char *at = line + sizeof word - 1;
-    uint64_t value = 0;
-    if (strncmp(line, word, sizeof word - 1) != 0 || !read_hexadecimal(&at, 6, 0, &value))
+    char written[sizeof "background ffffff"];
+    unsigned value = 0;
+    sscanf(line, "background %6x", &value);
+    snprintf(written, sizeof written, "background %06x", value);
+    if (strcmp(line, written) != 0)
         return error_set(error, "%s:2: expected a background, as in \"background ffffff\"", side->path);
     side->background = (image_color){(uint8_t)(value >> 16), (uint8_t)(value >> 8), (uint8_t)value};
     return true;
@@ -270,20 +264,13 @@ static bool read_line(diff_side *side, char *line, size_t number, octreel_error 
 
 bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *error)
 {
-    char *const limit = text + size;
     size_t number = 0;
     side->kind = DIFF_BASELINE;
     if (memchr(text, 0, size))
         return error_set(error, "%s: contains a zero byte, so it is not a text file", side->path);
-    for (char *line = text, *next; line < limit; line = next) {
-        char *end = line + strcspn(line, "\n");
-        next = end + 1;
-        if (end > line && end[-1] == '\r')
-            end[-1] = 0;
-        *end = 0;
+    for (char *line; (line = text_next_line(&text));)
         if (!read_line(side, line, ++number, error))
             return false;
-    }
     if (number < 2)
         return error_set(error, "%s: the file ends before its second line", side->path);
     return baseline_merge_frames(side, error);
@@ -308,8 +295,8 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
 }
 
-/* Append a variant unless the frame has it already, as after a union merge. */
-static bool add_variant(diff_frame *frame, const frame_digest *digest)
+/* After a union merge, a frame may hold a variant twice. */
+bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
 {
     for (size_t i = 0; i < frame->variant_count; i++)
         if (frame->variants[i].acceptance == digest->acceptance && frame->variants[i].pixels == digest->pixels)
@@ -341,10 +328,10 @@ bool baseline_merge_frames(diff_side *side, octreel_error *error)
     for (size_t i = 0; i < side->count; i++) {
         diff_frame frame = side->frames[i];
         if (kept > 0 && strcmp(side->frames[kept - 1].name, frame.name) == 0) {
-            ok = ok && add_variant(&side->frames[kept - 1], &frame.digest);
+            ok = ok && baseline_add_variant(&side->frames[kept - 1], &frame.digest);
             free(frame.name);
         } else {
-            ok = ok && (frame.variants || add_variant(&frame, &frame.digest));
+            ok = ok && (frame.variants || baseline_add_variant(&frame, &frame.digest));
             side->frames[kept++] = frame;
         }
     }
@@ -359,7 +346,7 @@ bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *v
 {
     bool ok = diff_side_add(side, name, variants[0], error);
     for (size_t i = 0; ok && i < count; i++)
-        ok = add_variant(&side->frames[side->count - 1], &variants[i]) || error_no_memory(error);
+        ok = baseline_add_variant(&side->frames[side->count - 1], &variants[i]) || error_no_memory(error);
     return ok;
 }
 

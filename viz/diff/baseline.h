@@ -56,6 +56,9 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
 bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *variants, size_t count,
                         octreel_error *error);
 
+/* Append a variant unless the frame has it already. Return false if memory runs out. */
+bool baseline_add_variant(diff_frame *frame, const frame_digest *digest);
+
 /* Write the file, without acceptances that no digest uses. Return false when a frame's name contains a control
  * character or memory runs out; the caller checks the stream for write errors. */
 bool baseline_write(FILE *out, const diff_side *side, octreel_error *error);

@@ -4,6 +4,7 @@
 #include "array.h"
 #include "error.h"
 #include "file.h"
+#include "text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -27,12 +28,8 @@ bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
     list->text[size] = 0;
     if (strlen(list->text) < size)
         return error_set(error, "%s: contains a zero byte, so it is not a text file", file_title(path));
-    for (char *line = list->text, *next; *line; line = next) {
-        char *end = line + strcspn(line, "\n");
-        next = *end ? end + 1 : end;
-        if (end > line && end[-1] == '\r')
-            end[-1] = 0;
-        *end = 0;
+    char *at = list->text;
+    for (char *line; (line = text_next_line(&at));) {
         number++;
         if (*line && !frame_list_add(list, line, number, error))
             return false;

@@ -11,22 +11,16 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The folder of a digest; the caller frees it. */
-static char *folder_of(const char *store, const frame_digest *digest)
+/* The path of a digest's picture, DIR/runs/01/0123456789abcdef.png; the caller frees it. */
+static char *path_of(const char *store, const frame_digest *digest)
 {
     const char *kind = image_digest_kind_name(digest->kind);
-    const size_t size = strlen(store) + strlen(kind) + sizeof "//00";
+    const size_t size = strlen(store) + strlen(kind) + sizeof "//01/0123456789abcdef.png";
     char *path = malloc(size);
     if (path)
-        snprintf(path, size, "%s/%s/%02x", store, kind, (unsigned)(digest->pixels >> 56));
+        snprintf(path, size, "%s/%s/%02x/%016" PRIx64 ".png", store, kind, (unsigned)(digest->pixels >> 56),
+                 digest->pixels);
     return path;
-}
-
-static char *path_of(const char *folder, const frame_digest *digest)
-{
-    char name[sizeof "0123456789abcdef.png"];
-    snprintf(name, sizeof name, "%016" PRIx64 ".png", digest->pixels);
-    return path_join(folder, name);
 }
 
 /* Whether a file is a picture with this digest; if not, the error says what is wrong. */
@@ -44,23 +38,28 @@ bool picture_store_put(const char *store, const char *picture, const frame_diges
                        octreel_error *error)
 {
     octreel_error ignored;
-    char *folder = folder_of(store, digest), *path = folder ? path_of(folder, digest) : NULL;
-    bool ok = path || error_no_memory(error);
-    if (ok && (access(path, F_OK) != 0 || !is_picture(path, digest, background, &ignored)))
-        ok = folder_make(folder, error) && file_copy_unique(picture, path, error);
+    char *path = path_of(store, digest);
+    if (!path)
+        return error_no_memory(error);
+    bool ok = access(path, F_OK) == 0 && is_picture(path, digest, background, &ignored);
+    if (!ok) {
+        char *slash = strrchr(path, '/');
+        *slash = 0;
+        ok = folder_make(path, error);
+        *slash = '/';
+        ok = ok && file_copy_unique(picture, path, error);
+    }
     free(path);
-    free(folder);
     return ok;
 }
 
 char *picture_store_get(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
 {
-    char *folder = folder_of(store, digest), *path = folder ? path_of(folder, digest) : NULL;
-    const bool ok = path ? is_picture(path, digest, background, error) : error_no_memory(error);
-    free(folder);
-    if (!ok)
-        free(path);
-    return ok ? path : NULL;
+    char *path = path_of(store, digest);
+    if (path ? is_picture(path, digest, background, error) : error_no_memory(error))
+        return path;
+    free(path);
+    return NULL;
 }
 
 /* ---- For a comparison ---------------------------------------------------------------------------------------- */

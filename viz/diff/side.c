@@ -155,7 +155,8 @@ void diff_side_release(diff_side *side)
     *side = (diff_side){0};
 }
 
-static bool fact_spared(const diff_side *side, const char *name, const output_file *output, octreel_error *error)
+static bool check_recording_file(const diff_side *side, const char *name, const output_file *output,
+                                 octreel_error *error)
 {
     char *path = path_join(side->path, name);
     const bool ok = path ? check_output_is_not_input(output, path, error) : error_no_memory(error);
@@ -164,7 +165,7 @@ static bool fact_spared(const diff_side *side, const char *name, const output_fi
 }
 
 /* An output that does not exist yet overwrites nothing; checking this first avoids a stat for each frame. */
-bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error)
+bool diff_side_check_output(const diff_side *side, const output_file *output, octreel_error *error)
 {
     struct stat status;
     if (!output->path || stat(output->path, &status) != 0)
@@ -173,6 +174,6 @@ bool diff_side_spared(const diff_side *side, const output_file *output, octreel_
     for (size_t i = 0; ok && i < side->count; i++)
         ok = !side->frames[i].path || check_output_is_not_input(output, side->frames[i].path, error);
     for (size_t i = 0; ok && side->kind == DIFF_RECORDING && folder_file_name(i); i++)
-        ok = fact_spared(side, folder_file_name(i), output, error);
+        ok = check_recording_file(side, folder_file_name(i), output, error);
     return ok;
 }

@@ -56,7 +56,7 @@ void diff_side_release(diff_side *side);
 
 /* Check that an output does not overwrite a file of this side: a frame, the baseline, or another file of a recording.
  * Return false with an error if it does. */
-bool diff_side_spared(const diff_side *side, const output_file *output, octreel_error *error);
+bool diff_side_check_output(const diff_side *side, const output_file *output, octreel_error *error);
 
 /* "picture", "folder", "recording", "baseline". */
 const char *diff_kind_name(diff_kind kind);
