@@ -17,7 +17,7 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
     return text;
 }
 
-/* Write a ratio with six digits, or with as many as show that it differs from 1. */
+/* Print a share with six digits, or with as many as show that it differs from 1. */
 static const char *share_text(double share, char text[NUMBER_TEXT])
 {
     int digits = 6;
@@ -26,7 +26,7 @@ static const char *share_text(double share, char text[NUMBER_TEXT])
     return text;
 }
 
-static const char *reason_words(octree_wrong_kind fault)
+static const char *reason_words(octree_wrong_kind kind)
 {
     static const char *const words[OCTREE_WRONG_KINDS] = {
         [OCTREE_WRONG_NONE] = "right",
@@ -38,22 +38,22 @@ static const char *reason_words(octree_wrong_kind fault)
         [OCTREE_WRONG_MISSING] = "points are missing",
         [OCTREE_WRONG_EXTRA] = "points that are outside",
     };
-    return words[fault];
+    return words[kind];
 }
 
-/* Print "; missed 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". */
+/* Print "; missing 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". */
 static void print_points(FILE *out, const char *what, const octree_point *points, size_t count)
 {
-    const size_t told = count < AUDIT_POINTS ? count : AUDIT_POINTS;
+    const size_t printed = count < AUDIT_POINTS ? count : AUDIT_POINTS;
     char texts[3][NUMBER_TEXT];
-    for (size_t i = 0; i < told; i++) {
+    for (size_t i = 0; i < printed; i++) {
         for (int axis = 0; axis < 3; axis++)
             number_text(points[i].position[axis], 9, texts[axis]);
         fprintf(out, "%s%s%" PRIu64 " at (%s, %s, %s)", i ? ", " : what, i ? "" : " ", points[i].id, texts[0], texts[1],
                 texts[2]);
     }
-    if (count > told)
-        fprintf(out, " and %zu more", count - told);
+    if (count > printed)
+        fprintf(out, " and %zu more", count - printed);
 }
 
 void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
@@ -68,8 +68,8 @@ void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
         fprintf(out, "; wrong from rank %zu on", c->made.rank);
     if (neighbors)
         fprintf(out, "; ratio of distances %s", audit_ratio_text(c->made.ratio, text));
-    fprintf(out, "; %zu missed, %zu extra", c->made.missing_count, c->made.extra_count);
-    print_points(out, "; missed", c->missed, c->made.missing_count);
+    fprintf(out, "; %zu missing, %zu extra", c->made.missing_count, c->made.extra_count);
+    print_points(out, "; missing", c->missed, c->made.missing_count);
     print_points(out, "; extra", c->extra, c->made.extra_count);
 }
 
@@ -85,7 +85,7 @@ void audit_print_limits(FILE *out, const audit_limits *limits)
 }
 
 /* Print whether a value is within its limit; nothing if there is no limit. */
-static void print_within(FILE *out, const audit_limits *limits, bool passes)
+static void print_if_within(FILE *out, const audit_limits *limits, bool passes)
 {
     if (limits->by_ratio || limits->by_recall)
         fprintf(out, ", %s what is allowed", passes ? "within" : "beyond");
@@ -101,10 +101,10 @@ void audit_print_all(FILE *out, const audit_verdict *v)
     else if (report->asked)
         fputs(", all right", out);
     if (report->nodes.faults)
-        fprintf(out, ", %" PRIu64 " fault%s of nodes", report->nodes.faults, plural(report->nodes.faults));
-    print_within(out, &v->report->limits, audit_passes(report));
+        fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.faults, plural(report->nodes.faults));
+    print_if_within(out, &v->report->limits, audit_passes(report));
     if (report->nodes.faults && (v->report->limits.by_ratio || v->report->limits.by_recall))
-        fputs("; nothing allows faults of nodes", out);
+        fputs("; wrong nodes are never allowed", out);
 }
 
 void audit_print_kind(FILE *out, const audit_verdict *v, int of)
@@ -119,10 +119,10 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
                 audit_ratio_text(audit_ratio(kind, 1), ratios[0]),
                 audit_ratio_text(audit_ratio(kind, 0.99), ratios[1]));
     else
-        fprintf(out, ", %" PRIu64 " missed, %" PRIu64 " extra", kind->missed, kind->extra);
+        fprintf(out, ", %" PRIu64 " missing, %" PRIu64 " extra", kind->missed, kind->extra);
     if (kind->wrong)
         fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
-    print_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
+    print_if_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->faults[i])
             fprintf(out, "; %" PRIu64 " time%s: %s", kind->faults[i], plural(kind->faults[i]),
@@ -131,24 +131,24 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
 
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
 {
-    fprintf(out, "nodes: %" PRIu64 " fault%s", nodes->faults, plural(nodes->faults));
+    fprintf(out, "nodes: %" PRIu64 " wrong", nodes->faults);
     if (nodes->faults)
         fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural(nodes->ticks),
                 nodes->first_wrong);
 }
 
-void audit_print_fault(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind)
+void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind)
 {
-    const octree_wrong_node *fault = &nodes->first[kind].fault;
+    const octree_wrong_node *wrong = &nodes->first[kind].fault;
     fprintf(out, "%" PRIu64 " time%s: %s", nodes->kinds[kind], plural(nodes->kinds[kind]),
             octree_wrong_node_words(kind));
     if (!nodes->first[kind].known)
         return;
     fprintf(out, " (tick %" PRIu64, nodes->first[kind].tick);
     if (kind != OCTREE_NODE_LOST_POINT)
-        fprintf(out, ", node %" PRIu64, fault->node);
+        fprintf(out, ", node %" PRIu64, wrong->node);
     if (kind != OCTREE_NODE_OUTSIDE_PARENT && kind != OCTREE_NODE_UNKNOWN_NODE)
-        fprintf(out, ", point %" PRIu64, fault->point);
+        fprintf(out, ", point %" PRIu64, wrong->point);
     fputc(')', out);
 }
 
@@ -158,7 +158,7 @@ void audit_print_nodes(FILE *out, const audit_nodes *nodes)
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
         if (nodes->kinds[i]) {
             fputs("; ", out);
-            audit_print_fault(out, nodes, (octree_wrong_node_kind)i);
+            audit_print_wrong_nodes(out, nodes, (octree_wrong_node_kind)i);
         }
 }
 

@@ -41,7 +41,7 @@ static void exit_status_is_0_if_all_answers_are_right(void **state)
     assert_non_null(strstr(result.out, ": 4 answers in 4 ticks, all right\n"
                                        "nearest: 2 asked, 0 wrong, recall 1, ratio of distances 1 at worst, 99th "
                                        "percentile 1\n"
-                                       "radius: 2 asked, 0 wrong, recall 1, 0 missed, 0 extra\n"));
+                                       "radius: 2 asked, 0 wrong, recall 1, 0 missing, 0 extra\n"));
     command_release(&result);
 }
 
@@ -55,15 +55,16 @@ static void wrong_answers_are_counted_and_exit_status_is_1(void **state)
     assert_non_null(strstr(result.out,
                            "nearest: 2 asked, 1 wrong, recall 0.5, ratio of distances 3.60555 at worst, 99th "
                            "percentile 3.60555; first wrong at tick 2; 1 time: a neighbour too far away\n"));
-    assert_non_null(strstr(result.out, "  tick 2, answers[0]: a neighbour too far away; wrong from rank 1 on; ratio of "
-                                       "distances 3.60555; 1 missed, 1 extra; missed 1 at (1, 0, 0); extra 3 at (0, 3, "
-                                       "0)\n    {\"nearest\": {\"target\": [2, 0, 0]"));
-    assert_non_null(
-        strstr(result.out,
-               "radius: 2 asked, 1 wrong, recall 0.8, 1 missed, 0 extra; first wrong at tick 2; 1 time: names an id "
-               "that no point "
-               "has\n"
-               "  tick 2, answers[1]: names an id that no point has (2); 1 missed, 0 extra; missed 3 at (0, 3, 0)\n"));
+    assert_non_null(strstr(result.out,
+                           "  tick 2, answers[0]: a neighbour too far away; wrong from rank 1 on; ratio of "
+                           "distances 3.60555; 1 missing, 1 extra; missing 1 at (1, 0, 0); extra 3 at (0, 3, "
+                           "0)\n    {\"nearest\": {\"target\": [2, 0, 0]"));
+    assert_non_null(strstr(
+        result.out,
+        "radius: 2 asked, 1 wrong, recall 0.8, 1 missing, 0 extra; first wrong at tick 2; 1 time: names an id "
+        "that no point "
+        "has\n"
+        "  tick 2, answers[1]: names an id that no point has (2); 1 missing, 0 extra; missing 3 at (0, 3, 0)\n"));
     command_release(&result);
 }
 
@@ -305,9 +306,9 @@ static void wrong_nodes_are_a_finding(void **state)
                                         "[9,9,9]},\"points\":[1,2]}]}\n");
     command_result result = run_octreel(NULL, "audit %s --allow recall=0", session.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 faults of nodes, beyond what is allowed; nothing "
-                                       "allows faults of nodes\n"));
-    assert_non_null(strstr(result.out, "nodes: 3 faults in 3 ticks, first at tick 1; 3 times: a point is in no node "
+    assert_non_null(strstr(result.out, "0 answers in 4 ticks, 3 wrong nodes, beyond what is allowed; wrong nodes "
+                                       "are never allowed\n"));
+    assert_non_null(strstr(result.out, "nodes: 3 wrong in 3 ticks, first at tick 1; 3 times: a point is in no node "
                                        "(tick 1, point 3)"));
     command_release(&result);
     result = run_octreel(NULL, "audit %s --junit -", session.path);
@@ -345,11 +346,11 @@ static void json_counts_wrong_nodes_by_kind(void **state)
     command_release(&result);
     result = run_octreel(NULL, "audit %s --html - --allow ratio=1", session.path);
     assert_done(&result);
-    assert_non_null(strstr(result.out, "<section><h2>nodes</h2>\n<p>nodes: 0 faults</p>\n</section>"));
+    assert_non_null(strstr(result.out, "<section><h2>nodes</h2>\n<p>nodes: 0 wrong</p>\n</section>"));
     assert_non_null(strstr(result.out, "ratio of distances up to 1"));
     command_release(&result);
     result = run_octreel(NULL, "audit %s", session.path);
-    assert_non_null(strstr(result.out, "\nnodes: 0 faults\n"));
+    assert_non_null(strstr(result.out, "\nnodes: 0 wrong\n"));
     command_release(&result);
 }
 
@@ -363,7 +364,7 @@ static void long_lists_of_missing_points_are_counted(void **state)
         "{\"knearest\":1,\"at\":[0,0,0],\"answer\":[1,2]}]}\n");
     command_result result = run_octreel(NULL, "audit %s", session.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "; 5 missed, 0 extra; missed 1 at (1, 0, 0), 2 at (2, 0, 0), 3 at (3, 0, 0), "
+    assert_non_null(strstr(result.out, "; 5 missing, 0 extra; missing 1 at (1, 0, 0), 2 at (2, 0, 0), 3 at (3, 0, 0), "
                                        "4 at (4, 0, 0) and 1 more\n"));
     assert_non_null(strstr(result.out, "a wrong number of neighbours (2 named, 1 expected)"));
     command_release(&result);
@@ -401,7 +402,7 @@ static void page_rounds_numbers_for_people(void **state)
     const place session = write_session_text(state, text);
     command_result result = run_octreel(NULL, "audit %s --html -", session.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "missed 1 at (0.123456789, 0, 0)"));
+    assert_non_null(strstr(result.out, "missing 1 at (0.123456789, 0, 0)"));
     assert_non_null(strstr(result.out, "<details><summary>as in ticks.jsonl</summary><pre>{"));
     command_release(&result);
 }
