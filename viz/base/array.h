@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* array.h - growing arrays. The caller keeps the items, their count and the capacity `room`, which doubles. */
+/* array.h - growing and sorted arrays. The caller keeps the items, their count and the capacity `room`, which doubles.
+ */
 #ifndef BASE_ARRAY_H
 #define BASE_ARRAY_H
 
@@ -21,6 +22,13 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
     if (grown)
         *room = wanted;
     return grown;
+}
+
+/* The order, for qsort() and bsearch(), of items that begin with a uint64_t. */
+static inline int by_uint64(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
 }
 
 #endif

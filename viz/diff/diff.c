@@ -2,6 +2,7 @@
 /* diff.c - pairs the frames of two sides by name and compares the pairs on all cores. */
 #include "diff.h"
 #include "file.h"
+#include "frame_file.h"
 #include "parallel.h"
 #include "png_chunks.h"
 #include "png_read.h"
@@ -10,12 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct finding_entry {
+static const struct {
     const char *name;
     diff_verdict verdict;
-} finding_entry;
-
-static const finding_entry findings[] = {
+} findings[] = {
 #define FINDING_ENTRY(name, text, verdict) {text, verdict},
     DIFF_FINDING_MAP(FINDING_ENTRY)
 #undef FINDING_ENTRY
@@ -39,6 +38,12 @@ diff_options diff_options_default(void)
 const char *diff_pair_name(const diff_pair *pair)
 {
     return pair->b ? pair->b->name : pair->a->name;
+}
+
+uint64_t diff_pair_tick(const diff_pair *pair)
+{
+    uint64_t tick;
+    return frame_parse_name(diff_pair_name(pair), &tick) ? tick : DIFF_NO_TICK;
 }
 
 const diff_pair *diff_find(const diff_result *result, const char *name)

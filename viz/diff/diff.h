@@ -99,6 +99,10 @@ void pair_tolerance_release(image_tolerance *tolerance);
 /* The name of a pair: that of its frame or, if there is none, of its reference. */
 const char *diff_pair_name(const diff_pair *pair);
 
+/* The tick in the name of a pair; DIFF_NO_TICK for other names than those of a recording's frames. */
+#define DIFF_NO_TICK UINT64_MAX
+uint64_t diff_pair_tick(const diff_pair *pair);
+
 /* The pair with this name, or null. */
 const diff_pair *diff_find(const diff_result *result, const char *name);
 

@@ -16,7 +16,7 @@ typedef struct playing {
     bool same_session;    /* then all ticks are the same */
     bool same_rules;      /* trees of the same contents are the same, and have the same digest */
     uint64_t versions[2]; /* of the trees that were compared last */
-    bool looked, unlike;  /* and whether they differ */
+    bool unlike;          /* whether they differ */
     bool warm;            /* a tick before has left other heat, and it is shown */
     bool shows_heat;
     const cause_watcher *watcher;
@@ -47,9 +47,8 @@ static bool trees_differ(playing *p)
 {
     const uint64_t versions[2] = {octree_version(octree_game_tree(p->games[0])),
                                   octree_version(octree_game_tree(p->games[1]))};
-    if (!p->looked || versions[0] != p->versions[0] || versions[1] != p->versions[1])
+    if (versions[0] != p->versions[0] || versions[1] != p->versions[1])
         p->unlike = compare_trees(p);
-    p->looked = true;
     p->versions[0] = versions[0];
     p->versions[1] = versions[1];
     return p->unlike;
@@ -58,7 +57,7 @@ static bool trees_differ(playing *p)
 static bool is_wanted(const playing *p, uint64_t tick, bool differs)
 {
     const cause_watcher *w = p->watcher;
-    return (w->wants && w->wants(w->context, tick)) || (differs && p->found->differing <= w->first);
+    return (w->wants && w->wants(w->context, tick)) || (differs && p->found->differing.count <= w->first);
 }
 
 /* Append the details of a tick; the facts move into it. */
@@ -73,13 +72,6 @@ static bool append_tick(cause *c, uint64_t tick, cause_facts *facts)
     return true;
 }
 
-static void count_differing_tick(cause *c, uint64_t tick)
-{
-    if (c->differing++ == 0)
-        c->first = tick;
-    c->last = tick;
-}
-
 static void extend_span(cause_span *span, uint64_t count, uint64_t tick)
 {
     if (span->count == 0)
@@ -88,7 +80,7 @@ static void extend_span(cause_span *span, uint64_t count, uint64_t tick)
     span->last = tick;
 }
 
-static bool same_faults(const octree_tick *a, const octree_tick *b)
+static bool has_same_wrong_answers(const octree_tick *a, const octree_tick *b)
 {
     const size_t both = a->answer_count < b->answer_count ? a->answer_count : b->answer_count;
     for (size_t i = 0; i < both; i++) {
@@ -99,15 +91,17 @@ static bool same_faults(const octree_tick *a, const octree_tick *b)
     return true;
 }
 
-static void note_answers(cause_answers *wrong, const octree_tick *a, const octree_tick *b)
+static void count_wrong_answers(cause_span wrong[WRONG_CHANGES], const octree_tick *a, const octree_tick *b)
 {
     size_t worst;
     const size_t before = judgement_count_wrong(a->answers, a->answer_count, &worst);
     const size_t now = judgement_count_wrong(b->answers, b->answer_count, &worst);
-    if (now != before)
-        extend_span(now > before ? &wrong->more : &wrong->fewer, now > before ? now - before : before - now, a->number);
-    else if (!same_faults(a, b))
-        extend_span(&wrong->other, 1, a->number);
+    if (now > before)
+        extend_span(&wrong[WRONG_MORE], now - before, a->number);
+    else if (now < before)
+        extend_span(&wrong[WRONG_FEWER], before - now, a->number);
+    else if (!has_same_wrong_answers(a, b))
+        extend_span(&wrong[WRONG_OTHER], 1, a->number);
 }
 
 /* Whether the games are in different states, so that later ticks may differ, too. */
@@ -126,13 +120,13 @@ static bool compare_tick(playing *p, octreel_error *error)
     const uint64_t tick = octree_game_tick(games[0])->number;
     cause_facts facts = {0};
     const bool trees = !p->same_session && trees_differ(p);
-    if (!p->same_session)
-        cause_compare_ticks(p->games[0], p->games[1], &facts);
-    if (!p->same_session)
-        note_answers(&p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
+    if (!p->same_session) {
+        cause_compare_ticks(games[0], games[1], &facts);
+        count_wrong_answers(p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
+    }
     const bool differs = trees || facts.count > 0;
     if (differs)
-        count_differing_tick(p->found, tick);
+        extend_span(&p->found->differing, 1, tick);
     bool ok =
         !facts.out_of_memory && cause_origins_reach(&p->found->session.origins, tick, games_differ(p, trees), p->warm);
     if (is_wanted(p, tick, differs)) {
@@ -142,7 +136,7 @@ static bool compare_tick(playing *p, octreel_error *error)
         if (differs)
             cause_compare_ticks(p->games[0], p->games[1], &facts);
         if (p->warm)
-            cause_add(&facts, "heat", "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, NULL, NULL});
+            cause_add_whole(&facts, "heat", CAUSE_OTHER, NULL, NULL);
         ok = ok && !facts.out_of_memory && append_tick(p->found, tick, &facts);
     }
     p->warm |= p->shows_heat && differs;
@@ -193,7 +187,7 @@ static void compare_views(const octree_session *a, const octree_session *b, cons
 bool cause_find(const session_file *a, const session_file *b, const cause_view views[2], const cause_watcher *watcher,
                 cause *c, octreel_error *error)
 {
-    playing p = {.watcher = watcher, .found = c};
+    playing p = {.versions = {UINT64_MAX, UINT64_MAX}, .watcher = watcher, .found = c};
     *c = (cause){.drawn = CAUSE_NO_TICK};
     cause_compare_sessions(a, b, &c->session);
     p.same_session = c->session.count == 0;
@@ -225,13 +219,7 @@ void cause_release(cause *c)
     *c = (cause){0};
 }
 
-static int by_tick(const void *tick, const void *details)
-{
-    const uint64_t x = *(const uint64_t *)tick, y = ((const cause_tick *)details)->tick;
-    return (x > y) - (x < y);
-}
-
 const cause_tick *cause_at(const cause *c, uint64_t tick)
 {
-    return c->count ? bsearch(&tick, c->ticks, c->count, sizeof *c->ticks, by_tick) : NULL;
+    return c->count ? bsearch(&tick, c->ticks, c->count, sizeof *c->ticks, by_uint64) : NULL;
 }

@@ -18,11 +18,9 @@ typedef struct cause_span {
     uint64_t count, first, last;
 } cause_span;
 
-/* How the numbers of wrong answers of a foreign index differ, in the ticks that both sessions have. */
-typedef struct cause_answers {
-    cause_span more, fewer; /* wrong answers that the frames have in excess of the reference; and the reverse */
-    cause_span other;       /* ticks with equal numbers of wrong answers but different faults */
-} cause_answers;
+/* How the wrong answers of a foreign index differ: the frames have more or fewer than the reference, which counts
+ * answers, or in equal number other wrong answers, which counts ticks. */
+typedef enum cause_wrong { WRONG_MORE, WRONG_FEWER, WRONG_OTHER, WRONG_CHANGES } cause_wrong;
 
 /* Zeroed: empty. */
 typedef struct cause {
@@ -30,10 +28,9 @@ typedef struct cause {
     cause_facts view;    /* the differences between the views; empty if only sessions are compared */
     cause_tick *ticks;   /* reported in detail, in ascending order */
     size_t count, room;
-    cause_answers wrong;
+    cause_span wrong[WRONG_CHANGES];
     uint64_t compared;    /* the number of ticks that both sessions have */
-    uint64_t differing;   /* the number of these ticks in which something different happens */
-    uint64_t first, last; /* the first and the last differing tick */
+    cause_span differing; /* these ticks in which something different happens */
     uint64_t drawn;       /* the first tick whose frames differ; CAUSE_NO_TICK if there is none */
 } cause;
 

@@ -14,15 +14,18 @@
  */
 #include "cause_compare.h"
 #include "cause_pairs.h"
+#include "cause_places.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static void compare_values(const cause_place *place, const char *where, json_t *a, json_t *b);
+static void compare_values(const cause_place *place, json_t *a, json_t *b);
 
-static void add(const cause_place *place, const char *where, cause_change change, uint64_t id, json_t *a, json_t *b)
+/* Add a fact about two values, or one value, or none. */
+static void add(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
 {
-    cause_add(place->facts, where, place->query, change, (cause_fact){place->tick, id, a, b});
+    cause_add(place->facts, place->where, place->query, change,
+              (cause_fact){place->tick, id, json_incref(a), json_incref(b)});
 }
 
 bool cause_same(const json_t *a, const json_t *b, bool exact)
@@ -96,7 +99,7 @@ static keyed *sort_list(json_t *list, size_t count)
 }
 
 /* Compare two lists by merging them in the order of their keys. */
-static void compare_keyed(const cause_place *place, const char *where, json_t *a, json_t *b)
+static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
 {
     const size_t a_count = json_array_size(a), b_count = json_array_size(b);
     keyed *as = sort_list(a, a_count), *bs = sort_list(b, b_count);
@@ -106,7 +109,7 @@ static void compare_keyed(const cause_place *place, const char *where, json_t *a
         const int order = i == a_count ? 1 : j == b_count ? -1 : by_key(&as[i], &bs[j]);
         json_t *x = order <= 0 ? as[i].element : NULL, *y = order >= 0 ? bs[j].element : NULL;
         if (!is_same(place, x, y)) {
-            add(place, where, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
+            add(place, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
             same = false;
         }
         same_order = same_order && order == 0 && as[i].place == bs[j].place;
@@ -114,7 +117,7 @@ static void compare_keyed(const cause_place *place, const char *where, json_t *a
         j += order >= 0;
     }
     if (same && !same_order)
-        add(place, where, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
+        add(place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
     free(as);
     free(bs);
 }
@@ -146,48 +149,50 @@ static json_t *query_without_answer(json_t *query)
 {
     json_t *asked = json_copy(query);
     json_object_del(asked, "answer");
-    for (int met = 0; met < OCTREE_NODE_VISITS; met++)
-        json_object_del(asked, octree_node_visit_name((octree_node_visit)met));
+    for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++)
+        json_object_del(asked, octree_node_visit_name((octree_node_visit)visit));
     return asked;
 }
 
 /* The list by which the elements of a list are paired: for answers their queries, for queries their parameters. */
-static json_t *list_pairing_keys(const char *where, json_t *list)
+static json_t *list_pairing_keys(cause_rule rule, json_t *list)
 {
-    const bool answers = strcmp(where, "answers") == 0;
-    json_t *asked = json_array(), *element;
+    json_t *keys = json_array(), *element;
     size_t i;
-    if (!answers && strcmp(where, "queries") != 0) {
-        json_decref(asked);
-        return list ? json_incref(list) : json_array();
-    }
     json_array_foreach(list, i, element)
-        json_array_append_new(asked, answers ? query_of(element) : query_without_answer(element));
-    return asked;
+    {
+        json_t *key = rule == CAUSE_ANSWERS   ? query_of(element)
+                      : rule == CAUSE_QUERIES ? query_without_answer(element)
+                                              : json_incref(element);
+        json_array_append_new(keys, key);
+    }
+    return keys;
 }
 
 /* Compare the answers of the foreign index. Of visited nodes only the counts are reported, and only if they differ. */
-static void compare_foreign_answers(const cause_place *place, json_t *a, json_t *b)
+static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
 {
     json_t *counts[2] = {json_object(), json_object()};
     bool other = false, counted = false;
-    for (int met = 0; met < OCTREE_NODE_VISITS; met++) {
-        const char *name = octree_node_visit_name((octree_node_visit)met);
+    for (int visit = 0; visit < OCTREE_NODE_VISITS; visit++) {
+        const char *name = octree_node_visit_name((octree_node_visit)visit);
         json_t *const lists[2] = {json_object_get(a, name), json_object_get(b, name)};
-        if (is_same(place, lists[0], lists[1]))
+        if (is_same(&place, lists[0], lists[1]))
             continue;
         other = true;
         counted = counted || json_array_size(lists[0]) != json_array_size(lists[1]);
         for (int i = 0; i < 2; i++)
             json_object_set_new(counts[i], name, json_integer((json_int_t)json_array_size(lists[i])));
     }
+    place.where = "queries.visits";
     if (other)
-        add(place, "queries.visits", CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
+        add(&place, CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
     json_decref(counts[0]);
     json_decref(counts[1]);
+    place.where = "queries.answer";
     json_t *const answers[2] = {json_object_get(a, "answer"), json_object_get(b, "answer")};
-    if (!is_same(place, answers[0], answers[1]))
-        add(place, "queries.answer", CAUSE_OTHER, CAUSE_NO_ID, answers[0], answers[1]);
+    if (!is_same(&place, answers[0], answers[1]))
+        add(&place, CAUSE_OTHER, CAUSE_NO_ID, answers[0], answers[1]);
 }
 
 static void compare_queries(const cause_place *place, json_t *a, json_t *b)
@@ -196,26 +201,29 @@ static void compare_queries(const cause_place *place, json_t *a, json_t *b)
     if (!asked[0] || !asked[1])
         place->facts->out_of_memory = true;
     else if (is_same(place, asked[0], asked[1]))
-        compare_foreign_answers(place, a, b);
+        compare_foreign_answers(*place, a, b);
     else
-        add(place, "queries", CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     json_decref(asked[0]);
     json_decref(asked[1]);
 }
 
-static void compare_pair(const cause_place *place, const char *where, json_t *a, json_t *b)
+static void compare_pair(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
 {
-    if (strcmp(where, "answers") == 0)
-        compare_values(place, where, a, b);
-    else if (strcmp(where, "queries") == 0)
+    if (rule == CAUSE_ANSWERS)
+        compare_values(place, a, b);
+    else if (rule == CAUSE_QUERIES)
         compare_queries(place, a, b);
     else if (!is_same(place, a, b))
-        add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }
 
-/* Write "the range query" or, if the list has several of that kind, "query 3 (range)", counted from 1. */
-static void name_query(json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
+/* Write "the range query" or, if the list has several of that kind, "query 3 (range)", counted from 1. Only answers
+ * name their query. */
+static void name_query(cause_rule rule, json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
 {
+    if (rule != CAUSE_ANSWERS)
+        return;
     const char *kind = cause_kind_of(json_array_get(list, i));
     size_t of_kind = 0;
     for (size_t j = 0; j < json_array_size(list); j++)
@@ -224,18 +232,6 @@ static void name_query(json_t *list, size_t i, bool of_reference, char text[CAUS
         snprintf(text, CAUSE_QUERY, "the %s query", kind);
     else
         snprintf(text, CAUSE_QUERY, "query %zu (%s)%s", i + 1, kind, of_reference ? " of the reference" : "");
-}
-
-/* A copy of `place`; for answers with the name of the query, written to `text`. */
-static cause_place place_with_query(const cause_place *place, const char *where, json_t *list, size_t i,
-                                    bool of_reference, char text[CAUSE_QUERY])
-{
-    cause_place named = *place;
-    if (strcmp(where, "answers") == 0) {
-        name_query(list, i, of_reference, text);
-        named.query = text;
-    }
-    return named;
 }
 
 static bool in_order(const size_t *mates, size_t count)
@@ -251,112 +247,95 @@ static bool in_order(const size_t *mates, size_t count)
     return true;
 }
 
-/* Report the differences within pairs, then the elements of only one list. met[i] is set for each element of `a` that
- * has a partner; it must be false for all before. */
-static void compare_paired(const cause_place *place, const char *where, json_t *a, json_t *b, const size_t *mates,
-                           bool *met)
+/* Report the differences within pairs, then the elements of only one list. has_partner[i] is set for each element of
+ * `a` that has a partner; it must be false for all before. */
+static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t *b, const size_t *mates,
+                           bool *has_partner)
 {
     const size_t count = json_array_size(b);
-    char text[CAUSE_QUERY];
+    char query[CAUSE_QUERY] = "";
+    if (rule == CAUSE_ANSWERS)
+        place.query = query;
     for (size_t j = 0; j < count; j++) {
         if (mates[j] == CAUSE_ALONE)
             continue;
-        const cause_place named = place_with_query(place, where, b, j, false, text);
-        compare_pair(&named, where, json_array_get(a, mates[j]), json_array_get(b, j));
-        met[mates[j]] = true;
+        name_query(rule, b, j, false, query);
+        compare_pair(&place, rule, json_array_get(a, mates[j]), json_array_get(b, j));
+        has_partner[mates[j]] = true;
     }
     for (size_t i = 0; i < json_array_size(a); i++) {
-        if (met[i])
+        if (has_partner[i])
             continue;
-        const cause_place named = place_with_query(place, where, a, i, true, text);
-        add(&named, where, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
+        name_query(rule, a, i, true, query);
+        add(&place, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
     }
     for (size_t j = 0; j < count; j++) {
         if (mates[j] != CAUSE_ALONE)
             continue;
-        const cause_place named = place_with_query(place, where, b, j, false, text);
-        add(&named, where, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
+        name_query(rule, b, j, false, query);
+        add(&place, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
     }
+    query[0] = 0;
     if (!in_order(mates, count))
-        add(place, where, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
+        add(&place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
 }
 
-static void compare_by_similarity(const cause_place *place, const char *where, json_t *a, json_t *b)
+static void compare_by_similarity(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
 {
-    json_t *const asked[2] = {list_pairing_keys(where, a), list_pairing_keys(where, b)};
+    json_t *const keys[2] = {list_pairing_keys(rule, a), list_pairing_keys(rule, b)};
     size_t *mates = malloc((json_array_size(b) + 1) * sizeof *mates);
-    bool *met = calloc(json_array_size(a) + 1, sizeof *met);
-    const bool whole =
-        json_array_size(asked[0]) == json_array_size(a) && json_array_size(asked[1]) == json_array_size(b);
-    if (whole && mates && met && cause_pair(asked[0], asked[1], mates))
-        compare_paired(place, where, a, b, mates, met);
+    bool *has_partner = calloc(json_array_size(a) + 1, sizeof *has_partner);
+    const bool whole = json_array_size(keys[0]) == json_array_size(a) && json_array_size(keys[1]) == json_array_size(b);
+    if (whole && mates && has_partner && cause_pair(keys[0], keys[1], mates))
+        compare_paired(*place, rule, a, b, mates, has_partner);
     else
         place->facts->out_of_memory = true;
     free(mates);
-    free(met);
-    json_decref(asked[0]);
-    json_decref(asked[1]);
+    free(has_partner);
+    json_decref(keys[0]);
+    json_decref(keys[1]);
 }
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
 
-/* Whether an object is compared as one value: boxes and costs are. */
-static bool is_value(const char *where, const json_t *value)
+static void compare_lists(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
 {
-    const size_t length = strlen(where);
-    return json_object_get(value, "min") || strcmp(where, "visits") == 0 ||
-           (length >= 4 && strcmp(where + length - 4, "cost") == 0);
-}
-
-/* Whether a list of numbers holds ids; other lists of numbers are positions or ranges. */
-static bool lists_ids(const char *where)
-{
-    return strcmp(where, "hits") == 0 || strcmp(where, "answers.ids") == 0;
-}
-
-static bool has_keys(const char *where, const json_t *list)
-{
-    const json_t *first = json_array_get(list, 0);
-    return lists_ids(where) || json_is_string(first) || json_object_get(first, "id") || strcmp(where, "edits") == 0;
-}
-
-static void compare_lists(const cause_place *place, const char *where, json_t *a, json_t *b)
-{
-    json_t *some = json_array_size(a) ? a : b;
-    if (!lists_ids(where) && json_is_number(json_array_get(some, 0)))
-        add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
-    else if (has_keys(where, some))
-        compare_keyed(place, where, a, b);
+    const json_t *first = json_array_get(json_array_size(a) ? a : b, 0);
+    if (rule == CAUSE_BY_KEY || json_is_string(first) || json_object_get(first, "id"))
+        compare_keyed(place, a, b);
+    else if (json_is_number(first))
+        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     else
-        compare_by_similarity(place, where, a, b);
+        compare_by_similarity(place, rule, a, b);
 }
 
 /* Compare two values of any type. The path of an answer's member leaves out the kind of the query, since the name of
  * the query says it. */
-static void compare_values(const cause_place *place, const char *where, json_t *a, json_t *b)
+static void compare_values(const cause_place *place, json_t *a, json_t *b)
 {
-    cause_place within = *place;
     if (is_same(place, a, b))
         return;
+    const cause_rule rule = cause_rule_of(place->where);
     if (json_is_array(a ? a : b) && (!a || !b || json_is_array(b))) {
-        compare_lists(place, where, a, b);
-    } else if (json_is_object(a) && json_is_object(b) && !is_value(where, a)) {
-        within.where = where;
-        if (strcmp(where, "answers") == 0) {
+        compare_lists(place, rule, a, b);
+    } else if (json_is_object(a) && json_is_object(b) && rule != CAUSE_WHOLE && !json_object_get(a, "min")) {
+        if (rule == CAUSE_ANSWERS) {
             a = json_object_get(a, cause_kind_of(a));
             b = json_object_get(b, cause_kind_of(b));
         }
-        cause_compare_members(&within, a, b);
+        cause_compare_members(place, a, b);
     } else {
-        add(place, where, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     }
 }
 
 static void compare_member(const cause_place *place, const char *key, json_t *a, json_t *b)
 {
     char where[sizeof((cause_group *)0)->where];
+    cause_place member = *place;
     snprintf(where, sizeof where, "%s%s%s", place->where, *place->where ? "." : "", key);
-    compare_values(place, where, a, b);
+    member.where = where;
+    compare_values(&member, a, b);
 }
 
 void cause_compare_members(const cause_place *place, json_t *a, json_t *b)

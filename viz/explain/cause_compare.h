@@ -11,10 +11,10 @@
 #include "session_file.h"
 #include "view.h"
 
-/* Where two values are, and how they are compared. */
+/* The place of two values that are compared. */
 typedef struct cause_place {
     cause_facts *facts;
-    const char *where; /* the path of the object that holds them; "" for the outermost object */
+    const char *where; /* their path; "" for the outermost object */
     const char *query; /* the name of the query whose answer they belong to; else "" */
     uint64_t tick;     /* the tick to which the values belong, or CAUSE_NO_TICK */
     bool exact;        /* 0 and -0 differ */

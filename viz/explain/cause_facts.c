@@ -7,13 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const char *cause_change_name(cause_change change)
-{
-    static const char *const names[] = {
-        [CAUSE_OTHER] = "other", [CAUSE_MORE] = "more", [CAUSE_LESS] = "less", [CAUSE_ORDER] = "order"};
-    return names[change];
-}
-
 static bool is_about_all(const cause_group *group)
 {
     return group->listed[0].tick == CAUSE_NO_TICK;
@@ -56,9 +49,10 @@ void cause_add(cause_facts *facts, const char *where, const char *query, cause_c
         facts->out_of_memory |=
             !cause_origins_add(&facts->origins, fact.tick, where, cause_kind_of(fact.b ? fact.b : fact.a));
     if (group && group->found++ < CAUSE_LISTED) {
-        json_incref(fact.a);
-        json_incref(fact.b);
         group->listed[group->found - 1] = fact;
+    } else {
+        json_decref(fact.a);
+        json_decref(fact.b);
     }
 }
 

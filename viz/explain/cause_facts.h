@@ -24,8 +24,6 @@
 /* What the second side has: another value, an additional value, one value less, or the same values in another order. */
 typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER } cause_change;
 
-const char *cause_change_name(cause_change change);
-
 #define CAUSE_NO_TICK UINT64_MAX
 #define CAUSE_NO_ID UINT64_MAX
 
@@ -57,8 +55,15 @@ typedef struct cause_facts {
     cause_origins origins; /* the ticks of all facts that have one */
 } cause_facts;
 
-/* Add a fact. It takes its own references to the values. */
+/* Add a fact, which takes over the references to its values. */
 void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
+
+/* The same for a fact that holds for all ticks and is about neither a point nor a query. */
+static inline void cause_add_whole(cause_facts *facts, const char *where, cause_change change, json_t *a, json_t *b)
+{
+    cause_add(facts, where, "", change, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, a, b});
+}
+
 void cause_facts_release(cause_facts *facts);
 
 /* Sort the groups: first those without a tick, then the others by their first tick. */

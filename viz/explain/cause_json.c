@@ -65,9 +65,11 @@ static void write_fact(json_writer *w, const cause_fact *fact)
 
 static void write_group(json_writer *w, const cause_group *group)
 {
+    static const char *const changes[] = {
+        [CAUSE_OTHER] = "other", [CAUSE_MORE] = "more", [CAUSE_LESS] = "less", [CAUSE_ORDER] = "order"};
     json_write_begin_object(w);
     json_member_text(w, "where", group->where);
-    json_member_text(w, "change", cause_change_name(group->change));
+    json_member_text(w, "change", changes[group->change]);
     if (*group->query)
         json_member_text(w, "query", group->query);
     json_member_integer(w, "count", group->found);
@@ -112,26 +114,22 @@ static void write_trace(json_writer *w, const trace *t)
     json_write_end_array(w);
 }
 
-static void write_span(json_writer *w, const char *key, const cause_span *span)
-{
-    if (span->count == 0)
-        return;
-    json_member_begin_object(w, key);
-    json_member_integer(w, "count", span->count);
-    json_member_integer(w, "first", span->first);
-    json_member_integer(w, "last", span->last);
-    json_write_end_object(w);
-}
-
 /* Write the differences in wrong answers; nothing if there are none. */
-static void write_wrong(json_writer *w, const cause_answers *wrong)
+static void write_wrong(json_writer *w, const cause_span wrong[WRONG_CHANGES])
 {
-    if (wrong->more.count + wrong->fewer.count + wrong->other.count == 0)
+    static const char *const names[] = {[WRONG_MORE] = "more", [WRONG_FEWER] = "fewer", [WRONG_OTHER] = "other"};
+    if (wrong[WRONG_MORE].count + wrong[WRONG_FEWER].count + wrong[WRONG_OTHER].count == 0)
         return;
     json_member_begin_object(w, "wrong_answers");
-    write_span(w, "more", &wrong->more);
-    write_span(w, "fewer", &wrong->fewer);
-    write_span(w, "other", &wrong->other);
+    for (int i = 0; i < WRONG_CHANGES; i++) {
+        if (wrong[i].count == 0)
+            continue;
+        json_member_begin_object(w, names[i]);
+        json_member_integer(w, "count", wrong[i].count);
+        json_member_integer(w, "first", wrong[i].first);
+        json_member_integer(w, "last", wrong[i].last);
+        json_write_end_object(w);
+    }
     json_write_end_object(w);
 }
 
@@ -169,12 +167,12 @@ void cause_write_json(json_writer *w, const explanation *e)
     json_write_begin_object(w);
     write_facts(w, "session", &c->session);
     write_facts(w, "view", &c->view);
-    write_wrong(w, &c->wrong);
+    write_wrong(w, c->wrong);
     json_member_integer(w, "compared", c->compared);
-    json_member_integer(w, "differing", c->differing);
-    if (c->differing) {
-        json_member_integer(w, "first", c->first);
-        json_member_integer(w, "last", c->last);
+    json_member_integer(w, "differing", c->differing.count);
+    if (c->differing.count) {
+        json_member_integer(w, "first", c->differing.first);
+        json_member_integer(w, "last", c->differing.last);
     }
     write_ticks(w, e);
     write_sides(w, e);

@@ -56,16 +56,10 @@ bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const
     return true;
 }
 
-static int by_tick(const void *a, const void *b)
-{
-    const cause_origin *x = a, *y = b;
-    return (x->tick > y->tick) - (x->tick < y->tick);
-}
-
 void cause_origins_sort(cause_origins *o)
 {
     if (o->count)
-        qsort(o->listed, o->count, sizeof *o->listed, by_tick);
+        qsort(o->listed, o->count, sizeof *o->listed, by_uint64);
 }
 
 void cause_origins_release(cause_origins *o)
@@ -125,26 +119,13 @@ bool cause_origins_reach(cause_origins *o, uint64_t tick, bool games_differ, boo
     return !changed || add_stretch(o, tick);
 }
 
-static const char *causes_at(const cause_origins *o, uint64_t tick)
+/* The number of items whose tick, their first member, is before `end`. The items are in ascending order. */
+static size_t count_before(const void *items, size_t count, size_t item_size, uint64_t end)
 {
-    size_t low = 0, high = o->stretch_count;
+    size_t low = 0, high = count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (o->stretches[middle].first <= tick)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low && o->stretches[low - 1].causes ? o->stretches[low - 1].causes : "";
-}
-
-/* The index of the first origin at this tick or later. */
-static size_t find_origin(const cause_origins *o, uint64_t tick)
-{
-    size_t low = 0, high = o->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (o->listed[middle].tick < tick)
+        if (*(const uint64_t *)((const char *)items + middle * item_size) < end)
             low = middle + 1;
         else
             high = middle;
@@ -152,11 +133,17 @@ static size_t find_origin(const cause_origins *o, uint64_t tick)
     return low;
 }
 
+static const char *causes_at(const cause_origins *o, uint64_t tick)
+{
+    const size_t count = count_before(o->stretches, o->stretch_count, sizeof *o->stretches, tick + 1);
+    return count && o->stretches[count - 1].causes ? o->stretches[count - 1].causes : "";
+}
+
 /* If nothing is in effect, search the keys that the frame shows: first the later ones, then the earlier ones. */
 const char *cause_origins_at(const cause_origins *o, uint64_t tick)
 {
     const char *causes = causes_at(o, tick);
-    const size_t here = find_origin(o, tick);
+    const size_t here = count_before(o->listed, o->count, sizeof *o->listed, tick);
     for (size_t i = here; !*causes && i < o->count && o->listed[i].tick <= tick + KEYS_AHEAD; i++)
         if (cause_origin_shows(o->kinds[o->listed[i].kind].name, o->listed[i].tick, tick))
             causes = causes_at(o, o->listed[i].tick);

@@ -23,8 +23,8 @@ typedef struct entry {
 } entry;
 
 typedef struct entries {
-    entry *all;   /* in the order of the list; by text while equal entries are paired */
-    entry **left; /* the entries without an equal entry in the other list */
+    entry *all;   /* in the order of the list */
+    entry **left; /* all entries, sorted by text, while equal ones are paired; then those that are not paired */
     size_t count, left_count;
 } entries;
 
@@ -59,16 +59,11 @@ static bool make(entries *e, json_t *list)
 
 /* ---- Equal elements ------------------------------------------------------------------------------------------ */
 
-static int by_place(const void *a, const void *b)
-{
-    const entry *x = a, *y = b;
-    return x->place < y->place ? -1 : x->place > y->place;
-}
-
 static int by_text(const void *a, const void *b)
 {
-    const int order = strcmp(((const entry *)a)->text, ((const entry *)b)->text);
-    return order ? order : by_place(a, b);
+    const entry *x = *(entry *const *)a, *y = *(entry *const *)b;
+    const int order = strcmp(x->text, y->text);
+    return order ? order : (x->place > y->place) - (x->place < y->place);
 }
 
 static void join(entry *a, entry *b, size_t *mates)
@@ -77,22 +72,28 @@ static void join(entry *a, entry *b, size_t *mates)
     a->paired = b->paired = true;
 }
 
+static void sort_by_text(entries *e)
+{
+    for (size_t i = 0; i < e->count; i++)
+        e->left[i] = &e->all[i];
+    qsort(e->left, e->count, sizeof *e->left, by_text);
+}
+
 static void list_left(entries *e)
 {
-    qsort(e->all, e->count, sizeof *e->all, by_place);
     for (size_t i = 0; i < e->count; i++)
         if (!e->all[i].paired)
             e->left[e->left_count++] = &e->all[i];
 }
 
-static void pair_same(entries *a, entries *b, size_t *mates)
+static void pair_equal(entries *a, entries *b, size_t *mates)
 {
-    qsort(a->all, a->count, sizeof *a->all, by_text);
-    qsort(b->all, b->count, sizeof *b->all, by_text);
+    sort_by_text(a);
+    sort_by_text(b);
     for (size_t i = 0, j = 0; i < a->count && j < b->count;) {
-        const int order = strcmp(a->all[i].text, b->all[j].text);
+        const int order = strcmp(a->left[i]->text, b->left[j]->text);
         if (order == 0)
-            join(&a->all[i], &b->all[j], mates);
+            join(a->left[i], b->left[j], mates);
         i += order <= 0;
         j += order >= 0;
     }
@@ -167,7 +168,7 @@ bool cause_pair(json_t *a, json_t *b, size_t *mates)
         mates[j] = CAUSE_ALONE;
     bool ok = make(&x, a) && make(&y, b);
     if (ok) {
-        pair_same(&x, &y, mates);
+        pair_equal(&x, &y, mates);
         ok = pair_alike(&x, &y, mates);
     }
     release(&x);

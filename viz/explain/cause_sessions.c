@@ -22,14 +22,6 @@ static json_t *vector(const double *numbers)
     return json_pack("[fff]", numbers[0], numbers[1], numbers[2]);
 }
 
-/* Add a fact, and release its values. */
-static void add(cause_facts *facts, const char *where, cause_change change, cause_fact fact)
-{
-    cause_add(facts, where, "", change, fact);
-    json_decref(fact.a);
-    json_decref(fact.b);
-}
-
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
 void cause_compare_points(cause_facts *facts, const char *where, const cause_points *a, const cause_points *b,
@@ -40,12 +32,12 @@ void cause_compare_points(cause_facts *facts, const char *where, const cause_poi
         const bool less = j == b->count || (i < a->count && x->id < y->id);
         const bool more = i == a->count || (j < b->count && y->id < x->id);
         if (less || more || !same_position(x->position, y->position, exact))
-            add(facts, where,
-                less   ? CAUSE_LESS
-                : more ? CAUSE_MORE
-                       : CAUSE_OTHER,
-                (cause_fact){CAUSE_NO_TICK, less ? x->id : y->id, more ? NULL : vector(x->position),
-                             less ? NULL : vector(y->position)});
+            cause_add(facts, where, "",
+                      less   ? CAUSE_LESS
+                      : more ? CAUSE_MORE
+                             : CAUSE_OTHER,
+                      (cause_fact){CAUSE_NO_TICK, less ? x->id : y->id, more ? NULL : vector(x->position),
+                                   less ? NULL : vector(y->position)});
         i += !more;
         j += !less;
     }
@@ -121,7 +113,7 @@ static void compare_bodies(const octree_session *a, const octree_session *b, cau
         return;
     compare_sorted(a, b, true, facts);
     if (!same_ids(a, b))
-        add(facts, "points", CAUSE_ORDER, (cause_fact){.tick = CAUSE_NO_TICK, .id = CAUSE_NO_ID});
+        cause_add_whole(facts, "points", CAUSE_ORDER, NULL, NULL);
 }
 
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */
@@ -140,7 +132,8 @@ static void compare_keys(const octree_session *a, const octree_session *b, cause
     for (uint64_t i = 0; i < both && (i < counts[0] || i < counts[1]); i++) {
         const char x = key_at(a, counts[0], i), y = key_at(b, counts[1], i);
         if (x != y)
-            add(facts, "keys", CAUSE_OTHER, (cause_fact){i + 1, CAUSE_NO_ID, json_stringn(&x, 1), json_stringn(&y, 1)});
+            cause_add(facts, "keys", "", CAUSE_OTHER,
+                      (cause_fact){i + 1, CAUSE_NO_ID, json_stringn(&x, 1), json_stringn(&y, 1)});
     }
 }
 
@@ -174,17 +167,13 @@ static json_t *next_object(const char **at)
     return object;
 }
 
-static const char *player_kind(const json_t *player)
-{
-    return json_is_null(player) ? "none" : json_object_get(player, "body") ? "body" : "keys";
-}
-
 /* Give the player of a session the members "kind" and "sweep", even if there is no player or no "sweep". */
 static json_t *name_kind(json_t *header)
 {
     json_t *player = json_object_get(header, "player");
     json_t *named = json_is_null(player) ? json_object() : json_incref(player);
-    json_object_set_new(named, "kind", json_string(player_kind(player)));
+    const char *kind = json_is_null(player) ? "none" : json_object_get(player, "body") ? "body" : "keys";
+    json_object_set_new(named, "kind", json_string(kind));
     json_object_del(named, "body");
     if (!json_is_null(player) && !json_object_get(named, "sweep"))
         json_object_set_new(named, "sweep", json_false());
@@ -192,21 +181,13 @@ static json_t *name_kind(json_t *header)
     return named;
 }
 
+/* Remove the members that the other object lacks. */
 static void drop_missing(json_t *from, const json_t *other)
 {
     const char *key;
     json_t *value;
     void *next;
     json_object_foreach_safe(from, next, key, value) if (!json_object_get(other, key)) json_object_del(from, key);
-}
-
-/* Compare the headers of two sessions, without the members that only one of the two kinds of players has. */
-static void compare_headers(const cause_place *place, json_t *a, json_t *b)
-{
-    json_t *const players[2] = {name_kind(a), name_kind(b)};
-    drop_missing(players[0], players[1]);
-    drop_missing(players[1], players[0]);
-    cause_compare_members(place, a, b);
 }
 
 /* A line of a session file for a tick that has edits, queries or shapes. */
@@ -244,11 +225,15 @@ static void compare_lines(cause_place place, const char *x, const char *y)
     }
 }
 
+/* Compare two session files. Members that only one of the two kinds of players has are left out. */
 static void compare_texts(const cause_place *place, const char *x, const char *y)
 {
     json_t *a = next_object(&x), *b = next_object(&y);
     if (a && b) {
-        compare_headers(place, a, b);
+        json_t *const players[2] = {name_kind(a), name_kind(b)};
+        drop_missing(players[0], players[1]);
+        drop_missing(players[1], players[0]);
+        cause_compare_members(place, a, b);
         compare_lines(*place, x, y);
     } else {
         place->facts->out_of_memory = true;
@@ -302,7 +287,7 @@ static void compare_option(const cause_place *place, const view_option *option, 
     if (cause_same(x, y, place->exact))
         return;
     if (!option->by_element) {
-        cause_add(place->facts, name, "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, x, y});
+        cause_add_whole(place->facts, name, CAUSE_OTHER, json_incref(x), json_incref(y));
         return;
     }
     json_t *lists[2] = {json_pack("{sO}", name, x), json_pack("{sO}", name, y)};
@@ -321,8 +306,7 @@ void cause_compare_views(const cause_view *a, const cause_view *b, bool same_ses
         if (view_option_at(i)->member.name)
             compare_option(&place, view_option_at(i), objects[0], objects[1]);
     if (a->every != b->every)
-        add(facts, "every", CAUSE_OTHER,
-            (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, json_real((double)a->every), json_real((double)b->every)});
+        cause_add_whole(facts, "every", CAUSE_OTHER, json_real((double)a->every), json_real((double)b->every));
     if (same_session && facts->count == 0)
         cause_compare_members(&place, json_object_get(objects[0], "derived"), json_object_get(objects[1], "derived"));
     json_decref(objects[0]);

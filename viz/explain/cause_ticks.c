@@ -11,12 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void add(cause_facts *facts, const char *where, cause_change change, json_t *value)
-{
-    cause_add(facts, where, "", change, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, NULL, value});
-    json_decref(value);
-}
-
 /* ---- Nodes --------------------------------------------------------------------------------------------------- */
 
 /* A walk over the nodes of one tree that looks up each node in the other tree. */
@@ -29,7 +23,7 @@ typedef struct walking {
 static void add_node(const walking *w, const char *where, octree_address node)
 {
     char text[OCTREE_ADDRESS_TEXT];
-    add(w->facts, where, CAUSE_MORE, json_string(octree_address_format(node, text)));
+    cause_add_whole(w->facts, where, CAUSE_MORE, NULL, json_string(octree_address_format(node, text)));
 }
 
 /* Report a node that the other tree lacks or has as a leaf, and skip the nodes below it. */
@@ -100,7 +94,7 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
         octree_walk(bs, compare_node, &over_b);
         octree_walk(as, compare_node, &over_a);
     } else {
-        add(facts, "world", CAUSE_OTHER, NULL);
+        cause_add_whole(facts, "world", CAUSE_OTHER, NULL, NULL);
     }
     compare_points(a, b, facts);
 }
@@ -194,7 +188,7 @@ void cause_compare_ticks(const octree_game *a, const octree_game *b, cause_facts
     const octree_tick *x = octree_game_tick(a), *y = octree_game_tick(b);
     compare_lines(a, b, facts);
     if (!same_visits(x, y) && !cause_group_of(facts, "visits", CAUSE_OTHER))
-        add(facts, "visited", CAUSE_OTHER, NULL);
+        cause_add_whole(facts, "visited", CAUSE_OTHER, NULL, NULL);
     if (!same_hit_ways(x, y))
-        add(facts, "hit_from", CAUSE_OTHER, NULL);
+        cause_add_whole(facts, "hit_from", CAUSE_OTHER, NULL, NULL);
 }

@@ -1,34 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_values.c - compares colours, intensities and classes point by point; see cause_compare.h. */
+#include "array.h"
 #include "cause_compare.h"
 #include "number.h"
 
 #include <stdlib.h>
 
-/* The ids of all points that a session ever has, in ascending order. */
-typedef struct id_list {
-    uint64_t *ids;
-    size_t count;
-} id_list;
-
-static int by_id(const void *a, const void *b)
+/* The ids of all points that a session ever has, in ascending order; null if memory runs out. An id occurs twice if it
+ * is inserted again. */
+static uint64_t *list_ids(const octree_session *session, size_t *count)
 {
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return (x > y) - (x < y);
-}
-
-static bool list_ids(const octree_session *session, id_list *list)
-{
-    list->ids = malloc((session->body_count + session->edit_count + 1) * sizeof *list->ids);
-    if (!list->ids)
-        return false;
-    for (size_t i = 0; i < session->body_count; i++)
-        list->ids[list->count++] = session->bodies[i].id;
-    for (size_t i = 0; i < session->edit_count; i++)
+    uint64_t *ids = malloc((session->body_count + session->edit_count + 1) * sizeof *ids);
+    *count = 0;
+    for (size_t i = 0; ids && i < session->body_count; i++)
+        ids[(*count)++] = session->bodies[i].id;
+    for (size_t i = 0; ids && i < session->edit_count; i++)
         if (session->edits[i].kind == OCTREE_EDIT_INSERT)
-            list->ids[list->count++] = session->edits[i].body.id;
-    qsort(list->ids, list->count, sizeof *list->ids, by_id);
-    return true;
+            ids[(*count)++] = session->edits[i].body.id;
+    if (ids)
+        qsort(ids, *count, sizeof *ids, by_uint64);
+    return ids;
 }
 
 static json_t *value_of(const point_value *value, point_value_kind kind)
@@ -47,39 +38,30 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
         json_t *const x = value_of(a, (point_value_kind)kind), *const y = value_of(b, (point_value_kind)kind);
         if (!cause_same(x, y, true))
-            cause_add(facts, where[kind], "", CAUSE_OTHER, (cause_fact){CAUSE_NO_TICK, id, x, y});
+            cause_add(facts, where[kind], "", CAUSE_OTHER,
+                      (cause_fact){CAUSE_NO_TICK, id, json_incref(x), json_incref(y)});
         json_decref(x);
         json_decref(y);
     }
 }
 
-/* Compare the points of ids in both lists. A list may hold an id twice, since an id may be inserted again. */
-static void compare_shared(const id_list *a, const id_list *b, const point_values *before, const point_values *now,
-                           cause_facts *facts)
-{
-    for (size_t i = 0, j = 0; i < a->count && j < b->count;) {
-        const uint64_t x = a->ids[i], y = b->ids[j];
-        if (x == y) {
-            const point_value was = point_values_get(before, x), is = point_values_get(now, x);
-            if (!point_value_same(&was, &is))
-                compare_value(facts, x, &was, &is);
-        }
-        while (i < a->count && x <= y && a->ids[i] == x)
-            i++;
-        while (j < b->count && y <= x && b->ids[j] == y)
-            j++;
-    }
-}
-
+/* Points that only one session has have been reported. */
 void cause_compare_values(const session_file *a, const session_file *b, cause_facts *facts)
 {
-    id_list as = {0}, bs = {0};
+    size_t a_count, b_count;
     if (point_values_kinds(&a->values) == 0 && point_values_kinds(&b->values) == 0)
         return;
-    if (list_ids(&a->session, &as) && list_ids(&b->session, &bs))
-        compare_shared(&as, &bs, &a->values, &b->values, facts);
-    else
-        facts->out_of_memory = true;
-    free(as.ids);
-    free(bs.ids);
+    uint64_t *as = list_ids(&a->session, &a_count), *bs = list_ids(&b->session, &b_count);
+    facts->out_of_memory |= !as || !bs;
+    for (size_t i = 0, j = 0; as && bs && i < a_count && j < b_count;) {
+        const uint64_t x = as[i], y = bs[j];
+        const point_value before = point_values_get(&a->values, x), now = point_values_get(&b->values, y);
+        const bool is_new = i == 0 || as[i - 1] != x;
+        if (x == y && is_new && !point_value_same(&before, &now))
+            compare_value(facts, x, &before, &now);
+        i += x <= y;
+        j += y <= x;
+    }
+    free(as);
+    free(bs);
 }

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_words.c - prints facts as sentences, with the nouns and verbs of cause_phrases.c. */
+/* cause_words.c - prints facts as sentences, with the nouns and verbs of cause_places.c. */
 #include "cause_words.h"
-#include "cause_phrases.h"
+#include "cause_places.h"
 #include "number.h"
 #include "text.h"
 
 #include <inttypes.h>
 #include <string.h>
 
-static const char *verb_of(const phrase *p, cause_change change)
+static const char *verb_of(const cause_row *p, cause_change change)
 {
     return change == CAUSE_MORE ? p->added : change == CAUSE_LESS ? p->gone : p->moved;
 }
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
 
-static void print_value(FILE *out, const json_t *value);
+static void print_value(FILE *out, const json_t *value, bool is_member);
 
 static void print_number(FILE *out, double number)
 {
@@ -35,7 +35,7 @@ static void print_list(FILE *out, const json_t *list)
     fputs(nested ? "" : "(", out);
     for (size_t i = 0; i < printed; i++) {
         fputs(i == 0 ? "" : nested ? " to " : ", ", out);
-        print_value(out, json_array_get(list, i));
+        print_value(out, json_array_get(list, i), false);
     }
     if (count > printed)
         fprintf(out, " and %zu more", count - printed);
@@ -45,15 +45,6 @@ static void print_list(FILE *out, const json_t *list)
 static bool is_box(const json_t *value)
 {
     return json_object_size(value) == 2 && json_object_get(value, "min");
-}
-
-/* Print a value with quotes if it is a text. */
-static void print_member(FILE *out, const json_t *value)
-{
-    const char *quote = json_is_string(value) ? "\"" : "";
-    fputs(quote, out);
-    print_value(out, value);
-    fputs(quote, out);
 }
 
 /* Print a box as its corners, and any other object as its members with their names. */
@@ -69,17 +60,18 @@ static void print_object(FILE *out, json_t *object)
             fputs(first ? "" : " to ", out);
         else
             fprintf(out, "%s%s ", first ? "" : ", ", key);
-        print_member(out, value);
+        print_value(out, value, true);
         first = false;
     }
 }
 
-static void print_value(FILE *out, const json_t *value)
+/* Print a value. Texts that are members of an object have quotes. */
+static void print_value(FILE *out, const json_t *value, bool is_member)
 {
     if (json_is_number(value))
         print_number(out, json_number_value(value));
     else if (json_is_string(value))
-        fputs(json_string_value(value), out);
+        fprintf(out, is_member ? "\"%s\"" : "%s", json_string_value(value));
     else if (json_is_array(value))
         print_list(out, value);
     else if (json_is_object(value))
@@ -94,17 +86,16 @@ static bool has_members(const json_t *value)
 }
 
 /* Print "8, was 4". Of objects print each member, and "was" for the changed ones: "radius 101, was 100, at (1, 2, 3)".
- * `within`: the value is a member of an object. */
-static void print_change(FILE *out, const json_t *a, const json_t *b, bool within)
+ */
+static void print_change(FILE *out, const json_t *a, const json_t *b, bool is_member)
 {
-    void (*const print)(FILE *, const json_t *) = within ? print_member : print_value;
     const char *key;
     json_t *value;
     bool first = true;
     if (!has_members(a) || !has_members(b)) {
-        print(out, b);
+        print_value(out, b, is_member);
         fputs(", was ", out);
-        print(out, a);
+        print_value(out, a, is_member);
         return;
     }
     json_object_foreach((json_t *)(uintptr_t)b, key, value)
@@ -112,7 +103,7 @@ static void print_change(FILE *out, const json_t *a, const json_t *b, bool withi
         const json_t *before = json_object_get(a, key);
         fprintf(out, "%s%s ", first ? "" : ", ", key);
         if (cause_same(before, value, true))
-            print_member(out, value);
+            print_value(out, value, true);
         else
             print_change(out, before, value, true);
         first = false;
@@ -128,7 +119,7 @@ static void print_change(FILE *out, const json_t *a, const json_t *b, bool withi
 
 /* ---- One fact ------------------------------------------------------------------------------------------------ */
 
-static void print_when(FILE *out, const phrase *p, const cause_fact *fact)
+static void print_when(FILE *out, const cause_row *p, const cause_fact *fact)
 {
     if (fact->tick != CAUSE_NO_TICK)
         fprintf(out, " at tick %" PRIu64, fact->tick);
@@ -152,11 +143,11 @@ static void print_subject(FILE *out, const cause_fact *fact)
     else if (fact->tick != CAUSE_NO_TICK)
         fprintf(out, "%" PRIu64, fact->tick);
     else
-        print_value(out, value);
+        print_value(out, value, false);
 }
 
 /* Print " (8, was 4)" or " (point 3: (7, -7, 7), was (7, 7, 7))". Costs and long lists are left to the JSON report. */
-static void print_values(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
+static void print_values(FILE *out, const cause_row *p, const cause_group *group, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
     const bool has_id = fact->id != CAUSE_NO_ID && !json_is_object(value);
@@ -169,11 +160,11 @@ static void print_values(FILE *out, const phrase *p, const cause_group *group, c
     if (group->change == CAUSE_OTHER)
         print_change(out, fact->a, fact->b, false);
     else if (!is_id)
-        print_value(out, value);
+        print_value(out, value, false);
     fputc(')', out);
 }
 
-static void print_fact(FILE *out, const phrase *p, const cause_group *group, const cause_fact *fact)
+static void print_fact(FILE *out, const cause_row *p, const cause_group *group, const cause_fact *fact)
 {
     if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one side has the query */
         fprintf(out, "%s%s", group->query,
@@ -215,7 +206,7 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
 }
 
 /* Print "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
-static void print_verb(FILE *out, const phrase *p, const cause_group *group, bool brief)
+static void print_verb(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
     if (group->found > (p->minor ? MINOR_SUBJECTS : count_named(group, brief))) {
@@ -230,15 +221,15 @@ static void print_verb(FILE *out, const phrase *p, const cause_group *group, boo
     if (brief || group->found > 1 || fact->id == CAUSE_NO_ID)
         return;
     fputs(group->change == CAUSE_MORE ? " at " : " from ", out);
-    print_value(out, fact->a ? fact->a : fact->b);
+    print_value(out, fact->a ? fact->a : fact->b, false);
     if (group->change == CAUSE_OTHER) {
         fputs(" to ", out);
-        print_value(out, fact->b);
+        print_value(out, fact->b, false);
     }
 }
 
 /* Print "12 more edits (points 3, 4, 5 and 9 more)". */
-static void print_many(FILE *out, const phrase *p, const cause_group *group, bool brief)
+static void print_many(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     static const char *const words[] = {
         [CAUSE_OTHER] = "other ", [CAUSE_MORE] = "more ", [CAUSE_LESS] = "fewer ", [CAUSE_ORDER] = "reordered "};
@@ -257,7 +248,7 @@ static void print_many(FILE *out, const phrase *p, const cause_group *group, boo
 
 /* Print "the query met other nodes at tick 3 (visited 12, was 9)" or "17 queries met other nodes, the first at tick 3
  * (...)". */
-static void print_unnamed_verb(FILE *out, const phrase *p, const cause_group *group)
+static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group *group)
 {
     const cause_fact *first = &group->listed[0];
     if (group->found == 1)
@@ -277,7 +268,7 @@ static bool has_subject(const cause_fact *fact)
 
 static void print_group(FILE *out, const cause_group *group, bool brief)
 {
-    const phrase p = cause_phrase(group);
+    const cause_row p = cause_row_of(group);
     const size_t listed = count_named(group, brief), printed = brief && listed > 2 ? 1 : listed;
     if (verb_of(&p, group->change)) {
         if (has_subject(&group->listed[0]))
@@ -304,7 +295,7 @@ static unsigned count_groups(const cause_facts *facts, bool minor)
 {
     unsigned count = 0;
     for (size_t i = 0; i < facts->count; i++)
-        count += cause_phrase(&facts->groups[i]).minor == minor;
+        count += cause_row_of(&facts->groups[i]).minor == minor;
     return count;
 }
 
@@ -313,7 +304,7 @@ static void print_major_or_minor(FILE *out, const cause_facts *facts, bool minor
 {
     unsigned printed = 0;
     for (size_t i = 0; i < facts->count; i++) {
-        if (cause_phrase(&facts->groups[i]).minor != minor)
+        if (cause_row_of(&facts->groups[i]).minor != minor)
             continue;
         if (brief && printed == CAUSE_BRIEF) {
             fputs(" and more", out);
@@ -339,68 +330,53 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 /* Print the consequence of another option: the number of differing ticks. */
 static void print_extent(FILE *out, const cause *c)
 {
-    if (c->differing == 0) /* frames may still differ, in shapes and arrows */
+    if (c->differing.count == 0) /* frames may still differ, in shapes and arrows */
         fputs("no tick that both have differs", out);
-    else if (c->differing == c->compared - c->first)
-        fprintf(out, "every tick from %" PRIu64 " differs", c->first);
+    else if (c->differing.count == c->compared - c->differing.first)
+        fprintf(out, "every tick from %" PRIu64 " differs", c->differing.first);
     else
-        fprintf(out, "%" PRIu64 " of %" PRIu64 " ticks differ%s, the first is %" PRIu64, c->differing, c->compared,
-                plural_verb(c->differing), c->first);
+        fprintf(out, "%" PRIu64 " of %" PRIu64 " ticks differ%s, the first is %" PRIu64, c->differing.count,
+                c->compared, plural_verb(c->differing.count), c->differing.first);
 }
 
 /* Print the consequence of another point, key, edit or query: the facts of the first differing tick. */
 static void print_first(FILE *out, const cause *c)
 {
-    const cause_tick *first = cause_at(c, c->first);
-    if (c->differing == 0 || !first || first->facts.count == 0) {
+    const cause_tick *first = cause_at(c, c->differing.first);
+    if (c->differing.count == 0 || !first || first->facts.count == 0) {
         print_extent(out, c);
         return;
     }
-    fprintf(out, "tick %" PRIu64 ": ", c->first);
+    fprintf(out, "tick %" PRIu64 ": ", c->differing.first);
     cause_print_facts(out, &first->facts, true);
 }
 
 static bool any_option(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
-        if (cause_phrase(&facts->groups[i]).option)
+        if (cause_row_of(&facts->groups[i]).option)
             return true;
     return false;
 }
 
-/* Print "4 more wrong answers from tick 41 on". */
-static void print_span(FILE *out, const cause_span *span, const char *what)
-{
-    fprintf(out, "%" PRIu64 " %s%s", span->count, what, plural(span->count));
-    fprintf(out, span->first == span->last ? " at tick %" PRIu64 : " from tick %" PRIu64 " on", span->first);
-}
-
-/* Print "other wrong answers at tick 2" or "other wrong answers in 3 ticks from tick 2 on". */
-static void print_other(FILE *out, const cause_span *span, const char *what)
-{
-    (void)what;
-    fputs("other wrong answers", out);
-    if (span->count > 1)
-        fprintf(out, " in %" PRIu64 " ticks from tick %" PRIu64 " on", span->count, span->first);
-    else
-        fprintf(out, " at tick %" PRIu64, span->first);
-}
-
-/* Print the wrong answers that begin at the first differing tick or, if `later`, those that begin after it. Return
- * whether there are any. */
+/* Print "4 more wrong answers from tick 41 on" or "other wrong answers in 3 ticks from tick 2 on". Print those that
+ * begin at the first differing tick or, if `later`, those that begin after it; return whether there are any. */
 static bool print_wrong(FILE *out, const cause *c, bool later)
 {
-    const struct {
-        const cause_span *span;
-        const char *what; /* null: equal numbers of other wrong answers */
-    } rows[] = {
-        {&c->wrong.more, "more wrong answer"}, {&c->wrong.fewer, "fewer wrong answer"}, {&c->wrong.other, NULL}};
     bool any = false;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        if (rows[i].span->count == 0 || (rows[i].span->first > c->first) != later)
+    for (int i = 0; i < WRONG_CHANGES; i++) {
+        const cause_span *span = &c->wrong[i];
+        if (span->count == 0 || (span->first > c->differing.first) != later)
             continue;
         fputs(any ? ", " : later ? "; " : "", out);
-        (rows[i].what ? print_span : print_other)(out, rows[i].span, rows[i].what);
+        if (i == WRONG_OTHER)
+            fputs("other wrong answers", out);
+        else
+            fprintf(out, "%" PRIu64 " %s wrong answer%s", span->count, i == WRONG_MORE ? "more" : "fewer",
+                    plural(span->count));
+        if (i == WRONG_OTHER && span->count > 1)
+            fprintf(out, " in %" PRIu64 " ticks", span->count);
+        fprintf(out, span->first == span->last ? " at tick %" PRIu64 : " from tick %" PRIu64 " on", span->first);
         any = true;
     }
     return any;
@@ -410,9 +386,9 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
 static size_t count_later(const cause *c)
 {
     size_t count = 0;
-    while (c->differing && count < c->session.count) {
+    while (c->differing.count && count < c->session.count) {
         const cause_group *group = &c->session.groups[c->session.count - count - 1];
-        if (group->listed[0].tick == CAUSE_NO_TICK || group->listed[0].tick <= c->first)
+        if (group->listed[0].tick == CAUSE_NO_TICK || group->listed[0].tick <= c->differing.first)
             break;
         count++;
     }
@@ -431,7 +407,7 @@ void cause_print_headline(FILE *out, const cause *c)
         cause_print_facts(out, &(cause_facts){.groups = c->session.groups, .count = soon}, true);
         fputs(options ? ": " : "; ", out);
         (options ? print_extent : print_first)(out, c);
-        if (c->view.count == 0 && c->drawn < (c->differing ? c->first : CAUSE_NO_TICK))
+        if (c->view.count == 0 && c->drawn < (c->differing.count ? c->differing.first : CAUSE_NO_TICK))
             fprintf(out, "; frames differ from tick %" PRIu64 " on", c->drawn);
     }
     if (c->view.count) {

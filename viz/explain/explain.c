@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /* explain.c - explains two sides pair by pair; plays both sessions if the sides are recordings. */
 #include "explain.h"
+#include "array.h"
 #include "cause_words.h"
 #include "pair_look.h"
 #include "parallel.h"
 #include "file.h"
-#include "frame_file.h"
 #include "text.h"
 
 #include <errno.h>
@@ -38,11 +38,6 @@ void explanation_release(explanation *e)
 const char *explanation_cause(const explanation *e, size_t i)
 {
     return e->pairs ? e->pairs[i].text : NULL;
-}
-
-const char *explanation_key(const explanation *e, size_t i)
-{
-    return e->pairs ? e->pairs[i].key : NULL;
 }
 
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result)
@@ -90,22 +85,15 @@ static bool handle_tick(void *context, const octree_game *const games[2], bool d
            tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &reported->trace, error);
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const uint64_t x = ((const wanted_pair *)a)->tick, y = ((const wanted_pair *)b)->tick;
-    return (x > y) - (x < y);
-}
-
 /* The first tick whose frames differ. All pairs are searched: with more than six digits, the order of names is not the
  * order of ticks. */
 static uint64_t first_drawn(const diff_result *result)
 {
-    uint64_t first = CAUSE_NO_TICK, tick;
+    uint64_t first = CAUSE_NO_TICK;
     for (size_t i = 0; i < result->count; i++) {
         const diff_pair *pair = &result->pairs[i];
-        if (pair->a && pair->b && explain_is_unlike(pair) && frame_parse_name(diff_pair_name(pair), &tick) &&
-            tick < first)
-            first = tick;
+        if (pair->a && pair->b && explain_is_unlike(pair) && diff_pair_tick(pair) < first)
+            first = diff_pair_tick(pair);
     }
     return first;
 }
@@ -116,13 +104,10 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
     w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
     if (!w->pairs)
         return false;
-    for (size_t i = 0; i < result->count && w->count < most; i++) {
-        const diff_pair *pair = &result->pairs[i];
-        w->pairs[w->count].pair = pair;
-        if (explain_is_unlike(pair) && frame_parse_name(diff_pair_name(pair), &w->pairs[w->count].tick))
-            w->count++;
-    }
-    qsort(w->pairs, w->count, sizeof *w->pairs, by_number);
+    for (size_t i = 0; i < result->count && w->count < most; i++)
+        if (explain_is_unlike(&result->pairs[i]))
+            w->pairs[w->count++] = (wanted_pair){diff_pair_tick(&result->pairs[i]), &result->pairs[i]};
+    qsort(w->pairs, w->count, sizeof *w->pairs, by_uint64);
     return true;
 }
 
@@ -141,27 +126,6 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Whether every explained pair shows one scene that was drawn in two ways. */
-static bool only_drawn(const explanation *e)
-{
-    bool any = false;
-    for (size_t i = 0; i < e->count; i++) {
-        if (e->pairs[i].text && !e->pairs[i].only_drawn)
-            return false;
-        any = any || e->pairs[i].text;
-    }
-    return any;
-}
-
-/* The index of the first pair that has a cause; e->count if no pair has one. */
-static size_t first_explained(const explanation *e)
-{
-    size_t i = 0;
-    while (i < e->count && !e->pairs[i].text)
-        i++;
-    return i;
-}
-
 /* Print the warnings of both sides; return whether there are any. */
 static bool print_warnings(FILE *out, const explanation *e)
 {
@@ -178,12 +142,17 @@ static bool print_warnings(FILE *out, const explanation *e)
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0;
-    const size_t first = first_explained(e);
+    size_t first = e->count, drawn_otherwise = 0;
+    for (size_t i = e->count; i-- > 0;)
+        if (e->pairs[i].text) {
+            first = i;
+            drawn_otherwise += !e->pairs[i].only_drawn;
+        }
     if (print_warnings(out, e) && (known || first < e->count))
         fputs("; ", out);
     if (known)
         cause_print_headline(out, &e->cause);
-    else if (only_drawn(e))
+    else if (first < e->count && drawn_otherwise == 0)
         pair_print_rendering(out, e);
     else if (first < e->count && e->recordings)
         fprintf(out, "%s: %s", diff_pair_name(&result->pairs[first]), e->pairs[first].text);

@@ -48,9 +48,8 @@ bool explain(const diff_side *a, const diff_side *b, const diff_result *result, 
              octreel_error *error);
 void explanation_release(explanation *e);
 
-/* The sentence and the key of the i-th pair, or null. */
+/* The sentence of the i-th pair, or null. */
 const char *explanation_cause(const explanation *e, size_t i);
-const char *explanation_key(const explanation *e, size_t i);
 
 /* The verdict of the result, or DIFF_TROUBLE if explaining failed. */
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result);

@@ -4,7 +4,6 @@
 #include "layer.h"
 #include "letters.h"
 #include "pixel.h"
-#include "frame_file.h"
 #include "replay.h"
 
 #include <stdlib.h>
@@ -53,17 +52,9 @@ static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
     return true;
 }
 
-/* The tick in the name of a frame. */
-static uint64_t tick_of(const diff_frame *frame)
+static bool add_mask(masking *w, diff_pair *pair, octreel_error *error)
 {
-    uint64_t tick = 0;
-    frame_parse_name(frame->name, &tick);
-    return tick;
-}
-
-static bool add_mask(masking *w, diff_pair *pair, const diff_frame *frame, octreel_error *error)
-{
-    if (!replay_to(&w->replay, tick_of(frame), error) || !playback_scene(&w->replay.playback, error))
+    if (!replay_to(&w->replay, diff_pair_tick(pair), error) || !playback_scene(&w->replay.playback, error))
         return false;
     const view *v = &w->replay.playback.scene.view;
     frame_mask m = {calloc((size_t)v->width, (size_t)v->height), v->width, v->height};
@@ -75,17 +66,16 @@ static bool add_mask(masking *w, diff_pair *pair, const diff_frame *frame, octre
 
 static int by_tick(const void *a, const void *b)
 {
-    const uint64_t x = tick_of((*(diff_pair *const *)a)->a), y = tick_of((*(diff_pair *const *)b)->a);
+    const uint64_t x = diff_pair_tick(*(diff_pair *const *)a), y = diff_pair_tick(*(diff_pair *const *)b);
     return (x > y) - (x < y);
 }
 
-static bool add_masks(const diff_side *side, bool is_a, unsigned layers, diff_pair **pairs, size_t count,
-                      octreel_error *error)
+static bool add_masks(const diff_side *side, unsigned layers, diff_pair **pairs, size_t count, octreel_error *error)
 {
     masking w = {.layers = layers};
     bool ok = replay_open(&w.replay, side->path, error);
     for (size_t i = 0; ok && i < count; i++)
-        ok = add_mask(&w, pairs[i], is_a ? pairs[i]->a : pairs[i]->b, error);
+        ok = add_mask(&w, pairs[i], error);
     replay_close(&w.replay);
     return ok;
 }
@@ -101,6 +91,6 @@ bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_p
     /* Both frames of a pair have the same name, so one order by ticks fits both sides. With more than six digits it is
      * not the order of names. */
     qsort(pairs, count, sizeof *pairs, by_tick);
-    return (a->kind != DIFF_RECORDING || add_masks(a, true, layers, pairs, count, error)) &&
-           (b->kind != DIFF_RECORDING || add_masks(b, false, layers, pairs, count, error));
+    return (a->kind != DIFF_RECORDING || add_masks(a, layers, pairs, count, error)) &&
+           (b->kind != DIFF_RECORDING || add_masks(b, layers, pairs, count, error));
 }

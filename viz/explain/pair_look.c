@@ -45,13 +45,6 @@ static frame_fault find_origin_fault(const recorded *r, const frame_origin *orig
     return scene == 0 || origin->scene == scene ? FAULT_NONE : FAULT_SCENE;
 }
 
-static uint64_t tick_of(const diff_pair *pair)
-{
-    uint64_t tick = 0;
-    frame_parse_name(diff_pair_name(pair), &tick);
-    return tick;
-}
-
 pair_look pair_look_at(const explanation *e, const diff_pair *pair)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
@@ -61,7 +54,7 @@ pair_look pair_look_at(const explanation *e, const diff_pair *pair)
         if (frames[i] && !l.has_texts[i] && e->recordings)
             l.faults[i] = FAULT_TEXTS;
         if (l.has_texts[i] && e->recordings)
-            l.faults[i] = find_origin_fault(&e->sides[i], &l.origins[i], tick_of(pair));
+            l.faults[i] = find_origin_fault(&e->sides[i], &l.origins[i], diff_pair_tick(pair));
         if (l.has_texts[i] && l.faults[i] == FAULT_NONE && !is_as_drawn(frames[i], &l.origins[i]))
             l.faults[i] = FAULT_PIXELS;
     }
@@ -79,26 +72,31 @@ static bool is_only_drawn(const explanation *e, const pair_look *l)
     return l->same_scene && !has_fault(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
-/* Print the frames that are not those that their recording drew for this tick. */
+/* Print why a frame contradicts its text chunks or its recording. */
+static void print_fault(FILE *out, frame_fault fault, const frame_origin *origin)
+{
+    static const char *const words[] = {
+        [FAULT_SESSION] = "is a frame of another session",
+        [FAULT_SCENE] = "shows another scene than ticks.jsonl records for its tick",
+        [FAULT_TEXTS] = "has no text chunks of octreel; another program may have saved it",
+        [FAULT_PIXELS] = "was changed after it was drawn: its pixels do not match the digest in its text chunk",
+    };
+    if (fault == FAULT_TICK)
+        fprintf(out, "is the frame of tick %" PRIu64, origin->tick);
+    else
+        fputs(words[fault], out);
+}
+
 static void print_faults(FILE *out, const diff_pair *pair, const pair_look *l)
 {
     const diff_frame *const frames[2] = {pair->a, pair->b};
-    bool any = false;
+    const char *separator = "";
     for (int i = 0; i < 2; i++) {
         if (l->faults[i] == FAULT_NONE)
             continue;
-        fprintf(out, "%s%s ", any ? "; " : "", frames[i]->path);
-        if (l->faults[i] == FAULT_SESSION)
-            fputs("is a frame of another session", out);
-        else if (l->faults[i] == FAULT_TICK)
-            fprintf(out, "is the frame of tick %" PRIu64, l->origins[i].tick);
-        else if (l->faults[i] == FAULT_SCENE)
-            fputs("shows another scene than ticks.jsonl records for its tick", out);
-        else if (l->faults[i] == FAULT_TEXTS)
-            fputs("has no text chunks of octreel; another program may have saved it", out);
-        else
-            fputs("was changed after it was drawn: its pixels do not match the digest in its text chunk", out);
-        any = true;
+        fprintf(out, "%s%s ", separator, frames[i]->path);
+        print_fault(out, l->faults[i], &l->origins[i]);
+        separator = "; ";
     }
 }
 
@@ -212,7 +210,7 @@ static bool may_be_right(const pair_look *l)
 static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawn(e, l);
-    const uint64_t tick = tick_of(pair);
+    const uint64_t tick = diff_pair_tick(pair);
     const bool prints_tick = e->recordings && both && !drawn && (!faulty || (may_be_right(l) && differs_at(e, tick)));
     const bool prints_missing = e->recordings && !both;
     print_faults(out, pair, l);
@@ -274,9 +272,9 @@ static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, co
     if (is_only_drawn(e, l))
         fputs("drawn", out);
     else if (e->recordings && !both)
-        print_missing(out, &e->sides[pair->a ? 1 : 0], tick_of(pair));
+        print_missing(out, &e->sides[pair->a ? 1 : 0], diff_pair_tick(pair));
     else if (e->recordings && known && !has_fault(l))
-        fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, tick_of(pair)));
+        fprintf(out, "recordings, %s", cause_origins_at(&e->cause.session.origins, diff_pair_tick(pair)));
     else if (both_have_texts(l) && !has_fault(l))
         print_origins_key(out, l);
     else if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)

@@ -15,33 +15,25 @@
 /* The longest line of ticks.jsonl that is read to its end, in bytes. */
 #define LONGEST_LINE ((size_t)1 << 26)
 
-static bool add_warning(recorded *r, octreel_error *error, const char *format, ...)
+static void add_warning(recorded *r, const char *format, ...)
 {
-    char text[1024];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    char *copy = strdup(text);
-    if (!copy)
-        return error_no_memory(error);
     if (r->warning_count < RECORDED_WARNINGS)
-        r->warnings[r->warning_count++] = copy;
-    else
-        free(copy);
-    return true;
+        vsnprintf(r->warnings[r->warning_count++], sizeof *r->warnings, format, arguments);
+    va_end(arguments);
 }
 
 /* ---- Opening ------------------------------------------------------------------------------------------------- */
 
-static bool check_session(recorded *r, octreel_error *error)
+/* Check that the first frame is of this session. */
+static void check_session(recorded *r)
 {
     uint64_t tick;
     r->filmed = r->replay.session_digest;
-    if (r->side->count == 0 || !frame_parse_name(r->side->frames[0].name, &tick) ||
-        !frame_session(r->side->path, tick, &r->filmed) || r->filmed == r->replay.session_digest)
-        return true;
-    return add_warning(r, error, "%s/session.json is not the session that was recorded", r->side->path);
+    if (r->side->count > 0 && frame_parse_name(r->side->frames[0].name, &tick) &&
+        frame_session(r->side->path, tick, &r->filmed) && r->filmed != r->replay.session_digest)
+        add_warning(r, "%s/session.json is not the session that was recorded", r->side->path);
 }
 
 bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
@@ -51,14 +43,13 @@ bool recorded_open(recorded *r, const diff_side *side, octreel_error *error)
     if (!replay_read(&r->replay, side->path, error))
         return false;
     r->view = (cause_view){r->replay.film.view, r->replay.film.every};
-    r->reading = check_session(r, error) && lines_open(&r->lines, side->path, error);
+    check_session(r);
+    r->reading = lines_open(&r->lines, side->path, error);
     return r->reading;
 }
 
 void recorded_close(recorded *r)
 {
-    for (size_t i = 0; i < r->warning_count; i++)
-        free(r->warnings[i]);
     lines_close(&r->lines);
     free(r->scenes);
     replay_close(&r->replay);
@@ -78,16 +69,6 @@ static uint64_t line_scene(const recorded *r)
     return memcmp(digits - length, before, length) == 0 ? strtoull(digits, NULL, 16) : 0;
 }
 
-static bool store_scene(recorded *r)
-{
-    uint64_t *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
-    if (!grown)
-        return false;
-    r->scenes = grown;
-    r->scenes[r->scene_count++] = line_scene(r);
-    return true;
-}
-
 uint64_t recorded_scene(const recorded *r, uint64_t tick)
 {
     return tick < r->scene_count ? r->scenes[tick] : 0;
@@ -103,25 +84,28 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
         return true;
     const line_state state = lines_next(&r->lines, LONGEST_LINE);
     r->reading = state == LINE_WHOLE;
-    if (r->reading)
-        return store_scene(r) || error_no_memory(error);
-    return add_warning(r, error, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
+    if (!r->reading) {
+        add_warning(r, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
+        return true;
+    }
+    uint64_t *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
+    if (!grown)
+        return error_no_memory(error);
+    r->scenes = grown;
+    r->scenes[r->scene_count++] = line_scene(r);
+    return true;
 }
 
-/* The scene digest to expect in a line: that in the frame, else that in the line itself, since no scene is built here.
- */
-static uint64_t scene_of(const recorded *r, uint64_t tick)
-{
-    uint64_t scene = 0;
-    return frame_scene(r->side->path, tick, &scene) ? scene : line_scene(r);
-}
-
-/* What the line of the tick says beyond it; `name` has room for the name of its frame. */
+/* The members of a tick's line that do not follow from the tick; `name` has room for the name of its frame. The digest
+ * of the scene is that in the frame or else that in the line itself, since no scene is built here. */
 static tick_extras extras_of(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
 {
+    uint64_t scene = 0;
     if (tick->gap || !frame_is_due(tick->number, r->view.every))
         return (tick_extras){0};
-    return (tick_extras){.frame = frame_name(tick->number, name), .scene_digest = scene_of(r, tick->number)};
+    if (!frame_scene(r->side->path, tick->number, &scene))
+        scene = line_scene(r);
+    return (tick_extras){.frame = frame_name(tick->number, name), .scene_digest = scene};
 }
 
 static bool check_line(recorded *r, const octree_game *game, octreel_error *error)
@@ -140,8 +124,10 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     const expected_line expected = {text, s.size, tick, &extras};
     r->reading = line_matches(&r->lines, &expected, &finding);
     free(text);
-    return r->reading || add_warning(r, error, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s",
-                                     r->side->path, tick->number, finding.text);
+    if (!r->reading)
+        add_warning(r, "%s/ticks.jsonl at tick %" PRIu64 " is not what its session gives: %s", r->side->path,
+                    tick->number, finding.text);
+    return true;
 }
 
 /* Check the lines of both sides. Equal lines of equal ticks need no check: both are right, or both are wrong. */

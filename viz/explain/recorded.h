@@ -20,8 +20,8 @@ typedef struct recorded {
     bool reading;     /* no line so far is wrong, so the next one is read */
     uint64_t *scenes; /* the digest of the scene for each line read so far, one a tick; 0: the line has none */
     size_t scene_count, scene_room;
-    char drawn_by[RECORDED_WHO];       /* from renderer.json */
-    char *warnings[RECORDED_WARNINGS]; /* sentences about files that do not agree with the session; owned */
+    char drawn_by[RECORDED_WHO];            /* from renderer.json */
+    char warnings[RECORDED_WARNINGS][1024]; /* sentences about files that do not agree with the session */
     size_t warning_count;
 } recorded;
 

@@ -93,22 +93,28 @@ static bool same_part(const void *a, const void *b)
     return x->layer == y->layer && x->id == y->id;
 }
 
-/* The element numbers of both sides, one for each sample. */
-typedef struct pictures {
-    uint32_t *numbers[2];
-    size_t width;   /* in pixels */
-    size_t samples; /* samples of a pixel along each axis */
-} pictures;
+/* The state while a pair of frames is traced. */
+typedef struct tracing {
+    const tracer *tracer;
+    const octree_game *const *games;
+    image frames[2];
+    uint32_t *numbers[2]; /* the element numbers of both scenes, one for each sample */
+    size_t samples;       /* of a pixel along each axis */
+    trace made;
+    size_t room;
+    hash_map map; /* from parts to their places in made.parts */
+} tracing;
 
 /* The part at the first sample of a pixel whose elements differ, or else at the first sample that shows an element. */
-static trace_part part_at(const tracer *t, const octree_game *const games[2], const pictures *p, size_t x, size_t y)
+static trace_part part_at(const tracing *t, size_t x, size_t y)
 {
+    const size_t width = (size_t)t->frames[0].width;
     trace_part found = {.layer = TRACE_BACKGROUND, .pixels = 1};
-    for (size_t i = 0; i < p->samples * p->samples; i++) {
-        const size_t row = y * p->samples + i / p->samples;
-        const size_t at = (row * p->width + x) * p->samples + i % p->samples;
-        const trace_part a = part_of(&t->scenes[0], p->numbers[0][at], games);
-        const trace_part b = part_of(&t->scenes[1], p->numbers[1][at], games);
+    for (size_t i = 0; i < t->samples * t->samples; i++) {
+        const size_t row = y * t->samples + i / t->samples;
+        const size_t at = (row * width + x) * t->samples + i % t->samples;
+        const trace_part a = part_of(&t->tracer->scenes[0], t->numbers[0][at], t->games);
+        const trace_part b = part_of(&t->tracer->scenes[1], t->numbers[1][at], t->games);
         if (!same_part(&a, &b))
             return upper_part(a, b);
         if (found.layer == TRACE_BACKGROUND)
@@ -121,50 +127,28 @@ static trace_part part_at(const tracer *t, const octree_game *const games[2], co
 
 static uint64_t hash_part(const void *part)
 {
-    const uint64_t key =
-        ((const trace_part *)part)->id * (TRACE_BACKGROUND + 1) + (uint64_t)((const trace_part *)part)->layer;
+    const trace_part *p = part;
+    const uint64_t key = p->id * (TRACE_BACKGROUND + 1) + (uint64_t)p->layer;
     return hash_map_hash_id(&key);
 }
 
 static const hash_map_keys by_part = {sizeof(trace_part), hash_part, same_part};
 
-/* A trace under construction. */
-typedef struct counting {
-    trace made;
-    size_t room;
-    hash_map map;
-} counting;
-
-static bool count_part(counting *c, const trace_part *part)
+static bool count_part(tracing *t, const trace_part *part)
 {
-    trace *made = &c->made;
-    const uint32_t place = hash_map_find(&c->map, &by_part, made->parts, part);
+    trace *made = &t->made;
+    const uint32_t place = hash_map_find(&t->map, &by_part, made->parts, part);
     made->pixels++;
     if (place != HASH_MAP_NONE) {
         made->parts[place].pixels++;
         return true;
     }
-    trace_part *grown = array_reserve(made->parts, made->count + 1, &c->room, sizeof *grown);
+    trace_part *grown = array_reserve(made->parts, made->count + 1, &t->room, sizeof *grown);
     if (!grown)
         return false;
     made->parts = grown;
     made->parts[made->count++] = *part;
-    return hash_map_add(&c->map, &by_part, made->parts);
-}
-
-static bool count_parts(counting *c, const tracer *t, const octree_game *const games[2], const image frames[2],
-                        const image_tolerance *tolerance, const pictures *p)
-{
-    for (int y = 0; y < frames[0].height; y++)
-        for (int x = 0; x < frames[0].width; x++) {
-            const image_color a = image_color_at(&frames[0], x, y), b = image_color_at(&frames[1], x, y);
-            if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_ignored(tolerance, frames[0].width, x, y))
-                continue;
-            const trace_part part = part_at(t, games, p, (size_t)x, (size_t)y);
-            if (!count_part(c, &part))
-                return false;
-        }
-    return true;
+    return hash_map_add(&t->map, &by_part, made->parts);
 }
 
 static int by_pixels(const void *a, const void *b)
@@ -175,18 +159,23 @@ static int by_pixels(const void *a, const void *b)
     return x->layer != y->layer ? x->layer - y->layer : (x->id > y->id) - (x->id < y->id);
 }
 
-static bool make_trace(const tracer *t, const octree_game *const games[2], const diff_pair *pair,
-                       const diff_options *options, const image frames[2], const pictures *p, trace *made)
+/* Count the parts at all pixels that differ and are not ignored. */
+static bool count_parts(tracing *t, const image_tolerance *tolerance)
 {
-    counting c = {.made.made = true};
-    image_tolerance tolerance;
-    const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(&c, t, games, frames, &tolerance, p);
-    if (c.made.count)
-        qsort(c.made.parts, c.made.count, sizeof *c.made.parts, by_pixels);
-    *made = c.made;
-    hash_map_release(&c.map);
-    pair_tolerance_release(&tolerance);
-    return ok;
+    const image *frames = t->frames;
+    for (int y = 0; y < frames[0].height; y++)
+        for (int x = 0; x < frames[0].width; x++) {
+            const image_color a = image_color_at(&frames[0], x, y), b = image_color_at(&frames[1], x, y);
+            if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_ignored(tolerance, frames[0].width, x, y))
+                continue;
+            const trace_part part = part_at(t, (size_t)x, (size_t)y);
+            if (!count_part(t, &part))
+                return false;
+        }
+    if (t->made.count)
+        qsort(t->made.parts, t->made.count, sizeof *t->made.parts, by_pixels);
+    t->made.made = true;
+    return true;
 }
 
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
@@ -222,39 +211,47 @@ static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
     return ok;
 }
 
-static bool trace_frames(tracer *t, const octree_game *const games[2], const diff_pair *pair,
-                         const diff_options *options, const image frames[2], trace *made, octreel_error *error)
+/* Return false only if memory runs out. */
+static bool trace_frames(tracer *t, tracing *state, const diff_pair *pair, const diff_options *options)
 {
-    const size_t side = (size_t)view_samples(&t->scenes[0].view), width = (size_t)frames[0].width;
-    const size_t size = width * (size_t)frames[0].height * side * side;
+    const size_t pixels = (size_t)state->frames[0].width * (size_t)state->frames[0].height;
+    const size_t size = pixels * state->samples * state->samples;
+    image_tolerance tolerance;
     if (size > MOST_SAMPLES) {
         snprintf(t->untraced, sizeof t->untraced, "pictures of more than %zu samples are not traced", MOST_SAMPLES);
         return true;
     }
-    pictures p = {{malloc(size * sizeof **p.numbers), malloc(size * sizeof **p.numbers)}, width, side};
-    bool ok = p.numbers[0] && p.numbers[1];
-    if (ok && pick_elements(t, &t->scenes[0], p.numbers[0]) && pick_elements(t, &t->scenes[1], p.numbers[1]))
-        ok = make_trace(t, games, pair, options, frames, &p, made);
-    free(p.numbers[0]);
-    free(p.numbers[1]);
-    return ok || error_no_memory(error);
+    for (int i = 0; i < 2; i++) {
+        state->numbers[i] = malloc(size * sizeof *state->numbers[i]);
+        if (!state->numbers[i])
+            return false;
+        if (!pick_elements(t, &t->scenes[i], state->numbers[i]))
+            return true;
+    }
+    const bool ok = pair_tolerance(pair, options, &tolerance) && count_parts(state, &tolerance);
+    pair_tolerance_release(&tolerance);
+    return ok;
 }
 
 bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
                   const diff_options *options, trace *made, octreel_error *error)
 {
     const view *a = &sides[0].view.view, *b = &sides[1].view.view;
-    image frames[2] = {{0}, {0}};
+    tracing state = {.tracer = t, .games = games, .samples = (size_t)view_samples(a)};
     if (a->width != b->width || a->height != b->height || view_samples(a) != view_samples(b) || *t->untraced)
         return true;
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->histories[i],
                               &sides[i].replay.session.values))
             return error_no_memory(error);
-    const bool ok = !read_frames(t, pair, frames) || trace_frames(t, games, pair, options, frames, made, error);
-    image_release(&frames[0]);
-    image_release(&frames[1]);
-    return ok;
+    const bool ok = !read_frames(t, pair, state.frames) || trace_frames(t, &state, pair, options);
+    *made = state.made;
+    hash_map_release(&state.map);
+    for (int i = 0; i < 2; i++) {
+        free(state.numbers[i]);
+        image_release(&state.frames[i]);
+    }
+    return ok || error_no_memory(error);
 }
 
 /* ---- In words ------------------------------------------------------------------------------------------------ */

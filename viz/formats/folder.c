@@ -157,7 +157,7 @@ bool folder_is_unfinished(const char *name)
     return false;
 }
 
-static bool remove_entry(const char *folder, const char *name, octreel_error *error)
+bool folder_remove(const char *folder, const char *name, octreel_error *error)
 {
     char *path = path_join(folder, name);
     const bool removed = path && (remove(path) == 0 || errno == ENOENT);
@@ -174,7 +174,7 @@ bool folder_sweep(const char *folder, octreel_error *error)
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
         if (folder_is_unfinished(entry->d_name) || chunk_parse_name(entry->d_name, &first, &last))
-            ok = remove_entry(folder, entry->d_name, error);
+            ok = folder_remove(folder, entry->d_name, error);
     closedir(entries);
     return ok;
 }

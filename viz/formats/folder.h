@@ -40,6 +40,9 @@ bool folder_is_unfinished(const char *name);
 /* Remove the files that a complete recording does not need: the lines of its chunks, and incomplete files. */
 bool folder_sweep(const char *folder, octreel_error *error);
 
+/* Remove a file of the folder, which may be missing. */
+bool folder_remove(const char *folder, const char *name, octreel_error *error);
+
 /* Write a file in the folder, whole or not at all. */
 bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error);
 

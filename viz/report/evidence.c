@@ -73,8 +73,12 @@ char *evidence_name(const char *frame, evidence_picture picture)
 
 bool evidence_is_name(const char *name)
 {
+    static const char *const files[] = {EVIDENCE_PAGE, EVIDENCE_PAGE ".part", CONTACT_SHEET, CONTACT_SHEET ".part"};
     static const char part[] = ".part";
     size_t length = strlen(name);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        if (strcmp(name, files[i]) == 0)
+            return true;
     if (length > sizeof part - 1 && strcmp(name + length - (sizeof part - 1), part) == 0)
         length -= sizeof part - 1;
     for (int i = 0; i < EVIDENCE_PICTURES; i++) {
@@ -118,32 +122,13 @@ static bool has_marker(const char *folder)
     return size == sizeof text - 1 && memcmp(text, marker_beginning, size) == 0;
 }
 
-static bool is_ours(const char *name)
-{
-    static const char *const files[] = {EVIDENCE_PAGE, EVIDENCE_PAGE ".part", CONTACT_SHEET, CONTACT_SHEET ".part"};
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        if (strcmp(name, files[i]) == 0)
-            return true;
-    return evidence_is_name(name);
-}
-
-static bool remove_entry(const char *folder, const char *name, octreel_error *error)
-{
-    char *path = path_join(folder, name);
-    if (!path)
-        return error_no_memory(error);
-    const bool ok = remove(path) == 0 || error_set(error, "%s: cannot be removed: %s", path, strerror(errno));
-    free(path);
-    return ok;
-}
-
 /* Other files in a folder of evidence stay; a folder without the marker must be empty. */
 static bool visit_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
     if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
         return true;
     if (marked)
-        return !is_ours(name) || remove_entry(folder, name, error);
+        return !evidence_is_name(name) || folder_remove(folder, name, error);
     return strcmp(name, MARKER ".part") == 0 ||
            error_set(error, "%s: holds %s, and no evidence of octreel diff: choose a new folder, or an empty one",
                      folder, name);

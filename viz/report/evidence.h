@@ -23,10 +23,10 @@ typedef enum evidence_picture {
 
 const char *evidence_word(evidence_picture picture);
 
-/* The name of a frame's picture; the caller frees it, null when there is no memory. */
+/* The name of a frame's picture; the caller frees it. Null if memory runs out. */
 char *evidence_name(const char *frame, evidence_picture picture);
 
-/* Whether a file name is that of such a picture, or of one that is not completely written. */
+/* Whether a file name is that of such a picture, the page or the contact sheet, complete or not. */
 bool evidence_is_name(const char *name);
 
 /* Write the pictures of a pair into a folder: those that exist, and the difference if both can be read. *written gets a

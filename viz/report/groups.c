@@ -7,7 +7,6 @@
  */
 #include "groups.h"
 #include "diff_words.h"
-#include "frame_file.h"
 #include "text.h"
 
 #include <inttypes.h>
@@ -18,18 +17,16 @@
 
 static bool are_ticks(const frame_groups *g, const diff_result *result, size_t group)
 {
-    uint64_t tick;
     for (size_t i = g->groups[group].first; i <= g->groups[group].last; i++)
-        if (g->of[i] == group && !frame_parse_name(diff_pair_name(&result->pairs[i]), &tick))
+        if (g->of[i] == group && diff_pair_tick(&result->pairs[i]) == DIFF_NO_TICK)
             return false;
     return true;
 }
 
 static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
 {
-    uint64_t tick;
-    if (ticks && frame_parse_name(diff_pair_name(pair), &tick))
-        fprintf(out, "%" PRIu64, tick);
+    if (ticks)
+        fprintf(out, "%" PRIu64, diff_pair_tick(pair));
     else
         write_escaped(out, diff_pair_name(pair), escape_nothing);
 }
@@ -143,7 +140,7 @@ bool frame_groups_make(frame_groups *g, const diff_result *result, const explana
     const bool ok = (first && keyed && g->groups && g->of) || error_no_memory(error);
     for (size_t i = 0; ok && i < pairs; i++) {
         const bool listed = diff_is_listed(result->pairs[i].finding);
-        const char *key = each ? NULL : explanation_key(why, i);
+        const char *key = each || !why->pairs ? NULL : why->pairs[i].key;
         g->of[i] = GROUP_NONE;
         first[i] = listed ? i : GROUP_NONE;
         if (listed && key)

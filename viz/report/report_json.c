@@ -9,12 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_whole_numbers(json_writer *w, const char *key, const int *values, size_t count)
+static void write_two(json_writer *w, const char *key, int a, int b)
 {
-    json_member_begin_array(w, key);
-    for (size_t i = 0; i < count; i++)
-        json_write_number(w, values[i]);
-    json_write_end_array(w);
+    json_write_key(w, key);
+    json_write_numbers(w, (double[]){a, b}, 2);
 }
 
 static void write_side(json_writer *w, const char *key, const diff_side *side)
@@ -71,10 +69,10 @@ static void write_tally(json_writer *w, const char *key, const image_tally *t)
     json_member_integer(w, "pixels", t->pixels);
     if (t->pixels > 0) {
         json_member_number(w, "worst_delta", t->worst_delta);
-        write_whole_numbers(w, "worst_at", (int[]){t->worst_x, t->worst_y}, 2);
+        write_two(w, "worst_at", t->worst_x, t->worst_y);
         json_member_integer(w, "largest_channel", (uint64_t)t->largest_channel);
-        write_whole_numbers(w, "min", (int[]){t->min_x, t->min_y}, 2);
-        write_whole_numbers(w, "max", (int[]){t->max_x, t->max_y}, 2);
+        write_two(w, "min", t->min_x, t->min_y);
+        write_two(w, "max", t->max_x, t->max_y);
     }
     json_write_end_object(w);
 }
@@ -103,9 +101,9 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
     json_member_text(w, "frame", diff_pair_name(pair));
     json_member_text(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
-        write_whole_numbers(w, "reference_size", (int[]){pair->about[0].width, pair->about[0].height}, 2);
+        write_two(w, "reference_size", pair->about[0].width, pair->about[0].height);
     if (pair->about[1].width)
-        write_whole_numbers(w, "frame_size", (int[]){pair->about[1].width, pair->about[1].height}, 2);
+        write_two(w, "frame_size", pair->about[1].width, pair->about[1].height);
     if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         write_difference(w, &pair->difference);
     if (pair->finding == FOUND_DIGEST) {

@@ -154,12 +154,6 @@ void point_values_drop(point_values *v, point_value_kind kind)
         point_values_release(v);
 }
 
-static int by_id(const void *a, const void *b)
-{
-    const uint64_t x = ((const point_entry *)a)->id, y = ((const point_entry *)b)->id;
-    return (x > y) - (x < y);
-}
-
 /* From entries in ascending order. Dense where the holes are few. */
 static bool build(point_values *v, const point_entry *entries, size_t count)
 {
@@ -216,7 +210,7 @@ bool point_values_add(point_values *v, const point_entry *entries, size_t count)
         if (point_value_is_set(&value))
             sorted[all++] = (point_entry){v->ids ? v->ids[i] : v->first + i, value};
     }
-    qsort(sorted, all, sizeof *sorted, by_id);
+    qsort(sorted, all, sizeof *sorted, by_uint64);
     const bool done = build(&made, sorted, all);
     free(sorted);
     if (done) {

@@ -268,8 +268,8 @@ static void assert_played_right(const changed_session *t, const cause *c)
             assert_int_equal(octree_game_advance(games[i]), OCTREE_OK);
     }
     assert_int_equal(c->compared, compared);
-    assert_int_equal(c->differing, differing);
-    assert_int_equal(c->first, first);
+    assert_int_equal(c->differing.count, differing);
+    assert_int_equal(c->differing.first, first);
     octree_game_destroy(games[0]);
     octree_game_destroy(games[1]);
 }

@@ -46,7 +46,7 @@ static void different_capacity_is_the_headline_and_its_nodes_are_the_causes(void
     assert_int_equal(count_causes(&made), TICKS);
     assert_contains(find_cause_text(&made, "frame_000002.png"), "tick 2: node");
     assert_contains(find_cause_text(&made, "frame_000002.png"), " divided only in the reference");
-    assert_int_equal(made.why.cause.differing, TICKS);
+    assert_int_equal(made.why.cause.differing.count, TICKS);
     comparison_release(&made);
 }
 
@@ -94,7 +94,7 @@ static void different_view_is_no_difference_of_ticks(void **state)
         "another camera (orbit, was iso), one layer fewer (text): the ticks are the same, only the view differs");
     assert_contains(find_cause_text(&made, "frame_000001.png"),
                     "tick 1: another camera (orbit, was iso), one layer fewer (text); ");
-    assert_int_equal(made.why.cause.differing, 0);
+    assert_int_equal(made.why.cause.differing.count, 0);
     comparison_release(&made);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_phrases.c - the table of places with their nouns and verbs. */
-#include "cause_phrases.h"
+/* cause_places.c - the table of places: how they are compared, and with which nouns and verbs they are printed. */
+#include "cause_places.h"
 #include "view_options.h"
 
 #include <string.h>
@@ -9,9 +9,11 @@
 #define OPTION .option = true
 #define EVERY .every = true
 #define MINOR .minor = true
+#define BY_KEY .rule = CAUSE_BY_KEY
+#define WHOLE .rule = CAUSE_WHOLE
 
-/* A place without a row is printed as its path. See the struct for the meaning of the columns. */
-static const phrase phrases[] = {
+/* A place without a row is compared by type and printed as its path. */
+static const cause_row rows[] = {
     /* Sessions. */
     {"world", "world", OPTION},
     {"tree.capacity", "leaf capacity", OPTION},
@@ -37,8 +39,8 @@ static const phrase phrases[] = {
     {"sampled.velocities", "sample of velocities", OPTION},
     {"sampled.velocities.speed", "speed of the velocities", OPTION},
     {"sampled.velocities.seed", "seed of the velocities", OPTION},
-    {"edits", "edit", PLAIN},
-    {"queries", "query", .plural = "queries", EVERY},
+    {"edits", "edit", BY_KEY},
+    {"queries", "query", .plural = "queries", EVERY, .rule = CAUSE_QUERIES},
     {"queries.visits", "query", .plural = "queries", .moved = "met other nodes"},
     {"queries.answer", "foreign answer", .plural = "foreign answers", .moved = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
@@ -60,13 +62,14 @@ static const phrase phrases[] = {
     {"attempt", "attempt of the player", MINOR},
     {"hit_from", "way of what was hit", MINOR},
     {"events", "event", MINOR},
-    {"hits", "hit of the player", .plural = "hits of the player"},
-    {"answers", "query", .plural = "queries"},
-    {"answers.ids", "hit", PLAIN},
+    {"hits", "hit of the player", .plural = "hits of the player", BY_KEY},
+    {"answers", "query", .plural = "queries", .rule = CAUSE_ANSWERS},
+    {"answers.ids", "hit", BY_KEY},
     {"answers.neighbors", "neighbour", PLAIN},
     {"answers.id", "nearest point", PLAIN},
     {"answers.position", "position of the nearest point", MINOR},
     {"answers.distance", "distance of the nearest point", MINOR},
+    {"answers.cost", "cost", MINOR, WHOLE},
     {"answers.judged.answer", "foreign answer", .plural = "foreign answers"},
     {"answers.judged.wrong", "judgement of the program's answer", .plural = "judgements of the program's answers"},
     {"answers.judged.wrong_id", "id that is wrong", .plural = "ids that are wrong", MINOR},
@@ -87,27 +90,38 @@ static const phrase phrases[] = {
     {"refusals", "refusal", PLAIN},
     {"splits", "node", .added = "split at this tick", .gone = "not split at this tick", MINOR},
     {"merges", "node", .added = "merged at this tick", .gone = "not merged at this tick", MINOR},
-    {"hit_cost", "cost of the collision test", MINOR},
-    {"visits", "number of nodes met", MINOR},
+    {"hit_cost", "cost of the collision test", MINOR, WHOLE},
+    {"visits", "number of nodes met", MINOR, WHOLE},
     {"visited", "list of nodes met", MINOR},
     {"heat", "heat of the ticks before", MINOR},
 };
 
-/* Without a row, members of answers (positions, distances, costs) and counts of faults of foreign nodes are minor. */
-phrase cause_phrase(const cause_group *group)
+static const cause_row *find_row(const char *where)
 {
-    const size_t count = sizeof phrases / sizeof *phrases;
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(phrases[i].where, group->where) == 0)
-            return phrases[i];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(rows[i].where, where) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+cause_rule cause_rule_of(const char *where)
+{
+    const cause_row *row = find_row(where);
+    return row ? row->rule : CAUSE_BY_TYPE;
+}
+
+/* Without a row, members of answers (positions, distances) and counts of wrong foreign nodes are minor. */
+cause_row cause_row_of(const cause_group *group)
+{
+    const cause_row *row = find_row(group->where);
+    if (row)
+        return *row;
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
         if (option->noun && option->member.name && strcmp(option->member.name, group->where) == 0)
-            return (phrase){.where = group->where, .noun = option->noun};
+            return (cause_row){.where = group->where, .noun = option->noun};
     }
     const char *last = strrchr(group->where, '.');
-    const bool answer = *group->query != 0, counted = strncmp(group->where, "foreign_nodes.wrong.", 20) == 0;
-    return (phrase){.where = group->where,
-                    .noun = last && (answer || counted) ? last + 1 : group->where,
-                    .minor = answer || counted};
+    const bool minor = *group->query || strncmp(group->where, "foreign_nodes.wrong.", 20) == 0;
+    return (cause_row){.where = group->where, .noun = last && minor ? last + 1 : group->where, .minor = minor};
 }
