@@ -16,7 +16,7 @@
 /* ---- Deciding ----------------------------------------------------------------------------------------------- */
 
 /* Check that the name of a new reference fits its kind: no folder "x.json", and no picture "golden". */
-static bool check_new(const accept_options *o, diff_kind kind, octreel_error *error)
+static bool check_new_name(const accept_options *o, diff_kind kind, octreel_error *error)
 {
     const name_kind name = name_kind_of(o->reference);
     if (kind == DIFF_BASELINE)
@@ -65,7 +65,7 @@ static bool open_sides(accepting *a, octreel_error *error)
                                    .kind = baseline ? DIFF_BASELINE : a->frames.kind,
                                    .background = IMAGE_WHITE,
                                    .no_frames = a->frames.no_frames && !baseline};
-        return check_new(o, a->reference.kind, error);
+        return check_new_name(o, a->reference.kind, error);
     }
     if (!diff_side_open(&a->reference, o->reference, error))
         return false;
@@ -125,14 +125,14 @@ static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *erro
     return digest_picture(pair->b->path, a->reference.background, &pair->about[1], error);
 }
 
-static bool decide(accepting *a, octreel_error *error)
+static bool decide_actions(accepting *a, octreel_error *error)
 {
     a->actions = calloc(a->result.count + 1, sizeof *a->actions);
     if (!a->actions)
         return error_no_memory(error);
     for (size_t i = 0; i < a->result.count; i++) {
         diff_pair *pair = &a->result.pairs[i];
-        if (pair->unserved)
+        if (pair->lacks_resources)
             return pair->trouble ? error_set(error, "%s", pair->trouble) : error_no_memory(error);
         a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair) : KEPT;
         a->counts[a->actions[i]]++;
@@ -153,7 +153,7 @@ static bool check_overlap(const accepting *a, octreel_error *error)
                a->reference.path, references, a->frames.path);
 }
 
-static bool compare(accepting *a, octreel_error *error)
+static bool compare_sides(accepting *a, octreel_error *error)
 {
     diff_options exact = diff_options_default();
     if (a->reference.kind == DIFF_BASELINE)
@@ -161,7 +161,7 @@ static bool compare(accepting *a, octreel_error *error)
     else
         a->reference.background = exact.background;
     return diff_run(&a->reference, &a->frames, &exact, &a->result, error) && check_names(a, error) &&
-           decide(a, error) && check_overlap(a, error);
+           decide_actions(a, error) && check_overlap(a, error);
 }
 
 /* ---- Reporting ----------------------------------------------------------------------------------------------- */
@@ -182,21 +182,21 @@ static void print_action(const accepting *a, const diff_pair *pair, action what)
 
 static void print_changes(const accepting *a)
 {
-    size_t said = 0;
+    size_t printed = 0;
     if (a->result.by_ticks) {
         write_escaped(a->out, a->reference.path, escape_nothing);
         fprintf(a->out, ": the ticks are %s\n", a->result.verdict == DIFF_SAME ? "unchanged" : "new");
         return;
     }
     for (size_t i = 0; i < a->result.count; i++)
-        if (a->actions[i] != KEPT && said++ < LIST_LINES)
+        if (a->actions[i] != KEPT && printed++ < LIST_LINES)
             print_action(a, &a->result.pairs[i], a->actions[i]);
-    print_remaining_count(a->out, said, LIST_LINES, "");
+    print_remaining_count(a->out, printed, LIST_LINES, "");
     const size_t before = a->reference.count, after = before + a->counts[ADDED] - a->counts[REMOVED];
     write_escaped(a->out, a->reference.path, escape_nothing);
     fprintf(a->out, ": %zu before, %zu after: %zu changed, %zu new, %zu removed\n", before, after, a->counts[CHANGED],
             a->counts[ADDED], a->counts[REMOVED]);
-    if (a->reference.kind == DIFF_RECORDING && a->options->names->count > 0 && said > 0)
+    if (a->reference.kind == DIFF_RECORDING && a->options->names->count > 0 && printed > 0)
         fprintf(a->out, "ticks.jsonl was not changed; accept all frames to replace it too.\n");
 }
 
@@ -236,7 +236,7 @@ bool accept_frames(const accept_options *options, FILE *out, octreel_error *erro
     accepting a = {.options = options, .out = out};
     const int lock = file_lock_parent_folder(options->reference);
     const bool ok = open_sides(&a, error) && check_options(&a, error) && accept_check_whole(&a.frames, error) &&
-                    (a.is_new || accept_check_ended(&a.reference, error)) && compare(&a, error) &&
+                    (a.is_new || accept_check_ended(&a.reference, error)) && compare_sides(&a, error) &&
                     (a.reference.kind == DIFF_BASELINE ? accept_digests : accept_pictures)(&a, error);
     if (ok && out)
         (options->json ? write_changes_json : print_changes)(&a);

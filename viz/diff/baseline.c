@@ -18,7 +18,7 @@ static const char id_letters[] = "0123456789abcdefghijklmnopqrstuvwxyz";
 
 /* ---- Dates, reasons and names -------------------------------------------------------------------------------- */
 
-static int digits_at(const char *text, int count)
+static int parse_digits(const char *text, int count)
 {
     int value = 0;
     for (; count > 0; count--, text++)
@@ -33,7 +33,7 @@ bool baseline_is_date(const char *text)
     for (size_t i = 0; i < sizeof form - 1; i++)
         if (form[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9')
             return false;
-    const int year = digits_at(text, 4), month = digits_at(text + 5, 2), day = digits_at(text + 8, 2);
+    const int year = parse_digits(text, 4), month = parse_digits(text + 5, 2), day = parse_digits(text + 8, 2);
     const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
     return !text[sizeof form - 1] && month >= 1 && month <= 12 && day >= 1 && day <= days[month - 1] &&
            (month != 2 || day < 29 || leap);
@@ -213,7 +213,7 @@ static bool read_digest(diff_side *side, const char *line, size_t number, octree
     digest.kind = by->kind;
     digest.acceptance = (size_t)(by - side->acceptances);
     char *name = read_name(at);
-    const bool ok = name ? diff_side_add(side, name, digest, error) : error_no_memory(error);
+    const bool ok = name ? diff_side_add_frame(side, name, digest, error) : error_no_memory(error);
     free(name);
     return ok;
 }
@@ -344,7 +344,7 @@ bool baseline_merge_frames(diff_side *side, octreel_error *error)
 bool baseline_add_frame(diff_side *side, const char *name, const frame_digest *variants, size_t count,
                         octreel_error *error)
 {
-    bool ok = diff_side_add(side, name, variants[0], error);
+    bool ok = diff_side_add_frame(side, name, variants[0], error);
     for (size_t i = 0; ok && i < count; i++)
         ok = baseline_add_variant(&side->frames[side->count - 1], &variants[i]) || error_no_memory(error);
     return ok;

@@ -91,15 +91,15 @@ static bool same_color(image_color a, image_color b)
 }
 
 /* Whether a side is one picture, or a baseline of at most one: a new baseline is empty. */
-static bool is_one(const diff_side *side)
+static bool has_one_frame(const diff_side *side)
 {
     return side->kind == DIFF_PICTURE || (side->kind == DIFF_BASELINE && side->count <= 1);
 }
 
 /* Whether one picture is compared with one picture or with a baseline of one. */
-static bool is_single(const diff_side *a, const diff_side *b)
+static bool is_single_pair(const diff_side *a, const diff_side *b)
 {
-    return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && is_one(a) && is_one(b);
+    return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && has_one_frame(a) && has_one_frame(b);
 }
 
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error)
@@ -110,7 +110,7 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
                          "%s was recorded without frames and can be compared only with another recording without "
                          "frames, which %s is not",
                          a->no_frames ? a->path : b->path, a->no_frames ? b->path : a->path);
-    if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single(a, b))
+    if ((a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && !is_single_pair(a, b))
         return error_set(error, "cannot compare a picture with a %s of several: %s and %s",
                          diff_kind_name(a->kind == DIFF_PICTURE ? b->kind : a->kind), a->path, b->path);
     if (a->count + b->count == 0 && !a->no_frames)
@@ -133,11 +133,11 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
 
 /* The order of the next frames of both sides, as strcmp() returns it. Two single pictures are a pair whatever their
  * names are. */
-static int order_of(const diff_side *a, size_t i, const diff_side *b, size_t j)
+static int compare_next_names(const diff_side *a, size_t i, const diff_side *b, size_t j)
 {
     if (i == a->count || j == b->count)
         return i == a->count ? 1 : -1;
-    return is_single(a, b) ? 0 : strcmp(a->frames[i].name, b->frames[j].name);
+    return is_single_pair(a, b) ? 0 : strcmp(a->frames[i].name, b->frames[j].name);
 }
 
 static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *result, octreel_error *error)
@@ -147,7 +147,7 @@ static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *resu
         return error_no_memory(error);
     for (size_t i = 0, j = 0; i < a->count || j < b->count;) {
         diff_pair *pair = &result->pairs[result->count++];
-        const int order = order_of(a, i, b, j);
+        const int order = compare_next_names(a, i, b, j);
         pair->a = order <= 0 ? &a->frames[i++] : NULL;
         pair->b = order >= 0 ? &b->frames[j++] : NULL;
         pair->finding = !pair->b ? FOUND_NO_FRAME : !pair->a ? FOUND_NO_REFERENCE : FOUND_UNREADABLE;
@@ -169,10 +169,10 @@ static bool compare_bytes(diff_pair *pair)
     return true;
 }
 
-static void find_unreadable(diff_pair *pair, const octreel_error *error)
+static void set_unreadable(diff_pair *pair, const octreel_error *error)
 {
     octreel_error ignored;
-    pair->unserved = !check_system_resources(&ignored);
+    pair->lacks_resources = !check_system_resources(&ignored);
     pair->finding = FOUND_UNREADABLE;
     pair->trouble = strdup(error->text); /* if this fails, reports print "out of memory" */
 }
@@ -196,12 +196,12 @@ static void open_reading(reading *r, const char *path, const diff_options *optio
     r->rows = options->tolerance.antialias ? about->height : image_band_rows(about);
 }
 
-static bool failed(const reading *r)
+static bool has_failed(const reading *r)
 {
     return !r->source || image_source_failed(r->source);
 }
 
-static bool next_rows(reading *r, image *band)
+static bool read_next_rows(reading *r, image *band)
 {
     return r->source && image_source_next(r->source, r->rows, band);
 }
@@ -216,9 +216,9 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
     bool more[2] = {true, true};
     if (opened)
         c = image_comparison_begin(image_source_image(of[0].source), image_source_image(of[1].source), tolerance);
-    while (!failed(&of[0]) && (more[0] || more[1])) {
+    while (!has_failed(&of[0]) && (more[0] || more[1])) {
         for (int i = 0; i < 2; i++)
-            more[i] = next_rows(&of[i], &bands[i]);
+            more[i] = read_next_rows(&of[i], &bands[i]);
         if (opened && c.difference.same_size && more[0] && more[1])
             image_comparison_add(&c, &bands[0], &bands[1]);
     }
@@ -252,11 +252,11 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
         open_reading(&of[i], i ? pair->b->path : pair->a->path, options);
     if (!pair_tolerance(pair, options, &tolerance)) {
         error_no_memory(&of[0].error);
-        find_unreadable(pair, &of[0].error);
+        set_unreadable(pair, &of[0].error);
     } else {
         pair->difference = compare_rows(of, &tolerance);
-        if (failed(&of[0]) || failed(&of[1]))
-            find_unreadable(pair, &of[failed(&of[0]) ? 0 : 1].error);
+        if (has_failed(&of[0]) || has_failed(&of[1]))
+            set_unreadable(pair, &of[has_failed(&of[0]) ? 0 : 1].error);
         else
             set_finding(pair, of, &tolerance);
     }
@@ -295,7 +295,8 @@ static bool collect_digests(const diff_frame *frame, image_digest_kind kind, ima
 
 /* Compare two frames by digests of one kind. They are equal if any two digests and their sizes are equal. Return false
  * if a frame has no digest of this kind. */
-static bool compare_kind(diff_pair *pair, image_digest_kind kind, image_color background, octreel_error *error)
+static bool compare_digests_of_kind(diff_pair *pair, image_digest_kind kind, image_color background,
+                                    octreel_error *error)
 {
     known_digests a, b;
     if (!collect_digests(pair->a, kind, background, &a, error) ||
@@ -322,15 +323,15 @@ static void compare_digests(diff_pair *pair, const diff_options *options)
     bool any = false;
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS && !(any && pair->finding == FOUND_SAME_PIXELS); kind++) {
         octreel_error trouble;
-        if (compare_kind(pair, (image_digest_kind)kind, options->background, &trouble)) {
+        if (compare_digests_of_kind(pair, (image_digest_kind)kind, options->background, &trouble)) {
             any = true;
         } else if (trouble.text[0]) {
-            find_unreadable(pair, &trouble);
+            set_unreadable(pair, &trouble);
             return;
         }
     }
     if (!any)
-        find_unreadable(pair, &error);
+        set_unreadable(pair, &error);
     else if (pair->finding != FOUND_SAME_PIXELS)
         pair->finding = pair->about[0].width != pair->about[1].width || pair->about[0].height != pair->about[1].height
                             ? FOUND_SIZE

@@ -61,7 +61,7 @@ typedef struct diff_pair {
     pixel_mask mask;             /* the pixels of ignored layers */
     char *trouble;               /* the error for an unreadable frame; owned */
     char *no_picture;            /* why the store has no picture of the reference; owned */
-    bool unserved;               /* the system refused memory or a file handle: the frame itself may be readable */
+    bool lacks_resources;        /* the system refused memory or a file handle: the frame itself may be readable */
 } diff_pair;
 
 typedef struct diff_result {

@@ -33,7 +33,7 @@ static const char *base_name(const char *path)
     return file_is_standard(path) ? "stdin" : path_base_name(path);
 }
 
-bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
+bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
 {
     const bool has_path = side->kind != DIFF_BASELINE;
     diff_frame *grown = array_reserve(side->frames, side->count + 1, &side->room, sizeof *grown);
@@ -97,7 +97,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
     errno = 0;
     for (struct dirent *entry; ok && !side->no_frames && (entry = readdir(entries)); errno = 0)
         if (belongs(side, entry->d_name))
-            ok = diff_side_add(side, entry->d_name, (frame_digest){0}, error);
+            ok = diff_side_add_frame(side, entry->d_name, (frame_digest){0}, error);
     if (ok && errno)
         ok = error_set(error, "%s: cannot read the folder: %s", side->path, strerror(errno));
     closedir(entries);
@@ -111,7 +111,7 @@ static bool read_file(diff_side *side, octreel_error *error)
     switch (file_kind_read(side->source)) {
     case KIND_PNG:
         side->kind = DIFF_PICTURE;
-        return diff_side_add(side, base_name(side->source), (frame_digest){0}, error);
+        return diff_side_add_frame(side, base_name(side->source), (frame_digest){0}, error);
     case KIND_BASELINE:
         return baseline_read(side, error);
     default:

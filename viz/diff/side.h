@@ -62,7 +62,7 @@ bool diff_side_check_output(const diff_side *side, const output_file *output, oc
 const char *diff_kind_name(diff_kind kind);
 
 /* Append a frame with a copy of the name, the digest and, unless the side is a baseline, its path. */
-bool diff_side_add(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
+bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
 
 /* Set *digest to the size and the digest of a picture; digest->kind selects the kind. Return false with an error when
  * the picture cannot be read. */

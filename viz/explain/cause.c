@@ -23,7 +23,7 @@ typedef struct playing {
     cause *found;
 } playing;
 
-static bool open_game(playing *p, int side, const octree_session *session, octreel_error *error)
+static bool create_game(playing *p, int side, const octree_session *session, octreel_error *error)
 {
     const octree_status status = octree_game_create(session, &p->games[side]);
     return status == OCTREE_OK || error_set(error, "the session of the %s cannot be played: %s",
@@ -127,8 +127,8 @@ static bool compare_tick(playing *p, octreel_error *error)
     const bool differs = trees || facts.count > 0;
     if (differs)
         extend_span(&p->found->differing, 1, tick);
-    bool ok =
-        !facts.out_of_memory && cause_origins_reach(&p->found->session.origins, tick, games_differ(p, trees), p->warm);
+    bool ok = !facts.out_of_memory &&
+              cause_origins_advance(&p->found->session.origins, tick, games_differ(p, trees), p->warm);
     if (is_wanted(p, tick, differs)) {
         cause_facts_release(&facts);
         if (trees)
@@ -149,7 +149,7 @@ static bool compare_tick(playing *p, octreel_error *error)
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */
 
-static bool advance(playing *p, octreel_error *error)
+static bool advance_games(playing *p, octreel_error *error)
 {
     for (int i = 0; i < 2; i++) {
         const octree_status status = octree_game_advance(p->games[i]);
@@ -195,12 +195,12 @@ bool cause_find(const session_file *a, const session_file *b, const cause_view v
         compare_views(&a->session, &b->session, views, p.same_session, &c->view);
     p.shows_heat = views && ((views[0].view.layers | views[1].view.layers) & VIEW_HEAT_LAYERS);
     bool ok = (!c->session.out_of_memory && !c->view.out_of_memory) || error_no_memory(error);
-    ok = ok && open_game(&p, 0, &a->session, error) && open_game(&p, 1, &b->session, error);
+    ok = ok && create_game(&p, 0, &a->session, error) && create_game(&p, 1, &b->session, error);
     p.same_rules = ok && same_rules(octree_game_tree(p.games[0]), octree_game_tree(p.games[1]));
     for (bool over = false; ok && !over;) {
         ok = compare_tick(&p, error);
         over = octree_game_over(p.games[0]) || octree_game_over(p.games[1]);
-        ok = ok && (over || advance(&p, error));
+        ok = ok && (over || advance_games(&p, error));
     }
     octree_game_destroy(p.games[0]);
     octree_game_destroy(p.games[1]);
@@ -219,7 +219,7 @@ void cause_release(cause *c)
     *c = (cause){0};
 }
 
-const cause_tick *cause_at(const cause *c, uint64_t tick)
+const cause_tick *cause_find_tick(const cause *c, uint64_t tick)
 {
     return c->count ? bsearch(&tick, c->ticks, c->count, sizeof *c->ticks, by_uint64) : NULL;
 }

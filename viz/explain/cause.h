@@ -54,6 +54,6 @@ bool cause_find(const session_file *a, const session_file *b, const cause_view v
 void cause_release(cause *c);
 
 /* The details of a tick, or null if it is not reported in detail. */
-const cause_tick *cause_at(const cause *c, uint64_t tick);
+const cause_tick *cause_find_tick(const cause *c, uint64_t tick);
 
 #endif

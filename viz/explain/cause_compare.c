@@ -22,13 +22,13 @@
 static void compare_values(const cause_place *place, json_t *a, json_t *b);
 
 /* Add a fact about two values, or one value, or none. */
-static void add(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
+static void add_fact(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
 {
     cause_add(place->facts, place->where, place->query, change,
               (cause_fact){place->tick, id, json_incref(a), json_incref(b)});
 }
 
-bool cause_same(const json_t *a, const json_t *b, bool exact)
+bool cause_is_equal(const json_t *a, const json_t *b, bool exact)
 {
     if (!a || !b || !exact)
         return a && b ? json_equal(a, b) : a == b;
@@ -42,7 +42,7 @@ bool cause_same(const json_t *a, const json_t *b, bool exact)
 
 static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 {
-    return cause_same(a, b, place->exact);
+    return cause_is_equal(a, b, place->exact);
 }
 
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
@@ -54,22 +54,22 @@ typedef struct keyed {
     json_t *element;
 } keyed;
 
-static uint64_t id_of(json_t *element)
+static uint64_t read_id(json_t *element)
 {
     const json_t *id = json_is_object(element) ? json_object_get(element, "id") : element;
     return json_is_real(id) ? (uint64_t)json_real_value(id) : CAUSE_NO_ID;
 }
 
-static keyed key_of(json_t *list, size_t i)
+static keyed read_key(json_t *list, size_t i)
 {
     json_t *element = json_array_get(list, i);
-    keyed key = {.word = "", .id = id_of(element), .place = i, .element = element};
+    keyed key = {.word = "", .id = read_id(element), .place = i, .element = element};
     if (json_is_string(element)) {
         key.word = json_string_value(element);
     } else if (key.id == CAUSE_NO_ID && json_object_size(element) == 1) {
         void *member = json_object_iter(element);
         key.word = json_object_iter_key(member);
-        key.id = id_of(json_object_iter_value(member));
+        key.id = read_id(json_object_iter_value(member));
     }
     return key;
 }
@@ -88,11 +88,11 @@ static int by_key_and_place(const void *a, const void *b)
     return order ? order : (((const keyed *)a)->place > ((const keyed *)b)->place ? 1 : -1);
 }
 
-static keyed *sort_list(json_t *list, size_t count)
+static keyed *sort_by_key(json_t *list, size_t count)
 {
     keyed *sorted = malloc((count + 1) * sizeof *sorted);
     for (size_t i = 0; sorted && i < count; i++)
-        sorted[i] = key_of(list, i);
+        sorted[i] = read_key(list, i);
     if (sorted)
         qsort(sorted, count, sizeof *sorted, by_key_and_place);
     return sorted;
@@ -102,14 +102,14 @@ static keyed *sort_list(json_t *list, size_t count)
 static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
 {
     const size_t a_count = json_array_size(a), b_count = json_array_size(b);
-    keyed *as = sort_list(a, a_count), *bs = sort_list(b, b_count);
+    keyed *as = sort_by_key(a, a_count), *bs = sort_by_key(b, b_count);
     bool same = true, same_order = true;
     place->facts->out_of_memory |= !as || !bs;
     for (size_t i = 0, j = 0; as && bs && (i < a_count || j < b_count);) {
         const int order = i == a_count ? 1 : j == b_count ? -1 : by_key(&as[i], &bs[j]);
         json_t *x = order <= 0 ? as[i].element : NULL, *y = order >= 0 ? bs[j].element : NULL;
         if (!is_same(place, x, y)) {
-            add(place, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
+            add_fact(place, !x ? CAUSE_MORE : !y ? CAUSE_LESS : CAUSE_OTHER, order <= 0 ? as[i].id : bs[j].id, x, y);
             same = false;
         }
         same_order = same_order && order == 0 && as[i].place == bs[j].place;
@@ -117,7 +117,7 @@ static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
         j += order >= 0;
     }
     if (same && !same_order)
-        add(place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
+        add_fact(place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
     free(as);
     free(bs);
 }
@@ -186,13 +186,13 @@ static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
     }
     place.where = "queries.visits";
     if (other)
-        add(&place, CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
+        add_fact(&place, CAUSE_OTHER, CAUSE_NO_ID, counted ? counts[0] : NULL, counted ? counts[1] : NULL);
     json_decref(counts[0]);
     json_decref(counts[1]);
     place.where = "queries.answer";
     json_t *const answers[2] = {json_object_get(a, "answer"), json_object_get(b, "answer")};
     if (!is_same(&place, answers[0], answers[1]))
-        add(&place, CAUSE_OTHER, CAUSE_NO_ID, answers[0], answers[1]);
+        add_fact(&place, CAUSE_OTHER, CAUSE_NO_ID, answers[0], answers[1]);
 }
 
 static void compare_queries(const cause_place *place, json_t *a, json_t *b)
@@ -203,7 +203,7 @@ static void compare_queries(const cause_place *place, json_t *a, json_t *b)
     else if (is_same(place, asked[0], asked[1]))
         compare_foreign_answers(*place, a, b);
     else
-        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     json_decref(asked[0]);
     json_decref(asked[1]);
 }
@@ -215,7 +215,7 @@ static void compare_pair(const cause_place *place, cause_rule rule, json_t *a, j
     else if (rule == CAUSE_QUERIES)
         compare_queries(place, a, b);
     else if (!is_same(place, a, b))
-        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }
 
 /* Write "the range query" or, if the list has several of that kind, "query 3 (range)", counted from 1. Only answers
@@ -267,17 +267,17 @@ static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t
         if (has_partner[i])
             continue;
         name_query(rule, a, i, true, query);
-        add(&place, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
+        add_fact(&place, CAUSE_LESS, CAUSE_NO_ID, json_array_get(a, i), NULL);
     }
     for (size_t j = 0; j < count; j++) {
         if (mates[j] != CAUSE_ALONE)
             continue;
         name_query(rule, b, j, false, query);
-        add(&place, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
+        add_fact(&place, CAUSE_MORE, CAUSE_NO_ID, NULL, json_array_get(b, j));
     }
     query[0] = 0;
     if (!in_order(mates, count))
-        add(&place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
+        add_fact(&place, CAUSE_ORDER, CAUSE_NO_ID, NULL, NULL);
 }
 
 static void compare_by_similarity(const cause_place *place, cause_rule rule, json_t *a, json_t *b)
@@ -304,7 +304,7 @@ static void compare_lists(const cause_place *place, cause_rule rule, json_t *a, 
     if (rule == CAUSE_BY_KEY || json_is_string(first) || json_object_get(first, "id"))
         compare_keyed(place, a, b);
     else if (json_is_number(first))
-        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     else
         compare_by_similarity(place, rule, a, b);
 }
@@ -325,7 +325,7 @@ static void compare_values(const cause_place *place, json_t *a, json_t *b)
         }
         cause_compare_members(place, a, b);
     } else {
-        add(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
+        add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
     }
 }
 

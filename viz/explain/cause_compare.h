@@ -22,7 +22,7 @@ typedef struct cause_place {
 
 /* Whether two values are equal; null stands for a missing value. If `exact`, 0 and -0 differ, which json_equal() takes
  * for equal. */
-bool cause_same(const json_t *a, const json_t *b, bool exact);
+bool cause_is_equal(const json_t *a, const json_t *b, bool exact);
 
 /* Compare two objects; null is an empty object. Recurses into objects, except boxes, which are compared as one value.
  * Elements of lists are paired by key, if they have one: an id, a word, or an action with an id. Other elements are

@@ -89,7 +89,7 @@ static cause_group group_at_tick(const cause_group *group, uint64_t tick)
         return shown;
     }
     shown.found = 0;
-    for (size_t i = 0; i < cause_listed(group); i++)
+    for (size_t i = 0; i < cause_count_listed(group); i++)
         if (cause_origin_shows(group->where, group->listed[i].tick, tick))
             shown.listed[shown.found++] = group->listed[i];
     return shown;
@@ -117,7 +117,7 @@ cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick)
 void cause_facts_release(cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
-        for (size_t j = 0; j < cause_listed(&facts->groups[i]); j++) {
+        for (size_t j = 0; j < cause_count_listed(&facts->groups[i]); j++) {
             json_decref(facts->groups[i].listed[j].a);
             json_decref(facts->groups[i].listed[j].b);
         }

@@ -80,7 +80,7 @@ bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);
 
 /* The number of facts that are stored in a group. */
-static inline size_t cause_listed(const cause_group *group)
+static inline size_t cause_count_listed(const cause_group *group)
 {
     return group->found < CAUSE_LISTED ? (size_t)group->found : CAUSE_LISTED;
 }

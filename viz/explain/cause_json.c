@@ -74,7 +74,7 @@ static void write_group(json_writer *w, const cause_group *group)
         json_member_text(w, "query", group->query);
     json_member_integer(w, "count", group->found);
     json_member_begin_array(w, "facts");
-    for (size_t i = 0; i < cause_listed(group); i++)
+    for (size_t i = 0; i < cause_count_listed(group); i++)
         write_fact(w, &group->listed[i]);
     json_write_end_array(w);
     json_write_end_object(w);

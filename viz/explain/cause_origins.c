@@ -101,7 +101,7 @@ static bool differs_here(const cause_origins *o, uint64_t tick, size_t kind)
     return false;
 }
 
-bool cause_origins_reach(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat)
+bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat)
 {
     bool changed = false;
     for (size_t i = 0; i < o->kind_count; i++) {

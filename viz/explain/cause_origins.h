@@ -56,7 +56,7 @@ void cause_origins_release(cause_origins *o);
 /* Advance to a tick. Call it after cause_origins_sort(), in ascending order, for each tick that both sessions have.
  * `games_differ`: the states of the games differ; `other_heat`: the heat that is drawn differs. Return false if memory
  * runs out. */
-bool cause_origins_reach(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat);
+bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, bool other_heat);
 
 /* The causes in effect at a tick; "" for none. Frames also show keys of the ticks just before and after, so those count
  * if nothing else is in effect. */

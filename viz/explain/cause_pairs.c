@@ -34,7 +34,7 @@ const char *cause_kind_of(json_t *element)
     return key ? key : "";
 }
 
-static void release(entries *e)
+static void release_entries(entries *e)
 {
     for (size_t i = 0; e->all && i < e->count; i++)
         free(e->all[i].text);
@@ -42,7 +42,7 @@ static void release(entries *e)
     free(e->left);
 }
 
-static bool make(entries *e, json_t *list)
+static bool make_entries(entries *e, json_t *list)
 {
     bool ok = true;
     e->count = json_array_size(list);
@@ -66,7 +66,7 @@ static int by_text(const void *a, const void *b)
     return order ? order : (x->place > y->place) - (x->place < y->place);
 }
 
-static void join(entry *a, entry *b, size_t *mates)
+static void join_pair(entry *a, entry *b, size_t *mates)
 {
     mates[b->place] = a->place;
     a->paired = b->paired = true;
@@ -93,7 +93,7 @@ static void pair_equal(entries *a, entries *b, size_t *mates)
     for (size_t i = 0, j = 0; i < a->count && j < b->count;) {
         const int order = strcmp(a->left[i]->text, b->left[j]->text);
         if (order == 0)
-            join(a->left[i], b->left[j], mates);
+            join_pair(a->left[i], b->left[j], mates);
         i += order <= 0;
         j += order >= 0;
     }
@@ -127,7 +127,7 @@ static size_t first_candidate(size_t j)
 
 /* The similarity of two remaining elements; 0 for different kinds. Among equal counts of shared values, the pair with
  * the same distance from the beginning or the end of its list wins. */
-static uint8_t likeness(const entries *a, size_t i, const entries *b, size_t j)
+static uint8_t similarity_of(const entries *a, size_t i, const entries *b, size_t j)
 {
     json_t *x = a->left[i]->element, *y = b->left[j]->element;
     if (strcmp(cause_kind_of(x), cause_kind_of(y)) != 0)
@@ -138,12 +138,12 @@ static uint8_t likeness(const entries *a, size_t i, const entries *b, size_t j)
 }
 
 /* Pair the remaining elements in descending order of similarity. */
-static bool pair_alike(entries *a, entries *b, size_t *mates)
+static bool pair_similar(entries *a, entries *b, size_t *mates)
 {
     uint8_t *table = calloc(b->left_count + 1, PAIR_CANDIDATES), most = 0;
     for (size_t j = 0; table && j < b->left_count; j++)
         for (size_t k = 0; k < PAIR_CANDIDATES && first_candidate(j) + k < a->left_count; k++) {
-            const uint8_t found = likeness(a, first_candidate(j) + k, b, j);
+            const uint8_t found = similarity_of(a, first_candidate(j) + k, b, j);
             table[j * PAIR_CANDIDATES + k] = found;
             most = found > most ? found : most;
         }
@@ -154,7 +154,7 @@ static bool pair_alike(entries *a, entries *b, size_t *mates)
             entry *x = a->left[first_candidate(n / PAIR_CANDIDATES) + n % PAIR_CANDIDATES];
             entry *y = b->left[n / PAIR_CANDIDATES];
             if (!x->paired && !y->paired)
-                join(x, y, mates);
+                join_pair(x, y, mates);
         }
     const bool made = table;
     free(table);
@@ -166,12 +166,12 @@ bool cause_pair(json_t *a, json_t *b, size_t *mates)
     entries x = {0}, y = {0};
     for (size_t j = 0; j < json_array_size(b); j++)
         mates[j] = CAUSE_ALONE;
-    bool ok = make(&x, a) && make(&y, b);
+    bool ok = make_entries(&x, a) && make_entries(&y, b);
     if (ok) {
         pair_equal(&x, &y, mates);
-        ok = pair_alike(&x, &y, mates);
+        ok = pair_similar(&x, &y, mates);
     }
-    release(&x);
-    release(&y);
+    release_entries(&x);
+    release_entries(&y);
     return ok;
 }

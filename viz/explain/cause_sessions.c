@@ -17,7 +17,7 @@ static bool same_position(const double *a, const double *b, bool exact)
     return exact ? memcmp(a, b, 3 * sizeof *a) == 0 : a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-static json_t *vector(const double *numbers)
+static json_t *make_vector(const double *numbers)
 {
     return json_pack("[fff]", numbers[0], numbers[1], numbers[2]);
 }
@@ -36,8 +36,8 @@ void cause_compare_points(cause_facts *facts, const char *where, const cause_poi
                       less   ? CAUSE_LESS
                       : more ? CAUSE_MORE
                              : CAUSE_OTHER,
-                      (cause_fact){CAUSE_NO_TICK, less ? x->id : y->id, more ? NULL : vector(x->position),
-                                   less ? NULL : vector(y->position)});
+                      (cause_fact){CAUSE_NO_TICK, less ? x->id : y->id, more ? NULL : make_vector(x->position),
+                                   less ? NULL : make_vector(y->position)});
         i += !more;
         j += !less;
     }
@@ -157,7 +157,7 @@ static char *write_session(const octree_session *session, bool sampled)
 }
 
 /* Parse the next object of a text and move *at behind it; null at the end. */
-static json_t *next_object(const char **at)
+static json_t *parse_next_object(const char **at)
 {
     json_error_t error;
     json_t *object = **at ? json_parse(*at, strlen(*at), PARSE_FLAGS, &error) : NULL;
@@ -168,7 +168,7 @@ static json_t *next_object(const char **at)
 }
 
 /* Give the player of a session the members "kind" and "sweep", even if there is no player or no "sweep". */
-static json_t *name_kind(json_t *header)
+static json_t *add_player_kind(json_t *header)
 {
     json_t *player = json_object_get(header, "player");
     json_t *named = json_is_null(player) ? json_object() : json_incref(player);
@@ -182,7 +182,7 @@ static json_t *name_kind(json_t *header)
 }
 
 /* Remove the members that the other object lacks. */
-static void drop_missing(json_t *from, const json_t *other)
+static void remove_missing(json_t *from, const json_t *other)
 {
     const char *key;
     json_t *value;
@@ -196,7 +196,7 @@ typedef struct tick_line {
     size_t size;
 } tick_line;
 
-static tick_line line_at(const char *at)
+static tick_line find_tick_line(const char *at)
 {
     static const char start[] = "{\"tick\": ";
     if (strncmp(at, start, sizeof start - 1) != 0)
@@ -207,15 +207,15 @@ static tick_line line_at(const char *at)
 /* Merge the lines of two sessions by tick. Equal lines are not parsed, because a session may have many. */
 static void compare_lines(cause_place place, const char *x, const char *y)
 {
-    for (tick_line a = line_at(x), b = line_at(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;
-         a = line_at(x), b = line_at(y)) {
+    for (tick_line a = find_tick_line(x), b = find_tick_line(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;
+         a = find_tick_line(x), b = find_tick_line(y)) {
         const bool in_a = a.tick <= b.tick, in_b = b.tick <= a.tick;
         if (in_a && in_b && a.size == b.size && memcmp(x, y, a.size) == 0) {
             x += a.size + 1;
             y += b.size + 1;
             continue;
         }
-        json_t *const objects[2] = {in_a ? next_object(&x) : NULL, in_b ? next_object(&y) : NULL};
+        json_t *const objects[2] = {in_a ? parse_next_object(&x) : NULL, in_b ? parse_next_object(&y) : NULL};
         place.tick = in_a ? a.tick : b.tick;
         json_object_del(objects[0], "tick");
         json_object_del(objects[1], "tick");
@@ -228,11 +228,11 @@ static void compare_lines(cause_place place, const char *x, const char *y)
 /* Compare two session files. Members that only one of the two kinds of players has are left out. */
 static void compare_texts(const cause_place *place, const char *x, const char *y)
 {
-    json_t *a = next_object(&x), *b = next_object(&y);
+    json_t *a = parse_next_object(&x), *b = parse_next_object(&y);
     if (a && b) {
-        json_t *const players[2] = {name_kind(a), name_kind(b)};
-        drop_missing(players[0], players[1]);
-        drop_missing(players[1], players[0]);
+        json_t *const players[2] = {add_player_kind(a), add_player_kind(b)};
+        remove_missing(players[0], players[1]);
+        remove_missing(players[1], players[0]);
         cause_compare_members(place, a, b);
         compare_lines(*place, x, y);
     } else {
@@ -284,7 +284,7 @@ static void compare_option(const cause_place *place, const view_option *option, 
 {
     const char *name = option->member.name;
     json_t *x = json_object_get(a, name), *y = json_object_get(b, name);
-    if (cause_same(x, y, place->exact))
+    if (cause_is_equal(x, y, place->exact))
         return;
     if (!option->by_element) {
         cause_add_whole(place->facts, name, CAUSE_OTHER, json_incref(x), json_incref(y));

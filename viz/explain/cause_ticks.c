@@ -20,7 +20,7 @@ typedef struct walking {
     cause_facts *facts;
 } walking;
 
-static void add_node(const walking *w, const char *where, octree_address node)
+static void add_node_fact(const walking *w, const char *where, octree_address node)
 {
     char text[OCTREE_ADDRESS_TEXT];
     cause_add_whole(w->facts, where, CAUSE_MORE, NULL, json_string(octree_address_format(node, text)));
@@ -32,9 +32,9 @@ static octree_walk_order compare_node(const octree_node *node, void *context)
     const walking *w = context;
     octree_node other;
     if (octree_node_at(w->other, node->address, &other) != OCTREE_OK)
-        add_node(w, w->is_a ? "nodes.gone" : "nodes.born", node->address);
+        add_node_fact(w, w->is_a ? "nodes.gone" : "nodes.born", node->address);
     else if (!node->leaf && other.leaf)
-        add_node(w, w->is_a ? "nodes.merged" : "nodes.split", node->address);
+        add_node_fact(w, w->is_a ? "nodes.merged" : "nodes.split", node->address);
     else
         return OCTREE_WALK_ON;
     return OCTREE_WALK_SKIP;
@@ -42,8 +42,8 @@ static octree_walk_order compare_node(const octree_node *node, void *context)
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
-/* All points of a tree in ascending order of id, except the point with the id *but; null excludes none. */
-static cause_points sort_points(const octree *tree, const uint64_t *but)
+/* All points of a tree in ascending order of id, except the point with the id *excluded; null excludes none. */
+static cause_points sort_points(const octree *tree, const uint64_t *excluded)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
     const size_t room = octree_count(tree);
@@ -54,7 +54,7 @@ static cause_points sort_points(const octree *tree, const uint64_t *but)
         sorted.points = NULL;
     }
     for (size_t i = 0; sorted.points && i < count; i++)
-        if (!but || sorted.points[i].id != *but)
+        if (!excluded || sorted.points[i].id != *excluded)
             sorted.points[sorted.count++] = sorted.points[i];
     return sorted;
 }

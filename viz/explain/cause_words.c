@@ -102,7 +102,7 @@ static void print_change(FILE *out, const json_t *a, const json_t *b, bool is_me
     {
         const json_t *before = json_object_get(a, key);
         fprintf(out, "%s%s ", first ? "" : ", ", key);
-        if (cause_same(before, value, true))
+        if (cause_is_equal(before, value, true))
             print_value(out, value, true);
         else
             print_change(out, before, value, true);
@@ -189,7 +189,7 @@ enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 /* The number of facts that are printed by name. "and 1 more" is never printed, since a name is as short. */
 static size_t count_named(const cause_group *group, bool brief)
 {
-    const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_listed(group);
+    const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_count_listed(group);
     return count > most + 1 ? most : count;
 }
 
@@ -342,7 +342,7 @@ static void print_extent(FILE *out, const cause *c)
 /* Print the consequence of another point, key, edit or query: the facts of the first differing tick. */
 static void print_first(FILE *out, const cause *c)
 {
-    const cause_tick *first = cause_at(c, c->differing.first);
+    const cause_tick *first = cause_find_tick(c, c->differing.first);
     if (c->differing.count == 0 || !first || first->facts.count == 0) {
         print_extent(out, c);
         return;

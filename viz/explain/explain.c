@@ -190,14 +190,14 @@ static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_re
             file_differs(a, b, "ticks.jsonl"));
 }
 
-/* The context of look(), which runs for all pairs in parallel. */
+/* The context of look_at_pair(), which runs for all pairs in parallel. */
 typedef struct looking {
     const explanation *e;
     const diff_result *result;
     pair_look *looks;
 } looking;
 
-static void look(size_t i, void *context)
+static void look_at_pair(size_t i, void *context)
 {
     const looking *l = context;
     const diff_pair *pair = &l->result->pairs[i];
@@ -215,7 +215,7 @@ static bool explain_pairs(explanation *e, const diff_result *result, uint64_t mo
     bool ok = (l.looks && e->pairs) || error_no_memory(error);
     e->count = e->pairs ? result->count : 0;
     if (ok)
-        parallel_for(result->count, look, &l);
+        parallel_for(result->count, look_at_pair, &l);
     for (size_t i = 0; ok && i < result->count && most > 0; i++) {
         if (!explain_is_unlike(&result->pairs[i]))
             continue;

@@ -23,7 +23,7 @@ typedef struct masking {
     unsigned layers;
 } masking;
 
-static int within(int value, int limit)
+static int clamp(int value, int limit)
 {
     return value < 0 ? 0 : value > limit ? limit : value;
 }
@@ -32,9 +32,9 @@ static int within(int value, int limit)
 static void add_box(const draw_box *box, void *context)
 {
     frame_mask *m = context;
-    const int left = within(box->x, m->width), right = within(box->x + box->width, m->width);
-    const int bottom = within(box->y + box->height, m->height);
-    for (int y = within(box->y, m->height); y < bottom; y++)
+    const int left = clamp(box->x, m->width), right = clamp(box->x + box->width, m->width);
+    const int bottom = clamp(box->y + box->height, m->height);
+    for (int y = clamp(box->y, m->height); y < bottom; y++)
         memset(m->bytes + (size_t)y * (size_t)m->width + left, 1, (size_t)(right - left));
 }
 

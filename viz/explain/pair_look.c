@@ -37,7 +37,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
 
 static frame_fault find_origin_fault(const recorded *r, const frame_origin *origin, uint64_t tick)
 {
-    if (origin->session != r->filmed && origin->session != r->replay.session_digest)
+    if (origin->session != r->frames_session && origin->session != r->replay.session_digest)
         return FAULT_SESSION;
     if (origin->tick != tick)
         return FAULT_TICK;
@@ -137,7 +137,7 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 /* Whether there is a known difference that the frame of a tick can show. */
 static bool differs_at(const explanation *e, uint64_t tick)
 {
-    const cause_tick *details = cause_at(&e->cause, tick);
+    const cause_tick *details = cause_find_tick(&e->cause, tick);
     return (details && details->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
            cause_facts_show(&e->cause.session, tick);
 }
@@ -160,7 +160,7 @@ static void print_same_tick(FILE *out, const explanation *e, const cause_facts *
 
 static void print_tick(FILE *out, const explanation *e, uint64_t tick)
 {
-    const cause_tick *details = cause_at(&e->cause, tick);
+    const cause_tick *details = cause_find_tick(&e->cause, tick);
     const bool facts = details && details->facts.count > 0;
     cause_facts view = cause_facts_shown(&e->cause.view, tick), session = cause_facts_shown(&e->cause.session, tick);
     fprintf(out, "tick %" PRIu64 ": ", tick);
@@ -192,7 +192,7 @@ static void print_origins(FILE *out, const pair_look *l)
 /* Print the elements that are drawn where the frames differ. */
 static void print_trace(FILE *out, const explanation *e, uint64_t tick)
 {
-    const cause_tick *details = cause_at(&e->cause, tick);
+    const cause_tick *details = cause_find_tick(&e->cause, tick);
     if (details && details->trace.count) {
         fputs("; ", out);
         trace_print(out, &details->trace);

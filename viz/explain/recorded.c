@@ -30,9 +30,9 @@ static void add_warning(recorded *r, const char *format, ...)
 static void check_session(recorded *r)
 {
     uint64_t tick;
-    r->filmed = r->replay.session_digest;
+    r->frames_session = r->replay.session_digest;
     if (r->side->count > 0 && frame_parse_name(r->side->frames[0].name, &tick) &&
-        frame_session(r->side->path, tick, &r->filmed) && r->filmed != r->replay.session_digest)
+        frame_session(r->side->path, tick, &r->frames_session) && r->frames_session != r->replay.session_digest)
         add_warning(r, "%s/session.json is not the session that was recorded", r->side->path);
 }
 

@@ -13,8 +13,8 @@
 
 typedef struct recorded {
     const diff_side *side;
-    replay replay;   /* read but not played */
-    uint64_t filmed; /* the digest of the session in the text chunks of the first frame */
+    replay replay;           /* read but not played */
+    uint64_t frames_session; /* the digest of the session in the text chunks of the first frame */
     cause_view view;
     line_reader lines;
     bool reading;     /* no line so far is wrong, so the next one is read */

@@ -271,7 +271,7 @@ void trace_print_part(FILE *out, const trace_part *part)
 
 void trace_print(FILE *out, const trace *t)
 {
-    const size_t most = t->count < TRACE_TOLD ? t->count : TRACE_TOLD;
+    const size_t most = t->count < TRACE_PRINTED ? t->count : TRACE_PRINTED;
     uint64_t printed = 0;
     fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
     for (int text = 0; text < 2; text++) /* text changes with everything else, so it comes last */

@@ -51,8 +51,8 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
 /* Print "node 0/3/7", "point 12" or "text". */
 void trace_print_part(FILE *out, const trace_part *part);
 
-/* Print "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text": the TRACE_TOLD largest parts, text last. */
-#define TRACE_TOLD 5
+/* Print "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text": the TRACE_PRINTED largest parts, text last. */
+#define TRACE_PRINTED 5
 void trace_print(FILE *out, const trace *t);
 
 #endif

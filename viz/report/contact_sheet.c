@@ -32,7 +32,7 @@ static const image_color ground = {24, 29, 39}, cell_ground = {14, 17, 24}, text
 
 /* ---- Drawing ------------------------------------------------------------------------------------------------- */
 
-static void fill(image *sheet, int x, int y, int width, int height, image_color color)
+static void fill_rectangle(image *sheet, int x, int y, int width, int height, image_color color)
 {
     for (int row = y; row < y + height; row++)
         for (int column = x; column < x + width; column++)
@@ -41,7 +41,7 @@ static void fill(image *sheet, int x, int y, int width, int height, image_color 
 }
 
 /* Draw at most `most` letters of a text; a longer text ends in dots. */
-static void write_text(image *sheet, int x, int y, size_t most, const char *text, image_color color)
+static void draw_text(image *sheet, int x, int y, size_t most, const char *text, image_color color)
 {
     const glyph_set *face = &glyph_sets[FACE_8X16];
     const size_t length = strlen(text);
@@ -50,7 +50,7 @@ static void write_text(image *sheet, int x, int y, size_t most, const char *text
         const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
         const unsigned n = at < GLYPH_COUNT ? at : '?' - GLYPH_FIRST;
         for (const glyph_part *part = face->parts + face->first[n]; part < face->parts + face->first[n + 1]; part++)
-            fill(sheet, x + (int)i * face->width + part->x, y + part->y, part->width, part->height, color);
+            fill_rectangle(sheet, x + (int)i * face->width + part->x, y + part->y, part->width, part->height, color);
     }
 }
 
@@ -89,7 +89,7 @@ static image_color brightest_of(const image *of, const patch *p)
 }
 
 /* From `at` in `across` to pixels of `length`: one at least. */
-static void find_span(int at, int across, int length, int *first, int *end)
+static void find_source_span(int at, int across, int length, int *first, int *end)
 {
     *first = (int)((int64_t)at * length / across);
     *end = (int)((int64_t)(at + 1) * length / across);
@@ -97,7 +97,7 @@ static void find_span(int at, int across, int length, int *first, int *end)
 }
 
 /* Draw a picture as large as it fits into the middle of its cell. */
-static void put_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
+static void draw_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
 {
     int width = CELL_WIDTH, height = (int)((int64_t)CELL_WIDTH * picture->height / picture->width);
     if (height > CELL_HEIGHT) {
@@ -111,55 +111,55 @@ static void put_picture(image *sheet, int left, int top, const image *picture, e
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
             patch p;
-            find_span(x, width, picture->width, &p.x0, &p.x1);
-            find_span(y, height, picture->height, &p.y0, &p.y1);
-            fill(sheet, left + x, top + y, 1, 1,
-                 kind == EVIDENCE_DIFFERENCE ? brightest_of(picture, &p) : mean_of(picture, &p));
+            find_source_span(x, width, picture->width, &p.x0, &p.x1);
+            find_source_span(y, height, picture->height, &p.y0, &p.y1);
+            fill_rectangle(sheet, left + x, top + y, 1, 1,
+                           kind == EVIDENCE_DIFFERENCE ? brightest_of(picture, &p) : mean_of(picture, &p));
         }
 }
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
 /* Draw one picture of a row. An unreadable picture leaves its cell empty; the other reports say why. */
-static void put_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
+static void draw_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
 {
     octreel_error ignored;
     image picture;
     char *path = evidence_path(report->evidence, report->result, pair, kind);
-    fill(sheet, left, top, CELL_WIDTH, CELL_HEIGHT, cell_ground);
+    fill_rectangle(sheet, left, top, CELL_WIDTH, CELL_HEIGHT, cell_ground);
     if (path && image_read_png(path, &picture, &ignored)) {
-        put_picture(sheet, left, top, &picture, kind);
+        draw_picture(sheet, left, top, &picture, kind);
         image_release(&picture);
     } else {
-        write_text(sheet, left + GAP, top + GAP, CELL_WIDTH / 8, "no picture", faint_color);
+        draw_text(sheet, left + GAP, top + GAP, CELL_WIDTH / 8, "no picture", faint_color);
     }
     free(path);
 }
 
-static void put_row(image *sheet, const diff_report *report, const frame_group *group, int top)
+static void draw_row(image *sheet, const diff_report *report, const frame_group *group, int top)
 {
     for (int i = 0; i < EVIDENCE_PICTURES; i++)
-        put_cell(sheet, report, group->first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP), top + 2 * LINE);
-    write_text(sheet, GAP, top, LETTERS, group->frames, warm_color);
-    write_text(sheet, GAP, top + LINE, LETTERS, group->cause ? group->cause : group->difference, text_color);
+        draw_cell(sheet, report, group->first, (evidence_picture)i, GAP + i * (CELL_WIDTH + GAP), top + 2 * LINE);
+    draw_text(sheet, GAP, top, LETTERS, group->frames, warm_color);
+    draw_text(sheet, GAP, top + LINE, LETTERS, group->cause ? group->cause : group->difference, text_color);
 }
 
-static void put_all(image *sheet, const diff_report *report, size_t failing)
+static void draw_sheet(image *sheet, const diff_report *report, size_t failing)
 {
     const char *headline = report->why->headline;
     char line[LETTERS + 2]; /* one letter more than fits shows that the text goes on */
     size_t row = 0;
     snprintf(line, sizeof line, "%s%s%s", report->groups->verdict, headline ? ": " : "", headline ? headline : "");
-    write_text(sheet, GAP, GAP, LETTERS, line, text_color);
+    draw_text(sheet, GAP, GAP, LETTERS, line, text_color);
     for (int i = 0; i < EVIDENCE_PICTURES; i++)
-        write_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40, evidence_word((evidence_picture)i),
-                   faint_color);
+        draw_text(sheet, GAP + i * (CELL_WIDTH + GAP), GAP + LINE + GAP / 2, 40, evidence_word((evidence_picture)i),
+                  faint_color);
     for (size_t i = 0; i < report->groups->count && row < CONTACT_SHEET_ROWS; i++)
         if (frame_group_fails(&report->groups->groups[i], report->result))
-            put_row(sheet, report, &report->groups->groups[i], HEAD + GAP + (int)row++ * ROW);
+            draw_row(sheet, report, &report->groups->groups[i], HEAD + GAP + (int)row++ * ROW);
     snprintf(line, sizeof line, "and %zu more", failing - row);
     if (failing > row)
-        write_text(sheet, GAP, HEAD + GAP + (int)row * ROW, LETTERS, line, faint_color);
+        draw_text(sheet, GAP, HEAD + GAP + (int)row * ROW, LETTERS, line, faint_color);
 }
 
 bool contact_sheet_write(const diff_report *report, octreel_error *error)
@@ -171,8 +171,8 @@ bool contact_sheet_write(const diff_report *report, octreel_error *error)
         return true;
     if (!image_create(&sheet, WIDTH, HEAD + GAP + (int)rows * ROW + (failing > rows ? LINE + GAP : 0), 3))
         return error_no_memory(error);
-    fill(&sheet, 0, 0, sheet.width, sheet.height, ground);
-    put_all(&sheet, report, failing);
+    fill_rectangle(&sheet, 0, 0, sheet.width, sheet.height, ground);
+    draw_sheet(&sheet, report, failing);
     char *path = path_join(report->evidence->folder, CONTACT_SHEET);
     const bool ok = path ? image_write_png(&sheet, path, NULL, 0, error) : error_no_memory(error);
     image_release(&sheet);

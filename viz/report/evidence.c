@@ -99,7 +99,7 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 
 /* ---- The folder ---------------------------------------------------------------------------------------------- */
 
-static bool check_apart(const char *folder, const diff_side *side, octreel_error *error)
+static bool check_folder_is_not_side(const char *folder, const diff_side *side, octreel_error *error)
 {
     struct stat own, other;
     if (side->kind == DIFF_BASELINE || file_is_standard(side->source) || stat(folder, &own) != 0)
@@ -123,7 +123,7 @@ static bool has_marker(const char *folder)
 }
 
 /* Other files in a folder of evidence stay; a folder without the marker must be empty. */
-static bool visit_entry(const char *folder, const char *name, bool marked, octreel_error *error)
+static bool clear_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
     if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
         return true;
@@ -134,7 +134,7 @@ static bool visit_entry(const char *folder, const char *name, bool marked, octre
                      folder, name);
 }
 
-static bool clear(const char *folder, octreel_error *error)
+static bool clear_folder(const char *folder, octreel_error *error)
 {
     const bool marked = has_marker(folder);
     DIR *entries = opendir(folder);
@@ -142,15 +142,16 @@ static bool clear(const char *folder, octreel_error *error)
         return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
     bool ok = true;
     for (struct dirent *entry; ok && (entry = readdir(entries));)
-        ok = visit_entry(folder, entry->d_name, marked, error);
+        ok = clear_entry(folder, entry->d_name, marked, error);
     closedir(entries);
     return ok;
 }
 
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error)
 {
-    return check_apart(folder, a, error) && check_apart(folder, b, error) && folder_make(folder, error) &&
-           clear(folder, error) && folder_write(folder, MARKER, marker_text, sizeof marker_text - 1, error);
+    return check_folder_is_not_side(folder, a, error) && check_folder_is_not_side(folder, b, error) &&
+           folder_make(folder, error) && clear_folder(folder, error) &&
+           folder_write(folder, MARKER, marker_text, sizeof marker_text - 1, error);
 }
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
@@ -192,14 +193,14 @@ static const uint8_t *difference_row(int y, void *context)
     return c->row;
 }
 
-static bool read_canvas(canvas *c, const diff_pair *pair, const diff_options *options, octreel_error *error)
+static bool read_pictures(canvas *c, const diff_pair *pair, const diff_options *options, octreel_error *error)
 {
     return (pair_tolerance(pair, options, &c->tolerance) || error_no_memory(error)) &&
            image_read_png_over(pair->a->path, options->background, &c->images[0], error) &&
            image_read_png_over(pair->b->path, options->background, &c->images[1], error);
 }
 
-static bool write_canvas(canvas *c, const char *path, octreel_error *error)
+static bool write_difference(canvas *c, const char *path, octreel_error *error)
 {
     const image *a = &c->images[0], *b = &c->images[1];
     const image_palette palette = image_difference_palette();
@@ -220,7 +221,7 @@ static bool draw_difference(const diff_pair *pair, const diff_options *options, 
     canvas c = {0};
     char *path = picture_path(folder, pair, EVIDENCE_DIFFERENCE);
     bool ok = path || error_no_memory(error);
-    ok = ok && read_canvas(&c, pair, options, error) && write_canvas(&c, path, error);
+    ok = ok && read_pictures(&c, pair, options, error) && write_difference(&c, path, error);
     *written |= ok ? 1u << EVIDENCE_DIFFERENCE : 0;
     image_release(&c.images[0]);
     image_release(&c.images[1]);

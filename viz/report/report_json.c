@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_two(json_writer *w, const char *key, int a, int b)
+static void write_two_numbers(json_writer *w, const char *key, int a, int b)
 {
     json_write_key(w, key);
     json_write_numbers(w, (double[]){a, b}, 2);
@@ -69,10 +69,10 @@ static void write_tally(json_writer *w, const char *key, const image_tally *t)
     json_member_integer(w, "pixels", t->pixels);
     if (t->pixels > 0) {
         json_member_number(w, "worst_delta", t->worst_delta);
-        write_two(w, "worst_at", t->worst_x, t->worst_y);
+        write_two_numbers(w, "worst_at", t->worst_x, t->worst_y);
         json_member_integer(w, "largest_channel", (uint64_t)t->largest_channel);
-        write_two(w, "min", t->min_x, t->min_y);
-        write_two(w, "max", t->max_x, t->max_y);
+        write_two_numbers(w, "min", t->min_x, t->min_y);
+        write_two_numbers(w, "max", t->max_x, t->max_y);
     }
     json_write_end_object(w);
 }
@@ -101,9 +101,9 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
     json_member_text(w, "frame", diff_pair_name(pair));
     json_member_text(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
-        write_two(w, "reference_size", pair->about[0].width, pair->about[0].height);
+        write_two_numbers(w, "reference_size", pair->about[0].width, pair->about[0].height);
     if (pair->about[1].width)
-        write_two(w, "frame_size", pair->about[1].width, pair->about[1].height);
+        write_two_numbers(w, "frame_size", pair->about[1].width, pair->about[1].height);
     if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         write_difference(w, &pair->difference);
     if (pair->finding == FOUND_DIGEST) {
@@ -197,7 +197,7 @@ void diff_json_summary(json_writer *w, const diff_report *report)
     write_counts(w, result);
 }
 
-static void write_place(json_writer *w, const diff_report *report)
+static void write_evidence_folder(json_writer *w, const diff_report *report)
 {
     const evidence *e = report->evidence;
     char *page = path_join(e->folder, EVIDENCE_PAGE), *sheet = path_join(e->folder, CONTACT_SHEET);
@@ -220,7 +220,7 @@ void diff_report_json(FILE *out, const diff_report *report)
     json_member_integer(w, "version", DIFF_REPORT_JSON_VERSION);
     diff_json_summary(w, report);
     if (report->evidence)
-        write_place(w, report);
+        write_evidence_folder(w, report);
     write_findings(w, report);
     write_groups(w, report);
     if (report->why->recordings) {

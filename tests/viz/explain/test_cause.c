@@ -138,7 +138,7 @@ static bool is_there(const octree *tree, const json_t *position, uint64_t id)
 /* The facts that are listed are so in both trees. */
 static void assert_group_holds(const octree *a, const octree *b, const cause_group *group)
 {
-    for (size_t i = 0; i < cause_listed(group); i++) {
+    for (size_t i = 0; i < cause_count_listed(group); i++) {
         const cause_fact *fact = &group->listed[i];
         octree_address address;
         octree_node node;
@@ -254,7 +254,7 @@ static void assert_played_right(const changed_session *t, const cause *c)
         char *lines[2] = {line_of(games[0]), line_of(games[1])};
         const bool differs =
             strcmp(lines[0], lines[1]) != 0 || any_unlike(octree_game_tree(games[0]), octree_game_tree(games[1]));
-        const cause_tick *told = cause_at(c, compared);
+        const cause_tick *told = cause_find_tick(c, compared);
         if (differs && differing++ == 0)
             first = compared;
         if (differs != (told != NULL))

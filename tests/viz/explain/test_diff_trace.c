@@ -38,7 +38,7 @@ static comparison_of assert_traced(const place *a, const place *b, const diff_op
 
 static const trace *trace_of(const comparison_of *made, uint64_t tick)
 {
-    const cause_tick *told = cause_at(&made->why.cause, tick);
+    const cause_tick *told = cause_find_tick(&made->why.cause, tick);
     assert_non_null(told);
     assert_true(told->trace.made);
     return &told->trace;
@@ -93,7 +93,7 @@ static void moved_point_has_all_pixels_of_its_layer(void **state)
         const place b = film_layers(*state, names[1], &other, 1u << LAYER_POINTS, aa);
         comparison_of made = assert_traced(&a, &b, NULL);
         assert_adds_up(&made);
-        assert_null(cause_at(&made.why.cause, 0));
+        assert_null(cause_find_tick(&made.why.cause, 0));
         for (uint64_t tick = 1; tick < 3; tick++) {
             assert_int_equal(trace_of(&made, tick)->count, 1);
             assert_part(&trace_of(&made, tick)->parts[0], LAYER_POINTS, 3);
@@ -117,7 +117,7 @@ static void pixels_of_a_split_belong_to_the_node_that_split(void **state)
     const place b = film_layers(*state, "b", &session, 1u << LAYER_NODES, 1);
     comparison_of made = assert_traced(&a, &b, NULL);
     assert_adds_up(&made);
-    const cause_tick *told = cause_at(&made.why.cause, 1);
+    const cause_tick *told = cause_find_tick(&made.why.cause, 1);
     const cause_group *split = cause_group_of(&told->facts, "nodes.split", CAUSE_MORE);
     octree_address node;
     assert_non_null(split);
@@ -262,7 +262,7 @@ static void frames_of_different_sizes_are_not_traced(void **state)
     const place a = film_layers(*state, "a", &session, VIEW_DEFAULT_LAYERS, 1),
                 b = film_layers(*state, "b", &session, VIEW_DEFAULT_LAYERS, 2);
     comparison_of made = assert_traced(&a, &b, NULL);
-    assert_false(cause_at(&made.why.cause, 1)->trace.made);
+    assert_false(cause_find_tick(&made.why.cause, 1)->trace.made);
     comparison_release(&made);
 }
 
