@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause.c - two sessions played tick by tick. */
+/* cause.c - plays two sessions together and compares them tick by tick. */
 #include "cause.h"
 #include "array.h"
 #include "judgement.h"
@@ -13,11 +13,11 @@
 /* Two games that are played together. */
 typedef struct playing {
     octree_game *games[2];
-    bool same_session;    /* then all ticks are the same */
-    bool same_rules;      /* trees of the same contents are the same, and have the same digest */
-    uint64_t versions[2]; /* of the trees that were compared last */
-    bool unlike;          /* whether they differ */
-    bool warm;            /* a tick before has left other heat, and it is shown */
+    bool same_session;    /* all ticks are equal, too */
+    bool same_rules;      /* both trees have the same options: equal contents have equal digests */
+    uint64_t versions[2]; /* octree_version() of both trees when they were compared last */
+    bool unlike;          /* whether the trees differed then */
+    bool other_heat;      /* an earlier tick differed and the view shows heat */
     bool shows_heat;
     const cause_watcher *watcher;
     cause *found;
@@ -128,18 +128,18 @@ static bool compare_tick(playing *p, octreel_error *error)
     if (differs)
         extend_span(&p->found->differing, 1, tick);
     bool ok = !facts.out_of_memory &&
-              cause_origins_advance(&p->found->session.origins, tick, games_differ(p, trees), p->warm);
+              cause_origins_advance(&p->found->session.origins, tick, games_differ(p, trees), p->other_heat);
     if (is_wanted(p, tick, differs)) {
         cause_facts_release(&facts);
         if (trees)
             cause_compare_trees(p->games[0], p->games[1], &facts);
         if (differs)
             cause_compare_ticks(p->games[0], p->games[1], &facts);
-        if (p->warm)
+        if (p->other_heat)
             cause_add_whole(&facts, "heat", CAUSE_OTHER, NULL, NULL);
         ok = ok && !facts.out_of_memory && append_tick(p->found, tick, &facts);
     }
-    p->warm |= p->shows_heat && differs;
+    p->other_heat |= p->shows_heat && differs;
     cause_facts_release(&facts);
     p->found->compared++;
     if (!ok)

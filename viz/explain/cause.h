@@ -18,8 +18,8 @@ typedef struct cause_span {
     uint64_t count, first, last;
 } cause_span;
 
-/* How the wrong answers of a foreign index differ: the frames have more or fewer than the reference, which counts
- * answers, or in equal number other wrong answers, which counts ticks. */
+/* How the wrong answers of a foreign index differ at a tick: the frames have more or fewer than the reference, or as
+ * many but other ones. The first two count answers, the last one counts ticks. */
 typedef enum cause_wrong { WRONG_MORE, WRONG_FEWER, WRONG_OTHER, WRONG_CHANGES } cause_wrong;
 
 /* Zeroed: empty. */

@@ -7,7 +7,7 @@
  *   nodes.split, nodes.merged   nodes that are inner nodes only in the frames, or only in the reference
  *   nodes.born, nodes.gone      nodes that exist only in the frames, or only in the reference
  *   tree.points                 points of the tree
- *   queries.visits              the numbers of foreign nodes that a query met
+ *   queries.visits              the numbers of foreign nodes that a query visited
  *   hit_from, visited, heat     values that are only drawn
  * Values are JSON, as in the files. cause_words.h prints facts as sentences and cause_json.h as JSON.
  */
@@ -73,7 +73,7 @@ void cause_facts_sort(cause_facts *facts);
  * interval of frames and the last tick. The result borrows from `facts`; free only its groups. */
 cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
 
-/* Whether there is any such fact. */
+/* Whether cause_facts_shown() would return any fact. */
 bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 
 /* The group with this place and change and without a query, or null. */

@@ -102,8 +102,8 @@ static bool same_ids(const octree_session *a, const octree_session *b)
     return true;
 }
 
-/* Compare the first points without JSON, since there may be a million. Their order matters: a full leaf refuses the
- * later ones. */
+/* Compare the bodies at the start, without JSON, since there may be a million. Their order matters: a full leaf refuses
+ * the later ones. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     if (same_bodies(a, b) || sample_differs(facts))

@@ -45,7 +45,7 @@ static void compare_value(cause_facts *facts, uint64_t id, const point_value *a,
     }
 }
 
-/* Points that only one session has have been reported. */
+/* Points that only one of the sessions has are reported elsewhere. */
 void cause_compare_values(const session_file *a, const session_file *b, cause_facts *facts)
 {
     size_t a_count, b_count;

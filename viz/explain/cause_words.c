@@ -246,8 +246,8 @@ static void print_many(FILE *out, const cause_row *p, const cause_group *group, 
     fputc(')', out);
 }
 
-/* Print "the query met other nodes at tick 3 (visited 12, was 9)" or "17 queries met other nodes, the first at tick 3
- * (...)". */
+/* Print "the query visited other nodes at tick 3 (visited 12, was 9)" or "17 queries visited other nodes, the first at
+ * tick 3 (...)". */
 static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group *group)
 {
     const cause_fact *first = &group->listed[0];

@@ -61,7 +61,7 @@ typedef struct watching {
     size_t count, next;
 } watching;
 
-/* Whether the tick is that of a pair that is explained. Called with ascending ticks. */
+/* Whether a pair of this tick is explained. Ticks must ascend from call to call. */
 static bool is_wanted(void *context, uint64_t tick)
 {
     watching *w = context;
@@ -80,7 +80,8 @@ static bool handle_tick(void *context, const octree_game *const games[2], bool d
     if (!is_wanted(w, tick))
         return true;
     const diff_pair *pair = w->pairs[w->next].pair;
-    cause_tick *reported = &w->e->cause.ticks[w->e->cause.count - 1]; /* this tick: is_wanted() has asked for it */
+    cause_tick *reported =
+        &w->e->cause.ticks[w->e->cause.count - 1]; /* this tick, since is_wanted() returns true for it */
     return !pair->difference.unlike.pixels ||
            tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &reported->trace, error);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_html.c - the verdict on a program's answers as a page: see audit_print.h. Charts are SVG without a script: each
- * point is a link to the tick's frame, or where it has none to its recording's page at that tick.
+/* audit_html.c - writes an audit as an HTML page: see audit_print.h. Charts are SVG without a script. Each point is a
+ * link to the frame of its tick or, if there is none, to the page of the recording at that tick.
  */
 #include "audit_page.h"
 #include "audit_print.h"
@@ -18,7 +18,7 @@
 
 /* ---- Links -------------------------------------------------------------------------------------------------- */
 
-/* The recording as seen from the page. */
+/* The page, and where its links lead. */
 typedef struct page {
     FILE *out;
     const audit_verdict *verdict;
@@ -49,8 +49,8 @@ static char *relative_path(const char *from, const char *to)
     return text_stream_end(&s, &path) ? path : NULL;
 }
 
-/* A folder from the root on, without ".", ".." and double slashes, which are taken out as a browser does it. Null where
- * there is no memory or no such path. */
+/* The absolute path of a folder, without ".", ".." and double slashes, which are resolved as in a browser: links in the
+ * file system are not followed. Null if memory runs out or the current folder is unknown. */
 static char *absolute_path(const char *path)
 {
     char here[PATH_MAX] = "";
@@ -77,7 +77,7 @@ static char *absolute_path(const char *path)
     return made;
 }
 
-/* False when there is no memory. */
+/* Set where links lead. Return false if memory runs out. */
 static bool find_recording(page *p, const char *from)
 {
     if (!p->verdict->recording)
@@ -127,10 +127,10 @@ static bool begin_link(const page *p, uint64_t tick, bool viewer)
 
 enum { WIDTH = 960, HEIGHT = 150, LEFT = 70, RIGHT = 20, TOP = 12, FOOT = 26 };
 
-/* A chart over the ticks. */
+/* A chart of one value over the ticks. */
 typedef struct chart {
     const audit_kind *kind;
-    bool ratio; /* else recall */
+    bool ratio; /* the value is the ratio of distances; false: it is the recall */
     double from, to;
     double finite;       /* the largest finite value on the axis; infinite values are drawn above it, at `to` */
     const double *limit; /* null: no limit is drawn */
@@ -146,7 +146,7 @@ static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than
     return c->ratio ? a->ratio > than->ratio : audit_tick_recall(a) < audit_tick_recall(than);
 }
 
-/* From 1 to the worst that is finite, and the limit; and beyond that, where others are not. */
+/* The axis ends at 1 and at the worst finite value or the limit. Infinite values get another quarter of the axis. */
 static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *limits)
 {
     chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};

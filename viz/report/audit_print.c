@@ -32,7 +32,7 @@ static const char *reason_words(octree_wrong_kind kind)
         [OCTREE_WRONG_NONE] = "right",
         [OCTREE_WRONG_UNKNOWN] = "names an id that no point has",
         [OCTREE_WRONG_DUPLICATE] = "names a point twice",
-        [OCTREE_WRONG_SKIPPED] = "names a point that is left out",
+        [OCTREE_WRONG_SKIPPED] = "names a point that the query excludes",
         [OCTREE_WRONG_COUNT] = "a wrong number of neighbours",
         [OCTREE_WRONG_FARTHER] = "a neighbour too far away",
         [OCTREE_WRONG_MISSING] = "points are missing",

@@ -3,7 +3,7 @@
  *
  * Each cell shows a picture as large as it fits. A pixel of the cell covers a rectangle of the picture: its color is
  * the mean of the rectangle for expected and actual pictures, but for the difference it is the brightest pixel. With
- * the mean, one differing pixel of a large picture would fade to black and be missed. A picture is read, drawn and
+ * the mean, one differing pixel of a large picture would fade to black. A picture is read, drawn and
  * released before the next one, so at most one is in memory.
  */
 #include "contact_sheet.h"
@@ -88,7 +88,7 @@ static image_color brightest_of(const image *of, const patch *p)
     return best;
 }
 
-/* From `at` in `across` to pixels of `length`: one at least. */
+/* The pixels [*first, *end) of a picture of `length` pixels that are drawn at pixel `at` of `across`: at least one. */
 static void find_source_span(int at, int across, int length, int *first, int *end)
 {
     *first = (int)((int64_t)at * length / across);

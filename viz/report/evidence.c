@@ -37,7 +37,7 @@ const char *evidence_word(evidence_picture picture)
     return words[picture];
 }
 
-/* The beginning of a name's suffix; the end of the name if it has none. */
+/* The length of a name without its ending ".png". */
 static size_t stem_length(const char *name)
 {
     const size_t length = strlen(name);
@@ -130,8 +130,8 @@ static bool clear_entry(const char *folder, const char *name, bool marked, octre
     if (marked)
         return !evidence_is_name(name) || folder_remove(folder, name, error);
     return strcmp(name, MARKER ".part") == 0 ||
-           error_set(error, "%s: holds %s, and no evidence of octreel diff: choose a new folder, or an empty one",
-                     folder, name);
+           error_set(error, "%s: contains %s but no evidence of octreel diff; choose a new or empty folder", folder,
+                     name);
 }
 
 static bool clear_folder(const char *folder, octreel_error *error)

@@ -460,7 +460,7 @@ static void diff_names_answers_that_became_wrong(void **state)
     assert_non_null(strstr(result.out, "another foreign answer in the nearest query ((3), was (1))"));
     assert_non_null(strstr(result.out, "1 more wrong answer at tick 2; "));
     assert_non_null(
-        strstr(result.out, "another judgement of the program's answer in the nearest query (farther, was none)"));
+        strstr(result.out, "another judgement of the foreign answer in the nearest query (farther, was none)"));
     command_release(&result);
     result = run_octreel(NULL, "diff %s %s --json", a.path, b.path);
     json_t *all = json_read(result.out);

@@ -181,7 +181,7 @@ static void unwritable_output_paths_are_errors(void **state)
     assert_trouble(&result, "it is compared, and would be removed");
     file_write_text(place_below(t.a.path, "notes").path, "mine");
     result = run_octreel(NULL, "diff %s %s -o %s", t.b.path, t.b.path, t.a.path);
-    assert_trouble(&result, ", and no evidence of octreel diff: choose a new folder, or an empty one");
+    assert_trouble(&result, " but no evidence of octreel diff; choose a new or empty folder");
 }
 
 /* The limits stop the first picture, ... and at last the page, the largest file. The error names the file, no part of a

@@ -103,13 +103,13 @@ static void different_visited_nodes_are_counted(void **state)
     (void)state;
     assert_change_headline_from(
         meet_one, meet_two,
-        "the query met other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
+        "the query visited other nodes at tick 0 (visited 2, was 1); tick 0: another number of foreign "
         "nodes visited (2, was 1)");
     assert_change_headline_from(meet_one, meet_another,
-                                "the query met other nodes at tick 0; no tick that both have differs");
+                                "the query visited other nodes at tick 0; no tick that both have differs");
     assert_change_headline_from(
         meet_one_always, meet_two_always,
-        "3 queries met other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of foreign "
+        "3 queries visited other nodes, the first at tick 0 (visited 2, was 1); tick 0: another number of foreign "
         "nodes visited (2, was 1)");
 }
 

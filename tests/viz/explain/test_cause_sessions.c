@@ -382,7 +382,7 @@ static void the_first_tick_comes_first(void **state)
         late_edit_and_early_key,
         "another query at every tick (range (-5, -5, -5) to (4, 5, 5), was (-5, -5, -5) to (5, 5, 5)); tick 0: "
         "another max in the range query ((4, 5, 5), was (5, 5, 5)), another cost in the range query, another "
-        "number of nodes met; another key at tick 3 (s, was w), one more edit at tick 5 (remove 3)");
+        "number of visited nodes; another key at tick 3 (s, was w), one more edit at tick 5 (remove 3)");
 }
 
 static void edits_are_named_by_tick_and_point(void **state)

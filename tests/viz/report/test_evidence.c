@@ -158,7 +158,7 @@ static void new_evidence_replaces_old_evidence(void **state)
 static void unrelated_folder_is_refused_and_unchanged(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), other = gallery_make(*state, "b", "1.actual.png");
-    assert_refused(a.path, a.path, other.path, "holds 1.actual.png, and no evidence of octreel diff");
+    assert_refused(a.path, a.path, other.path, "contains 1.actual.png but no evidence of octreel diff");
     assert_contains(other.path, "1.actual.png");
     file_write_text(place_below(other.path, "evidence.txt").path, "octreel evid");
     assert_refused(a.path, a.path, other.path, "no evidence of octreel diff");
