@@ -85,24 +85,19 @@ static bool check_lines(const char *folder, uint64_t ticks, octreel_error *error
                           plural(lines), ticks, plural(ticks));
 }
 
+static bool check_file(const char *folder, const char *name, octreel_error *error)
+{
+    return folder_has(folder, name) || refuse_damaged(folder, error, "%s is missing", name);
+}
+
 static bool check_frames(const char *folder, const octree_session *session, uint64_t every, octreel_error *error)
 {
     char name[FRAME_NAME];
     const uint64_t last = octree_session_length(session);
-    for (uint64_t tick = 0; every > 0 && tick <= last; tick += every)
-        if (!octree_session_gap(session, tick) && !folder_has(folder, frame_name(tick, name)))
-            return refuse_damaged(folder, error, "%s is missing", name);
-    return true;
-}
-
-/* Check for the files that say which frames there must be. */
-static bool check_facts(const char *folder, octreel_error *error)
-{
-    static const char *const names[] = {"session.json", "ticks.jsonl"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (!folder_has(folder, names[i]))
-            return refuse_damaged(folder, error, "%s is missing", names[i]);
-    return true;
+    bool ok = true;
+    for (uint64_t tick = 0; ok && every > 0 && tick <= last; tick += every)
+        ok = octree_session_gap(session, tick) || check_file(folder, frame_name(tick, name), error);
+    return ok;
 }
 
 bool accept_check_whole(const diff_side *side, octreel_error *error)
@@ -114,7 +109,8 @@ bool accept_check_whole(const diff_side *side, octreel_error *error)
     if (side->kind != DIFF_RECORDING)
         return true;
     if (!accept_check_ended(side, error) || !recording_read(folder, &ignored, &every, error) ||
-        !check_facts(folder, error) || !read_session_file(folder, &file, &digest, error))
+        !check_file(folder, "session.json", error) || !check_file(folder, "ticks.jsonl", error) ||
+        !read_session_file(folder, &file, &digest, error))
         return false;
     const bool ok = check_frames(folder, &file.session, every, error) &&
                     check_lines(folder, octree_session_length(&file.session) + 1, error);

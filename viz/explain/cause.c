@@ -54,12 +54,6 @@ static bool trees_differ(playing *p)
     return p->unlike;
 }
 
-static bool is_wanted(const playing *p, uint64_t tick, bool differs)
-{
-    const cause_watcher *w = p->watcher;
-    return (w->wants && w->wants(w->context, tick)) || (differs && p->found->differing.count <= w->first);
-}
-
 /* Append the details of a tick; the facts move into it. */
 static bool append_tick(cause *c, uint64_t tick, cause_facts *facts)
 {
@@ -117,34 +111,31 @@ static bool games_differ(const playing *p, bool trees)
 static bool compare_tick(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};
+    const cause_watcher *w = p->watcher;
     const uint64_t tick = octree_game_tick(games[0])->number;
-    cause_facts facts = {0};
+    const bool wanted = w->wants && w->wants(w->context, tick), is_early = p->found->differing.count < w->first;
     const bool trees = !p->same_session && trees_differ(p);
+    cause_facts facts = {0};
+    if (trees && (wanted || is_early))
+        cause_compare_trees(games[0], games[1], &facts);
     if (!p->same_session) {
         cause_compare_ticks(games[0], games[1], &facts);
         count_wrong_answers(p->found->wrong, octree_game_tick(games[0]), octree_game_tick(games[1]));
     }
     const bool differs = trees || facts.count > 0;
+    const bool reported = wanted || (differs && is_early);
     if (differs)
         extend_span(&p->found->differing, 1, tick);
-    bool ok = !facts.out_of_memory &&
-              cause_origins_advance(&p->found->session.origins, tick, games_differ(p, trees), p->other_heat);
-    if (is_wanted(p, tick, differs)) {
-        cause_facts_release(&facts);
-        if (trees)
-            cause_compare_trees(p->games[0], p->games[1], &facts);
-        if (differs)
-            cause_compare_ticks(p->games[0], p->games[1], &facts);
-        if (p->other_heat)
-            cause_add_whole(&facts, "heat", CAUSE_OTHER, NULL, NULL);
-        ok = ok && !facts.out_of_memory && append_tick(p->found, tick, &facts);
-    }
+    if (reported && p->other_heat)
+        cause_add_whole(&facts, "heat", CAUSE_OTHER, NULL, NULL);
+    bool ok = cause_origins_advance(&p->found->session.origins, tick, games_differ(p, trees), p->other_heat);
+    ok = ok && !facts.out_of_memory && (!reported || append_tick(p->found, tick, &facts));
     p->other_heat |= p->shows_heat && differs;
     cause_facts_release(&facts);
     p->found->compared++;
     if (!ok)
         return error_no_memory(error);
-    return !p->watcher->watch || p->watcher->watch(p->watcher->context, games, differs, error);
+    return !w->watch || w->watch(w->context, games, differs, error);
 }
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */

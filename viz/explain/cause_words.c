@@ -164,19 +164,26 @@ static void print_values(FILE *out, const cause_row *p, const cause_group *group
     fputc(')', out);
 }
 
+static void print_noun(FILE *out, const cause_row *p, bool is_plural)
+{
+    fputs(is_plural && p->plural ? p->plural : p->noun, out);
+    fputs(is_plural && !p->plural ? "s" : "", out);
+}
+
 static void print_fact(FILE *out, const cause_row *p, const cause_group *group, const cause_fact *fact)
 {
+    static const char *const beginnings[] = {[CAUSE_OTHER] = "another ",
+                                             [CAUSE_MORE] = "one more ",
+                                             [CAUSE_LESS] = "one ",
+                                             [CAUSE_ORDER] = "another order of the "};
     if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one side has the query */
         fprintf(out, "%s%s", group->query,
                 group->change == CAUSE_MORE ? " asked only in the frames" : " asked only in the reference");
         return;
     }
-    if (group->change == CAUSE_LESS)
-        fprintf(out, "one %s fewer", p->noun);
-    else if (group->change == CAUSE_ORDER)
-        fprintf(out, "another order of the %s%s", p->plural ? p->plural : p->noun, p->plural ? "" : "s");
-    else
-        fprintf(out, "%s %s", group->change == CAUSE_MORE ? "one more" : "another", p->noun);
+    fputs(beginnings[group->change], out);
+    print_noun(out, p, group->change == CAUSE_ORDER);
+    fputs(group->change == CAUSE_LESS ? " fewer" : "", out);
     print_query(out, group);
     print_when(out, p, fact);
     print_values(out, p, group, fact);
@@ -234,8 +241,8 @@ static void print_many(FILE *out, const cause_row *p, const cause_group *group, 
     static const char *const words[] = {
         [CAUSE_OTHER] = "other ", [CAUSE_MORE] = "more ", [CAUSE_LESS] = "fewer ", [CAUSE_ORDER] = "reordered "};
     const cause_fact *first = &group->listed[0];
-    fprintf(out, "%" PRIu64 " %s%s%s", group->found, words[group->change], p->plural ? p->plural : p->noun,
-            p->plural ? "" : "s");
+    fprintf(out, "%" PRIu64 " %s", group->found, words[group->change]);
+    print_noun(out, p, true);
     print_query(out, group);
     const bool of_nodes = strcmp(group->where, "foreign_nodes") == 0;
     fputs(first->id != CAUSE_NO_ID       ? of_nodes ? " (nodes " : " (points "

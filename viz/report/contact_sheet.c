@@ -61,31 +61,24 @@ typedef struct patch {
     int x0, y0, x1, y1;
 } patch;
 
-static image_color mean_of(const image *of, const patch *p)
+/* The color of a cell's pixel: the brightest color of its rectangle, so that a single differing pixel stays visible, or
+ * else the mean. */
+static image_color color_of(const image *picture, const patch *p, bool brightest)
 {
-    uint64_t r = 0, g = 0, b = 0, count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
+    const uint64_t count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
+    uint64_t sum[3] = {count / 2, count / 2, count / 2}; /* so that divisions round */
+    image_color best = image_color_at(picture, p->x0, p->y0);
     for (int y = p->y0; y < p->y1; y++)
         for (int x = p->x0; x < p->x1; x++) {
-            const image_color color = image_color_at(of, x, y);
-            r += color.r;
-            g += color.g;
-            b += color.b;
-        }
-    return (image_color){(uint8_t)((r + count / 2) / count), (uint8_t)((g + count / 2) / count),
-                         (uint8_t)((b + count / 2) / count)};
-}
-
-/* The brightest pixel of a rectangle, so that a single differing pixel stays visible. */
-static image_color brightest_of(const image *of, const patch *p)
-{
-    image_color best = image_color_at(of, p->x0, p->y0);
-    for (int y = p->y0; y < p->y1; y++)
-        for (int x = p->x0; x < p->x1; x++) {
-            const image_color color = image_color_at(of, x, y);
+            const image_color color = image_color_at(picture, x, y);
             if (color.r + color.g + color.b > best.r + best.g + best.b)
                 best = color;
+            sum[0] += color.r;
+            sum[1] += color.g;
+            sum[2] += color.b;
         }
-    return best;
+    return brightest ? best
+                     : (image_color){(uint8_t)(sum[0] / count), (uint8_t)(sum[1] / count), (uint8_t)(sum[2] / count)};
 }
 
 /* The pixels [*first, *end) of a picture of `length` pixels that are drawn at pixel `at` of `across`: at least one. */
@@ -113,8 +106,7 @@ static void draw_picture(image *sheet, int left, int top, const image *picture, 
             patch p;
             find_source_span(x, width, picture->width, &p.x0, &p.x1);
             find_source_span(y, height, picture->height, &p.y0, &p.y1);
-            fill_rectangle(sheet, left + x, top + y, 1, 1,
-                           kind == EVIDENCE_DIFFERENCE ? brightest_of(picture, &p) : mean_of(picture, &p));
+            fill_rectangle(sheet, left + x, top + y, 1, 1, color_of(picture, &p, kind == EVIDENCE_DIFFERENCE));
         }
 }
 
