@@ -47,7 +47,14 @@ static bool check_options(const accepting *a, octreel_error *error)
                      o->reference, diff_kind_name(a->reference.kind));
 }
 
-/* A reference that does not exist yet starts as an empty side of the same kind. */
+/* A reference without frames. */
+static diff_side empty_side(const char *path, diff_kind kind, bool no_frames)
+{
+    return (diff_side){.path = path, .source = path, .kind = kind, .background = IMAGE_WHITE, .no_frames = no_frames};
+}
+
+/* A reference that does not exist yet becomes a side of the same kind as the frames, or a baseline. An empty folder
+ * becomes a recording if a recording is accepted into it. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
@@ -60,11 +67,8 @@ static bool open_sides(accepting *a, octreel_error *error)
     a->is_new = access(o->reference, F_OK) != 0 && errno == ENOENT;
     if (a->is_new) {
         const bool baseline = o->note.reason || o->store || o->variant;
-        a->reference = (diff_side){.path = o->reference,
-                                   .source = o->reference,
-                                   .kind = baseline ? DIFF_BASELINE : a->frames.kind,
-                                   .background = IMAGE_WHITE,
-                                   .no_frames = a->frames.no_frames && !baseline};
+        a->reference =
+            empty_side(o->reference, baseline ? DIFF_BASELINE : a->frames.kind, a->frames.no_frames && !baseline);
         return check_new_name(o, a->reference.kind, error);
     }
     if (!diff_side_open(&a->reference, o->reference, error))
@@ -74,10 +78,8 @@ static bool open_sides(accepting *a, octreel_error *error)
                          "%s is a recording and %s is not: its ticks would not match the new frames; record the "
                          "session again and accept that",
                          o->reference, o->frames);
-    /* An empty folder becomes a recording if a recording is accepted into it. */
     if (a->reference.kind == DIFF_FOLDER && a->reference.count == 0 && a->frames.kind == DIFF_RECORDING)
-        a->reference = (diff_side){
-            .path = o->reference, .source = o->reference, .kind = DIFF_RECORDING, .no_frames = a->frames.no_frames};
+        a->reference = empty_side(o->reference, DIFF_RECORDING, a->frames.no_frames);
     return true;
 }
 
@@ -103,19 +105,13 @@ static bool check_names(const accepting *a, octreel_error *error)
     return true;
 }
 
-static action action_for(const diff_pair *pair)
+static action action_for(diff_finding finding)
 {
-    switch (pair->finding) {
-    case FOUND_SAME_BYTES:
-    case FOUND_SAME_PIXELS:
-        return KEPT;
-    case FOUND_NO_FRAME:
+    if (finding == FOUND_NO_FRAME)
         return REMOVED;
-    case FOUND_NO_REFERENCE:
+    if (finding == FOUND_NO_REFERENCE)
         return ADDED;
-    default:
-        return CHANGED;
-    }
+    return finding == FOUND_SAME_BYTES || finding == FOUND_SAME_PIXELS ? KEPT : CHANGED;
 }
 
 /* Check that a new frame can be read, and compute its digest. An unreadable reference may be replaced. */
@@ -134,7 +130,7 @@ static bool decide_actions(accepting *a, octreel_error *error)
         diff_pair *pair = &a->result.pairs[i];
         if (pair->lacks_resources)
             return pair->trouble ? error_set(error, "%s", pair->trouble) : error_no_memory(error);
-        a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair) : KEPT;
+        a->actions[i] = is_named(a->options, diff_pair_name(pair)) ? action_for(pair->finding) : KEPT;
         a->counts[a->actions[i]]++;
         if ((a->actions[i] == CHANGED || a->actions[i] == ADDED) && !check_frame(a, pair, error))
             return false;

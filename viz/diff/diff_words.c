@@ -58,35 +58,27 @@ static void print_pixels(FILE *out, const diff_pair *pair)
 
 static void print_difference(FILE *out, const diff_pair *pair)
 {
-    const frame_digest *about = pair->about;
-    switch (pair->finding) {
-    case FOUND_PIXELS:
+    static const char *const beginnings[] = {
+        [FOUND_SAME_BYTES] = "the same",
+        [FOUND_SAME_PIXELS] = "the same",
+        [FOUND_WITHIN] = "forgiven: ",
+        [FOUND_PIXELS] = "",
+        [FOUND_SIZE] = "the reference is ",
+        [FOUND_DIGEST] = "pixels differ: digest ",
+        [FOUND_NO_FRAME] = "a reference without a frame",
+        [FOUND_NO_REFERENCE] = "a frame without a reference",
+        [FOUND_UNREADABLE] = "cannot be read: ",
+    };
+    const frame_digest *a = &pair->about[0], *b = &pair->about[1];
+    fputs(beginnings[pair->finding], out);
+    if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         print_pixels(out, pair);
-        break;
-    case FOUND_WITHIN:
-        fputs("forgiven: ", out);
-        print_pixels(out, pair);
-        break;
-    case FOUND_SIZE:
-        fprintf(out, "the reference is %dx%d, the frame is %dx%d", about[0].width, about[0].height, about[1].width,
-                about[1].height);
-        break;
-    case FOUND_DIGEST:
-        fprintf(out, "pixels differ: digest %016" PRIx64 ", now %016" PRIx64, about[0].pixels, about[1].pixels);
-        break;
-    case FOUND_NO_FRAME:
-        fputs("a reference without a frame", out);
-        break;
-    case FOUND_NO_REFERENCE:
-        fputs("a frame without a reference", out);
-        break;
-    case FOUND_UNREADABLE:
-        fprintf(out, "cannot be read: %s", pair->trouble ? pair->trouble : "out of memory");
-        break;
-    default:
-        fputs("the same", out);
-        break;
-    }
+    else if (pair->finding == FOUND_SIZE)
+        fprintf(out, "%dx%d, the frame is %dx%d", a->width, a->height, b->width, b->height);
+    else if (pair->finding == FOUND_DIGEST)
+        fprintf(out, "%016" PRIx64 ", now %016" PRIx64, a->pixels, b->pixels);
+    else if (pair->finding == FOUND_UNREADABLE)
+        fputs(pair->trouble ? pair->trouble : "out of memory", out);
 }
 
 void diff_print_difference(FILE *out, const diff_pair *pair)

@@ -1,49 +1,38 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_json.c - writes an explanation as JSON. */
 #include "cause_json.h"
-#include "text.h"
-
-#include <stdlib.h>
 
 /* ---- Facts --------------------------------------------------------------------------------------------------- */
 
-static void write_value(json_writer *w, const json_t *value)
+static void write_value(json_writer *w, json_t *value)
 {
     const char *key;
     json_t *member;
     size_t i;
-    switch (json_typeof(value)) {
-    case JSON_INTEGER:
-    case JSON_REAL:
+    if (json_is_number(value)) {
         json_write_number(w, json_number_value(value));
-        break;
-    case JSON_STRING:
+    } else if (json_is_string(value)) {
         json_write_string(w, json_string_value(value));
-        break;
-    case JSON_TRUE:
-    case JSON_FALSE:
-        json_write_bool(w, json_typeof(value) == JSON_TRUE);
-        break;
-    case JSON_ARRAY:
+    } else if (json_is_boolean(value)) {
+        json_write_bool(w, json_is_true(value));
+    } else if (json_is_array(value)) {
         json_write_begin_array(w);
         json_array_foreach(value, i, member) write_value(w, member);
         json_write_end_array(w);
-        break;
-    case JSON_OBJECT:
+    } else if (json_is_object(value)) {
         json_write_begin_object(w);
-        json_object_foreach((json_t *)(uintptr_t)value, key, member)
+        json_object_foreach(value, key, member)
         {
             json_write_key(w, key);
             write_value(w, member);
         }
         json_write_end_object(w);
-        break;
-    case JSON_NULL:
+    } else {
         json_write_null(w);
     }
 }
 
-static void write_member(json_writer *w, const char *key, const json_t *value)
+static void write_member(json_writer *w, const char *key, json_t *value)
 {
     if (!value)
         return;
@@ -90,27 +79,17 @@ static void write_facts(json_writer *w, const char *key, const cause_facts *fact
 
 /* ---- The whole ----------------------------------------------------------------------------------------------- */
 
-static void write_element(json_writer *w, const trace_part *part)
-{
-    char *what = NULL;
-    text_stream s;
-    if (text_stream_begin(&s))
-        trace_print_part(s.stream, part);
-    if (!text_stream_end(&s, &what))
-        return;
-    json_write_begin_object(w);
-    json_member_text(w, "what", what);
-    json_member_integer(w, "pixels", part->pixels);
-    json_write_end_object(w);
-    free(what);
-}
-
 static void write_trace(json_writer *w, const trace *t)
 {
+    char text[TRACE_TEXT];
     json_member_integer(w, "pixels", t->pixels);
     json_member_begin_array(w, "elements");
-    for (size_t i = 0; i < t->count && i < CAUSE_ELEMENTS; i++)
-        write_element(w, &t->parts[i]);
+    for (size_t i = 0; i < t->count && i < CAUSE_ELEMENTS; i++) {
+        json_write_begin_object(w);
+        json_member_text(w, "what", trace_part_text(&t->parts[i], text));
+        json_member_integer(w, "pixels", t->parts[i].pixels);
+        json_write_end_object(w);
+    }
     json_write_end_array(w);
 }
 

@@ -58,16 +58,18 @@ typedef struct watching {
     explanation *e;
     const diff_options *options;
     wanted_pair *pairs; /* in ascending order of their ticks */
-    size_t count, next;
+    size_t count;
 } watching;
 
-/* Whether a pair of this tick is explained. Ticks must ascend from call to call. */
+static const wanted_pair *find_wanted(const watching *w, uint64_t tick)
+{
+    return w->count ? bsearch(&tick, w->pairs, w->count, sizeof *w->pairs, by_uint64) : NULL;
+}
+
+/* Whether a pair of this tick is explained. */
 static bool is_wanted(void *context, uint64_t tick)
 {
-    watching *w = context;
-    while (w->next < w->count && w->pairs[w->next].tick < tick)
-        w->next++;
-    return w->next < w->count && w->pairs[w->next].tick == tick;
+    return find_wanted(context, tick);
 }
 
 static bool handle_tick(void *context, const octree_game *const games[2], bool differs, octreel_error *error)
@@ -77,13 +79,12 @@ static bool handle_tick(void *context, const octree_game *const games[2], bool d
     if (!recorded_check_tick(w->e->sides, games, differs, error) ||
         !tracer_add_tick(&w->e->tracer, w->e->sides, games, error))
         return false;
-    if (!is_wanted(w, tick))
+    const wanted_pair *wanted = find_wanted(w, tick);
+    if (!wanted || !wanted->pair->difference.unlike.pixels)
         return true;
-    const diff_pair *pair = w->pairs[w->next].pair;
     cause_tick *reported =
         &w->e->cause.ticks[w->e->cause.count - 1]; /* this tick, since is_wanted() returns true for it */
-    return !pair->difference.unlike.pixels ||
-           tracer_trace(&w->e->tracer, w->e->sides, games, pair, w->options, &reported->trace, error);
+    return tracer_trace(&w->e->tracer, w->e->sides, games, wanted->pair, w->options, &reported->trace, error);
 }
 
 /* The first tick whose frames differ. All pairs are searched: with more than six digits, the order of names is not the

@@ -15,7 +15,6 @@
 #include "array.h"
 #include "frame_file.h"
 #include "hash_map.h"
-#include "octree/octree.h"
 #include "png_read.h"
 #include "text.h"
 
@@ -256,30 +255,32 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
 
 /* ---- In words ------------------------------------------------------------------------------------------------ */
 
-void trace_print_part(FILE *out, const trace_part *part)
+const char *trace_part_text(const trace_part *part, char text[TRACE_TEXT])
 {
-    char text[OCTREE_ADDRESS_TEXT];
+    char address[OCTREE_ADDRESS_TEXT];
+    if (part->layer == TRACE_BACKGROUND)
+        return "the background";
     if (part->layer == LAYER_NODES)
-        fprintf(out, "node %s", octree_address_format(part->id, text));
+        snprintf(text, TRACE_TEXT, "node %s", octree_address_format(part->id, address));
     else if (part->layer == LAYER_POINTS)
-        fprintf(out, "point %" PRIu64, part->id);
-    else if (part->layer == TRACE_BACKGROUND)
-        fputs("the background", out);
+        snprintf(text, TRACE_TEXT, "point %" PRIu64, part->id);
     else
-        fputs(layer_rows[part->layer].words, out);
+        return layer_rows[part->layer].words;
+    return text;
 }
 
 void trace_print(FILE *out, const trace *t)
 {
     const size_t most = t->count < TRACE_PRINTED ? t->count : TRACE_PRINTED;
     uint64_t printed = 0;
+    char text[TRACE_TEXT];
     fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
-    for (int text = 0; text < 2; text++) /* text changes with everything else, so it comes last */
+    for (int is_text = 0; is_text < 2; is_text++) /* text changes with everything else, so it comes last */
         for (size_t i = 0; i < most; i++) {
-            if ((t->parts[i].layer == LAYER_TEXT) != text)
+            if ((t->parts[i].layer == LAYER_TEXT) != is_text)
                 continue;
-            fprintf(out, "%s%" PRIu64 " of ", printed ? ", " : "", t->parts[i].pixels);
-            trace_print_part(out, &t->parts[i]);
+            fprintf(out, "%s%" PRIu64 " of %s", printed ? ", " : "", t->parts[i].pixels,
+                    trace_part_text(&t->parts[i], text));
             printed += t->parts[i].pixels;
         }
     if (printed < t->pixels)

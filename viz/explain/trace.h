@@ -7,6 +7,7 @@
 #include "pixel.h"
 #include "layer.h"
 #include "octree/game.h"
+#include "octree/octree.h"
 #include "recorded.h"
 #include "tick_scene.h"
 
@@ -48,8 +49,9 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
 bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
                   const diff_options *options, trace *made, octreel_error *error);
 
-/* Print "node 0/3/7", "point 12" or "text". */
-void trace_print_part(FILE *out, const trace_part *part);
+/* "node 0/3/7", "point 12" or "text"; it may be stored in `text`. */
+#define TRACE_TEXT (OCTREE_ADDRESS_TEXT + sizeof "node ")
+const char *trace_part_text(const trace_part *part, char text[TRACE_TEXT]);
 
 /* Print "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text": the TRACE_PRINTED largest parts, text last. */
 #define TRACE_PRINTED 5
