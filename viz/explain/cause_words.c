@@ -298,38 +298,24 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
 
 /* ---- All of them --------------------------------------------------------------------------------------------- */
 
-static unsigned count_groups(const cause_facts *facts, bool minor)
-{
-    unsigned count = 0;
-    for (size_t i = 0; i < facts->count; i++)
-        count += cause_row_of(&facts->groups[i]).minor == minor;
-    return count;
-}
-
-/* Print either the major or the minor facts. */
-static void print_major_or_minor(FILE *out, const cause_facts *facts, bool minor, bool brief)
-{
-    unsigned printed = 0;
-    for (size_t i = 0; i < facts->count; i++) {
-        if (cause_row_of(&facts->groups[i]).minor != minor)
-            continue;
-        if (brief && printed == CAUSE_BRIEF) {
-            fputs(" and more", out);
-            return;
-        }
-        fputs(printed++ ? ", " : "", out);
-        print_group(out, &facts->groups[i], brief);
-    }
-}
-
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 {
-    const bool major = count_groups(facts, false) > 0, minor = count_groups(facts, true) > 0 && !(brief && major);
-    print_major_or_minor(out, facts, false, brief);
-    if (major && minor)
-        fputs("; ", out);
-    if (minor)
-        print_major_or_minor(out, facts, true, brief);
+    size_t printed[2] = {0, 0}; /* major and minor groups */
+    for (int minor = 0; minor < 2; minor++) {
+        if (minor && brief && printed[0] > 0)
+            return;
+        for (size_t i = 0; i < facts->count; i++) {
+            if (cause_row_of(&facts->groups[i]).minor != minor)
+                continue;
+            if (brief && printed[minor] == CAUSE_BRIEF) {
+                fputs(" and more", out);
+                break;
+            }
+            fputs(printed[minor] > 0 ? ", " : printed[0] > 0 ? "; " : "", out);
+            print_group(out, &facts->groups[i], brief);
+            printed[minor]++;
+        }
+    }
 }
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
