@@ -319,11 +319,7 @@ static void write_head(const page *p)
     fputs("</h1>\n<p>octreel audit of ", p->out);
     write_escaped(p->out, v->path, escape_xml);
     fputs("</p>\n", p->out);
-    if (v->report->limits.by_ratio || v->report->limits.by_recall) {
-        fputs("<p>Allowed: ", p->out);
-        audit_print_limits(p->out, &v->report->limits);
-        fputs("</p>\n", p->out);
-    }
+    audit_print_limits(p->out, "<p>Allowed: ", &v->report->limits, "</p>\n");
     fputs(p->base
               ? "<p>A point is the worst of its ticks and leads to its frame; larger ones are wrong. The page lets you "
                 "play from a tick on.</p>\n"

@@ -51,9 +51,7 @@ void audit_print_junit(FILE *out, const audit_verdict *v)
         write_case(out, v, OCTREE_QUERY_KINDS, report->nodes.faults == 0);
     fputs("    <system-out>", out);
     audit_print_all(out, v);
-    if (report->limits.by_ratio || report->limits.by_recall)
-        fputs("; allowed: ", out);
-    audit_print_limits(out, &report->limits);
+    audit_print_limits(out, "; allowed: ", &report->limits, "");
     fputs("</system-out>\n", out);
     junit_end(out);
 }

@@ -73,21 +73,30 @@ void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
     print_points(out, "; extra", c->extra, c->made.extra_count);
 }
 
-void audit_print_limits(FILE *out, const audit_limits *limits)
+static bool has_limits(const audit_limits *limits)
 {
-    char texts[2][NUMBER_TEXT];
-    number_print(limits->ratio, texts[0]);
-    number_print(limits->recall, texts[1]);
+    return limits->by_ratio || limits->by_recall;
+}
+
+void audit_print_limits(FILE *out, const char *before, const audit_limits *limits, const char *after)
+{
+    char text[NUMBER_TEXT];
+    if (!has_limits(limits))
+        return;
+    fputs(before, out);
+    number_print(limits->ratio, text);
     if (limits->by_ratio)
-        fprintf(out, "ratio of distances up to %s", texts[0]);
+        fprintf(out, "ratio of distances up to %s", text);
+    number_print(limits->recall, text);
     if (limits->by_recall)
-        fprintf(out, "%srecall from %s on", limits->by_ratio ? ", " : "", texts[1]);
+        fprintf(out, "%srecall from %s on", limits->by_ratio ? ", " : "", text);
+    fputs(after, out);
 }
 
 /* Print whether a value is within its limit; nothing if there is no limit. */
 static void print_if_within(FILE *out, const audit_limits *limits, bool passes)
 {
-    if (limits->by_ratio || limits->by_recall)
+    if (has_limits(limits))
         fprintf(out, ", %s what is allowed", passes ? "within" : "beyond");
 }
 
@@ -103,7 +112,7 @@ void audit_print_all(FILE *out, const audit_verdict *v)
     if (report->nodes.faults)
         fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.faults, plural(report->nodes.faults));
     print_if_within(out, &v->report->limits, audit_passes(report));
-    if (report->nodes.faults && (v->report->limits.by_ratio || v->report->limits.by_recall))
+    if (report->nodes.faults && has_limits(&report->limits))
         fputs("; wrong nodes are never allowed", out);
 }
 
@@ -187,11 +196,7 @@ void audit_print_text(FILE *out, const audit_verdict *v)
         audit_print_nodes(out, &v->report->nodes);
         putc('\n', out);
     }
-    if (v->report->limits.by_ratio || v->report->limits.by_recall) {
-        fputs("allowed: ", out);
-        audit_print_limits(out, &v->report->limits);
-        putc('\n', out);
-    }
+    audit_print_limits(out, "allowed: ", &v->report->limits, "\n");
 }
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
@@ -276,7 +281,7 @@ static void write_nodes(json_writer *w, const audit_nodes *nodes)
 
 static void write_limits(json_writer *w, const audit_limits *limits)
 {
-    if (!limits->by_ratio && !limits->by_recall)
+    if (!has_limits(limits))
         return;
     json_member_begin_object(w, "allowed");
     if (limits->by_ratio)

@@ -38,12 +38,13 @@ bool audit_print_page(FILE *out, const audit_verdict *verdict, const char *from)
 #define AUDIT_RATIO_TEXT 48
 const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT]);
 
-/* Print one line without its newline: the result of the audit; of one kind of query; of the nodes; and the limits, or
- * nothing if there are none. */
+/* Print one line without its newline: the result of the audit; of one kind of query; and of the nodes. */
 void audit_print_all(FILE *out, const audit_verdict *verdict);
 void audit_print_kind(FILE *out, const audit_verdict *verdict, int kind);
 void audit_print_nodes(FILE *out, const audit_nodes *nodes);
-void audit_print_limits(FILE *out, const audit_limits *limits);
+
+/* Print the limits between two texts; nothing if there are no limits. */
+void audit_print_limits(FILE *out, const char *before, const audit_limits *limits, const char *after);
 
 /* Print the parts of audit_print_nodes(): "nodes: 3 wrong in 2 ticks, ...", and for one kind of wrong nodes their
  * number and the first of them. */
