@@ -58,17 +58,6 @@ void recorded_close(recorded *r)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* The digest of the scene at the end of the last line; 0 if it has none. */
-static uint64_t line_scene(const recorded *r)
-{
-    static const char before[] = "\"scene\": \"";
-    const size_t tail = sizeof "0123456789abcdef\"}\n" - 1, length = sizeof before - 1;
-    if (r->lines.size <= tail + length)
-        return 0;
-    const char *digits = r->lines.line + r->lines.size - tail;
-    return memcmp(digits - length, before, length) == 0 ? strtoull(digits, NULL, 16) : 0;
-}
-
 uint64_t recorded_scene(const recorded *r, uint64_t tick)
 {
     return tick < r->scene_count ? r->scenes[tick] : 0;
@@ -88,11 +77,11 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
         add_warning(r, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
         return true;
     }
-    uint64_t *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
+    uint64_t scene = 0, *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
     if (!grown)
         return error_no_memory(error);
     r->scenes = grown;
-    r->scenes[r->scene_count++] = line_scene(r);
+    r->scenes[r->scene_count++] = tick_read_scene(r->lines.line, r->lines.size, tick, &scene) ? scene : 0;
     return true;
 }
 
@@ -104,7 +93,7 @@ static tick_extras extras_of(const recorded *r, const octree_tick *tick, char na
     if (tick->gap || !frame_is_due(tick->number, r->view.every))
         return (tick_extras){0};
     if (!frame_scene(r->side->path, tick->number, &scene))
-        scene = line_scene(r);
+        scene = recorded_scene(r, tick->number);
     return (tick_extras){.frame = frame_name(tick->number, name), .scene_digest = scene};
 }
 

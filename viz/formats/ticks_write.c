@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* ticks_write.c - the tables of the members of a line of ticks.jsonl, and functions that write their values. */
 #include "ticks_write.h"
+#include "frame_file.h"
 #include "json_table.h"
 #include "octree/digest.h"
 #include "octree/octree.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
 
 char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
 {
@@ -337,4 +340,17 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
     }
     json_write_end_object(w);
     json_write_end_line(w);
+}
+
+bool tick_read_scene(const char *line, size_t size, uint64_t tick, uint64_t *scene)
+{
+    char name[FRAME_NAME], expected[FRAME_NAME + DIGEST_TEXT + 32];
+    const size_t tail = strlen("0123456789abcdef\"}\n");
+    if (size < tail)
+        return false;
+    *scene = strtoull(line + size - tail, NULL, 16);
+    const size_t length =
+        (size_t)snprintf(expected, sizeof expected, "\"frame\": \"%s\", \"scene\": \"%016" PRIx64 "\"}\n",
+                         frame_name(tick, name), *scene);
+    return size > length && memcmp(line + size - length, expected, length) == 0;
 }

@@ -24,6 +24,10 @@ typedef struct tick_extras {
  * is the start of the sweep. A gap has only the members "tick" and "gap". The caller checks the stream for errors. */
 void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras);
 
+/* Read the digest of the scene at the end of a line, which ends with a newline. Return false if the line does not name
+ * the frame of this tick. */
+bool tick_read_scene(const char *line, size_t size, uint64_t tick, uint64_t *scene);
+
 /* Write the parameters of a query, as its answer repeats them: those that its kind has. */
 void tick_write_parameters(json_writer *w, const octree_answer *answer);
 

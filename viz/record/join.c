@@ -91,19 +91,6 @@ static bool find_chunks(joining *j, octreel_error *error)
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Read the digest of the scene at the end of a line. False: the line does not name the frame of this tick. */
-static bool read_scene(const char *line, size_t size, uint64_t tick, uint64_t *scene)
-{
-    char name[FRAME_NAME], expected[FRAME_NAME + DIGEST_TEXT + 32];
-    const size_t tail = strlen("0123456789abcdef\"}\n");
-    if (size < tail)
-        return false;
-    *scene = strtoull(line + size - tail, NULL, 16);
-    const int length = snprintf(expected, sizeof expected, "\"frame\": \"%s\", \"scene\": \"%016" PRIx64 "\"}\n",
-                                frame_name(tick, name), *scene);
-    return size > (size_t)length && strcmp(line + size - length, expected) == 0;
-}
-
 static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
 {
     frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
@@ -126,7 +113,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     const uint64_t tick = j->summary->ticks;
     const bool gap = octree_session_gap(j->session, tick), filmed = !gap && frame_is_due(tick, j->options->every);
     const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
-    if (strncmp(j->line, begin, (size_t)length) != 0 || read_scene(j->line, size, tick, &scene) != filmed)
+    if (strncmp(j->line, begin, (size_t)length) != 0 || tick_read_scene(j->line, size, tick, &scene) != filmed)
         return error_set(error, "%s/%s: no line of tick %" PRIu64 " where it belongs", j->options->folder, c->name,
                          tick);
     if (filmed && !check_frame(j, scene, error))
