@@ -59,10 +59,10 @@ bool digest_picture(const char *path, image_color background, frame_digest *dige
     return true;
 }
 
-static bool is_png_name(const char *name)
+size_t diff_stem_length(const char *name)
 {
     const size_t length = strlen(name);
-    return name[0] != '.' && length > 4 && strcasecmp(name + length - 4, ".png") == 0;
+    return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
 }
 
 static int by_name(const void *a, const void *b)
@@ -73,7 +73,9 @@ static int by_name(const void *a, const void *b)
 static bool belongs(const diff_side *side, const char *name)
 {
     uint64_t tick;
-    return side->kind == DIFF_RECORDING ? frame_parse_name(name, &tick) : is_png_name(name);
+    if (side->kind == DIFF_RECORDING)
+        return frame_parse_name(name, &tick);
+    return name[0] != '.' && name[diff_stem_length(name)];
 }
 
 /* Whether recording.json says that there are no frames. An unreadable file is reported later, when the recording is

@@ -61,6 +61,9 @@ bool diff_side_check_output(const diff_side *side, const output_file *output, oc
 /* "picture", "folder", "recording", "baseline". */
 const char *diff_kind_name(diff_kind kind);
 
+/* The length of a picture's name without its ending ".png"; of any other name, the whole length. */
+size_t diff_stem_length(const char *name);
+
 /* Append a frame with a copy of the name, the digest and, unless the side is a baseline, its path. */
 bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error);
 

@@ -22,7 +22,7 @@
 #include <stdint.h>
 
 /* What the second side has: another value, an additional value, one value less, or the same values in another order. */
-typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER } cause_change;
+typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER, CAUSE_CHANGES } cause_change;
 
 #define CAUSE_NO_TICK UINT64_MAX
 #define CAUSE_NO_ID UINT64_MAX

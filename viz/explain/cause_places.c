@@ -10,6 +10,9 @@
 #define EVERY .every = true
 #define MINOR .minor = true
 #define BY_KEY .rule = CAUSE_BY_KEY
+#define VERB_OTHER .verbs[CAUSE_OTHER]
+#define VERB_MORE .verbs[CAUSE_MORE]
+#define VERB_LESS .verbs[CAUSE_LESS]
 #define WHOLE .rule = CAUSE_WHOLE
 
 /* A place without a row is compared by type and printed as its path. */
@@ -41,8 +44,8 @@ static const cause_row rows[] = {
     {"sampled.velocities.seed", "seed of the velocities", OPTION},
     {"edits", "edit", BY_KEY},
     {"queries", "query", .plural = "queries", EVERY, .rule = CAUSE_QUERIES},
-    {"queries.visits", "query", .plural = "queries", .moved = "visited other nodes"},
-    {"queries.answer", "foreign answer", .plural = "foreign answers", .moved = "changed"},
+    {"queries.visits", "query", .plural = "queries", VERB_OTHER = "visited other nodes"},
+    {"queries.answer", "foreign answer", .plural = "foreign answers", VERB_OTHER = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
     {"foreign_nodes", "foreign node", PLAIN},
     /* Views. The nouns of view options are in view_options.c. */
@@ -50,11 +53,11 @@ static const cause_row rows[] = {
     {"focus", "box around the points", PLAIN},
     {"point_scale", "scale of points", PLAIN},
     /* Trees. "divided": an inner node; two trees are compared, so nothing split or merged at this tick. */
-    {"nodes.split", "node", .added = "divided only in the frames"},
-    {"nodes.merged", "node", .added = "divided only in the reference"},
-    {"nodes.born", "node", .added = "only in the frames"},
-    {"nodes.gone", "node", .added = "only in the reference"},
-    {"tree.points", "point", .moved = "moved", .added = "added", .gone = "removed"},
+    {"nodes.split", "node", VERB_MORE = "divided only in the frames"},
+    {"nodes.merged", "node", VERB_MORE = "divided only in the reference"},
+    {"nodes.born", "node", VERB_MORE = "only in the frames"},
+    {"nodes.gone", "node", VERB_MORE = "only in the reference"},
+    {"tree.points", "point", VERB_OTHER = "moved", VERB_MORE = "added", VERB_LESS = "removed"},
     /* Ticks. */
     {"player", "place of the player", PLAIN},
     {"key", "key", MINOR},
@@ -87,8 +90,8 @@ static const cause_row rows[] = {
     {"foreign_nodes.wrong.count", "number of wrong foreign nodes", MINOR},
     {"foreign_nodes.wrong.first", "wrong foreign node", .plural = "wrong foreign nodes"},
     {"refusals", "refusal", PLAIN},
-    {"splits", "node", .added = "split at this tick", .gone = "not split at this tick", MINOR},
-    {"merges", "node", .added = "merged at this tick", .gone = "not merged at this tick", MINOR},
+    {"splits", "node", VERB_MORE = "split at this tick", VERB_LESS = "not split at this tick", MINOR},
+    {"merges", "node", VERB_MORE = "merged at this tick", VERB_LESS = "not merged at this tick", MINOR},
     {"hit_cost", "cost of the collision test", MINOR, WHOLE},
     {"visits", "number of visited nodes", MINOR, WHOLE},
     {"visited", "list of visited nodes", MINOR},

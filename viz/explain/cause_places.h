@@ -20,7 +20,7 @@ typedef enum cause_rule {
  * verb: "NOUN 12 VERB". */
 typedef struct cause_row {
     const char *where, *noun, *plural; /* plural null: the noun with an s */
-    const char *moved, *added, *gone;  /* the verbs for another, an additional and a missing value; null: no verb */
+    const char *verbs[CAUSE_CHANGES];  /* for each cause_change; null: no verb */
     bool option;                       /* an option of the whole session: it affects all ticks */
     bool every;                        /* print "at every tick" for facts without a tick */
     bool minor;                        /* print after the other facts; in brief texts only if there are no others */

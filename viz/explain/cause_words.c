@@ -8,11 +8,6 @@
 #include <inttypes.h>
 #include <string.h>
 
-static const char *verb_of(const cause_row *p, cause_change change)
-{
-    return change == CAUSE_MORE ? p->added : change == CAUSE_LESS ? p->gone : p->moved;
-}
-
 /* ---- Values -------------------------------------------------------------------------------------------------- */
 
 static void print_value(FILE *out, const json_t *value, bool is_member);
@@ -217,14 +212,14 @@ static void print_verb(FILE *out, const cause_row *p, const cause_group *group, 
 {
     const cause_fact *fact = &group->listed[0];
     if (group->found > (p->minor ? MINOR_SUBJECTS : count_named(group, brief))) {
-        fprintf(out, "%" PRIu64 " %ss %s (such as ", group->found, p->noun, verb_of(p, group->change));
+        fprintf(out, "%" PRIu64 " %ss %s (such as ", group->found, p->noun, p->verbs[group->change]);
         print_subject(out, fact);
         fputc(')', out);
         return;
     }
     fprintf(out, "%s%s ", p->noun, plural(group->found));
     print_subjects(out, group, brief);
-    fprintf(out, " %s", verb_of(p, group->change));
+    fprintf(out, " %s", p->verbs[group->change]);
     if (brief || group->found > 1 || fact->id == CAUSE_NO_ID)
         return;
     fputs(group->change == CAUSE_MORE ? " at " : " from ", out);
@@ -259,9 +254,9 @@ static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group 
 {
     const cause_fact *first = &group->listed[0];
     if (group->found == 1)
-        fprintf(out, "the %s %s", p->noun, verb_of(p, group->change));
+        fprintf(out, "the %s %s", p->noun, p->verbs[group->change]);
     else
-        fprintf(out, "%" PRIu64 " %s %s, the first", group->found, p->plural, verb_of(p, group->change));
+        fprintf(out, "%" PRIu64 " %s %s, the first", group->found, p->plural, p->verbs[group->change]);
     print_when(out, p, first);
     print_values(out, p, group, first);
 }
@@ -277,7 +272,7 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
 {
     const cause_row p = cause_row_of(group);
     const size_t listed = count_named(group, brief), printed = brief && listed > 2 ? 1 : listed;
-    if (verb_of(&p, group->change)) {
+    if (p.verbs[group->change]) {
         if (has_subject(&group->listed[0]))
             print_verb(out, &p, group, brief);
         else

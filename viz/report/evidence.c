@@ -37,13 +37,6 @@ const char *evidence_word(evidence_picture picture)
     return words[picture];
 }
 
-/* The length of a name without its ending ".png". */
-static size_t stem_length(const char *name)
-{
-    const size_t length = strlen(name);
-    return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
-}
-
 /* The longest ending of a name, that of an unfinished file included. */
 #define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
 
@@ -60,7 +53,7 @@ static size_t fitting_length(const char *stem)
  * and ends with a digest of the whole name. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
-    const size_t stem = stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;
+    const size_t stem = diff_stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;
     const bool fits = stem + sizeof ".difference.png.part" - 1 <= NAME_MAX;
     char digest[24] = "", *name = malloc(size);
     if (!fits)

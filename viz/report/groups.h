@@ -13,11 +13,11 @@
 #define GROUP_RUNS 4
 typedef struct frame_group {
     size_t first, last, count; /* the indices of the first and the last pair, and the number of pairs */
-    const char *cause;         /* the sentence of the explanation for the first pair, or null; owned by it */
-    const char *line;          /* the name of the first pair and how it differs: diff_print_pair() */
-    const char *difference;    /* the same without the name: diff_print_difference() */
-    const char *frames;        /* the names of all frames */
-    const char *others;        /* the names of all frames except the first; "" if there is only one */
+    const char *cause;      /* the sentence of the explanation for the first pair, or null; owned by the explanation */
+    const char *line;       /* the name of the first pair and how it differs: diff_print_pair() */
+    const char *difference; /* the same without the name: diff_print_difference() */
+    const char *frames;     /* the names of all frames */
+    const char *others;     /* the names of all frames except the first; "" if there is only one */
 } frame_group;
 
 /* The groups of all pairs that are listed (diff_is_listed()). */
