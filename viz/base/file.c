@@ -319,6 +319,15 @@ bool have_same_bytes(const char *a, const char *b)
     return same;
 }
 
+bool have_same_file(const char *folder_a, const char *folder_b, const char *name)
+{
+    char *a = path_join(folder_a, name), *b = path_join(folder_b, name);
+    const bool same = a && b && have_same_bytes(a, b);
+    free(a);
+    free(b);
+    return same;
+}
+
 bool is_same_file(const struct stat *a, const struct stat *b)
 {
     return a->st_dev == b->st_dev && a->st_ino == b->st_ino;

@@ -111,8 +111,10 @@ bool check_output_is_not_input(const output_file *output, const char *input, oct
 /* False, with an error, if two outputs are the same file, which may not exist yet, or if two are "-". */
 bool check_outputs_differ(const output_file *outputs, size_t count, octreel_error *error);
 
-/* True if both are regular files with the same bytes. "-" never is. */
+/* True if both are regular files with the same bytes. "-" never is. have_same_file() compares the files of one name in
+ * two folders; false with errno ENOMEM if memory runs out. */
 bool have_same_bytes(const char *a, const char *b);
+bool have_same_file(const char *folder_a, const char *folder_b, const char *name);
 
 /* True if both describe the same file. stat_parent() describes the folder in which a path lies; false on failure. */
 bool is_same_file(const struct stat *a, const struct stat *b);

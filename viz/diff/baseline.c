@@ -199,9 +199,10 @@ static bool read_digest(diff_side *side, const char *line, size_t number, octree
     char written[sizeof "7f 0123456789abcdef "], id[3] = "";
     sscanf(line, "%2s %16" SCNx64, id, &digest.pixels);
     snprintf(written, sizeof written, "%s %016" PRIx64 " ", id, digest.pixels);
+    if (strncmp(line, written, sizeof written - 1) != 0 || !is_id(id))
+        return fail_line(side, number, error);
     const char *at = line + sizeof written - 1;
-    if (strncmp(line, written, sizeof written - 1) != 0 || !is_id(id) || !*at || strchr(at, '/') ||
-        has_control_character(at))
+    if (!*at || strchr(at, '/') || has_control_character(at))
         return fail_line(side, number, error);
     const acceptance *by = find_id(side, line);
     if (!by)

@@ -389,15 +389,10 @@ static bool compare_all(const diff_side *a, const diff_side *b, pending *p, octr
 
 static bool compare_ticks(const diff_side *a, const diff_side *b, diff_result *result, octreel_error *error)
 {
-    char *paths[2] = {path_join(a->path, "ticks.jsonl"), path_join(b->path, "ticks.jsonl")};
-    bool ok = (paths[0] && paths[1]) || error_no_memory(error);
     errno = 0;
     result->by_ticks = true;
-    result->verdict = ok && have_same_bytes(paths[0], paths[1]) ? DIFF_SAME : DIFF_DIFFERENT;
-    ok = ok && (result->verdict == DIFF_SAME || check_system_resources(error));
-    free(paths[0]);
-    free(paths[1]);
-    return ok;
+    result->verdict = have_same_file(a->path, b->path, "ticks.jsonl") ? DIFF_SAME : DIFF_DIFFERENT;
+    return result->verdict == DIFF_SAME || check_system_resources(error);
 }
 
 void diff_count(diff_result *result)

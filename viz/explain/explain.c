@@ -12,7 +12,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 bool explain_is_unlike(const diff_pair *pair)
 {
@@ -174,12 +173,7 @@ static bool make_headline(explanation *e, const diff_result *result, octreel_err
 /* Whether only one side has the file, or the two files have different bytes. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
-    char *paths[2] = {path_join(a->path, name), path_join(b->path, name)};
-    const bool there = paths[0] && paths[1] && (access(paths[0], F_OK) == 0 || access(paths[1], F_OK) == 0);
-    const bool differs = there && !have_same_bytes(paths[0], paths[1]);
-    free(paths[0]);
-    free(paths[1]);
-    return differs;
+    return (folder_has(a->path, name) || folder_has(b->path, name)) && !have_same_file(a->path, b->path, name);
 }
 
 static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)

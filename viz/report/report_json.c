@@ -4,8 +4,8 @@
 #include "cause_json.h"
 #include "contact_sheet.h"
 #include "diff_words.h"
+#include "ticks_write.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,17 +87,11 @@ static void write_difference(json_writer *w, const image_difference *d)
     json_member_integer(w, "ignored", d->ignored);
 }
 
-static void write_digest(json_writer *w, const char *key, const frame_digest *digest)
-{
-    char text[20];
-    snprintf(text, sizeof text, "%016" PRIx64, digest->pixels);
-    json_member_text(w, key, text);
-}
-
 void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
 {
     const diff_pair *pair = &report->result->pairs[i];
     const char *cause = explanation_cause(report->why, i);
+    char digest[DIGEST_TEXT];
     json_member_text(w, "frame", diff_pair_name(pair));
     json_member_text(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
@@ -107,8 +101,8 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
     if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         write_difference(w, &pair->difference);
     if (pair->finding == FOUND_DIGEST) {
-        write_digest(w, "reference_digest", &pair->about[0]);
-        write_digest(w, "frame_digest", &pair->about[1]);
+        json_member_text(w, "reference_digest", digest_print(pair->about[0].pixels, digest));
+        json_member_text(w, "frame_digest", digest_print(pair->about[1].pixels, digest));
     }
     if (pair->trouble)
         json_member_text(w, "trouble", pair->trouble);
