@@ -13,7 +13,7 @@ static bool store_pictures(const accepting *a, octreel_error *error)
     for (size_t i = 0; ok && a->options->store && i < a->result.count; i++) {
         const diff_pair *pair = &a->result.pairs[i];
         if (pair->b && (a->actions[i] != KEPT || pair->finding == FOUND_SAME_PIXELS))
-            ok = picture_store_put(a->options->store, pair->b->path, &pair->about[1], a->reference.background, error);
+            ok = picture_store_add(a->options->store, pair->b->path, &pair->about[1], a->reference.background, error);
     }
     return ok;
 }

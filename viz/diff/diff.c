@@ -68,7 +68,7 @@ void diff_release(diff_result *result)
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance)
 {
     *tolerance = options->tolerance;
-    tolerance->ignored_mask = mask_bytes(&pair->mask);
+    tolerance->ignored_mask = mask_unpack(&pair->mask);
     return tolerance->ignored_mask || !pair->mask.runs;
 }
 
@@ -269,7 +269,7 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 
 /* The digests of a frame: the digest of its picture, or all variants of a baseline. */
 typedef struct known_digests {
-    frame_digest own; /* the digest of the picture, or the newest variant of the kind */
+    frame_digest newest; /* the digest of the picture, or the newest variant of the kind */
     const frame_digest *list;
     size_t count;
 } known_digests;
@@ -278,19 +278,19 @@ typedef struct known_digests {
 static bool collect_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
                             octreel_error *error)
 {
-    *k = (known_digests){.own = {.kind = kind}};
+    *k = (known_digests){.newest = {.kind = kind}};
     error->text[0] = 0;
     if (frame->path) {
-        k->list = &k->own;
+        k->list = &k->newest;
         k->count = 1;
-        return digest_picture(frame->path, background, &k->own, error);
+        return digest_picture(frame->path, background, &k->newest, error);
     }
     k->list = frame->variants;
     k->count = frame->variant_count;
-    k->own = frame->digest;
-    for (size_t i = k->count; i > 0 && k->own.kind != kind; i--)
-        k->own = k->list[i - 1];
-    return k->own.kind == kind;
+    k->newest = frame->digest;
+    for (size_t i = k->count; i > 0 && k->newest.kind != kind; i--)
+        k->newest = k->list[i - 1];
+    return k->newest.kind == kind;
 }
 
 /* Compare two frames by digests of one kind. They are equal if any two digests and their sizes are equal. Return false
@@ -302,8 +302,8 @@ static bool compare_digests_of_kind(diff_pair *pair, image_digest_kind kind, ima
     if (!collect_digests(pair->a, kind, background, &a, error) ||
         !collect_digests(pair->b, kind, background, &b, error))
         return false;
-    pair->about[0] = a.own;
-    pair->about[1] = b.own;
+    pair->about[0] = a.newest;
+    pair->about[1] = b.newest;
     for (size_t n = 0; n < a.count * b.count; n++) {
         const frame_digest *x = &a.list[n / b.count], *y = &b.list[n % b.count];
         if (x->kind == kind && y->kind == kind && x->pixels == y->pixels && x->width == y->width &&

@@ -36,7 +36,7 @@ bool mask_add(pixel_mask *mask, const uint8_t *bytes, int width, int height)
     }
     if (mask->width != width || mask->height != height)
         return true;
-    uint8_t *both = mask_bytes(mask);
+    uint8_t *both = mask_unpack(mask);
     for (size_t i = 0; both && i < size; i++)
         both[i] |= bytes[i];
     const bool ok = both && pack(mask, both);
@@ -50,7 +50,7 @@ void mask_release(pixel_mask *mask)
     *mask = (pixel_mask){0};
 }
 
-uint8_t *mask_bytes(const pixel_mask *mask)
+uint8_t *mask_unpack(const pixel_mask *mask)
 {
     uint8_t *bytes = mask->runs ? malloc((size_t)mask->width * (size_t)mask->height) : NULL;
     size_t at = 0;

@@ -21,6 +21,6 @@ void mask_release(pixel_mask *mask);
 
 /* One byte for each pixel, not 0 if it is ignored; the caller frees it. Null if no pixel is ignored or memory runs out.
  */
-uint8_t *mask_bytes(const pixel_mask *mask);
+uint8_t *mask_unpack(const pixel_mask *mask);
 
 #endif

@@ -34,7 +34,7 @@ static bool is_picture(const char *path, const frame_digest *digest, image_color
                      found.pixels);
 }
 
-bool picture_store_put(const char *store, const char *picture, const frame_digest *digest, image_color background,
+bool picture_store_add(const char *store, const char *picture, const frame_digest *digest, image_color background,
                        octreel_error *error)
 {
     octreel_error ignored;
@@ -53,7 +53,7 @@ bool picture_store_put(const char *store, const char *picture, const frame_diges
     return ok;
 }
 
-char *picture_store_get(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
+char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error)
 {
     char *path = path_of(store, digest);
     if (path ? is_picture(path, digest, background, error) : error_no_memory(error))
@@ -71,14 +71,14 @@ typedef struct fetching {
 } fetching;
 
 /* Fetch the newest variant or else any variant whose picture exists. The error is about the newest. */
-static char *fetch_any(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
+static char *find_variant_picture(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
 {
     octreel_error ignored;
     *found = frame->digest;
-    char *path = picture_store_get(f->store, found, f->reference->background, why);
+    char *path = picture_store_find(f->store, found, f->reference->background, why);
     for (size_t i = frame->variant_count; !path && i > 0; i--) {
         *found = frame->variants[i - 1];
-        path = picture_store_get(f->store, found, f->reference->background, &ignored);
+        path = picture_store_find(f->store, found, f->reference->background, &ignored);
     }
     return path;
 }
@@ -93,7 +93,7 @@ static void compare_fetched(diff_pair *pair, const diff_options *options)
         pair->finding = before;
 }
 
-static void fetch_one(size_t i, void *context)
+static void fetch_picture(size_t i, void *context)
 {
     const fetching *f = context;
     diff_pair *pair = &f->result->pairs[i];
@@ -103,7 +103,7 @@ static void fetch_one(size_t i, void *context)
     diff_frame *frame = &f->reference->frames[pair->a - f->reference->frames];
     octreel_error why = {""};
     frame_digest found;
-    frame->path = fetch_any(f, frame, &found, &why);
+    frame->path = find_variant_picture(f, frame, &found, &why);
     if (!frame->path)
         pair->no_picture = strdup(why.text);
     else if (unlike && pair->b->path)
@@ -116,7 +116,7 @@ bool picture_store_fetch(const char *store, diff_side *reference, diff_result *r
     if (reference->kind != DIFF_BASELINE)
         return error_set(error, "--store works with a baseline only, and %s is a %s", reference->path,
                          diff_kind_name(reference->kind));
-    parallel_for(result->count, fetch_one, &f);
+    parallel_for(result->count, fetch_picture, &f);
     diff_count(result);
     return true;
 }

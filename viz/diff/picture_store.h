@@ -11,12 +11,12 @@
 
 /* Copy a picture into the store, to a unique name first, which is then renamed: concurrent writers leave a complete
  * file. An existing picture stays, unless it is damaged. */
-bool picture_store_put(const char *store, const char *picture, const frame_digest *digest, image_color background,
+bool picture_store_add(const char *store, const char *picture, const frame_digest *digest, image_color background,
                        octreel_error *error);
 
 /* The path of the picture with a digest; the caller frees it. Null with an error if the store lacks it, it is damaged,
  * or memory runs out. */
-char *picture_store_get(const char *store, const frame_digest *digest, image_color background, octreel_error *error);
+char *picture_store_find(const char *store, const frame_digest *digest, image_color background, octreel_error *error);
 
 /* For each differing pair of a baseline, fetch the picture of the reference and compare the pixels. If there is no
  * picture, store the reason in the pair. The verdict does not change. */

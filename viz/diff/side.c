@@ -70,7 +70,7 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
 }
 
-static bool belongs(const diff_side *side, const char *name)
+static bool is_frame_name(const diff_side *side, const char *name)
 {
     uint64_t tick;
     if (side->kind == DIFF_RECORDING)
@@ -98,7 +98,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
     bool ok = true;
     errno = 0;
     for (struct dirent *entry; ok && !side->no_frames && (entry = readdir(entries)); errno = 0)
-        if (belongs(side, entry->d_name))
+        if (is_frame_name(side, entry->d_name))
             ok = diff_side_add_frame(side, entry->d_name, (frame_digest){0}, error);
     if (ok && errno)
         ok = error_set(error, "%s: cannot read the folder: %s", side->path, strerror(errno));

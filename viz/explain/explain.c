@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool explain_is_unlike(const diff_pair *pair)
+bool explain_has_difference(const diff_pair *pair)
 {
     return pair->finding != FOUND_SAME_BYTES && pair->finding != FOUND_SAME_PIXELS && pair->finding != FOUND_UNREADABLE;
 }
@@ -93,7 +93,7 @@ static uint64_t first_drawn(const diff_result *result)
     uint64_t first = CAUSE_NO_TICK;
     for (size_t i = 0; i < result->count; i++) {
         const diff_pair *pair = &result->pairs[i];
-        if (pair->a && pair->b && explain_is_unlike(pair) && diff_pair_tick(pair) < first)
+        if (pair->a && pair->b && explain_has_difference(pair) && diff_pair_tick(pair) < first)
             first = diff_pair_tick(pair);
     }
     return first;
@@ -106,7 +106,7 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
     if (!w->pairs)
         return false;
     for (size_t i = 0; i < result->count && w->count < most; i++)
-        if (explain_is_unlike(&result->pairs[i]))
+        if (explain_has_difference(&result->pairs[i]))
             w->pairs[w->count++] = (wanted_pair){diff_pair_tick(&result->pairs[i]), &result->pairs[i]};
     qsort(w->pairs, w->count, sizeof *w->pairs, by_uint64);
     return true;
@@ -179,7 +179,7 @@ static bool file_differs(const diff_side *a, const diff_side *b, const char *nam
 static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)
 {
     for (size_t i = 0; i < result->count; i++)
-        if (explain_is_unlike(&result->pairs[i]))
+        if (explain_has_difference(&result->pairs[i]))
             return true;
     return a->kind == DIFF_RECORDING && b->kind == DIFF_RECORDING &&
            (file_differs(a, b, "session.json") || file_differs(a, b, "recording.json") ||
@@ -197,7 +197,7 @@ static void look_at_pair(size_t i, void *context)
 {
     const looking *l = context;
     const diff_pair *pair = &l->result->pairs[i];
-    if (explain_is_unlike(pair)) {
+    if (explain_has_difference(pair)) {
         l->looks[i] = pair_look_at(l->e, pair);
         l->e->pairs[i].key = pair_find_key(l->e, pair, &l->looks[i]);
     }
@@ -213,7 +213,7 @@ static bool explain_pairs(explanation *e, const diff_result *result, uint64_t mo
     if (ok)
         parallel_for(result->count, look_at_pair, &l);
     for (size_t i = 0; ok && i < result->count && most > 0; i++) {
-        if (!explain_is_unlike(&result->pairs[i]))
+        if (!explain_has_difference(&result->pairs[i]))
             continue;
         ok = pair_find_cause(e, &result->pairs[i], &l.looks[i], &e->pairs[i], error);
         most--;

@@ -55,6 +55,6 @@ const char *explanation_cause(const explanation *e, size_t i);
 diff_verdict explanation_verdict(const explanation *e, const diff_result *result);
 
 /* Whether a pair differs and can be read, so that there is something to explain. */
-bool explain_is_unlike(const diff_pair *pair);
+bool explain_has_difference(const diff_pair *pair);
 
 #endif

@@ -94,11 +94,12 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 
 static bool check_folder_is_not_side(const char *folder, const diff_side *side, octreel_error *error)
 {
-    struct stat own, other;
-    if (side->kind == DIFF_BASELINE || file_is_standard(side->source) || stat(folder, &own) != 0)
+    struct stat folder_status, side_status;
+    if (side->kind == DIFF_BASELINE || file_is_standard(side->source) || stat(folder, &folder_status) != 0)
         return true;
-    const bool found = side->kind == DIFF_PICTURE ? stat_parent(side->path, &other) : stat(side->path, &other) == 0;
-    return !found || !is_same_file(&own, &other) ||
+    const bool found =
+        side->kind == DIFF_PICTURE ? stat_parent(side->path, &side_status) : stat(side->path, &side_status) == 0;
+    return !found || !is_same_file(&folder_status, &side_status) ||
            error_set(error, "%s: %s is compared, and would be removed: choose another folder for evidence", folder,
                      side->kind == DIFF_PICTURE ? "a picture in it" : "it");
 }

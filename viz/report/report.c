@@ -35,7 +35,7 @@ static void print_unexplained(FILE *out, const diff_report *report)
     size_t more = 0;
     for (size_t i = 0; why->recordings && i < report->groups->count; i++) {
         const frame_group *group = &report->groups->groups[i];
-        more += explain_is_unlike(&report->result->pairs[group->first]) && !group->cause;
+        more += explain_has_difference(&report->result->pairs[group->first]) && !group->cause;
     }
     if (more)
         fprintf(out, "  %zu of these %s left unexplained; --causes all explains all\n", more, more == 1 ? "is" : "are");

@@ -119,9 +119,9 @@ static bool assert_explained(const place *a, const place *b, const char *change)
         fail_msg("%s is no cause", change);
     for (size_t i = 0; i < made.result.count; i++) {
         const diff_pair *pair = &made.result.pairs[i];
-        unlike = unlike || explain_is_unlike(pair);
+        unlike = unlike || explain_has_difference(pair);
         const char *cause = made.why.pairs[i].text;
-        if (explain_is_unlike(pair) && (!cause || strstr(cause, "another version")))
+        if (explain_has_difference(pair) && (!cause || strstr(cause, "another version")))
             fail_msg("%s: %s", change, cause ? cause : "no cause");
     }
     comparison_release(&made);

@@ -48,7 +48,7 @@ static void assert_adds_up(const comparison_of *made)
 {
     for (size_t i = 0; i < made->result.count; i++) {
         const diff_pair *pair = &made->result.pairs[i];
-        if (!explain_is_unlike(pair))
+        if (!explain_has_difference(pair))
             continue;
         const trace *t = trace_of(made, i);
         uint64_t sum = 0;
