@@ -100,26 +100,27 @@ static void write_url(FILE *out, const char *path)
             fprintf(out, "%%%02X", (unsigned char)*path);
 }
 
-static bool has_frame(const page *p, uint64_t tick, char name[FRAME_NAME])
-{
-    return p->base && folder_has(p->verdict->path, frame_name(tick, name));
-}
-
-/* Begin a link to the frame of a tick or, if asked for or if there is no frame, to the viewer. Return whether a link
- * was begun. */
-static bool begin_link(const page *p, uint64_t tick, bool viewer)
+/* Print a text and begin a link to the frame of a tick. Return false, and print nothing, if there is no frame. */
+static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
 {
     char name[FRAME_NAME];
-    const bool frame = !viewer && has_frame(p, tick, name);
-    if (!frame && !(p->base && p->has_viewer))
+    if (!p->base || !folder_has(p->verdict->path, frame_name(tick, name)))
         return false;
-    fputs("<a href=\"", p->out);
+    fprintf(p->out, "%s<a href=\"", before);
     write_url(p->out, p->base);
-    if (frame)
-        write_url(p->out, name);
-    else
-        fprintf(p->out, "index.html#t=%" PRIu64, tick);
+    write_url(p->out, name);
     fputs("\">", p->out);
+    return true;
+}
+
+/* The same for the recording's page at a tick. */
+static bool begin_viewer_link(const page *p, uint64_t tick, const char *before)
+{
+    if (!p->base || !p->has_viewer)
+        return false;
+    fprintf(p->out, "%s<a href=\"", before);
+    write_url(p->out, p->base);
+    fprintf(p->out, "index.html#t=%" PRIu64 "\">", tick);
     return true;
 }
 
@@ -216,7 +217,7 @@ static const audit_tick *worst_of(const chart *c, size_t point, size_t points)
 static void write_point(const page *p, const chart *c, const audit_tick *tick)
 {
     char text[AUDIT_RATIO_TEXT];
-    const bool linked = begin_link(p, tick->tick, false);
+    const bool linked = begin_frame_link(p, tick->tick, "") || begin_viewer_link(p, tick->tick, "");
     fprintf(p->out, "<circle class=\"point%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%s\"><title>tick %" PRIu64 ": ",
             tick->wrong ? " wrong" : "", x_of(c, tick->tick), y_of(c, value_of(c, tick)), tick->wrong ? "5" : "2.5",
             tick->tick);
@@ -253,14 +254,10 @@ static void write_chart(const page *p, const audit_kind *kind, bool ratio)
 /* Print " (frame, page)" with links to the frame and the page of a tick, if they exist. */
 static void write_links(const page *p, uint64_t tick)
 {
-    char name[FRAME_NAME];
-    const bool frame = has_frame(p, tick, name), viewer = p->base && p->has_viewer;
-    fputs(frame || viewer ? " (" : "", p->out);
-    if (frame && begin_link(p, tick, false))
-        fputs("frame</a>", p->out);
-    fputs(frame && viewer ? ", " : "", p->out);
-    if (viewer && begin_link(p, tick, true))
-        fputs("page</a>", p->out);
+    const bool frame = begin_frame_link(p, tick, " (");
+    fputs(frame ? "frame</a>" : "", p->out);
+    const bool viewer = begin_viewer_link(p, tick, frame ? ", " : " (");
+    fputs(viewer ? "page</a>" : "", p->out);
     fputs(frame || viewer ? ")" : "", p->out);
 }
 
