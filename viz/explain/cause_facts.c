@@ -81,11 +81,13 @@ void cause_facts_sort(cause_facts *facts)
     cause_origins_sort(&facts->origins);
 }
 
+/* The facts of a group that the frame of a tick can show. */
 static cause_group group_at_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;
     if (is_about_all(group)) {
-        shown.found *= strcmp(group->where, "every") != 0 && strcmp(group->where, "ticks") != 0;
+        if (strcmp(group->where, "every") == 0 || strcmp(group->where, "ticks") == 0)
+            shown.found = 0;
         return shown;
     }
     shown.found = 0;

@@ -90,7 +90,10 @@ static bool add_stretch(cause_origins *o, uint64_t tick)
             any = true;
         }
     grown[o->stretch_count] = (cause_stretch){.first = tick};
-    return text_stream_end(&s, &grown[o->stretch_count].causes) && ++o->stretch_count;
+    if (!text_stream_end(&s, &grown[o->stretch_count].causes))
+        return false;
+    o->stretch_count++;
+    return true;
 }
 
 static bool differs_here(const cause_origins *o, uint64_t tick, size_t kind)

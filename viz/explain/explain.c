@@ -143,17 +143,17 @@ static bool print_warnings(FILE *out, const explanation *e)
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0;
-    size_t first = e->count, drawn_otherwise = 0;
+    size_t first = e->count, other_scenes = 0; /* the first explained pair; the number of those with different scenes */
     for (size_t i = e->count; i-- > 0;)
         if (e->pairs[i].text) {
             first = i;
-            drawn_otherwise += !e->pairs[i].only_drawn;
+            other_scenes += !e->pairs[i].only_drawn;
         }
     if (print_warnings(out, e) && (known || first < e->count))
         fputs("; ", out);
     if (known)
         cause_print_headline(out, &e->cause);
-    else if (first < e->count && drawn_otherwise == 0)
+    else if (first < e->count && other_scenes == 0)
         pair_print_rendering(out, e);
     else if (first < e->count && e->recordings)
         fprintf(out, "%s: %s", diff_pair_name(&result->pairs[first]), e->pairs[first].text);
