@@ -37,10 +37,11 @@ static bool fail(play *p, const char *format, ...)
 
 static bool add_script(play *p, uint64_t frames, page_times *times)
 {
-    char reason[FILE_REASON], *script;
+    octreel_error error;
+    char *script;
     size_t size;
-    if (!file_read_whole(PAGE_SCRIPT, &script, &size, reason))
-        return fail(p, "%s: %s", PAGE_SCRIPT, reason);
+    if (!file_read_whole(PAGE_SCRIPT, &script, &size, &error))
+        return fail(p, "%s", error.text);
     FILE *page = fopen(p->page, "ab");
     if (page) {
         fseek(page, 0, SEEK_END);

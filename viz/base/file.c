@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <time.h>
 
 /* ---- Names -------------------------------------------------------------------------------------------------- */
@@ -40,6 +41,16 @@ const char *path_base_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? slash + 1 : path;
+}
+
+bool file_has_ending(const char *name, const char *endings)
+{
+    const char *dot = strrchr(name, '.');
+    const size_t length = dot ? strlen(dot) : 0;
+    for (const char *at = endings; length > 1 && *at; at += 1 + strcspn(at + 1, "."))
+        if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
+            return true;
+    return false;
 }
 
 /* Returns the folder in which a path lies; the path may end in slashes. The caller frees it. Null: out of memory. */

@@ -20,6 +20,9 @@ char *path_folder(const char *path);
 /* Returns the part of a path after its last slash. */
 const char *path_base_name(const char *path);
 
+/* Whether a file name ends in one of the endings of a list such as ".las.laz", in upper or lower case. */
+bool file_has_ending(const char *name, const char *endings);
+
 /* Whether the folder contains a file or folder of this name. "" is the current folder. */
 bool folder_has(const char *folder, const char *name);
 
@@ -53,12 +56,12 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON]);
 typedef void file_progress(uint64_t done, uint64_t total, void *context);
 
 /* Read a whole file into *bytes, which the caller frees and which has room for one more byte. `progress` may be null.
- * Standard input is not kept: a second read of it fails. Returns false with a reason on failure. */
+ * Standard input is not kept: a second read of it fails. On failure *bytes is null. */
 bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
-                       char reason[FILE_REASON]);
+                       octreel_error *error);
 
 /* The same without progress. */
-bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON]);
+bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error);
 
 /* A file that is written as "<path>.part" and then renamed, so that the path never holds a part of it. Standard output
  * is neither closed nor flushed; main() reports its errors. */

@@ -132,24 +132,28 @@ static bool copy_standard(char **bytes, size_t *size, char reason[FILE_REASON])
 }
 
 bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
-                       char reason[FILE_REASON])
+                       octreel_error *error)
 {
     reading r = {.progress = progress, .context = context};
+    char reason[FILE_REASON];
+    bool read;
     *bytes = NULL;
     *size = 0;
-    if (file_is_standard(path))
-        return standard.bytes ? copy_standard(bytes, size, reason)
-                              : read_standard(progress, context, bytes, size, reason);
-    r.stream = open_regular(path, &r.total, reason);
-    const bool read = r.stream && read_stream(&r, reason);
-    if (r.stream)
-        fclose(r.stream);
-    *bytes = read ? r.bytes : NULL;
-    *size = read ? r.size : 0;
-    return read;
+    if (file_is_standard(path)) {
+        read =
+            standard.bytes ? copy_standard(bytes, size, reason) : read_standard(progress, context, bytes, size, reason);
+    } else {
+        r.stream = open_regular(path, &r.total, reason);
+        read = r.stream && read_stream(&r, reason);
+        if (r.stream)
+            fclose(r.stream);
+        *bytes = read ? r.bytes : NULL;
+        *size = read ? r.size : 0;
+    }
+    return read || error_set(error, "%s: %s", file_title(path), reason);
 }
 
-bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON])
+bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error)
 {
-    return file_read_watched(path, NULL, NULL, bytes, size, reason);
+    return file_read_watched(path, NULL, NULL, bytes, size, error);
 }

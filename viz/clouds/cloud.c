@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 /* ---- Formats ------------------------------------------------------------------------------------------------ */
 
@@ -20,17 +19,6 @@ static const struct {
 };
 
 enum { FORMATS = sizeof rows / sizeof rows[0] };
-
-/* Whether a file name ends in one of the endings, as in ".las.laz". */
-static bool has_ending(const char *name, const char *endings)
-{
-    const char *dot = strrchr(name, '.');
-    const size_t length = dot ? strlen(dot) : 0;
-    for (const char *at = endings; length > 1 && *at; at += 1 + strcspn(at + 1, "."))
-        if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
-            return true;
-    return false;
-}
 
 /* The format that recognises the contents; null for none. */
 static const cloud_format *recognise_format(cloud_file *file)
@@ -46,7 +34,7 @@ static const cloud_format *choose_format(cloud_file *file)
 {
     const cloud_format *found = recognise_format(file);
     for (int i = 0; !found && i < FORMATS; i++)
-        if (has_ending(file->name, rows[i].endings))
+        if (file_has_ending(file->name, rows[i].endings))
             found = rows[i].format;
     return found ? found : &cloud_text;
 }
@@ -107,12 +95,12 @@ static void on_block(uint64_t done, uint64_t total, void *context)
 
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error)
 {
-    char *bytes, reason[FILE_REASON];
+    char *bytes;
     size_t size;
     const bool watched = watch && watch->read;
     *out = (cloud){0};
-    if (!file_read_watched(path, watched ? on_block : NULL, (void *)watch, &bytes, &size, reason))
-        return error_set(error, "%s: %s", file_title(path), reason);
+    if (!file_read_watched(path, watched ? on_block : NULL, (void *)watch, &bytes, &size, error))
+        return false;
     const bool done = parse(&(cloud_file){.name = file_title(path),
                                           .bytes = (const unsigned char *)bytes,
                                           .size = size,

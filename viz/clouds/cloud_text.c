@@ -7,17 +7,20 @@
  * columns are guessed to be colours, perhaps after an intensity; every line must confirm the guess (end_guess() gives
  * the rules), else the columns are ignored. Either way cloud.column_note says so.
  */
-#include "array.h"
 #include "cloud_format.h"
 #include "number.h"
 
 #include <math.h>
 #include <string.h>
 
-/* The columns of a file. */
+/* The columns of a file from the fourth on. */
 typedef struct text_columns {
-    signed char *channels; /* the cloud_channel of each column from the fourth on; -1: none */
-    size_t count, room;
+    struct {
+        size_t column; /* from 0 on, ascending */
+        cloud_channel channel;
+    } places[CLOUD_CHANNELS]; /* the columns with a channel */
+    size_t place_count;
+    size_t count;     /* columns to read */
     bool unnamed;     /* the file has such columns without names */
     bool guessed;     /* the channels are a guess; the members below record what the lines so far say about it: */
     bool ranges[2];   /* by range: all colour channels were within it */
@@ -91,14 +94,11 @@ static int find_channel(cloud_span name)
     return cloud_word_channel(lower ? (cloud_span){&lower, &lower + 1} : name);
 }
 
-static bool add_column(text_columns *columns, int channel)
+static void add_column(text_columns *columns, size_t column, cloud_channel channel)
 {
-    signed char *channels = array_reserve(columns->channels, columns->count + 1, &columns->room, sizeof *channels);
-    if (!channels)
-        return false;
-    columns->channels = channels;
-    channels[columns->count++] = (signed char)channel;
-    return true;
+    columns->places[columns->place_count].column = column;
+    columns->places[columns->place_count++].channel = channel;
+    columns->count = column + 1;
 }
 
 /* Read the names of the columns. A file with the columns "id,x,y,z" is refused, because its first three columns are not
@@ -114,15 +114,13 @@ static bool read_header(cloud_file *file, cloud_span line, text_columns *columns
         if (channel >= CLOUD_X && channel <= CLOUD_Z && channel != index)
             return cloud_fail_line(file, "names column %d %c; the first three columns must be x y z", index + 1,
                                    "xyz"[channel]);
-        if (channel >= 0 && channels >> channel & 1)
-            channel = -1;
-        if (channel >= 0)
+        if (channel >= 0 && !(channels >> channel & 1)) {
             channels |= 1U << channel;
-        if (index++ >= 3 && !add_column(columns, channel))
-            return cloud_fail_line(file, "out of memory for column names");
+            if (index >= 3)
+                add_column(columns, (size_t)index - 3, (cloud_channel)channel);
+        }
+        index++;
     }
-    while (columns->count > 0 && columns->channels[columns->count - 1] < 0)
-        columns->count--;
     cloud_set_channels(file, channels, 1);
     return true;
 }
@@ -213,21 +211,21 @@ static double parse_field(cloud_span field)
 static size_t parse_values(cloud_span line, char mark, const text_columns *columns, double numbers[CLOUD_CHANNELS])
 {
     cloud_span field;
-    size_t i = 0;
+    size_t i = 0, next = 0;
     for (int channel = CLOUD_Z + 1; channel < CLOUD_CHANNELS; channel++)
         numbers[channel] = NAN;
     for (; i < columns->count && next_field(&line, mark, &field); i++)
-        if (columns->channels[i] >= 0)
-            numbers[columns->channels[i]] = parse_field(field);
+        if (columns->places[next].column == i)
+            numbers[columns->places[next++].channel] = parse_field(field);
     return i + next_field(&line, mark, &field);
 }
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
 /* Guess from the first line of numbers: three more columns may be r g b, four may be intensity r g b. */
-static bool guess_columns(cloud_file *file, cloud_span rest, char mark, text_columns *columns)
+static void guess_columns(cloud_file *file, cloud_span rest, char mark, text_columns *columns)
 {
-    static const signed char channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
+    static const cloud_channel channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
     const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
     cloud_span field;
     size_t count = 0;
@@ -235,17 +233,15 @@ static bool guess_columns(cloud_file *file, cloud_span rest, char mark, text_col
         count++;
     columns->unnamed = count > 0;
     if (count != 3 && count != 4)
-        return true;
-    for (size_t i = 4 - count; i < 4; i++)
-        if (!add_column(columns, channels[i]))
-            return cloud_fail(file, "out of memory");
+        return;
+    for (size_t i = 0; i < count; i++)
+        add_column(columns, i, channels[4 - count + i]);
     columns->guessed = true;
     for (int range = 0; range < 2; range++) {
         columns->ranges[range] = true;
         columns->shifted[range] = count == 4;
     }
     cloud_set_channels(file, color | (count == 4 ? 1U << CLOUD_INTENSITY : 0), 1);
-    return true;
 }
 
 /* The two ranges of colour channels: integers from 0 to 255, and numbers from 0 to 1. */
@@ -357,8 +353,8 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
         return false;
     if (cloud_skip_nonfinite(file, numbers))
         return true;
-    if (file->out->count == 0 && !named && !guess_columns(file, line, mark, columns))
-        return false;
+    if (file->out->count == 0 && !named)
+        guess_columns(file, line, mark, columns);
     if (columns->count > 0) {
         const size_t count = parse_values(line, mark, columns, numbers);
         if (columns->guessed)
@@ -400,7 +396,7 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
         if (first && !has_header && (comment || is_header(line))) {
             named = true;
             has_header = !comment;
-            columns->count = 0;
+            *columns = (text_columns){0};
             if (!read_header(file, line, columns))
                 return false;
         } else if (first && !has_header && !count_line && is_count(line, &count)) {
@@ -423,7 +419,6 @@ static bool parse_text(cloud_file *file)
     const bool done = cloud_check_text(file) && parse_lines(file, &columns);
     if (done && columns.unnamed)
         end_guess(file, &columns);
-    free(columns.channels);
     return done;
 }
 

@@ -279,10 +279,10 @@ bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *err
 
 bool baseline_read(diff_side *side, octreel_error *error)
 {
-    char *bytes, reason[FILE_REASON];
+    char *bytes;
     size_t size;
-    if (!file_read_whole(side->source, &bytes, &size, reason))
-        return error_set(error, "%s: %s", side->path, reason);
+    if (!file_read_whole(side->source, &bytes, &size, error))
+        return false;
     bytes[size] = 0;
     const bool ok = baseline_parse(side, bytes, size, error);
     free(bytes);

@@ -21,10 +21,9 @@ bool frame_list_add(frame_list *list, const char *name, size_t line, octreel_err
 
 bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
 {
-    char reason[FILE_REASON];
     size_t size, before = list->count, number = 0;
-    if (!file_read_whole(path, &list->text, &size, reason))
-        return error_set(error, "%s: %s", file_title(path), reason);
+    if (!file_read_whole(path, &list->text, &size, error))
+        return false;
     list->text[size] = 0;
     if (strlen(list->text) < size)
         return error_set(error, "%s: contains a zero byte, so it is not a text file", file_title(path));

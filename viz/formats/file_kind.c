@@ -7,7 +7,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 
 #define FILE_KIND_ROW(kind, words, command, use) {words, command, use},
@@ -112,11 +111,8 @@ name_kind name_kind_of(const char *path)
         {".mp4.webm.mkv.avi.mov.apng", NAME_FILM},
         {".json.jsonl.xml.html.md.pdf.digests" CLOUD_ENDINGS, NAME_FILE},
     };
-    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-    const size_t length = dot ? strlen(dot) : 0;
-    for (size_t i = 0; length > 1 && i < sizeof rows / sizeof rows[0]; i++)
-        for (const char *at = rows[i].endings; *at; at += 1 + strcspn(at + 1, "."))
-            if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
-                return rows[i].kind;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (file_has_ending(path, rows[i].endings))
+            return rows[i].kind;
     return NAME_OPEN;
 }

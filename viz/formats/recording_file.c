@@ -77,15 +77,12 @@ bool recording_parse(const char *name, const char *text, size_t size, view *v, u
 
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error)
 {
-    char reason[FILE_REASON], *text, *path = path_join(folder, "recording.json");
+    char *text = NULL, *path = path_join(folder, "recording.json");
     size_t size;
-    if (!path)
-        return error_no_memory(error);
-    bool done = file_read_whole(path, &text, &size, reason) || error_set(error, "%s: %s", path, reason);
-    if (done) {
-        done = recording_parse(path, text, size, v, every, error);
-        free(text);
-    }
+    const bool done =
+        path ? file_read_whole(path, &text, &size, error) && recording_parse(path, text, size, v, every, error)
+             : error_no_memory(error);
+    free(text);
     free(path);
     return done;
 }
@@ -96,10 +93,9 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
 static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
                          octreel_error *error)
 {
-    char reason[FILE_REASON], *bytes = NULL, *path = path_join(folder, name);
+    char *bytes = NULL, *path = path_join(folder, name);
     size_t size;
-    bool ok = path || error_no_memory(error);
-    ok = ok && (file_read_whole(path, &bytes, &size, reason) || error_set(error, "%s: %s", path, reason));
+    bool ok = path ? file_read_whole(path, &bytes, &size, error) : error_no_memory(error);
     while (ok && live && size > 0 && bytes[size - 1] != '\n')
         size--;
     if (ok)

@@ -281,12 +281,11 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
 
 bool session_read(const char *path, session_file *out, octreel_error *error)
 {
-    char reason[FILE_REASON];
     char *text;
     size_t size;
     *out = (session_file){0};
-    if (!file_read_whole(path, &text, &size, reason))
-        return error_set(error, "%s: %s", json_name_end(file_title(path)), reason);
+    if (!file_read_whole(path, &text, &size, error))
+        return false;
     const char *slash = strrchr(path, '/');
     char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
     const bool done = folder ? session_parse(file_title(path), folder, text, size, out, error) : fail_memory(error);

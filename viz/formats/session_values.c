@@ -8,30 +8,21 @@
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- One value ---------------------------------------------------------------------------------------------- */
-
-static const char *const kind_names[] = {
-    [POINT_COLOR] = "color", [POINT_INTENSITY] = "intensity", [POINT_CLASS] = "class"};
-
-static int hex_digit(char c)
-{
-    const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c) : NULL;
-    return at ? (int)(at - digits) : -1;
-}
 
 static bool read_color(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const char *text = json_string_value(value);
     unsigned char *color = into;
-    bool ok = text && strlen(text) == 7 && *text == '#';
-    for (int i = 0; ok && i < 3; i++) {
-        const int high = hex_digit(text[1 + 2 * i]), low = hex_digit(text[2 + 2 * i]);
-        ok = high >= 0 && low >= 0;
-        color[i] = (unsigned char)(ok ? high * 16 + low : 0);
-    }
-    return ok || json_expected(r, value, at, "a colour \"#rrggbb\"");
+    if (!text || *text != '#' || strlen(text) != 7 || strspn(text + 1, "0123456789abcdefABCDEF") != 6)
+        return json_expected(r, value, at, "a colour \"#rrggbb\"");
+    const unsigned long packed = strtoul(text + 1, NULL, 16);
+    for (int i = 0; i < 3; i++)
+        color[i] = (unsigned char)(packed >> (16 - 8 * i));
+    return true;
 }
 
 static void write_color(json_writer *w, const void *from)
@@ -187,39 +178,43 @@ typedef struct valued_body {
     point_value value;
 } valued_body;
 
-#define ID "id", &json_uint64, offsetof(valued_body, body.id), .max = JSON_LARGEST_WHOLE
-#define POSITION "position", &json_vector, offsetof(valued_body, body.position), .required = true
-#define VELOCITY                                                                                                       \
-    "velocity", &json_vector, .offset = offsetof(valued_body, body.velocity), JSON_IF(valued_body, body.velocity)
-#define VALUE(name, read, write, kind, field)                                                                          \
-    name, JSON_CODEC(read, write), .offset = offsetof(valued_body, value.field),                                       \
-                                   .given = offsetof(valued_body, value.has[kind])
-#define COLOR VALUE("color", read_color, write_color, POINT_COLOR, color)
-#define INTENSITY VALUE("intensity", read_intensity, write_intensity, POINT_INTENSITY, intensity)
-#define CLASS VALUE("class", read_class, write_class, POINT_CLASS, class)
+#define POINT(member) offsetof(valued_body, member)
+#define VALUE(kind, field) .offset = POINT(value.field), .given = POINT(value.has[kind])
 
-const json_member session_body_members[] = {{ID}, {POSITION}, {VELOCITY}, {COLOR}, {INTENSITY}, {CLASS}, {0}};
-static const json_member insert_members[] = {
-    {ID, .required = true}, {POSITION}, {VELOCITY}, {COLOR}, {INTENSITY}, {CLASS}, {0}};
+enum { FIRST_VALUE = 3 };
 
-static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
+/* The row of a point_value_kind is FIRST_VALUE rows further. */
+const json_member session_body_members[] = {
+    {"id", &json_uint64, POINT(body.id), .max = JSON_LARGEST_WHOLE},
+    {"position", &json_vector, POINT(body.position), .required = true},
+    {"velocity", &json_vector, POINT(body.velocity), JSON_IF(valued_body, body.velocity)},
+    [FIRST_VALUE + POINT_COLOR] = {"color", JSON_CODEC(read_color, write_color), VALUE(POINT_COLOR, color)},
+    {"intensity", JSON_CODEC(read_intensity, write_intensity), VALUE(POINT_INTENSITY, intensity)},
+    {"class", JSON_CODEC(read_class, write_class), VALUE(POINT_CLASS, class)},
+    {0},
+};
+
+typedef bool value_setter(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
+
+static bool read_valued(json_reader *r, json_t *value, const json_place *at, value_setter *set_value, octree_body *body)
 {
-    octree_body *body = into;
     valued_body valued = {.body = *body};
     if (!json_read_members(r, value, at, session_body_members, &valued))
         return false;
     *body = valued.body;
-    return session_set_value(r, at, body->id, &valued.value);
+    return set_value(r, at, body->id, &valued.value);
+}
+
+static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
+{
+    return read_valued(r, value, at, session_set_value, into);
 }
 
 static bool read_insert(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    octree_body *body = into;
-    valued_body valued = {.body = *body};
-    if (!json_read_members(r, value, at, insert_members, &valued))
-        return false;
-    *body = valued.body;
-    return set_inserted_value(r, at, body->id, &valued.value);
+    if (json_is_object(value) && !json_object_get(value, "id"))
+        return json_fail(r, at, "the member \"id\" is missing");
+    return read_valued(r, value, at, set_inserted_value, into);
 }
 
 static void write_body(json_writer *w, const void *from)
@@ -236,7 +231,7 @@ const json_codec session_insert_codec = {read_insert, write_body};
 
 static const char *kind_name(int n)
 {
-    return n < POINT_VALUE_KINDS ? kind_names[n] : NULL;
+    return n < POINT_VALUE_KINDS ? session_body_members[FIRST_VALUE + n].name : NULL;
 }
 
 static bool read_columns(json_reader *r, json_t *list, const json_place *at, void *into)
@@ -254,7 +249,7 @@ static bool read_columns(json_reader *r, json_t *list, const json_place *at, voi
         if (kind < 0)
             return json_expected(r, name, &place, "one of \"color\", \"intensity\" and \"class\"");
         if (seen >> kind & 1)
-            return json_fail(r, &place, "\"%s\" occurs twice", kind_names[kind]);
+            return json_fail(r, &place, "\"%s\" occurs twice", kind_name(kind));
         seen |= 1U << kind;
         values->columns[values->column_count++] = kind;
     }
@@ -267,7 +262,7 @@ static void write_columns(json_writer *w, const void *from)
     json_write_begin_array(w);
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
         if (point_values_kinds(w->context) >> kind & 1)
-            json_write_string(w, kind_names[kind]);
+            json_write_string(w, kind_name(kind));
     json_write_end_array(w);
 }
 
@@ -280,17 +275,11 @@ const json_codec session_columns_codec = {read_columns, write_columns};
 
 bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into)
 {
+    const json_member *row = &session_body_members[FIRST_VALUE + kind];
     if (json_is_null(value))
         return true;
     into->has[kind] = true;
-    switch (kind) {
-    case POINT_COLOR:
-        return read_color(r, value, at, into->color);
-    case POINT_INTENSITY:
-        return read_intensity(r, value, at, &into->intensity);
-    default:
-        return read_class(r, value, at, &into->class);
-    }
+    return row->codec->read(r, value, at, (char *)into + (row->offset - POINT(value)));
 }
 
 /* A point without values has a short row. */
@@ -301,15 +290,10 @@ void session_write_columns(json_writer *w, uint64_t id)
     if (!point_value_is_set(&value))
         return;
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
-        if (!(kinds >> kind & 1))
-            continue;
-        if (!value.has[kind])
+        const json_member *row = &session_body_members[FIRST_VALUE + kind];
+        if (value.has[kind])
+            row->codec->write(w, (const char *)&value + (row->offset - POINT(value)));
+        else if (kinds >> kind & 1)
             json_write_null(w);
-        else if (kind == POINT_COLOR)
-            write_color(w, value.color);
-        else if (kind == POINT_INTENSITY)
-            write_intensity(w, &value.intensity);
-        else
-            write_class(w, &value.class);
     }
 }

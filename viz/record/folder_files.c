@@ -22,10 +22,10 @@
 /* *same: whether a file has these bytes. False with an error where it cannot be read. */
 static bool compare_file(const char *path, const char *bytes, size_t size, bool *same, octreel_error *error)
 {
-    char reason[FILE_REASON], *there;
+    char *there;
     size_t there_size;
-    if (!file_read_whole(path, &there, &there_size, reason))
-        return error_set(error, "%s: %s", path, reason);
+    if (!file_read_whole(path, &there, &there_size, error))
+        return false;
     *same = there_size == size && memcmp(there, bytes, size) == 0;
     free(there);
     return true;

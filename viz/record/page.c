@@ -160,17 +160,11 @@ void page_end(FILE *page, const char *session, size_t size)
 
 /* ---- The page of a folder ----------------------------------------------------------------------------------- */
 
-static bool read_file(const char *path, char **text, size_t *size, octreel_error *error)
-{
-    char reason[FILE_REASON];
-    return file_read_whole(path, text, size, reason) || error_set(error, "%s: %s", path, reason);
-}
-
 static bool begin(FILE *page, const char *path, octreel_error *error)
 {
     char *text;
     size_t size;
-    if (!read_file(path, &text, &size, error))
+    if (!file_read_whole(path, &text, &size, error))
         return false;
     const bool ok = page_begin(page, path, text, size, error);
     free(text);

@@ -25,11 +25,11 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
     return NULL;
 }
 
-bool file_read_whole(const char *path, char **bytes, size_t *size, char reason[FILE_REASON])
+bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error)
 {
-    (void)bytes;
-    (void)size;
-    return file_open(path, NULL, reason);
+    *bytes = NULL;
+    *size = 0;
+    return error_set(error, "%s: %s", path, no_files);
 }
 
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error)
