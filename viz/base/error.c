@@ -31,11 +31,11 @@ bool error_no_memory(octreel_error *error)
 
 bool check_system_resources(octreel_error *error)
 {
-    static const int troubles[] = {EIO, EMFILE, ENFILE, ENOSPC, EDQUOT, EINTR};
+    static const int resource_errors[] = {EIO, EMFILE, ENFILE, ENOSPC, EDQUOT, EINTR};
     if (errno == ENOMEM)
         return error_no_memory(error);
-    for (size_t i = 0; i < sizeof troubles / sizeof *troubles; i++)
-        if (errno == troubles[i])
+    for (size_t i = 0; i < sizeof resource_errors / sizeof *resource_errors; i++)
+        if (errno == resource_errors[i])
             return error_set(error, "a file cannot be read: %s", strerror(errno));
     return true;
 }

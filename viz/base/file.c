@@ -198,12 +198,12 @@ static bool sync_stream(FILE *stream)
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
-static bool is_direct(const file_writer *file)
+static bool is_written_directly(const file_writer *file)
 {
     return strcmp(file->temp, file->path) == 0;
 }
 
-static bool fail_to_write(file_writer *file, int reason, octreel_error *error)
+static bool report_write_error(file_writer *file, int reason, octreel_error *error)
 {
     error_set(error, "%s: cannot be written: %s", file->path, strerror(reason));
     return file_writer_abandon(file);
@@ -220,13 +220,13 @@ bool file_writer_finish(file_writer *file, octreel_error *error)
         reason = errno;
     }
     file->stream = NULL;
-    return ok || fail_to_write(file, reason, error);
+    return ok || report_write_error(file, reason, error);
 }
 
 bool file_writer_place(file_writer *file, octreel_error *error)
 {
-    if (file->temp && !is_direct(file) && rename(file->temp, file->path) != 0)
-        return fail_to_write(file, errno, error);
+    if (file->temp && !is_written_directly(file) && rename(file->temp, file->path) != 0)
+        return report_write_error(file, errno, error);
     free(file->temp);
     file->temp = NULL;
     return true;
@@ -243,7 +243,7 @@ bool file_writer_abandon(file_writer *file)
         return false;
     if (file->stream)
         fclose(file->stream);
-    if (!is_direct(file))
+    if (!is_written_directly(file))
         remove(file->temp);
     free(file->temp);
     *file = (file_writer){.path = file->path};
@@ -369,10 +369,10 @@ static bool is_same_path(const char *a, const char *b)
     struct stat files[2];
     if (file_is_standard(a) || file_is_standard(b))
         return false;
-    const bool there[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
-    if (there[0] && there[1])
+    const bool exists[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
+    if (exists[0] && exists[1])
         return S_ISREG(files[0].st_mode) && is_same_file(&files[0], &files[1]);
-    return !there[0] && !there[1] && is_same_new_path(a, b);
+    return !exists[0] && !exists[1] && is_same_new_path(a, b);
 }
 
 bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error)

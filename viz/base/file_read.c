@@ -67,15 +67,15 @@ static bool read_block(reading *r, size_t *got)
 static bool read_stream(reading *r, char reason[FILE_REASON])
 {
     size_t got = 1;
-    bool there = r->total < SIZE_MAX - 2;
-    r->bytes = there && r->total > 0 ? malloc((size_t)r->total + 2) : NULL;
+    bool has_memory = r->total < SIZE_MAX - 2;
+    r->bytes = has_memory && r->total > 0 ? malloc((size_t)r->total + 2) : NULL;
     r->room = r->bytes ? (size_t)r->total + 2 : 0;
-    there = there && (r->bytes || r->total == 0);
-    while (there && got > 0)
-        there = read_block(r, &got);
-    if (there && !ferror(r->stream))
+    has_memory = has_memory && (r->bytes || r->total == 0);
+    while (has_memory && got > 0)
+        has_memory = read_block(r, &got);
+    if (has_memory && !ferror(r->stream))
         return true;
-    if (there)
+    if (has_memory)
         set_reason(reason, "cannot be read");
     else
         snprintf(reason, FILE_REASON, "out of memory for its %ju bytes",

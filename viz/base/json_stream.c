@@ -74,7 +74,7 @@ static bool scan_character(json_scan *s, char c)
 
 static const char no_room[] = "out of memory for an object of the stream%s";
 
-static json_stream_state fail(json_reader *r, const char *format, const char *reason)
+static json_stream_state report_broken(json_reader *r, const char *format, const char *reason)
 {
     json_fail_line(r, r->line, NULL, format, reason);
     return JSON_STREAM_BROKEN;
@@ -102,12 +102,12 @@ static bool make_room(json_stream *s)
 /* Waits until there is something to read. False: keep_going() stops the wait. */
 static bool wait_for_more(const json_stream *s)
 {
-    enum { PATIENCE = 50 }; /* milliseconds */
-    struct pollfd asked = {.fd = s->file, .events = POLLIN};
+    enum { POLL_MILLISECONDS = 50 };
+    struct pollfd watched = {.fd = s->file, .events = POLLIN};
     do {
         if (s->keep_going && !s->keep_going(s->context))
             return false;
-    } while (poll(&asked, 1, s->keep_going ? PATIENCE : -1) <= 0);
+    } while (poll(&watched, 1, s->keep_going ? POLL_MILLISECONDS : -1) <= 0);
     return true;
 }
 
@@ -116,14 +116,14 @@ static json_stream_state read_more(json_stream *s, json_reader *r)
 {
     ssize_t got;
     if (!make_room(s))
-        return fail(r, no_room, "");
+        return report_broken(r, no_room, "");
     do {
         if (!wait_for_more(s))
             return JSON_STREAM_STOPPED;
         got = read(s->file, s->bytes + s->size, BLOCK);
     } while (got < 0 && (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK));
     if (got < 0)
-        return fail(r, "cannot be read: %s", strerror(errno));
+        return report_broken(r, "cannot be read: %s", strerror(errno));
     s->size += (size_t)got;
     s->ended = got == 0;
     return JSON_STREAM_OBJECT;
@@ -161,7 +161,7 @@ json_stream_state json_stream_next(json_stream *s, json_reader *r)
     s->scanned = 0;
     s->scan = (json_scan){0};
     if (!s->bytes && !make_room(s))
-        return fail(r, no_room, "");
+        return report_broken(r, no_room, "");
     for (;;) {
         if (s->scanned == 0)
             skip_blanks(s, r);
@@ -171,7 +171,7 @@ json_stream_state json_stream_next(json_stream *s, json_reader *r)
         if (found || (s->ended && s->scan.bare))
             return JSON_STREAM_OBJECT;
         if (s->ended && s->scanned > 0)
-            return fail(r, "the text stops in the middle of the object that begins here%s", "");
+            return report_broken(r, "the text stops in the middle of the object that begins here%s", "");
         if (s->ended)
             return JSON_STREAM_END;
         const json_stream_state state = read_more(s, r);

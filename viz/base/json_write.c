@@ -25,13 +25,13 @@ static void write_separator(json_writer *writer)
     break_line(writer);
 }
 
-static void begin(json_writer *writer, char bracket)
+static void write_opening(json_writer *writer, char bracket)
 {
     write_separator(writer);
     putc_unlocked(bracket, writer->out);
 }
 
-static void end(json_writer *writer, char bracket)
+static void write_closing(json_writer *writer, char bracket)
 {
     break_line(writer);
     putc_unlocked(bracket, writer->out);
@@ -40,22 +40,22 @@ static void end(json_writer *writer, char bracket)
 
 void json_write_begin_object(json_writer *writer)
 {
-    begin(writer, '{');
+    write_opening(writer, '{');
 }
 
 void json_write_end_object(json_writer *writer)
 {
-    end(writer, '}');
+    write_closing(writer, '}');
 }
 
 void json_write_begin_array(json_writer *writer)
 {
-    begin(writer, '[');
+    write_opening(writer, '[');
 }
 
 void json_write_end_array(json_writer *writer)
 {
-    end(writer, ']');
+    write_closing(writer, ']');
 }
 
 /* Writes a value that is a single word. */
@@ -67,36 +67,36 @@ static void write_word(json_writer *writer, const char *word)
 }
 
 /* A buffer for numbers: many small writes to a stream are slow. */
-typedef struct gathered {
+typedef struct number_buffer {
     char text[8 * NUMBER_TEXT];
     size_t size;
-} gathered;
+} number_buffer;
 
-static void gather(gathered *g, const char *text, size_t size)
+static void append_text(number_buffer *g, const char *text, size_t size)
 {
     memcpy(g->text + g->size, text, size);
     g->size += size;
 }
 
-static void gather_separator(gathered *g, json_writer *writer)
+static void append_separator(number_buffer *g, json_writer *writer)
 {
     if (writer->comma)
-        gather(g, ", ", writer->newline ? 1 : 2);
+        append_text(g, ", ", writer->newline ? 1 : 2);
     if (writer->newline)
-        gather(g, "\n", 1);
+        append_text(g, "\n", 1);
     writer->comma = true;
     writer->newline = false;
 }
 
-static void gather_number(gathered *g, double value)
+static void append_number(number_buffer *g, double value)
 {
     if (isfinite(value))
         g->size += number_print(value, g->text + g->size);
     else
-        gather(g, "null", 4);
+        append_text(g, "null", 4);
 }
 
-static void write_gathered(json_writer *writer, gathered *g)
+static void write_buffer(json_writer *writer, number_buffer *g)
 {
     fwrite(g->text, 1, g->size, writer->out);
     g->size = 0;
@@ -171,25 +171,25 @@ void json_write_number(json_writer *writer, double value)
 
 void json_write_elements(json_writer *writer, const double *values, size_t count)
 {
-    gathered g = {.size = 0};
+    number_buffer g = {.size = 0};
     for (size_t i = 0; i < count; i++) {
-        gather_separator(&g, writer);
-        gather_number(&g, values[i]);
+        append_separator(&g, writer);
+        append_number(&g, values[i]);
         if (i + 1 == count || g.size > sizeof g.text - 2 * NUMBER_TEXT)
-            write_gathered(writer, &g);
+            write_buffer(writer, &g);
     }
 }
 
 void json_write_integer(json_writer *writer, uint64_t value)
 {
-    gathered g = {.size = 0};
+    number_buffer g = {.size = 0};
     char text[24], *at = text + sizeof text;
     do
         *--at = (char)('0' + value % 10);
     while (value /= 10);
-    gather_separator(&g, writer);
-    gather(&g, at, (size_t)(text + sizeof text - at));
-    write_gathered(writer, &g);
+    append_separator(&g, writer);
+    append_text(&g, at, (size_t)(text + sizeof text - at));
+    write_buffer(writer, &g);
 }
 
 void json_write_bool(json_writer *writer, bool value)

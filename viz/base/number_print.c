@@ -121,7 +121,7 @@ static expansion find_shortest(double magnitude)
 }
 
 /* Writes the last `count` digits before `end` and removes them from *digits. Returns where they begin. */
-static char *put_digits(char *end, uint64_t *digits, int count)
+static char *write_digits(char *end, uint64_t *digits, int count)
 {
     static const char pairs[] = "00010203040506070809101112131415161718192021222324252627282930313233343536373839"
                                 "40414243444546474849505152535455565758596061626364656667686970717273747576777879"
@@ -146,11 +146,11 @@ static size_t print_exactly(double value, char text[NUMBER_TEXT])
         x = find_shortest(magnitude);
     char room[NUMBER_TEXT], *const end = room + sizeof room, *at = end;
     if (x.places > 0) {
-        at = put_digits(at, &x.digits, x.places);
+        at = write_digits(at, &x.digits, x.places);
         *--at = '.';
     }
     do
-        at = put_digits(at, &x.digits, 1);
+        at = write_digits(at, &x.digits, 1);
     while (x.digits > 0);
     if (signbit(value))
         *--at = '-';

@@ -110,7 +110,7 @@ const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_R
     return *at == '\n' ? "\n" : escape_xml(text, at, room);
 }
 
-static bool is_word(char c)
+static bool is_word_character(char c)
 {
     return isalnum((unsigned char)c) || (unsigned char)c >= 0x80;
 }
@@ -118,7 +118,7 @@ static bool is_word(char c)
 /* An underscore inside a word needs no escape. Other special characters become character references. */
 const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
-    if (*at == '_' && at > text && is_word(at[-1]) && is_word(at[1]))
+    if (*at == '_' && at > text && is_word_character(at[-1]) && is_word_character(at[1]))
         return NULL;
     if (*at == '\n' || *at == '\t')
         return " ";
@@ -191,7 +191,7 @@ enum { GROUPS = 4096 };
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /* Encodes up to three bytes as four digits. Missing bytes count as zero and end in '='. */
-static void put_group(const unsigned char *from, size_t count, char *to)
+static void encode_group(const unsigned char *from, size_t count, char *to)
 {
     const unsigned bits =
         (unsigned)from[0] << 16 | (count > 1 ? (unsigned)from[1] << 8 : 0) | (count > 2 ? from[2] : 0);
@@ -206,7 +206,7 @@ void base64_copy(FILE *in, FILE *out)
     for (size_t size; (size = fread(bytes, 1, sizeof bytes, in)) > 0;) {
         size_t length = 0;
         for (size_t at = 0; at < size; at += 3, length += 4)
-            put_group(bytes + at, size - at, text + length);
+            encode_group(bytes + at, size - at, text + length);
         fwrite(text, 1, length, out);
     }
 }

@@ -87,19 +87,12 @@ void cloud_release(cloud *cloud)
     memset(cloud, 0, sizeof *cloud);
 }
 
-static void on_block(uint64_t done, uint64_t total, void *context)
-{
-    const cloud_watch *watch = context;
-    watch->read(done, total, watch->context);
-}
-
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error)
 {
     char *bytes;
     size_t size;
-    const bool watched = watch && watch->read;
     *out = (cloud){0};
-    if (!file_read_watched(path, watched ? on_block : NULL, (void *)watch, &bytes, &size, error))
+    if (!file_read_watched(path, watch ? watch->read : NULL, watch ? watch->context : NULL, &bytes, &size, error))
         return false;
     const bool done = parse(&(cloud_file){.name = file_title(path),
                                           .bytes = (const unsigned char *)bytes,

@@ -63,7 +63,7 @@ static bool is_las(cloud_file *file)
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
 
-static uint64_t read_whole(const las_reader *reader, size_t at, unsigned size)
+static uint64_t read_unsigned(const las_reader *reader, size_t at, unsigned size)
 {
     return cloud_read_bits(size, false, reader->file->bytes + at);
 }
@@ -78,7 +78,7 @@ static bool read_version(las_reader *reader)
     if (major != 1 || reader->minor >= VERSIONS)
         return cloud_fail_byte(file, AT_VERSION, "LAS %u.%u is not a supported version: 1.0 to 1.%d", major,
                                reader->minor, VERSIONS - 1);
-    reader->header_size = (unsigned)read_whole(reader, AT_HEADER_SIZE, 2);
+    reader->header_size = (unsigned)read_unsigned(reader, AT_HEADER_SIZE, 2);
     if (reader->header_size < header_sizes[reader->minor])
         return cloud_fail_byte(file, AT_HEADER_SIZE,
                                "a header of %u bytes is announced, but that of LAS 1.%u has at least %u",
@@ -91,7 +91,7 @@ static bool read_format(las_reader *reader)
 {
     const cloud_file *file = reader->file;
     reader->format = file->bytes[AT_FORMAT];
-    reader->length = read_whole(reader, AT_LENGTH, 2);
+    reader->length = read_unsigned(reader, AT_LENGTH, 2);
     reader->compressed = reader->format & COMPRESSED;
     if (reader->compressed && !cloud_reads_laz())
         return cloud_fail(file,
@@ -115,8 +115,8 @@ static bool read_format(las_reader *reader)
  * the specification and common readers disagree on which one is right. */
 static bool read_count(las_reader *reader)
 {
-    const uint64_t narrow = read_whole(reader, AT_COUNT, 4);
-    const uint64_t wide = reader->minor >= 4 ? read_whole(reader, AT_WIDE_COUNT, 8) : 0;
+    const uint64_t narrow = read_unsigned(reader, AT_COUNT, 4);
+    const uint64_t wide = reader->minor >= 4 ? read_unsigned(reader, AT_WIDE_COUNT, 8) : 0;
     reader->count = wide ? wide : narrow;
     return !narrow || reader->count == narrow ||
            cloud_fail_byte(reader->file, AT_WIDE_COUNT,
@@ -153,7 +153,7 @@ static void skip_signature(las_reader *reader, uint64_t left)
 static bool find_points(las_reader *reader)
 {
     const cloud_file *file = reader->file;
-    reader->first = read_whole(reader, AT_POINTS, 4);
+    reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->first < reader->header_size)
         return cloud_fail_byte(file, AT_HEADER_SIZE,
                                "a header of %u bytes is announced, but points begin at byte %" PRIu64,
@@ -172,9 +172,9 @@ static bool find_points(las_reader *reader)
 
 /* Lower *next to the start of a part that follows the points, which the header holds at `at`; a start of 0 means that
  * the part is missing. */
-static bool find_follower(const las_reader *reader, size_t at, const char *what, uint64_t *next)
+static bool find_part_after_points(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
-    const uint64_t end = reader->first + reader->count * reader->length, start = read_whole(reader, at, 8);
+    const uint64_t end = reader->first + reader->count * reader->length, start = read_unsigned(reader, at, 8);
     if (start == 0)
         return true;
     if (start < end || start > reader->file->size)
@@ -194,10 +194,10 @@ static bool check_end(const las_reader *reader)
     cloud_file before = *reader->file;
     uint64_t next = before.size;
     if (reader->minor >= 3 && has_waveforms[reader->format] &&
-        !find_follower(reader, AT_WAVEFORMS, "the waveforms", &next))
+        !find_part_after_points(reader, AT_WAVEFORMS, "the waveforms", &next))
         return false;
-    if (reader->minor >= 4 && read_whole(reader, AT_RECORD_COUNT, 4) > 0 &&
-        !find_follower(reader, AT_RECORDS, "the extended records", &next))
+    if (reader->minor >= 4 && read_unsigned(reader, AT_RECORD_COUNT, 4) > 0 &&
+        !find_part_after_points(reader, AT_RECORDS, "the extended records", &next))
         return false;
     before.size = (size_t)next;
     cloud_note_trailing_bytes(&before, (size_t)(reader->first + reader->count * reader->length));
@@ -248,7 +248,7 @@ static bool read_compressed(las_reader *reader)
 {
     enum { MOST_A_BYTE = 256 };
     const cloud_file *file = reader->file;
-    reader->first = read_whole(reader, AT_POINTS, 4);
+    reader->first = read_unsigned(reader, AT_POINTS, 4);
     if (reader->count / MOST_A_BYTE > file->size)
         return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
                                "%" PRIu64 " compressed points are announced, but %zu bytes hold at most %d each",

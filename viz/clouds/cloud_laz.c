@@ -40,15 +40,15 @@ static void write_record(const laszip_point_struct *p, unsigned format, unsigned
         write_number(record + color + 2 * i, p->rgb[i], 2);
 }
 
-/* The argument of unpack(), in the child process. */
-typedef struct unpacking {
+/* The argument of decompress(), in the child process. */
+typedef struct decompression {
     char path[32]; /* the compressed file */
     unsigned format;
     uint64_t count;
-} unpacking;
+} decompression;
 
 /* Write why point i cannot be decompressed: the first line of the library's message. */
-static bool fail(const unpacking *u, FILE *why, laszip_POINTER laszip, uint64_t i)
+static bool write_reason(const decompression *u, FILE *why, laszip_POINTER laszip, uint64_t i)
 {
     laszip_CHAR *message = NULL;
     if (laszip_get_error(laszip, &message) != 0 || !message)
@@ -58,9 +58,9 @@ static bool fail(const unpacking *u, FILE *why, laszip_POINTER laszip, uint64_t 
     return false;
 }
 
-static bool unpack(void *context, FILE *records, FILE *why)
+static bool decompress(void *context, FILE *records, FILE *why)
 {
-    const unpacking *u = context;
+    const decompression *u = context;
     laszip_POINTER laszip;
     laszip_point_struct *point;
     laszip_BOOL compressed;
@@ -68,10 +68,10 @@ static bool unpack(void *context, FILE *records, FILE *why)
     if (laszip_create(&laszip) != 0)
         return false;
     if (laszip_open_reader(laszip, u->path, &compressed) != 0 || laszip_get_point_pointer(laszip, &point) != 0)
-        return fail(u, why, laszip, 0);
+        return write_reason(u, why, laszip, 0);
     for (uint64_t i = 0; i < u->count; i++) {
         if (laszip_read_point(laszip) != 0)
-            return fail(u, why, laszip, i);
+            return write_reason(u, why, laszip, i);
         write_record(point, u->format, record);
         if (fwrite(record, 1, sizeof record, records) != sizeof record)
             return false;
@@ -89,7 +89,7 @@ static unsigned limit_seconds(uint64_t count)
 
 bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *add, void *context)
 {
-    unpacking u = {.format = format, .count = count};
+    decompression u = {.format = format, .count = count};
     FILE *copy = tmpfile();
     if (!copy)
         return cloud_fail(file, "cannot create a temporary file for decompression: %s", strerror(errno));
@@ -97,7 +97,7 @@ bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *
     if (!done)
         cloud_fail(file, "cannot write the temporary file for decompression: %s", strerror(errno));
     snprintf(u.path, sizeof u.path, "/dev/fd/%d", fileno(copy));
-    const laz_child child = {unpack, &u, limit_seconds(count)};
+    const laz_child child = {decompress, &u, limit_seconds(count)};
     done = done && laz_child_read(&child, file, count, add, context);
     fclose(copy);
     return done;

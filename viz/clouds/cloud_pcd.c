@@ -21,27 +21,18 @@ typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding
 
 typedef struct pcd_field {
     cloud_scalar type;
-    uint64_t count; /* values in each point */
-    int channel;    /* a cloud_channel; -1: none */
+    uint64_t count;          /* values in each point */
+    int channel;             /* a cloud_channel; -1: none */
+    uint64_t column, offset; /* values and bytes before it in a point */
 } pcd_field;
-
-/* The position of a channel within a point. */
-typedef struct pcd_place {
-    int channel;
-    cloud_scalar type;
-    uint64_t column; /* number of values before it */
-    uint64_t offset; /* number of bytes before it */
-} pcd_place;
 
 typedef struct pcd_reader {
     cloud_file *file;
     unsigned seen; /* bit i is set after keyword i was read */
     size_t field_count;
-    pcd_field fields[MAX_FIELDS];
+    pcd_field fields[MAX_FIELDS]; /* after the header: the fields to read, one for each channel at most */
     uint64_t width, height, points;
     pcd_encoding encoding;
-    pcd_place places[CLOUD_CHANNELS]; /* the channels to read, in the order of the fields */
-    unsigned place_count;
     uint64_t columns, stride; /* values and bytes per point */
 } pcd_reader;
 
@@ -66,12 +57,12 @@ static bool read_fields(pcd_reader *reader, cloud_span rest)
         int channel = cloud_word_channel(word);
         if (reader->field_count == MAX_FIELDS)
             return cloud_fail_line(reader->file, "more than %d fields", MAX_FIELDS);
-        const bool again = channel >= 0 && channels >> channel & 1;
-        if (again && channel <= CLOUD_Z)
+        const bool is_repeated = channel >= 0 && channels >> channel & 1;
+        if (is_repeated && channel <= CLOUD_Z)
             return cloud_fail_word(reader->file, word, "is a second field with this name");
         if (channel >= 0)
             channels |= 1U << channel;
-        reader->fields[reader->field_count++] = (pcd_field){.channel = again ? -1 : channel, .count = 1};
+        reader->fields[reader->field_count++] = (pcd_field){.channel = is_repeated ? -1 : channel, .count = 1};
     }
     for (int axis = 0; axis < 3; axis++)
         if (!(channels >> axis & 1))
@@ -102,7 +93,8 @@ static bool set_count(pcd_field *field, cloud_span word)
 }
 
 /* Read a line with one word for each field. */
-static bool read_each(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span), const char *reason)
+static bool read_words_of_fields(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span),
+                                 const char *reason)
 {
     cloud_span word;
     for (size_t i = 0; i < reader->field_count; i++) {
@@ -187,7 +179,7 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
         if (keywords[i].read)
             return keywords[i].read(reader, rest);
         if (keywords[i].set)
-            return read_each(reader, rest, keywords[i].set, keywords[i].reason);
+            return read_words_of_fields(reader, rest, keywords[i].set, keywords[i].reason);
         return !keywords[i].number || read_number(reader, rest, (uint64_t *)((char *)reader + keywords[i].number));
     }
     return cloud_fail_word(reader->file, word, "does not belong in a PCD header");
@@ -230,47 +222,38 @@ static bool find_point_count(pcd_reader *reader)
     return true;
 }
 
-/* Add a field's channel to those that are read. A coordinate must be a single number; a value that is not is ignored. A
- * packed colour has four bytes, which many files declare as a float. */
-static bool add_place(pcd_reader *reader, const pcd_field *field)
-{
-    pcd_place place = {field->channel, field->type, reader->columns, reader->stride};
-    if (field->channel <= CLOUD_Z && field->count != 1)
-        return cloud_fail_line(reader->file, "%c has a COUNT of %" PRIu64 ", which must be 1", "xyz"[field->channel],
-                               field -> count);
-    if (field->count != 1 || (field->channel == CLOUD_PACKED && field->type.size != 4))
-        return true;
-    if (field->channel == CLOUD_PACKED)
-        place.type.kind = CLOUD_UNSIGNED;
-    reader->places[reader->place_count++] = place;
-    return true;
-}
-
+/* Compute where each field is in a point, and keep the fields to read. A coordinate must be a single number; a value
+ * that is not is ignored. A packed colour has four bytes, which many files declare as a float. Other colours that are
+ * floats are assumed to range from 0 to 1. */
 static bool lay_out_fields(pcd_reader *reader)
 {
-    for (size_t i = 0; i < reader->field_count; i++) {
-        const pcd_field *field = &reader->fields[i];
-        if (field->type.kind == CLOUD_FLOAT && field->type.size < 4)
-            return cloud_fail_line(reader->file, "field %zu is a float of %u bytes, not 4 or 8", i + 1,
-                                   field->type.size);
-        if (field->channel >= 0 && !add_place(reader, field))
-            return false;
-        reader->columns += field->count;
-        reader->stride += field->count * field->type.size;
-    }
-    return true;
-}
-
-/* Announce the channels. Colours that are floats are assumed to range from 0 to 1. */
-static void set_channels(const pcd_reader *reader)
-{
+    size_t kept = 0;
     unsigned channels = 0, full = 255;
-    for (unsigned i = 0; i < reader->place_count; i++) {
-        channels |= 1U << reader->places[i].channel;
-        if (reader->places[i].channel == CLOUD_RED && reader->places[i].type.kind == CLOUD_FLOAT)
+    for (size_t i = 0; i < reader->field_count; i++) {
+        pcd_field field = reader->fields[i];
+        const bool is_float = field.type.kind == CLOUD_FLOAT;
+        if (is_float && field.type.size < 4)
+            return cloud_fail_line(reader->file, "field %zu is a float of %u bytes, not 4 or 8", i + 1,
+                                   field.type.size);
+        if (field.channel >= 0 && field.channel <= CLOUD_Z && field.count != 1)
+            return cloud_fail_line(reader->file, "%c has a COUNT of %" PRIu64 ", which must be 1", "xyz"[field.channel],
+                                   field.count);
+        field.column = reader->columns;
+        field.offset = reader->stride;
+        reader->columns += field.count;
+        reader->stride += field.count * field.type.size;
+        if (field.channel < 0 || field.count != 1 || (field.channel == CLOUD_PACKED && field.type.size != 4))
+            continue;
+        if (field.channel == CLOUD_PACKED)
+            field.type.kind = CLOUD_UNSIGNED;
+        if (field.channel == CLOUD_RED && is_float)
             full = 1;
+        channels |= 1U << field.channel;
+        reader->fields[kept++] = field;
     }
+    reader->field_count = kept;
     cloud_set_channels(reader->file, channels, full);
+    return true;
 }
 
 static bool check_header(pcd_reader *reader)
@@ -299,12 +282,12 @@ static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[
 {
     cloud_span word;
     uint64_t column = 0;
-    for (const pcd_place *place = reader->places; cloud_next_word(&line, &word); column++) {
-        if (place == reader->places + reader->place_count || place->column != column)
+    for (const pcd_field *field = reader->fields; cloud_next_word(&line, &word); column++) {
+        if (field == reader->fields + reader->field_count || field->column != column)
             continue;
-        if (!cloud_word_number(reader->file, word, place->channel, &numbers[place->channel]))
+        if (!cloud_word_number(reader->file, word, field->channel, &numbers[field->channel]))
             return false;
-        place++;
+        field++;
     }
     return column == reader->columns ||
            cloud_fail_line(reader->file, "has %" PRIu64 " values instead of %" PRIu64, column, reader->columns);
@@ -339,16 +322,16 @@ static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
     size_t first[CLOUD_CHANNELS], step[CLOUD_CHANNELS];
     if (!cloud_reserve(reader->file, reader->points))
         return false;
-    for (unsigned k = 0; k < reader->place_count; k++) {
-        first[k] = (size_t)(reader->places[k].offset * (packed ? 1 : reader->points));
-        step[k] = packed ? (size_t)reader->stride : reader->places[k].type.size;
+    for (size_t k = 0; k < reader->field_count; k++) {
+        first[k] = (size_t)(reader->fields[k].offset * (packed ? 1 : reader->points));
+        step[k] = packed ? (size_t)reader->stride : reader->fields[k].type.size;
     }
     for (size_t i = 0; i < reader->points; i++) {
         double numbers[CLOUD_CHANNELS];
         cloud_report_progress(reader->file, i, i, reader->points);
-        for (unsigned k = 0; k < reader->place_count; k++)
-            numbers[reader->places[k].channel] =
-                cloud_read_scalar(reader->places[k].type, false, bytes + first[k] + i * step[k]);
+        for (size_t k = 0; k < reader->field_count; k++)
+            numbers[reader->fields[k].channel] =
+                cloud_read_scalar(reader->fields[k].type, false, bytes + first[k] + i * step[k]);
         if (!cloud_add(reader->file, numbers))
             return false;
     }
@@ -410,7 +393,6 @@ static bool parse_pcd(cloud_file *file)
     cloud_begin_lines(file);
     if (!read_header(&reader))
         return false;
-    set_channels(&reader);
     return readers[reader.encoding](&reader, (size_t)(file->lines.at - (const char *)file->bytes));
 }
 

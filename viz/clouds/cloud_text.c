@@ -152,9 +152,9 @@ static bool parse_coordinate(cloud_span line, const char **end, double *coordina
 
 /* Read the coordinates of a point and remove them from the line. The separators must be the same throughout: with mixed
  * ones, decimal commas as in "1,5;2,5;3,5" or "1,5 2,5 3,5" would be read as other points. */
-static bool parse_position(const cloud_file *file, cloud_span *rest, char *mark, double position[3])
+static bool parse_position(const cloud_file *file, cloud_span *rest, char *separator, double position[3])
 {
-    char separator = 0;
+    char first = 0;
     cloud_span line = *rest;
     for (int axis = 0; axis < 3; axis++) {
         cloud_span column = line;
@@ -167,27 +167,28 @@ static bool parse_position(const cloud_file *file, cloud_span *rest, char *mark,
             *rest = line;
             return axis == 2 || fail_coordinate(file, line, axis + 1);
         }
-        *mark = is_separator(*line.begin) ? *line.begin : ' ';
-        if (*mark == ' ' && line.begin == end)
+        *separator = is_separator(*line.begin) ? *line.begin : ' ';
+        if (*separator == ' ' && line.begin == end)
             return fail_coordinate(file, column, axis);
-        if (separator && *mark != separator)
+        if (first && *separator != first)
             return cloud_fail_line(file, "mixes blanks, commas and semicolons between its columns");
-        separator = *mark;
-        line.begin += *mark != ' ';
+        first = *separator;
+        line.begin += *separator != ' ';
         line.begin = skip_blanks(line);
     }
     *rest = line;
     return true;
 }
 
-/* Remove the next column from the front of a line. It ends at `mark`; ' ' stands for any blank. False at the end. */
-static bool next_field(cloud_span *line, char mark, cloud_span *field)
+/* Remove the next column from the front of a line. It ends at `separator`; ' ' stands for any blank. False at the end.
+ */
+static bool next_field(cloud_span *line, char separator, cloud_span *field)
 {
     line->begin = skip_blanks(*line);
     if (is_at_end(*line))
         return false;
     field->begin = line->begin;
-    while (!is_at_end(*line) && (mark == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != mark))
+    while (!is_at_end(*line) && (separator == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != separator))
         line->begin++;
     field->limit = line->begin;
     if (!is_at_end(*line))
@@ -208,28 +209,28 @@ static double parse_field(cloud_span field)
 
 /* Read the columns after the coordinates; missing ones become NaN. Returns the number of columns, at most one more than
  * columns->count. */
-static size_t parse_values(cloud_span line, char mark, const text_columns *columns, double numbers[CLOUD_CHANNELS])
+static size_t parse_values(cloud_span line, char separator, const text_columns *columns, double numbers[CLOUD_CHANNELS])
 {
     cloud_span field;
     size_t i = 0, next = 0;
     for (int channel = CLOUD_Z + 1; channel < CLOUD_CHANNELS; channel++)
         numbers[channel] = NAN;
-    for (; i < columns->count && next_field(&line, mark, &field); i++)
+    for (; i < columns->count && next_field(&line, separator, &field); i++)
         if (columns->places[next].column == i)
             numbers[columns->places[next++].channel] = parse_field(field);
-    return i + next_field(&line, mark, &field);
+    return i + next_field(&line, separator, &field);
 }
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
 
 /* Guess from the first line of numbers: three more columns may be r g b, four may be intensity r g b. */
-static void guess_columns(cloud_file *file, cloud_span rest, char mark, text_columns *columns)
+static void guess_columns(cloud_file *file, cloud_span rest, char separator, text_columns *columns)
 {
     static const cloud_channel channels[] = {CLOUD_INTENSITY, CLOUD_RED, CLOUD_GREEN, CLOUD_BLUE};
     const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
     cloud_span field;
     size_t count = 0;
-    while (next_field(&rest, mark, &field))
+    while (next_field(&rest, separator, &field))
         count++;
     columns->unnamed = count > 0;
     if (count != 3 && count != 4)
@@ -331,14 +332,14 @@ bool cloud_text_recognise(cloud_file *file)
 {
     cloud_span line;
     double position[3], count;
-    char mark = ' ';
+    char separator = ' ';
     begin_lines(file);
     for (bool first = true; cloud_next_line(file, &line);) {
         line.begin = skip_blanks(line);
         if (is_at_end(line))
             continue;
         if (!first || (!is_header(line) && !is_count(line, &count)))
-            return parse_position(file, &line, &mark, position);
+            return parse_position(file, &line, &separator, position);
         first = false;
     }
     return false;
@@ -348,15 +349,15 @@ bool cloud_text_recognise(cloud_file *file)
 static bool parse_point(cloud_file *file, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
-    char mark = ' ';
-    if (!parse_position(file, &line, &mark, numbers))
+    char separator = ' ';
+    if (!parse_position(file, &line, &separator, numbers))
         return false;
     if (cloud_skip_nonfinite(file, numbers))
         return true;
     if (file->out->count == 0 && !named)
-        guess_columns(file, line, mark, columns);
+        guess_columns(file, line, separator, columns);
     if (columns->count > 0) {
-        const size_t count = parse_values(line, mark, columns, numbers);
+        const size_t count = parse_values(line, separator, columns, numbers);
         if (columns->guessed)
             check_guess(file, columns, count, numbers);
     }
@@ -364,7 +365,7 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
 }
 
 /* Whether a comment holds the names of the columns, as CloudCompare writes them; *line then becomes the names. */
-static bool is_named_comment(cloud_span *line)
+static bool is_comment_of_names(cloud_span *line)
 {
     cloud_span rest = *line, column;
     while (rest.begin < rest.limit && (*rest.begin == '#' || *rest.begin == '/' || cloud_is_blank(*rest.begin)))
@@ -391,7 +392,7 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
                               file->size);
         line.begin = skip_blanks(line);
         const bool comment = is_at_end(line);
-        if (comment && !(first && !named && is_named_comment(&line)))
+        if (comment && !(first && !named && is_comment_of_names(&line)))
             continue;
         if (first && !has_header && (comment || is_header(line))) {
             named = true;

@@ -19,7 +19,7 @@ typedef struct channels {
 
 /* Run the child and exit. A crash must not print anything or dump core, so signals, core size and standard error are
  * reset first. The reason is written without blocking, because the parent reads it only after the records. */
-static _Noreturn void run(const laz_child *child, const channels *c)
+static _Noreturn void run_child(const laz_child *child, const channels *c)
 {
     static const int ends[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
@@ -40,14 +40,15 @@ static _Noreturn void run(const laz_child *child, const channels *c)
 
 /* ---- The parent --------------------------------------------------------------------------------------------- */
 
-/* Pass records to `add`. Returns false with *few set if too few come, and false if `add` returns false. */
-static bool read_records(const cloud_file *file, FILE *records, uint64_t count, laz_add *add, void *context, bool *few)
+/* Pass records to `add`. Returns false with *too_few set if too few come, and false if `add` returns false. */
+static bool read_records(const cloud_file *file, FILE *records, uint64_t count, laz_add *add, void *context,
+                         bool *too_few)
 {
     unsigned char record[LAS_RECORD_READ];
     for (uint64_t i = 0; i < count; i++) {
         cloud_report_progress(file, i, i, count);
-        *few = fread(record, 1, sizeof record, records) != sizeof record;
-        if (*few || !add(context, record))
+        *too_few = fread(record, 1, sizeof record, records) != sizeof record;
+        if (*too_few || !add(context, record))
             return false;
     }
     return true;
@@ -74,9 +75,9 @@ static bool read_all(const laz_child *child, const cloud_file *file, pid_t proce
                      laz_add *add, void *context)
 {
     FILE *records = fdopen(c->records[0], "rb");
-    bool few = false;
+    bool too_few = false;
     int status = 0;
-    const bool done = records ? read_records(file, records, count, add, context, &few)
+    const bool done = records ? read_records(file, records, count, add, context, &too_few)
                               : cloud_fail(file, "cannot read the decompressed points: %s", strerror(errno));
     if (records)
         fclose(records);
@@ -84,7 +85,7 @@ static bool read_all(const laz_child *child, const cloud_file *file, pid_t proce
         close(c->records[0]);
     while (waitpid(process, &status, 0) < 0 && errno == EINTR)
         ;
-    return few ? fail_too_few(child, file, c->why[0], status) : done;
+    return too_few ? fail_too_few(child, file, c->why[0], status) : done;
 }
 
 static bool open_channels(const cloud_file *file, channels *c)
@@ -107,7 +108,7 @@ bool laz_child_read(const laz_child *child, const cloud_file *file, uint64_t cou
         return false;
     const pid_t process = fork();
     if (process == 0)
-        run(child, &c);
+        run_child(child, &c);
     close(c.records[1]);
     close(c.why[1]);
     bool done = false;

@@ -33,7 +33,7 @@ static const struct {
 };
 
 /* Skip white space and then a word. Null if the word does not follow. */
-static const char *skip(const char *at, const char *word)
+static const char *skip_word(const char *at, const char *word)
 {
     at += strspn(at, " \t\r\n");
     return strncmp(at, word, strlen(word)) == 0 ? at + strlen(word) : NULL;
@@ -42,17 +42,17 @@ static const char *skip(const char *at, const char *word)
 /* Find the kind of a JSON text of Octreel: its first object has the member "octreel" or begins with "tick". */
 static file_kind find_json_kind(const char *text)
 {
-    const char *at = skip(text, "{"), *name;
+    const char *at = skip_word(text, "{"), *name;
     if (!at)
         return KIND_UNKNOWN;
-    if (skip(at, "\"tick\""))
+    if (skip_word(at, "\"tick\""))
         return KIND_PART;
     name = strstr(at, "\"octreel\"");
-    at = name ? skip(name + strlen("\"octreel\""), ":") : NULL;
-    return !at                         ? KIND_UNKNOWN
-           : skip(at, "\"session\"")   ? KIND_SESSION
-           : skip(at, "\"recording\"") ? KIND_PART
-                                       : KIND_UNKNOWN;
+    at = name ? skip_word(name + strlen("\"octreel\""), ":") : NULL;
+    return !at                              ? KIND_UNKNOWN
+           : skip_word(at, "\"session\"")   ? KIND_SESSION
+           : skip_word(at, "\"recording\"") ? KIND_PART
+                                            : KIND_UNKNOWN;
 }
 
 static file_kind find_kind(const char *bytes, size_t size)

@@ -78,7 +78,7 @@ bool folder_is_name(const char *name)
     return strncmp(name, "frame_", 6) == 0 || strcmp(name, FOLDER_ASIDE) == 0 || chunk_parse_name(name, &first, &last);
 }
 
-static bool refuse_held(const char *folder, const char *first, octreel_error *error)
+static bool report_held_files(const char *folder, const char *first, octreel_error *error)
 {
     if (folder_has(folder, "recording.json") || folder_has(folder, FOLDER_ASIDE))
         return error_set(error,
@@ -99,7 +99,7 @@ static bool check_empty(const char *folder, octreel_error *error)
         if (folder_is_name(entry->d_name) && (!*first || strcmp(entry->d_name, first) < 0))
             snprintf(first, sizeof first, "%s", entry->d_name);
     closedir(entries);
-    return !*first || refuse_held(folder, first, error);
+    return !*first || report_held_files(folder, first, error);
 }
 
 bool folder_prepare(const char *folder, octreel_error *error)

@@ -85,16 +85,16 @@ static bool read_text(const char *path, const char *keyword, char text[NUMBER_SI
            error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
 }
 
-/* Check that the text with a keyword is the expected digest; `unlike` is the message if it is not. */
-static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *unlike,
+/* Check that the text with a keyword is the expected digest; `message` is the message if it is not. */
+static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *message,
                          octreel_error *error)
 {
     char text[NUMBER_SIZE], digest[DIGEST_TEXT];
     return read_text(path, keyword, text, error) &&
-           (strcmp(text, digest_print(expected, digest)) == 0 || error_set(error, "%s: %s", path, unlike));
+           (strcmp(text, digest_print(expected, digest)) == 0 || error_set(error, "%s: %s", path, message));
 }
 
-static const char unlike_pixels[] =
+static const char pixels_changed[] =
     "its pixels do not match its PNG text octreel-pixels: the file was changed after drawing";
 
 /* Read the digest that the frame states for its pixels. If the text is no digest, *kind is unchanged. */
@@ -102,7 +102,7 @@ static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *sta
 {
     char text[NUMBER_SIZE];
     return read_text(path, pixels_keyword, text, error) &&
-           (image_digest_parse(text, kind, stated) || error_set(error, "%s: %s", path, unlike_pixels));
+           (image_digest_parse(text, kind, stated) || error_set(error, "%s: %s", path, pixels_changed));
 }
 
 static bool check_pixels(const char *path, frame_origin *origin, octreel_error *error)
@@ -114,7 +114,7 @@ static bool check_pixels(const char *path, frame_origin *origin, octreel_error *
     const bool has_digest = read_pixels(path, &origin->kind, &stated, error);
     if (!image_digest_png_by(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &reason))
         return error_set(error, "%s", reason.text);
-    return has_digest && (stated == origin->pixels || error_set(error, "%s: %s", path, unlike_pixels));
+    return has_digest && (stated == origin->pixels || error_set(error, "%s: %s", path, pixels_changed));
 }
 
 static bool check_tick(const char *path, uint64_t expected, octreel_error *error)

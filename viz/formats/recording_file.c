@@ -16,7 +16,7 @@ typedef struct recorded {
 } recorded;
 
 /* The members around the options of the view: two before them, the others after them. */
-static const json_member own_members[] = {
+static const json_member fixed_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
     {"derived", &json_structure, .offset = 0, .members = view_derived_members},
@@ -24,21 +24,21 @@ static const json_member own_members[] = {
     {"every", &json_uint64, offsetof(recorded, every), .max = SESSION_LAST_TICK},
 };
 
-#define OWN_BEFORE 2
-#define OWN_MEMBERS (sizeof own_members / sizeof own_members[0])
+#define FIXED_BEFORE 2
+#define FIXED_MEMBERS (sizeof fixed_members / sizeof fixed_members[0])
 #define MOST_MEMBERS 32
 
 /* All members of the file in their order, each on a line of its own. */
 static void list_members(json_member members[MOST_MEMBERS])
 {
     size_t count = 0;
-    for (size_t i = 0; i < OWN_BEFORE; i++)
-        members[count++] = own_members[i];
-    for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - OWN_MEMBERS; i++)
+    for (size_t i = 0; i < FIXED_BEFORE; i++)
+        members[count++] = fixed_members[i];
+    for (size_t i = 0; view_option_at(i) && count < MOST_MEMBERS - FIXED_MEMBERS; i++)
         if (view_option_at(i)->member.name)
             members[count++] = view_option_at(i)->member;
-    for (size_t i = OWN_BEFORE; i < OWN_MEMBERS; i++)
-        members[count++] = own_members[i];
+    for (size_t i = FIXED_BEFORE; i < FIXED_MEMBERS; i++)
+        members[count++] = fixed_members[i];
     members[count] = (json_member){0};
     while (count > 0)
         members[--count].line = true;

@@ -62,13 +62,13 @@ octree_input session_all_input(const octree_session *session)
 
 /* ---- Copying and freeing ------------------------------------------------------------------------------------ */
 
-static bool fail_memory(octreel_error *error)
+static bool report_no_memory(octreel_error *error)
 {
     return error_set(error, "out of memory for the session");
 }
 
 /* Replace *items by a copy; by null if there are none. False, and null, if there is no memory. */
-static bool duplicate(const void **items, size_t count, size_t item_size)
+static bool duplicate_items(const void **items, size_t count, size_t item_size)
 {
     const void *from = *items;
     void *copy = count > 0 ? malloc(count * item_size) : NULL;
@@ -81,7 +81,7 @@ static bool duplicate(const void **items, size_t count, size_t item_size)
 static bool duplicate_ids(const uint64_t **ids, size_t *count)
 {
     const void *copy = *ids;
-    const bool whole = duplicate(&copy, *count, sizeof **ids);
+    const bool whole = duplicate_items(&copy, *count, sizeof **ids);
     *ids = copy;
     *count = whole ? *count : 0;
     return whole;
@@ -129,11 +129,11 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     out->session.keys = NULL;
     for (int i = 0; i <= BODIES; i++) {
         json_counted list = get_list(from, i);
-        whole = duplicate(&list.items, list.count, rows[i].size) && whole;
+        whole = duplicate_items(&list.items, list.count, rows[i].size) && whole;
         set_list(&out->session, i, list.items, list.items ? list.count : 0);
     }
     whole = duplicate_owned(&out->session) && whole;
-    const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : fail_memory(error);
+    const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : report_no_memory(error);
     if (!done)
         session_release(out);
     return done;
@@ -145,7 +145,7 @@ bool session_set_keys(session_file *file, const char *keys, octreel_error *error
         return false;
     char *copy = strdup(keys);
     if (!copy)
-        return fail_memory(error);
+        return report_no_memory(error);
     free((char *)file->session.keys);
     file->session.keys = copy;
     return true;
@@ -288,7 +288,8 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
         return false;
     const char *slash = strrchr(path, '/');
     char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
-    const bool done = folder ? session_parse(file_title(path), folder, text, size, out, error) : fail_memory(error);
+    const bool done =
+        folder ? session_parse(file_title(path), folder, text, size, out, error) : report_no_memory(error);
     free(folder);
     free(text);
     return done;

@@ -108,11 +108,6 @@ static void write_skip(json_writer *w, const void *from)
         json_write_integer(w, query->skip_id);
 }
 
-static const char *precision_name(int n)
-{
-    return octree_precision_name((octree_precision)n);
-}
-
 static bool uses_precision(const octree_query *query)
 {
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
@@ -174,7 +169,7 @@ static const json_member general_members[] = {
     VISITS("visited", OCTREE_NODE_VISITED),
     VISITS("pruned", OCTREE_NODE_PRUNED),
     VISITS("hit", OCTREE_NODE_HIT),
-    {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
+    {"mode", &json_choice, QUERY(precision), .names = session_precision_name, .is_set = has_mode, .check = check_mode},
 };
 
 /* Fill the table with the members of a kind of query, as its traits list them. A box without a target can be relative
@@ -199,26 +194,6 @@ static void list_query_members(int kind, json_member table[MOST_MEMBERS])
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------- */
 
-static bool read_shape_box(json_reader *r, json_t *value, const json_place *at, void *into)
-{
-    octree_shape *shape = into;
-    octree_box box;
-    if (!json_read_box(r, value, at, &box))
-        return false;
-    memcpy(shape->at, box.min, sizeof shape->at);
-    memcpy(shape->to, box.max, sizeof shape->to);
-    return true;
-}
-
-static void write_shape_box(json_writer *w, const void *from)
-{
-    const octree_shape *shape = from;
-    octree_box box;
-    memcpy(box.min, shape->at, sizeof box.min);
-    memcpy(box.max, shape->to, sizeof box.max);
-    json_write_box(w, &box);
-}
-
 static bool read_segment(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_shape *shape = into;
@@ -237,9 +212,10 @@ static void write_segment(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* The members of each kind of shape, the naming member first. */
+/* The members of each kind of shape, the naming member first. `at` and `to` are the corners of a box. */
+_Static_assert(offsetof(octree_shape, to) - offsetof(octree_shape, at) == offsetof(octree_box, max), "not like a box");
 static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
-    [OCTREE_SHAPE_BOX] = {{"box", JSON_CODEC(read_shape_box, write_shape_box), .required = true}},
+    [OCTREE_SHAPE_BOX] = {{"box", &json_box, offsetof(octree_shape, at), .required = true}},
     [OCTREE_SHAPE_SEGMENT] = {{"segment", JSON_CODEC(read_segment, write_segment), .required = true}},
     [OCTREE_SHAPE_POINT] = {{"point", &json_vector, offsetof(octree_shape, at), .required = true}},
     [OCTREE_SHAPE_LABEL] = {{"label", &json_label, offsetof(octree_shape, text), .size = OCTREE_SHAPE_TEXT,

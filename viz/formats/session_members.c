@@ -70,16 +70,16 @@ static bool check_position(json_reader *r, const json_place *at, void *structure
 {
     const session_loader *s = get_loader(r);
     const octree_box *world = &s->header.session.tree.world;
-    const char *whose = s->points.count > 0 ? " that was computed from the points" : "";
+    const char *world_note = s->points.count > 0 ? " that was computed from the points" : "";
     const double *position = ((const octree_player *)structure)->position;
     for (int i = 0; i < 3; i++)
         if (position[i] < world->min[i] || position[i] > world->max[i])
-            return json_fail(r, at, "the player is outside the world%s on %c", whose, "xyz"[i]);
+            return json_fail(r, at, "the player is outside the world%s on %c", world_note, "xyz"[i]);
     return true;
 }
 
 /* The default box size follows from the step; "box_size" is read later. */
-static bool follow_step(json_reader *r, const json_place *at, void *structure)
+static bool set_default_box_size(json_reader *r, const json_place *at, void *structure)
 {
     octree_player *player = structure;
     (void)r, (void)at;
@@ -112,7 +112,7 @@ static const json_member player_members[] = {
     {ID},
     {BODY},
     {"position", &json_vector, offsetof(octree_player, position), .check = check_position},
-    {"step", &json_positive, offsetof(octree_player, step), .check = follow_step},
+    {"step", &json_positive, offsetof(octree_player, step), .check = set_default_box_size},
     {BOX_SIZE},
     {SWEEP},
     {0},
@@ -163,7 +163,7 @@ static bool read_keys(json_reader *r, json_t *value, const json_place *at, void 
     return *copy || json_fail(r, at, "out of memory");
 }
 
-static bool note_end(json_reader *r, const json_place *at, void *structure)
+static bool mark_end_known(json_reader *r, const json_place *at, void *structure)
 {
     (void)at, (void)structure;
     get_loader(r)->ends = true;
@@ -181,7 +181,7 @@ static bool has_end(const void *structure)
 
 /* Whether a tick is too far behind the last object. It is not if the session reaches it anyway, by "keys" or "ticks".
  */
-static bool is_too_far(const session_loader *s, uint64_t tick)
+static bool is_too_far_ahead(const session_loader *s, uint64_t tick)
 {
     const char *keys = s->header.session.keys;
     const uint64_t last = s->tick == OCTREE_EVERY_TICK ? 0 : s->tick;
@@ -194,7 +194,7 @@ static bool check_number(json_reader *r, const json_place *at, void *structure)
     const uint64_t tick = ((const session_tick *)structure)->tick;
     if (s->tick != OCTREE_EVERY_TICK && tick <= s->tick)
         return json_fail(r, at, "tick %" PRIu64 " follows tick %" PRIu64 "; ticks must ascend", tick, s->tick);
-    if (is_too_far(s, tick))
+    if (is_too_far_ahead(s, tick))
         return json_fail(r, at,
                          "tick %" PRIu64 " is more than %d ticks after the object before it, and all ticks between "
                          "them would be played; if this is intended, add \"ticks\" to the header",
@@ -245,7 +245,8 @@ const json_member session_header_members[] = {
     {"tree", &json_structure, HEADER(session.tree), .members = tree_members},
     {"player", JSON_CODEC(read_player, write_player), HEADER(session.player)},
     {"keys", JSON_CODEC(read_keys, json_write_text), HEADER(session.keys), JSON_IF(session_header, session.keys)},
-    {"ticks", &json_uint64, HEADER(session.ticks), .max = SESSION_LAST_TICK, .is_set = has_end, .check = note_end},
+    {"ticks", &json_uint64, HEADER(session.ticks), .max = SESSION_LAST_TICK, .is_set = has_end,
+     .check = mark_end_known},
     {"unplayed", &json_uint64, HEADER(session.unplayed), .max = SESSION_LAST_TICK,
      JSON_IF(session_header, session.unplayed)},
     {"queries", &session_items_codec, HEADER(standing.queries), .about = &session_queries,

@@ -14,9 +14,9 @@ struct session_stream {
     json_reader reader;
     session_loader loader;
     octree_session start;
-    session_stream_state first; /* the state after the object that follows the header */
-    bool is_ahead;              /* session_stream_next() still has to return `first` and its object */
-    octreel_error why;          /* the error of `first`, if it is SESSION_STREAM_BROKEN */
+    session_stream_state first;  /* the state after the object that follows the header */
+    bool has_pending;            /* session_stream_next() still has to return `first` and its object */
+    octreel_error pending_error; /* the error of `first`, if it is SESSION_STREAM_BROKEN */
 };
 
 session_stream *session_stream_open(int file, const char *name, bool (*keep_going)(void *context), void *context)
@@ -99,14 +99,14 @@ static bool set_keys(session_stream *s, const char *keys, octreel_error *error)
     return done;
 }
 
-static bool set_start(session_stream *s)
+static bool assemble_start(session_stream *s)
 {
     session_loader *l = &s->loader;
-    const bool has_own = s->first == SESSION_STREAM_TICK && l->tick == 0;
-    if (has_own && !session_append_standing(&s->reader))
+    const bool has_tick_0 = s->first == SESSION_STREAM_TICK && l->tick == 0;
+    if (has_tick_0 && !session_append_standing(&s->reader))
         return false;
-    s->start = session_assemble(l, has_own ? l->lists : l->standing);
-    s->is_ahead = !has_own;
+    s->start = session_assemble(l, has_tick_0 ? l->lists : l->standing);
+    s->has_pending = !has_tick_0;
     if (!l->ends)
         s->start.ticks = SESSION_ENDLESS;
     return true;
@@ -121,9 +121,9 @@ session_stream_state session_stream_begin(session_stream *s, const char *keys, o
         return state == SESSION_STREAM_STOPPED ? state : SESSION_STREAM_BROKEN;
     if (!set_keys(s, keys, error))
         return SESSION_STREAM_BROKEN;
-    s->first = read_tick(s, &s->why);
+    s->first = read_tick(s, &s->pending_error);
     s->reader.error = error;
-    return set_start(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
+    return assemble_start(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
 }
 
 const octree_session *session_stream_start(const session_stream *s)
@@ -146,11 +146,11 @@ const char *session_stream_note(const session_stream *s)
 session_stream_state session_stream_next(session_stream *s, session_stream_tick *tick, octreel_error *error)
 {
     session_stream_state state = s->first;
-    if (!s->is_ahead)
+    if (!s->has_pending)
         state = read_tick(s, error);
     else if (state == SESSION_STREAM_BROKEN)
-        *error = s->why;
-    s->is_ahead = false;
+        *error = s->pending_error;
+    s->has_pending = false;
     if (state == SESSION_STREAM_TICK)
         *tick = (session_stream_tick){s->loader.tick, make_input(&s->loader)};
     return state;

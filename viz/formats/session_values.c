@@ -102,7 +102,7 @@ bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const 
 }
 
 /* Note the id of a point that was inserted without values. */
-static bool note_plain(session_values *s, uint64_t id)
+static bool add_plain_id(session_values *s, uint64_t id)
 {
     if (hash_map_find(&s->plain_ids, &plain_by_id, s->plain, &id) != HASH_MAP_NONE)
         return true;
@@ -137,7 +137,7 @@ static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id
     if (point_value_is_set(&before))
         return session_set_value(r, at, id, value);
     if (!point_value_is_set(value))
-        return note_plain(values, id) || json_fail(r, at, "out of memory");
+        return add_plain_id(values, id) || json_fail(r, at, "out of memory");
     if (!map_bodies(s))
         return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
     if (hash_map_find(&values->body_ids, &bodies_by_id, s->bodies, &id) != HASH_MAP_NONE ||

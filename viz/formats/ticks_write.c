@@ -162,29 +162,25 @@ static void write_result(json_writer *w, const octree_answer *answer, const octr
 
 void tick_write_parameters(json_writer *w, const octree_answer *answer)
 {
+    static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_vector,
+                                               [OCTREE_MEMBER_POSITION] = &json_vector,
+                                               [OCTREE_MEMBER_COUNT] = &json_size,
+                                               [OCTREE_MEMBER_LENGTH] = &json_number};
     const octree_query_traits *about = octree_query_about(answer->kind);
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
-        const char *value = (const char *)answer + member->in_answer, *key = member->key;
+        json_member table[] = {{member->key, codecs[member->type], .offset = member->in_answer}, {0}, {0}};
         if (!(about->members & member->bit))
             continue;
         if (member->bit == OCTREE_QUERY_HAS_TARGET)
-            key = about->neighbors ? "target" : "center";
-        switch (member->type) {
-        case OCTREE_MEMBER_BOX:
-            json_member_vector(w, "min", ((const octree_box *)value)->min);
-            json_member_vector(w, "max", ((const octree_box *)value)->max);
-            break;
-        case OCTREE_MEMBER_POSITION:
-            json_member_vector(w, key, (const double *)value);
-            break;
-        case OCTREE_MEMBER_COUNT:
-            json_member_integer(w, key, *(const size_t *)value);
-            break;
-        case OCTREE_MEMBER_LENGTH:
-            json_member_number(w, key, *(const double *)value);
-            break;
+            table[0].name = about->neighbors ? "target" : "center";
+        if (member->type == OCTREE_MEMBER_BOX) {
+            table[0].name = "min";
+            table[1] = table[0];
+            table[1].name = "max";
+            table[1].offset += offsetof(octree_box, max);
         }
+        json_write_members(w, table, answer);
     }
 }
 

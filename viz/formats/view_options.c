@@ -155,7 +155,7 @@ static void write_fit(json_writer *w, const void *from)
 
 #define MOST_TURN 360 /* degrees */
 
-static bool is_look(double azimuth, double elevation)
+static bool is_valid_look(double azimuth, double elevation)
 {
     return fabs(azimuth) <= MOST_TURN && fabs(elevation) <= 90;
 }
@@ -163,14 +163,14 @@ static bool is_look(double azimuth, double elevation)
 static bool parse_look(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     double look[2];
-    return numbers_parse(text, look, 2) && is_look(look[0], look[1]) ? parse_numbers(option, text, v, error)
-                                                                     : refuse_value(option, text, error);
+    return numbers_parse(text, look, 2) && is_valid_look(look[0], look[1]) ? parse_numbers(option, text, v, error)
+                                                                           : refuse_value(option, text, error);
 }
 
 static bool check_look(json_reader *r, const json_place *at, void *structure)
 {
     const view *v = structure;
-    return is_look(v->look.azimuth, v->look.elevation) ||
+    return is_valid_look(v->look.azimuth, v->look.elevation) ||
            json_fail(r, at, "must be an azimuth from -360 to 360 and an elevation from -90 to 90");
 }
 
