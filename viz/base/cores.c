@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cores.c - how many processors this machine has. */
+/* cores.c - counts the processors of this machine. */
 #include "cores.h"
 
 #include <unistd.h>

@@ -37,7 +37,7 @@ typedef struct json_member {
     size_t size;                       /* the count of numbers; the bytes of a label or of a structure in a list */
     json_name *names;                  /* names of a choice or a set */
     const struct json_member *members; /* members of an object, or of each object in a list */
-    const void *about;                 /* the text of a constant, what a list or label is in errors, or other data */
+    const void *about;                 /* the text of a constant; a noun for a list or label in errors; other data */
     const char *advice;                /* of a version: what to do with an older file; null: film it again. Of a set:
                                           what an element is in errors */
 } json_member;

@@ -11,9 +11,8 @@
 #include <stdint.h>
 
 /* Read a decimal number at `begin`: an optional sign, digits with an optional point, and an optional exponent ("1",
- * "-.5",
- * "+2.", "1e-3"). No whitespace is skipped, and no character at `limit` or beyond is read. *end becomes the first
- * character after the number. Returns false and leaves *value unchanged if
+ * "-.5", "+2.", "1e-3"). No whitespace is skipped, and no character at `limit` or beyond is read. *end becomes the
+ * first character after the number. Returns false and leaves *value unchanged if
  * - there is no number, as in "nan" and "inf": *end is `begin` (in "0x10" the number is 0);
  * - the number is larger than the largest double: *end is after it, and errno is ERANGE;
  * - memory runs out, which needs more than about 100 characters: *end is after it, and errno is ENOMEM. */

@@ -2,8 +2,8 @@
 /* laz_child.h - runs a decompressor in a child process, which may crash, hang or return too little without harm to this
  * process. Private to cloud*.c.
  */
-#ifndef FORMATS_LAZ_CHILD_H
-#define FORMATS_LAZ_CHILD_H
+#ifndef CLOUDS_LAZ_CHILD_H
+#define CLOUDS_LAZ_CHILD_H
 
 #include "cloud_format.h"
 

@@ -69,13 +69,14 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
     return ok;
 }
 
-/* Parse a number. False unless frame_write() would print the same text. */
-static bool parse_tick(const char *text, uint64_t *tick)
+/* Parse the text with the number of a frame's tick. An error unless frame_write() would print the same text. */
+static bool parse_tick(const char *path, const char *text, uint64_t *tick, octreel_error *error)
 {
     char again[NUMBER_SIZE];
     *tick = strtoull(text, NULL, 10);
     snprintf(again, sizeof again, "%" PRIu64, *tick);
-    return strcmp(text, again) == 0;
+    return strcmp(text, again) == 0 ||
+           error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
 }
 
 /* Read the text with a keyword that every frame has. */
@@ -121,11 +122,8 @@ static bool check_tick(const char *path, uint64_t expected, octreel_error *error
 {
     char text[NUMBER_SIZE];
     uint64_t tick;
-    if (!read_text(path, tick_keyword, text, error))
-        return false;
-    if (!parse_tick(text, &tick))
-        return error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
-    return tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick);
+    return read_text(path, tick_keyword, text, error) && parse_tick(path, text, &tick, error) &&
+           (tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick));
 }
 
 /* The pixels are checked first: in a damaged file the texts mean nothing. */
@@ -146,8 +144,7 @@ bool frame_read_tick(const char *path, uint64_t *tick, octreel_error *error)
 {
     char text[NUMBER_SIZE];
     if (image_read_text(path, tick_keyword, text, sizeof text))
-        return parse_tick(text, tick) ||
-               error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
+        return parse_tick(path, text, tick, error);
     if (image_read_text(path, scene_keyword, text, sizeof text))
         return error_set(
             error, "%s: is a picture of a single tree, drawn by octreel inspect; it has no session to replay", path);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* recording_file.c - reads and writes recording.json by the rows of view_options.c, and reads the session beside it. */
 #include "recording_file.h"
 #include "file.h"
 #include "octree/digest.h"

@@ -212,11 +212,11 @@ static bool read_stream(json_reader *r)
 }
 
 /* Add the items of a list of the header to the list of single ticks: before its items or after them. */
-static bool add_header_items(json_reader *r, int list, bool before)
+static bool append_header_list(json_reader *r, int list, bool before)
 {
     session_loader *s = r->context;
     const size_t item_size = rows[list].size;
-    session_list *to = &s->lists[list], *from = &s->standing[list];
+    session_list *to = &s->lists[list], *from = &s->header_lists[list];
     if (from->count == 0)
         return true;
     char *items = array_reserve(to->items, to->count + from->count, &to->room, item_size);
@@ -232,10 +232,10 @@ static bool add_header_items(json_reader *r, int list, bool before)
 }
 
 /* Foreign nodes come first, because those of the header apply from tick 0 on. */
-bool session_append_standing(json_reader *r)
+bool session_append_header_lists(json_reader *r)
 {
-    return add_header_items(r, SESSION_QUERIES, false) && add_header_items(r, SESSION_SHAPES, false) &&
-           add_header_items(r, SESSION_FOREIGN, true);
+    return append_header_list(r, SESSION_QUERIES, false) && append_header_list(r, SESSION_SHAPES, false) &&
+           append_header_list(r, SESSION_FOREIGN, true);
 }
 
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS])
@@ -268,10 +268,10 @@ bool session_parse(const char *name, const char *folder, const char *text, size_
     session_loader loader = {.folder = folder, .header = {.session = session_default_header()}};
     loader.tick = OCTREE_EVERY_TICK;
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
-    const bool done = read_stream(&r) && session_end_values(&r) && session_append_standing(&r);
+    const bool done = read_stream(&r) && session_end_values(&r) && session_append_header_lists(&r);
     *out = (session_file){.session = session_assemble(&loader, loader.lists), .values = loader.values.made};
     memcpy(out->note, loader.note, sizeof out->note);
-    session_release_lists(loader.standing);
+    session_release_lists(loader.header_lists);
     cloud_release(&loader.points);
     session_release_listed(&loader.values);
     if (!done)
@@ -305,16 +305,16 @@ static uint64_t get_tick(const json_counted *list, int kind, size_t index)
 /* Queries and shapes of every tick are the last ones in the session's arrays. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
-    octree_session standing = {.keys = NULL};
+    octree_session every_tick = {.keys = NULL};
     for (int i = SESSION_QUERIES; i <= SESSION_SHAPES; i++) {
         const json_counted all = get_list(session, i);
         size_t first = all.count;
         while (first > 0 && get_tick(&all, i, first - 1) == OCTREE_EVERY_TICK)
             first--;
         if (first < all.count)
-            set_list(&standing, i, get_item(&all, i, first), all.count - first);
+            set_list(&every_tick, i, get_item(&all, i, first), all.count - first);
     }
-    const session_header header = {*session, session_all_input(&standing), values};
+    const session_header header = {*session, session_all_input(&every_tick), values};
     json_writer writer = {.out = out, .context = values};
     json_write_object(&writer, session_header_members, &header);
     json_write_end_line(&writer);

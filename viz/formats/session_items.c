@@ -258,7 +258,7 @@ static bool read_item(json_reader *r, json_t *value, const json_place *at, void 
 {
     const session_items *type = into;
     session_loader *s = r->context;
-    session_list *list = s->tick == OCTREE_EVERY_TICK ? &s->standing[type->list] : &s->lists[type->list];
+    session_list *list = s->tick == OCTREE_EVERY_TICK ? &s->header_lists[type->list] : &s->lists[type->list];
     json_member table[MOST_MEMBERS] = {0};
     const int kind = json_read_kind(r, value, at, type->kinds);
     char *item = kind < 0 ? NULL : session_append(r, at, list, type->size);

@@ -19,7 +19,7 @@ typedef struct session_list {
  */
 typedef struct session_header {
     octree_session session;     /* without edits, and without the queries and shapes of single ticks */
-    octree_input standing;      /* queries and shapes of every tick */
+    octree_input every_tick;    /* queries and shapes of every tick */
     const point_values *values; /* the values to write; null for none */
 } session_header;
 
@@ -54,8 +54,8 @@ typedef struct session_loader {
     cloud points;          /* the file of points, if the world had to be computed from it */
     char note[512];        /* for session_file.note */
     session_values values;
-    octree_body *bodies;                                        /* header.session.body_count elements */
-    session_list lists[SESSION_LISTS], standing[SESSION_LISTS]; /* items of single ticks; items of the header */
+    octree_body *bodies;                                            /* header.session.body_count elements */
+    session_list lists[SESSION_LISTS], header_lists[SESSION_LISTS]; /* items of single ticks; items of the header */
 } session_loader;
 
 /* Read the header, or the object of a tick, into the loader. */
@@ -66,7 +66,7 @@ bool session_check_text(json_reader *r);
 
 /* Add the header's queries, shapes and foreign nodes to the lists of single ticks: in a session, queries and shapes of
  * every tick come last. */
-bool session_append_standing(json_reader *r);
+bool session_append_header_lists(json_reader *r);
 
 /* Make a session of the header and the lists. The loader keeps the ownership of all arrays. */
 octree_session session_assemble(const session_loader *s, const session_list lists[SESSION_LISTS]);

@@ -117,11 +117,11 @@ static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void
 {
     session_loader *s = r->context;
     const bool header = s->tick == OCTREE_EVERY_TICK;
-    session_list *list = header ? &s->standing[SESSION_FOREIGN] : &s->lists[SESSION_FOREIGN];
+    session_list *list = header ? &s->header_lists[SESSION_FOREIGN] : &s->lists[SESSION_FOREIGN];
     (void)into;
     if (!json_is_array(value))
         return json_expected(r, value, at, "a list of nodes");
-    if (s->tick == 0 && s->standing[SESSION_FOREIGN].count > 0)
+    if (s->tick == 0 && s->header_lists[SESSION_FOREIGN].count > 0)
         return json_fail(r, at, "the header already has the nodes of tick 0");
     octree_foreign_tree *tree = session_append(r, at, list, sizeof *tree);
     if (!tree)

@@ -37,7 +37,7 @@ void session_stream_close(session_stream *s)
         return;
     json_stream_release(&s->objects);
     session_release_lists(s->loader.lists);
-    session_release_lists(s->loader.standing);
+    session_release_lists(s->loader.header_lists);
     cloud_release(&s->loader.points);
     point_values_release(&s->loader.values.made);
     session_release_listed(&s->loader.values);
@@ -103,9 +103,9 @@ static bool assemble_start(session_stream *s)
 {
     session_loader *l = &s->loader;
     const bool has_tick_0 = s->first == SESSION_STREAM_TICK && l->tick == 0;
-    if (has_tick_0 && !session_append_standing(&s->reader))
+    if (has_tick_0 && !session_append_header_lists(&s->reader))
         return false;
-    s->start = session_assemble(l, has_tick_0 ? l->lists : l->standing);
+    s->start = session_assemble(l, has_tick_0 ? l->lists : l->header_lists);
     s->has_pending = !has_tick_0;
     if (!l->ends)
         s->start.ticks = SESSION_ENDLESS;

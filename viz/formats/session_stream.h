@@ -2,7 +2,7 @@
 /* session_stream.h - reading a session while it is still being written: first its header, then one tick after another.
  *
  *   session_stream *s = session_stream_open(file, "standard input", keep_going, context);
- *   if (session_stream_begin(s, &error) == SESSION_STREAM_TICK)
+ *   if (session_stream_begin(s, NULL, &error) == SESSION_STREAM_TICK)
  *       while (session_stream_next(s, &tick, &error) == SESSION_STREAM_TICK)
  *           ...
  *   session_stream_close(s);
