@@ -40,7 +40,7 @@ typedef struct session_values {
     hash_map ids;    /* the ids of `listed` */
     uint64_t *plain; /* the ids of points that edits inserted without values */
     size_t plain_room;
-    hash_map plain_ids, body_ids;   /* the ids of `plain`, and those of the bodies: to check edits with values */
+    hash_map plain_ids, body_ids;   /* the ids of `plain`; those of the bodies, once they have been needed */
     int columns[POINT_VALUE_KINDS]; /* the point_value_kind of each column after the id in rows of points */
     size_t column_count;
 } session_values;
@@ -102,6 +102,11 @@ extern const json_codec session_nodes_codec;
 /* Points as a list, a file or a sample; and velocities by id, which are only read: writing puts them into the points.
  */
 extern const json_codec session_points_codec, session_velocities_codec;
+
+/* Map the bodies by their ids, unless that is done. False with an error if two have the same id, or one has the
+ * player's. Then session_find_body() returns the index of a body; HASH_MAP_NONE if no body has the id. */
+bool session_map_bodies(json_reader *r, const json_place *at);
+uint32_t session_find_body(const session_loader *s, uint64_t id);
 
 /* The members of "sampled" (octree_sampled): how listed points and velocities were generated. */
 extern const json_member session_sampled_members[];

@@ -15,6 +15,11 @@
 
 static const hash_map_keys by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
 
+uint32_t session_find_body(const session_loader *s, uint64_t id)
+{
+    return hash_map_find(&s->values.body_ids, &by_id, s->bodies, &id);
+}
+
 /* Whether the player is separate from the session's points; then no point may have its id. */
 static bool is_player_separate(const octree_player *player)
 {
@@ -74,25 +79,26 @@ static bool read_point(json_reader *r, json_t *value, const json_place *at, void
     return json_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
 }
 
-/* Add the bodies to a map by their ids. False with an error if two have the same id, or one has the player's. */
-static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
+bool session_map_bodies(json_reader *r, const json_place *at)
 {
-    const session_loader *s = r->context;
+    session_loader *s = r->context;
+    hash_map *map = &s->values.body_ids;
     const octree_player *player = &s->header.session.player;
-    uint32_t clash = HASH_MAP_NONE;
-    if (!hash_map_reserve(map, &by_id, s->bodies, s->header.session.body_count))
-        return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
-    for (size_t i = 0; i < s->header.session.body_count; i++) {
-        const uint64_t *id = &s->bodies[i].id;
-        const json_place place = {at, NULL, i};
-        const uint32_t first = hash_map_find(map, &by_id, s->bodies, id);
+    const size_t count = s->header.session.body_count;
+    if (map->count == count)
+        return true;
+    if (!hash_map_reserve(map, &by_id, s->bodies, count))
+        return json_fail(r, at, "out of memory for %zu points", count);
+    while (map->count < count) {
+        const uint64_t id = s->bodies[map->count].id;
+        const json_place place = {at, NULL, map->count};
+        const uint32_t first = session_find_body(s, id);
         if (first != HASH_MAP_NONE)
-            return json_fail(r, &place, "id %" PRIu64 " already belongs to points[%" PRIu32 "] in line %zu", *id, first,
+            return json_fail(r, &place, "id %" PRIu64 " already belongs to points[%" PRIu32 "] in line %zu", id, first,
                              json_line(r, &(json_place){at, NULL, first}));
         hash_map_add(map, &by_id, s->bodies); /* there is room */
     }
-    if (is_player_separate(player))
-        clash = hash_map_find(map, &by_id, s->bodies, &player->id);
+    const uint32_t clash = is_player_separate(player) ? session_find_body(s, player->id) : HASH_MAP_NONE;
     return clash == HASH_MAP_NONE ||
            json_fail(r, &(json_place){at, NULL, clash}, "id %" PRIu64 " already belongs to the player", player->id);
 }
@@ -100,12 +106,8 @@ static bool map_ids(json_reader *r, const json_place *at, hash_map *map)
 static bool read_list(json_reader *r, json_t *list, const json_place *at)
 {
     session_loader *s = r->context;
-    hash_map map = {0};
-    const bool done = make_bodies(r, at, json_array_size(list)) &&
-                      json_read_elements(r, list, at, "a list of points", read_point, s->bodies) &&
-                      map_ids(r, at, &map);
-    hash_map_release(&map);
-    return done;
+    return make_bodies(r, at, json_array_size(list)) &&
+           json_read_elements(r, list, at, "a list of points", read_point, s->bodies) && session_map_bodies(r, at);
 }
 
 /* ---- Files of points and samples ---------------------------------------------------------------------------- */
@@ -319,28 +321,22 @@ const json_codec session_points_codec = {read_points, write_points};
 
 /* ---- Velocities --------------------------------------------------------------------------------------------- */
 
-/* The points by id, and whether each has been given a velocity. */
-typedef struct velocity_targets {
-    hash_map ids;
-    bool *given;
-} velocity_targets;
-
 /* [id, vx, vy, vz] */
 static bool read_velocity(json_reader *r, json_t *row, const json_place *at, void *into)
 {
     const session_loader *s = r->context;
-    const velocity_targets *points = into;
+    bool *given = into; /* for each body, whether it has a velocity */
     uint64_t id;
     if (json_array_size(row) != 4)
         return json_expected(r, row, at, "[id, vx, vy, vz]");
     if (!json_read_id(r, row, at, 0, &id))
         return false;
-    const uint32_t place = hash_map_find(&points->ids, &by_id, s->bodies, &id);
+    const uint32_t place = session_find_body(s, id);
     if (place == HASH_MAP_NONE)
         return json_fail(r, at, "no point has the id %" PRIu64, id);
-    if (points->given[place])
+    if (given[place])
         return json_fail(r, at, "the point with the id %" PRIu64 " already has a velocity in this list", id);
-    points->given[place] = true;
+    given[place] = true;
     return json_read_numbers(r, row, at, 1, 3, s->bodies[place].velocity);
 }
 
@@ -348,12 +344,10 @@ static bool read_velocity_list(json_reader *r, json_t *list, const json_place *a
 {
     const session_loader *s = r->context;
     const size_t count = s->header.session.body_count;
-    velocity_targets points = {.given = calloc(count > 0 ? count : 1, sizeof *points.given)};
-    const bool done = (points.given || json_fail(r, at, "out of memory for %zu points", count)) &&
-                      map_ids(r, at, &points.ids) &&
-                      json_read_elements(r, list, at, "a list of velocities", read_velocity, &points);
-    hash_map_release(&points.ids);
-    free(points.given);
+    bool *given = calloc(count > 0 ? count : 1, sizeof *given);
+    const bool done = (given || json_fail(r, at, "out of memory for %zu points", count)) && session_map_bodies(r, at) &&
+                      json_read_elements(r, list, at, "a list of velocities", read_velocity, given);
+    free(given);
     return done;
 }
 

@@ -68,7 +68,6 @@ static void write_class(json_writer *w, const void *from)
 
 static const hash_map_keys listed_by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_same_id};
 static const hash_map_keys plain_by_id = {sizeof(uint64_t), hash_map_hash_id, hash_map_same_id};
-static const hash_map_keys bodies_by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
 
 static point_value find_value(const session_values *s, uint64_t id)
 {
@@ -114,19 +113,6 @@ static bool add_plain_id(session_values *s, uint64_t id)
     return hash_map_add(&s->plain_ids, &plain_by_id, plain);
 }
 
-static bool map_bodies(session_loader *s)
-{
-    hash_map *map = &s->values.body_ids;
-    const size_t count = s->header.session.body_count;
-    if (map->count == count)
-        return true;
-    if (!hash_map_reserve(map, &bodies_by_id, s->bodies, count))
-        return false;
-    while (map->count < count)
-        hash_map_add(map, &bodies_by_id, s->bodies); /* there is room */
-    return true;
-}
-
 /* Set the values of an inserted point. An id that occurred without values cannot have any later: a session that is
  * filmed while it is written shows a tick before the next one is read, and a later tick must not change it. */
 static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
@@ -138,9 +124,9 @@ static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id
         return session_set_value(r, at, id, value);
     if (!point_value_is_set(value))
         return add_plain_id(values, id) || json_fail(r, at, "out of memory");
-    if (!map_bodies(s))
-        return json_fail(r, at, "out of memory for %zu points", s->header.session.body_count);
-    if (hash_map_find(&values->body_ids, &bodies_by_id, s->bodies, &id) != HASH_MAP_NONE ||
+    if (!session_map_bodies(r, at))
+        return false;
+    if (session_find_body(s, id) != HASH_MAP_NONE ||
         hash_map_find(&values->plain_ids, &plain_by_id, values->plain, &id) != HASH_MAP_NONE)
         return json_fail(r, at,
                          "the point with the id %" PRIu64
