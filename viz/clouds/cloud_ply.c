@@ -21,7 +21,6 @@ typedef struct ply_element {
     cloud_span name;
     uint64_t count;
     size_t first_property, property_count;
-    unsigned channels; /* bits 1 << cloud_channel of its properties */
 } ply_element;
 
 typedef struct ply_reader {
@@ -32,9 +31,11 @@ typedef struct ply_reader {
     size_t element_count;
     ply_property properties[MAX_PROPERTIES];
     size_t property_count;
-    unsigned full_color; /* full scale of colours: 1 for floats, else 255 */
-    bool complete;       /* all points were read; damage in data that follows is only noted */
-    bool ended;          /* the file is truncated */
+    const ply_element *vertex; /* the element of the points; null: none so far */
+    unsigned channels;         /* bits 1 << cloud_channel of its properties */
+    unsigned full_color;       /* full scale of colours: 1 for floats, else 255 */
+    bool complete;             /* all points were read; damage in data that follows is only noted */
+    bool ended;                /* the file is truncated */
 } ply_reader;
 
 static bool is_ply(cloud_file *file)
@@ -83,10 +84,13 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     cloud_next_word(&rest, &number);
     if (!cloud_word_count(number, &count))
         return cloud_fail_word(reader->file, number, "is not a count of elements");
-    for (size_t i = 0; i < reader->element_count; i++)
-        if (cloud_word_is(name, "vertex") && cloud_word_is(reader->elements[i].name, "vertex"))
-            return cloud_fail_word(reader->file, name, "is a second element with this name");
-    reader->elements[reader->element_count++] = (ply_element){name, count, reader->property_count, 0, 0};
+    ply_element *element = &reader->elements[reader->element_count++];
+    *element = (ply_element){name, count, reader->property_count, 0};
+    if (!cloud_word_is(name, "vertex"))
+        return true;
+    if (reader->vertex)
+        return cloud_fail_word(reader->file, name, "is a second element with this name");
+    reader->vertex = element;
     return true;
 }
 
@@ -106,10 +110,10 @@ static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *proper
 
 /* Assign a property to its channel. A coordinate must be a single number and occur once; a value that is a list or
  * occurs again is ignored. */
-static bool add_channel(ply_reader *reader, ply_element *element, ply_property *property, cloud_span name)
+static bool add_channel(ply_reader *reader, ply_property *property, cloud_span name)
 {
     const unsigned bit = 1U << property->channel;
-    const bool again = element->channels & bit, list = property->length.size > 0;
+    const bool again = reader->channels & bit, list = property->length.size > 0;
     if (property->channel <= CLOUD_Z && again)
         return cloud_fail_word(reader->file, name, "is a second property with this name");
     if (property->channel <= CLOUD_Z && list)
@@ -120,7 +124,7 @@ static bool add_channel(ply_reader *reader, ply_element *element, ply_property *
     }
     if (property->channel == CLOUD_RED && property->type.kind == CLOUD_FLOAT)
         reader->full_color = 1;
-    element->channels |= bit;
+    reader->channels |= bit;
     return true;
 }
 
@@ -137,9 +141,9 @@ static bool read_property(ply_reader *reader, cloud_span rest)
         return false;
     if (!cloud_next_word(&rest, &name))
         return cloud_fail_line(reader->file, "a property has no name");
-    if (cloud_word_is(element->name, "vertex"))
+    if (element == reader->vertex)
         property.channel = cloud_word_channel(name);
-    if (property.channel >= 0 && !add_channel(reader, element, &property, name))
+    if (property.channel >= 0 && !add_channel(reader, &property, name))
         return false;
     reader->properties[reader->property_count++] = property;
     element->property_count++;
@@ -148,15 +152,16 @@ static bool read_property(ply_reader *reader, cloud_span rest)
 
 static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span rest)
 {
+    enum { UNKNOWN = -1, FORMAT, ELEMENT, PROPERTY };
     switch (cloud_find_word(keyword, "format element property comment obj_info")) {
-    case 0:
-        return read_format(reader, rest);
-    case 1:
-        return read_element(reader, rest);
-    case 2:
-        return read_property(reader, rest);
-    case -1:
+    case UNKNOWN:
         return cloud_fail_word(reader->file, keyword, "does not belong in a PLY header");
+    case FORMAT:
+        return read_format(reader, rest);
+    case ELEMENT:
+        return read_element(reader, rest);
+    case PROPERTY:
+        return read_property(reader, rest);
     default:
         return true;
     }
@@ -165,20 +170,14 @@ static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span 
 /* Check what the header as a whole must contain. */
 static bool check_header(const ply_reader *reader)
 {
-    unsigned channels = 0;
-    bool has_vertex = false;
     if (reader->encoding == PLY_NO_ENCODING)
         return cloud_fail_line(reader->file, "the header has no format");
-    for (size_t i = 0; i < reader->element_count; i++) {
-        channels |= reader->elements[i].channels;
-        has_vertex = has_vertex || cloud_word_is(reader->elements[i].name, "vertex");
-    }
-    if (!has_vertex)
+    if (!reader->vertex)
         return cloud_fail_line(reader->file, "the header has no element \"vertex\"");
     for (int axis = 0; axis < 3; axis++)
-        if (!(channels >> axis & 1))
+        if (!(reader->channels >> axis & 1))
             return cloud_fail_line(reader->file, "element \"vertex\" has no property \"%c\"", "xyz"[axis]);
-    cloud_set_channels(reader->file, channels, reader->full_color);
+    cloud_set_channels(reader->file, reader->channels, reader->full_color);
     return true;
 }
 
@@ -289,7 +288,7 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
 {
     bool (*read_row)(ply_reader *, const ply_element *, uint64_t, double *) =
         reader->encoding == PLY_ASCII ? read_line : read_bytes;
-    bool has_points = element->channels >> CLOUD_X & 1;
+    bool has_points = element == reader->vertex;
     double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
