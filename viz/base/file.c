@@ -33,8 +33,12 @@ char *path_join(const char *folder, const char *name)
 
 char *path_folder(const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    return length == 0 ? strdup(".") : strndup(path, length > 1 ? length - 1 : 1);
 }
 
 const char *path_base_name(const char *path)
@@ -51,17 +55,6 @@ bool file_has_ending(const char *name, const char *endings)
         if (1 + strcspn(at + 1, ".") == length && strncasecmp(at, dot, length) == 0)
             return true;
     return false;
-}
-
-/* Returns the folder in which a path lies; the path may end in slashes. The caller frees it. Null: out of memory. */
-static char *copy_parent_name(const char *path)
-{
-    size_t length = strlen(path);
-    while (length > 1 && path[length - 1] == '/')
-        length--;
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    return length == 0 ? strdup(".") : strndup(path, length > 1 ? length - 1 : 1);
 }
 
 /* Uses a buffer on the stack, because with malloc() it would report "missing" when memory runs out. The system refuses
@@ -92,7 +85,7 @@ bool file_is_locked(const char *path)
 
 int file_lock_parent_folder(const char *path)
 {
-    char *parent = copy_parent_name(path);
+    char *parent = path_folder(path);
     const int folder = parent ? open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     while (folder >= 0 && flock(folder, LOCK_EX) != 0 && errno == EINTR)
         continue;
@@ -346,7 +339,7 @@ bool is_same_file(const struct stat *a, const struct stat *b)
 
 bool stat_parent(const char *path, struct stat *status)
 {
-    char *parent = copy_parent_name(path);
+    char *parent = path_folder(path);
     const bool is = parent && stat(parent, status) == 0;
     free(parent);
     return is;
@@ -357,11 +350,9 @@ bool stat_parent(const char *path, struct stat *status)
 static bool is_same_new_path(const char *a, const char *b)
 {
     struct stat folders[2];
-    const char *slashes[2] = {strrchr(a, '/'), strrchr(b, '/')};
     if (!stat_parent(a, &folders[0]) || !stat_parent(b, &folders[1]))
         return strcmp(a, b) == 0;
-    return is_same_file(&folders[0], &folders[1]) &&
-           strcmp(slashes[0] ? slashes[0] + 1 : a, slashes[1] ? slashes[1] + 1 : b) == 0;
+    return is_same_file(&folders[0], &folders[1]) && strcmp(path_base_name(a), path_base_name(b)) == 0;
 }
 
 static bool is_same_path(const char *a, const char *b)

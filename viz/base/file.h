@@ -14,7 +14,8 @@
  * Returns null when out of memory. */
 char *path_join(const char *folder, const char *name);
 
-/* Returns the folder of a file: "a" for "a/b", "." for "b". The caller frees it. Returns null when out of memory. */
+/* Returns the folder in which a path lies: "a" for "a/b" and "a/b/", "." for "b". The caller frees it. Returns null
+ * when out of memory. */
 char *path_folder(const char *path);
 
 /* Returns the part of a path after its last slash. */
