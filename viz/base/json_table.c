@@ -523,7 +523,7 @@ static const json_member corners[] = {
     {0},
 };
 
-bool json_read_box(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_box(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const octree_box *box = into;
     if (!json_read_members(r, value, at, corners, into))
@@ -534,9 +534,9 @@ bool json_read_box(json_reader *r, json_t *value, const json_place *at, void *in
     return true;
 }
 
-void json_write_box(json_writer *w, const void *from)
+static void write_box(json_writer *w, const void *from)
 {
     json_write_object(w, corners, from);
 }
 
-const json_codec json_box = {json_read_box, json_write_box};
+const json_codec json_box = {read_box, write_box};

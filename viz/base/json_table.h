@@ -21,6 +21,13 @@ typedef struct json_codec {
 /* Returns the n-th name of a list; null: n is beyond the last. */
 typedef const char *json_name(int n);
 
+/* Define `names` as a json_name from a function that names the values of an enumeration. */
+#define JSON_NAMES(names, name_of, enumeration)                                                                        \
+    static const char *names(int n)                                                                                    \
+    {                                                                                                                  \
+        return name_of((enumeration)n);                                                                                \
+    }
+
 typedef struct json_member {
     const char *name; /* null ends a table */
     const json_codec *codec;
@@ -95,9 +102,9 @@ bool json_read_id(json_reader *r, const json_t *list, const json_place *at, size
 bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at, size_t first, size_t count,
                        double *into);
 
-/* Building blocks for codecs: an index into row->names, double[3], octree_box with min at most max, const char *. */
-json_read_value json_read_choice, json_read_vector, json_read_box;
-json_write_value json_write_box, json_write_text;
+/* Building blocks for codecs: an index into row->names, double[3], const char *. */
+json_read_value json_read_choice, json_read_vector;
+json_write_value json_write_text;
 
 extern const json_codec json_uint64, json_size, json_int; /* whole numbers from row->min to row->max; an int is never
                                                              negative */
@@ -108,7 +115,7 @@ extern const json_codec json_number;     /* double; from row->min to row->max if
 extern const json_codec json_positive;   /* double of at least 0 */
 extern const json_codec json_numbers;    /* row->size doubles */
 extern const json_codec json_vector;     /* double[3] */
-extern const json_codec json_box;        /* octree_box */
+extern const json_codec json_box;        /* octree_box with min at most max */
 extern const json_codec json_constant;   /* the text row->about and no other */
 extern const json_codec json_label;      /* char[row->size]: printable ASCII with its final zero */
 extern const json_codec json_version;    /* the format version of a file, row->max, and no other; row->about names the

@@ -131,10 +131,7 @@ static bool has_epsilon(const void *structure)
     return ((const octree_query *)structure)->epsilon > 0;
 }
 
-static const char *query_name(int n)
-{
-    return octree_query_name((octree_query_kind)n);
-}
+JSON_NAMES(query_name, octree_query_name, octree_query_kind)
 
 /* Make the row of a query's member. A target may also be "player". */
 static json_member query_member(const octree_query_member_traits *member)
@@ -155,6 +152,8 @@ static json_member query_member(const octree_query_member_traits *member)
 static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target),
                                           JSON_IF(octree_query, at_player)};
 
+JSON_NAMES(precision_name, octree_precision_name, octree_precision)
+
 #define QUERY(member) offsetof(octree_query, member)
 #define VISITS(name, kind)                                                                                             \
     {                                                                                                                  \
@@ -169,7 +168,7 @@ static const json_member general_members[] = {
     VISITS("visited", OCTREE_NODE_VISITED),
     VISITS("pruned", OCTREE_NODE_PRUNED),
     VISITS("hit", OCTREE_NODE_HIT),
-    {"mode", &json_choice, QUERY(precision), .names = session_precision_name, .is_set = has_mode, .check = check_mode},
+    {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
 };
 
 /* Fill the table with the members of a kind of query, as its traits list them. A box without a target can be relative
@@ -223,10 +222,7 @@ static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
                             {"at", &json_vector, offsetof(octree_shape, at), .required = true}},
 };
 
-static const char *shape_name(int n)
-{
-    return octree_shape_name((octree_shape_kind)n);
-}
+JSON_NAMES(shape_name, octree_shape_name, octree_shape_kind)
 
 static void list_shape_members(int kind, json_member table[MOST_MEMBERS])
 {

@@ -135,9 +135,6 @@ void session_release_listed(session_values *values);
 /* Check that the game knows every key. False with the reason if not. */
 bool session_check_keys(const char *keys, octreel_error *error);
 
-/* The name of an octree_precision. */
-json_name session_precision_name;
-
 /* Add an item to a list and return it, not initialized; null with an error if there is no memory. */
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size);
 

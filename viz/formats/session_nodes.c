@@ -46,10 +46,7 @@ void foreign_tree_release(octree_foreign_tree *tree)
 
 /* ---- One node ----------------------------------------------------------------------------------------------- */
 
-const char *session_precision_name(int n)
-{
-    return octree_precision_name((octree_precision)n);
-}
+JSON_NAMES(precision_name, octree_precision_name, octree_precision)
 
 #define NODE(member) offsetof(octree_foreign_node, member)
 
@@ -61,7 +58,7 @@ static const json_member node_members[] = {
     {"points", &json_ids, NODE(points), .given = NODE(has_points)},
     {"kind", &json_label, NODE(kind), .size = OCTREE_NODE_KIND, .about = "a node's kind",
      JSON_IF(octree_foreign_node, kind[0])},
-    {"mode", &json_choice, NODE(precision), .names = session_precision_name, JSON_IF(octree_foreign_node, precision)},
+    {"mode", &json_choice, NODE(precision), .names = precision_name, JSON_IF(octree_foreign_node, precision)},
     {0},
 };
 

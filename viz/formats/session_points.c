@@ -226,10 +226,7 @@ bool session_read_file_world(json_reader *r, json_t *header)
     return true;
 }
 
-static const char *sample_name(int n)
-{
-    return octree_sample_name((octree_sample_kind)n);
-}
+JSON_NAMES(sample_name, octree_sample_name, octree_sample_kind)
 
 #define SAMPLED(field) offsetof(octree_sampled, field)
 

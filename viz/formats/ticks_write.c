@@ -19,16 +19,10 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
 /* Members that are only written have a codec without a reader. */
 #define WRITE(how) JSON_CODEC(NULL, how)
 
-/* Names of enumerations and of bits, as functions of an int. */
-#define NAMES(names, name_of, type)                                                                                    \
-    static const char *names(int n)                                                                                    \
-    {                                                                                                                  \
-        return name_of((type)n);                                                                                       \
-    }
-NAMES(precision_name, octree_precision_name, octree_precision)
-NAMES(status_name, octree_status_name, octree_status)
-NAMES(wrong_name, octree_wrong_name, octree_wrong_kind)
-NAMES(wrong_node_name, octree_wrong_node_name, octree_wrong_node_kind)
+JSON_NAMES(precision_name, octree_precision_name, octree_precision)
+JSON_NAMES(status_name, octree_status_name, octree_status)
+JSON_NAMES(wrong_name, octree_wrong_name, octree_wrong_kind)
+JSON_NAMES(wrong_node_name, octree_wrong_node_name, octree_wrong_node_kind)
 
 static const char *event_name(int n)
 {
