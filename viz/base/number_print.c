@@ -34,21 +34,9 @@ enum {
 #define SMALLEST_PLAIN 0x1p-7
 #define LARGEST_PLAIN 1e14
 
-static const uint64_t powers[] = {UINT64_C(1),
-                                  UINT64_C(10),
-                                  UINT64_C(100),
-                                  UINT64_C(1000),
-                                  UINT64_C(10000),
-                                  UINT64_C(100000),
-                                  UINT64_C(1000000),
-                                  UINT64_C(10000000),
-                                  UINT64_C(100000000),
-                                  UINT64_C(1000000000),
-                                  UINT64_C(10000000000),
-                                  UINT64_C(100000000000),
-                                  UINT64_C(1000000000000),
-                                  UINT64_C(10000000000000),
-                                  UINT64_C(100000000000000)};
+static const uint64_t powers[] = {1,           10,           100,           1000,           10000,
+                                  100000,      1000000,      10000000,      100000000,      1000000000,
+                                  10000000000, 100000000000, 1000000000000, 10000000000000, 100000000000000};
 
 /* A number in this range, exactly: its digits so far, as one integer, and the remaining fraction. */
 typedef struct expansion {

@@ -92,9 +92,7 @@ static const char *character_reference(char c, char room[ESCAPE_ROOM])
 
 const char *escape_nothing(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
-    (void)text;
-    (void)at;
-    (void)room;
+    (void)text, (void)at, (void)room;
     return NULL;
 }
 

@@ -93,42 +93,16 @@ void cloud_report_progress(const cloud_file *file, uint64_t times, uint64_t done
         file->watch->step((double)done / (double)total, file->watch->context);
 }
 
-static void write_error(const cloud_file *file, const char *place, const char *format, va_list arguments)
+bool cloud_fail_at(const cloud_file *file, const char *unit, size_t number, const char *format, ...)
 {
-    char reason[256];
+    char reason[256], place[32] = "";
+    va_list arguments;
+    va_start(arguments, format);
     vsnprintf(reason, sizeof reason, format, arguments);
-    error_set(file->error, "%s:%s %s", file->name, place, reason);
-}
-
-bool cloud_fail(const cloud_file *file, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    write_error(file, "", format, arguments);
     va_end(arguments);
-    return false;
-}
-
-bool cloud_fail_line(const cloud_file *file, const char *format, ...)
-{
-    char place[32];
-    va_list arguments;
-    snprintf(place, sizeof place, "%zu:", file->lines.number);
-    va_start(arguments, format);
-    write_error(file, place, format, arguments);
-    va_end(arguments);
-    return false;
-}
-
-bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...)
-{
-    char place[32];
-    va_list arguments;
-    snprintf(place, sizeof place, "byte %zu:", offset);
-    va_start(arguments, format);
-    write_error(file, place, format, arguments);
-    va_end(arguments);
-    return false;
+    if (unit)
+        snprintf(place, sizeof place, "%s%zu:", unit, number);
+    return error_set(file->error, "%s:%s %s", file->name, place, reason);
 }
 
 bool cloud_move_error_to_note(const cloud_file *file)

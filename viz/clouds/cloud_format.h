@@ -99,11 +99,12 @@ bool cloud_skip_nonfinite(const cloud_file *file, const double *position);
 /* Report the progress `done` of `total` if `calls`, the number of calls so far, is a multiple of 65536. */
 void cloud_report_progress(const cloud_file *file, uint64_t calls, uint64_t done, uint64_t total);
 
-/* Set the error from a printf format and return false: for the file, for the last line read, for a byte
- * (from 0 on). */
-bool cloud_fail(const cloud_file *file, const char *format, ...);
-bool cloud_fail_line(const cloud_file *file, const char *format, ...);
-bool cloud_fail_byte(const cloud_file *file, size_t offset, const char *format, ...);
+/* Set the error from a printf format and return false: for the file, for the last line read, for a byte (from 0 on). A
+ * null unit leaves the number out. */
+#define cloud_fail(file, ...) cloud_fail_at(file, NULL, 0, __VA_ARGS__)
+#define cloud_fail_line(file, ...) cloud_fail_at(file, "", (file)->lines.number, __VA_ARGS__)
+#define cloud_fail_byte(file, offset, ...) cloud_fail_at(file, "byte ", offset, __VA_ARGS__)
+bool cloud_fail_at(const cloud_file *file, const char *unit, size_t number, const char *format, ...);
 
 /* Move the error, which concerns data after the last point, to the cloud's note, unless there is one already. Returns
  * true. */
