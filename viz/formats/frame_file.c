@@ -7,6 +7,7 @@
 #include "png_write.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,17 +43,17 @@ bool frame_is_name(const char *name, uint64_t ticks, uint64_t every)
     return frame_parse_name(name, &tick) && tick < ticks && frame_is_due(tick, every);
 }
 
-static char *frame_path(const char *folder, uint64_t tick, octreel_error *error)
+/* The system refuses longer paths. */
+static bool make_path(const char *folder, uint64_t tick, char path[PATH_MAX], octreel_error *error)
 {
-    char name[FRAME_NAME], *path = path_join(folder, frame_name(tick, name));
-    if (!path)
-        error_no_memory(error);
-    return path;
+    char name[FRAME_NAME];
+    const int length = snprintf(path, PATH_MAX, "%s%s%s", folder, *folder ? "/" : "", frame_name(tick, name));
+    return (length >= 0 && length < PATH_MAX) || error_set(error, "%s: the path is too long", folder);
 }
 
 bool frame_write(const char *folder, const image *picture, const frame_origin *origin, octreel_error *error)
 {
-    char tick[NUMBER_SIZE], left_out[NUMBER_SIZE], digests[2][DIGEST_TEXT], pixels[IMAGE_DIGEST_TEXT];
+    char path[PATH_MAX], tick[NUMBER_SIZE], left_out[NUMBER_SIZE], digests[2][DIGEST_TEXT], pixels[IMAGE_DIGEST_TEXT];
     snprintf(tick, sizeof tick, "%" PRIu64, origin->tick);
     snprintf(left_out, sizeof left_out, "%" PRIu64, origin->left_out);
     const image_text texts[] = {
@@ -63,10 +64,7 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
         {left_out_keyword, left_out},
     };
     const size_t count = sizeof texts / sizeof texts[0] - (origin->left_out == 0);
-    char *path = frame_path(folder, origin->tick, error);
-    const bool ok = path && image_write_png(picture, path, texts, count, error);
-    free(path);
-    return ok;
+    return make_path(folder, origin->tick, path, error) && image_write_png(picture, path, texts, count, error);
 }
 
 /* Parse the text with the number of a frame's tick. An error unless frame_write() would print the same text. */
@@ -163,10 +161,8 @@ static bool read_digest(const char *path, const char *keyword, uint64_t *digest)
 static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyword, uint64_t *digest)
 {
     octreel_error ignored;
-    char *path = frame_path(folder, tick, &ignored);
-    const bool found = path && read_digest(path, keyword, digest);
-    free(path);
-    return found;
+    char path[PATH_MAX];
+    return make_path(folder, tick, path, &ignored) && read_digest(path, keyword, digest);
 }
 
 bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
@@ -193,17 +189,14 @@ bool frame_read_origin(const char *path, frame_origin *origin)
 
 bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)
 {
-    char text[DIGEST_TEXT], *path = frame_path(folder, tick, error);
-    const bool ok = path && (image_replace_text(path, session_keyword, digest_print(session, text)) ||
-                             error_set(error, "%s: cannot be written", path));
-    free(path);
-    return ok;
+    char text[DIGEST_TEXT], path[PATH_MAX];
+    return make_path(folder, tick, path, error) &&
+           (image_replace_text(path, session_keyword, digest_print(session, text)) ||
+            error_set(error, "%s: cannot be written", path));
 }
 
 bool frame_check(const char *folder, frame_origin *origin, octreel_error *error)
 {
-    char *path = frame_path(folder, origin->tick, error);
-    const bool ok = path && frame_check_file(path, origin, error);
-    free(path);
-    return ok;
+    char path[PATH_MAX];
+    return make_path(folder, origin->tick, path, error) && frame_check_file(path, origin, error);
 }

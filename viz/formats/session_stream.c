@@ -51,19 +51,11 @@ void session_stream_close(session_stream *s)
 static session_stream_state read_object(session_stream *s, json_object_reader *read, octreel_error *error)
 {
     s->reader.error = error;
-    switch (json_stream_next(&s->objects, &s->reader)) {
-    case JSON_STREAM_OBJECT:
-        return session_check_text(&s->reader) && json_read_object(&s->reader, false, read) &&
-                       session_end_values(&s->reader)
-                   ? SESSION_STREAM_TICK
-                   : SESSION_STREAM_BROKEN;
-    case JSON_STREAM_END:
-        return SESSION_STREAM_END;
-    case JSON_STREAM_STOPPED:
-        return SESSION_STREAM_STOPPED;
-    default:
-        return SESSION_STREAM_BROKEN;
-    }
+    const session_stream_state state = (session_stream_state)json_stream_next(&s->objects, &s->reader);
+    const bool done =
+        state != SESSION_STREAM_TICK ||
+        (session_check_text(&s->reader) && json_read_object(&s->reader, false, read) && session_end_values(&s->reader));
+    return done ? state : SESSION_STREAM_BROKEN;
 }
 
 static octree_input make_input(const session_loader *s)

@@ -11,15 +11,16 @@
 #ifndef FORMATS_SESSION_STREAM_H
 #define FORMATS_SESSION_STREAM_H
 
+#include "json_stream.h"
 #include "session_file.h"
 
 typedef struct session_stream session_stream;
 
 typedef enum session_stream_state {
-    SESSION_STREAM_TICK,    /* the object was read */
-    SESSION_STREAM_END,     /* the text ended between two objects */
-    SESSION_STREAM_STOPPED, /* keep_going() returned false */
-    SESSION_STREAM_BROKEN,  /* an error with file, line and place; ticks read before remain valid */
+    SESSION_STREAM_TICK = JSON_STREAM_OBJECT,     /* the object was read */
+    SESSION_STREAM_END = JSON_STREAM_END,         /* the text ended between two objects */
+    SESSION_STREAM_STOPPED = JSON_STREAM_STOPPED, /* keep_going() returned false */
+    SESSION_STREAM_BROKEN = JSON_STREAM_BROKEN, /* an error with file, line and place; ticks read before remain valid */
 } session_stream_state;
 
 /* Read from a file descriptor at its current position. The stream does not close it. Errors call it `name`.
