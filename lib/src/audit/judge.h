@@ -14,7 +14,7 @@ typedef bool point_lookup(const void *context, uint64_t id, octree_point *point)
 typedef struct audited_points {
     const octree *tree;
     point_lookup *find;
-    const void *context;    /* of find */
+    const void *context;    /* the first argument of `find` */
     const uint64_t *own_id; /* the point that a foreign index need not hold: the player that keys move; null for none */
 } audited_points;
 
@@ -26,7 +26,8 @@ typedef struct judged_point {
     const double *target;
 } judged_point;
 
-/* What a tick's judgements list, and buffers that they share. The owner empties `given` and `wrong` before a tick. */
+/* The lists to which the judgements of a tick refer, and two buffers. The owner empties `given` and `wrong` before a
+ * tick. */
 typedef struct judge {
     arena *memory;
     list given;   /* uint64_t: the ids of all foreign answers, one answer after another */
@@ -41,10 +42,10 @@ void judge_release(judge *j);
 typedef struct judged_query {
     const audited_points *points;
     const octree_query *query;
-    const octree_answer *answer;      /* its members and epsilon; its result is in the next two */
-    const octree_point *exact_points; /* answer->count points or neighbours; the other one is null */
-    const octree_neighbor *exact_neighbors;
-    octree_skip skip; /* that is in force: the query's, or the one that leaves out the player */
+    const octree_answer *answer;      /* the query's members and epsilon; the result is in the next two */
+    const octree_point *exact_points; /* the exact answer if it consists of points, else null; answer->count items */
+    const octree_neighbor *exact_neighbors; /* the exact answer if it consists of neighbours, else null */
+    octree_skip skip;                       /* the skip in force: the query's, or the skip that leaves out the player */
     uint64_t skip_id;
 } judged_query;
 

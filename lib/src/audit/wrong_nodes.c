@@ -50,8 +50,8 @@ static octree_foreign_place *places_of(const foreign *f)
     return f->places.items;
 }
 
-/* Count what is wrong with a node, and list it while there is room. `place` is SIZE_MAX where it is not about a node of
- * the tree. False when there is no memory. */
+/* Count a fault, and list it while there is room. `place` is the index of the wrong node; SIZE_MAX if the fault is not
+ * in a node of the tree. False when there is no memory. */
 static bool report_wrong_node(foreign *f, size_t place, octree_wrong_node wrong)
 {
     f->state.wrong[wrong.kind]++;
@@ -83,7 +83,7 @@ bool foreign_node_contains(const octree_foreign_node *node, const double positio
     return box_contains(&box, rounded);
 }
 
-/* Boxes are compared as floats if one of them has this precision. */
+/* Whether a child's box lies in its parent's. They are compared as floats if one of them has this precision. */
 static bool is_within_parent(const octree_foreign_node *child, const octree_foreign_node *parent)
 {
     octree_box inner = child->box, outer = parent->box;
@@ -169,7 +169,7 @@ typedef struct holding_search {
     const audited_points *points;
     const octree_foreign_node *leaf;
     size_t lost; /* the number of unlisted points that no leaf holds so far */
-    bool failed; /* out of memory */
+    bool failed; /* there was no memory */
 } holding_search;
 
 static bool is_own_point(const audited_points *points, uint64_t id)
@@ -221,11 +221,12 @@ static void mark_points_in_boxes(holding_search *search)
             continue;
         const octree_box box = enlarged_box(places[i].node);
         search->leaf = places[i].node;
-        octree_range(search->points->tree, &box, mark_held_point, search); /* a valid box: no error is possible */
+        /* The box is valid, so that the search cannot fail. */
+        octree_range(search->points->tree, &box, mark_held_point, search);
     }
 }
 
-/* Report the points that no node holds, by id. */
+/* Report the points that no node holds, in the order of their ids. */
 static bool find_lost_points(foreign *f, const audited_points *points)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -299,7 +300,7 @@ bool foreign_check_nodes(foreign *f, const audited_points *points)
 typedef struct node_query {
     foreign *foreign;
     const audited_points *points;
-    size_t answer; /* the index of its answer among those of the tick */
+    size_t answer; /* the index of the query's answer among those of the tick */
 } node_query;
 
 static foreign_mark *marks_of(const foreign *f)
@@ -361,7 +362,7 @@ static bool is_pruned(const octree_point *point, void *context)
     return holders > 0;
 }
 
-/* Report the pruned nodes above the holders of a point, each once for a query, with the first point that it loses. */
+/* Report the pruned nodes above the holders of a lost point. A query reports a node once, with the first point lost. */
 static bool report_pruned(const octree_point *point, void *context)
 {
     const node_query *q = context;

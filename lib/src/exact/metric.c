@@ -97,7 +97,7 @@ int metric_compare(const double target[3], const double a[3], const double b[3])
 {
     /* |a - t|^2 - |b - t|^2 = sum of a^2 - 2at - b^2 + 2bt: twelve exact products, fewer where coordinates are equal.
      */
-    /* many points at one position are compared often */
+    /* Many points at one position are compared often. */
     if (same_position(a, b))
         return 0;
     exact_sum sum;

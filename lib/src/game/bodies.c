@@ -151,7 +151,7 @@ static void bounce_on_axis(const moving_body *body, const octree_box *world, dou
     const double velocity = body->velocity[axis] * direction;
     const bool leaves = (at == max && velocity > 0) || (at == min && velocity < 0);
     now->position[axis] = at;
-    now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* no minus zero */
+    now->velocity[axis] = (leaves ? -velocity : velocity) + 0.0; /* + 0.0 turns -0.0 into 0 */
 }
 
 /* The position and velocity of a body at a tick. Most bodies have not reached a face yet; one test without branches
@@ -308,12 +308,12 @@ static bool apply_edit(octree_game *game, const octree_edit *edit)
 
 /* ---- Many moves at once --------------------------------------------------------------------------------------- */
 
-/* Moves of different bodies. */
+/* A list of moves of different bodies, in the form that octree_move_many() takes. */
 typedef struct motion {
     octree_point *points; /* the bodies as the tree stores them */
     double (*to)[3];
     octree_status *statuses;
-    uint32_t *bodies; /* indices of the bodies */
+    uint32_t *bodies; /* for each move the index of its body */
     size_t count, room;
 } motion;
 
@@ -358,7 +358,7 @@ static void collect_moves_by_velocity(const octree_game *game, motion *m)
     }
 }
 
-enum { MANY = 256 }; /* with fewer moves octree_move_many() is not faster */
+enum { MANY = 256 }; /* the least number of moves for which octree_move_many() is faster */
 
 /* Move the points in the tree only. False when there is no memory; some points may have moved. */
 static bool move_points(octree *tree, motion *m)
@@ -414,7 +414,8 @@ static bool apply_move_edits(octree_game *game, const octree_edit *edits, size_t
     bool ok = motion_allocate(&m, &game->memory, count);
     for (size_t done = 0; ok && done < count; done += m.count ? m.count : 1) {
         collect_run_of_moves(game, edits + done, count - done, &m);
-        ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done); /* the body is unknown */
+        /* An edit of an unknown body is not collected: it is refused. */
+        ok = m.count > 0 ? apply_motion(game, &m, true) : apply_edit(game, edits + done);
     }
     motion_release(&m, &game->memory);
     return ok;
@@ -461,9 +462,9 @@ bool game_list_movers(octree_game *game)
         if (!is_moving(body->velocity))
             continue;
         octree_body now = body_at_tick(body, &game->session->tree.world, game->tick.number);
-        /* the stored position: a full leaf may have refused the move */
+        /* Show the stored position: a full leaf may have refused the move. */
         memcpy(now.position, body->position, sizeof now.position);
-        /* a body that is too fast to follow does not move */
+        /* A body that is too fast to follow does not move. */
         if (is_moving(now.velocity) && !list_push(&game->memory, &game->movers, &now, sizeof now))
             return false;
     }

@@ -9,18 +9,18 @@
 /* A body's position is computed from its origin and the ticks since then, never by adding tick by tick. */
 typedef struct moving_body {
     uint64_t id;
-    double position[3]; /* as stored in the tree */
+    double position[3]; /* the position that the tree stores */
     double origin[3];
     double velocity[3];
     uint64_t since;   /* the tick of the origin */
-    uint64_t moved;   /* the last tick that moved it; UINT64_MAX if none has */
-    double before[3]; /* its stored position before that tick */
-    size_t run;       /* the last run of edits that moved it; 0 if none has */
+    uint64_t moved;   /* the last tick that moved the body; UINT64_MAX if none has */
+    double before[3]; /* the position stored before that tick */
+    size_t run;       /* the last run of edits that moved the body; 0 if none has */
 } moving_body;
 
 typedef struct bodies {
     list items;        /* a list of moving_body */
-    uint32_t *slots;   /* index + 1 by hash of id, or 0; open addressing with linear probing */
+    uint32_t *slots;   /* a hash table by id with linear probing; each slot holds an index + 1, or 0 */
     size_t slot_count; /* the length of `slots`: a power of two, or 0 */
     size_t movers;     /* the number of bodies whose velocity is not zero */
     size_t runs;       /* the number of runs of edits so far that move bodies */

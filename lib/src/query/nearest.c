@@ -419,7 +419,7 @@ static void search_in_morton_order(target_batch *b, arena *memory)
 {
     run_tasks(b->tree, find_codes_of_share, b->tasks, b);
     morton_sort_tasks(b->tree, memory, b->order, b->order + b->count, b->count, 0, false);
-    /* the caller's tracer need not be thread-safe */
+    /* One task traces: the caller's tracer need not be thread-safe. */
     if (b->how.trace)
         b->tasks = 1;
     run_tasks(b->tree, search_targets_of_share, b->tasks, b);

@@ -162,7 +162,7 @@ static void add_to_few_neighbors(neighbor_heap *h, const octree_point *point, do
         return;
     f->points[place] = point;
     f->squares[place] = square;
-    /* the square may be NaN */
+    /* A square that is NaN also becomes METRIC_FINITE. */
     insert_key(f->keys, last, make_slot_key(square < METRIC_FINITE ? square : METRIC_FINITE, place));
     if (h->count < h->k)
         return;

@@ -175,7 +175,7 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
                                          : add_child_leaf(tree, end, morton_octant(code, p.depth), point);
     if (status != OCTREE_OK)
         return status;
-    /* leaf_append() has already counted the point in the leaf */
+    /* leaf_append() has already counted the point in the leaf. */
     const unsigned inner = is_leaf ? p.depth : p.depth + 1;
     for (unsigned i = 0; i < inner; i++)
         p.nodes[i]->count++;

@@ -19,30 +19,30 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* The stored point of each id that moves. Dense ids index the table directly; otherwise it is a hash table with linear
- * probing. */
+/* A table of the ids that move, with the stored point of each. Dense ids index it directly; otherwise it is a hash
+ * table with linear probing. */
 typedef struct id_table {
     const octree_point *_Atomic *stored; /* for each slot from `first` on; null: not found. If two tasks write one slot,
                                             an id is stored twice and the table is not used */
     uint64_t *bits;                      /* dense: bit i is set if a move has the id least + i; else null */
-    uint32_t *places;                    /* not dense: the index + 1 of the move in each slot, or 0 */
+    uint32_t *places;                    /* not dense: for each slot the index + 1 of the move, or 0; else null */
     size_t slot_count, first, stored_count;
     uint64_t least;
 } id_table;
 
 /* The results of one task. */
 typedef struct findings {
-    size_t first;           /* index, among all stored points, of the first that the task reads */
-    size_t stay, looked_up; /* counts of points that stay, and of all points read */
-    size_t seen, moved;     /* counts of moves whose id is stored, and of valid moves */
+    size_t first;           /* index of the first stored point that the task reads */
+    size_t stay, looked_up; /* the numbers of stored points that stay, and of all that the task has read */
+    size_t seen, moved;     /* the numbers of moves whose id is stored, and of valid moves */
 } findings;
 
 typedef struct remake {
-    batch *whole; /* the moves */
+    batch *whole; /* the batch of moves */
     id_table ids;
     octree_point *staying; /* copies of the points that stay; those of a task begin at its first point */
     uint32_t *cells;       /* grid cell of each move, then of each staying point; without a grid 0 */
-    size_t count;          /* moves */
+    size_t count;          /* the number of moves */
     unsigned move_tasks;
     forest stored; /* the tree before the moves */
     findings found[TASKS_AT_MOST];
@@ -184,7 +184,7 @@ static void find_staying_cells(const remake *r, size_t first, size_t count)
 
 static void separate_moving_in_leaf(const remake *r, const node *leaf, findings *f)
 {
-    const id_table ids = r->ids; /* a local copy, which the compiler knows not to change through the stores below */
+    const id_table ids = r->ids; /* a local copy: the compiler then knows that the stores below do not change it */
     const octree_point *moves = r->whole->points;
     for (uint32_t i = 0; i < leaf->count; i++) {
         const octree_point *point = &leaf_points(leaf)[i];
@@ -224,7 +224,7 @@ static void separate_moving_of_share(size_t number, void *context)
 
 /* ---- The moves ---------------------------------------------------------------------------------------------- */
 
-/* The status of an invalid move. */
+/* Find out why a move is invalid. */
 static octree_status find_move_error(const batch *b, size_t place)
 {
     octree_status status = check_in_world(b->tree, b->points[place].position);
@@ -258,10 +258,11 @@ static void check_move_group(const remake *r, size_t first, size_t count, findin
         if (stored[i])
             prefetch_memory(stored[i]);
     }
+    /* Without a grid all cells are GRID_NONE at first. */
     if (b->grid)
         compute_grid_cells(b->tree->axes, b->grid, b->to[first], 3, count, r->cells + first);
     else
-        memset(r->cells + first, 0xff, count * sizeof *r->cells); /* sets all to GRID_NONE */
+        memset(r->cells + first, 0xff, count * sizeof *r->cells);
     for (size_t i = 0; i < count; i++) {
         const size_t place = first + i;
         const bool made = is_valid_move(r, place, stored[i], &r->cells[place]);
@@ -322,7 +323,7 @@ static octree_status build_moved_tree(remake *r, bool *settled)
     const batch *whole = r->whole;
     const size_t total = whole->tree->root.count;
     batch b = *whole;
-    b.statuses = NULL; /* they are complete */
+    b.statuses = NULL; /* the caller's statuses are final */
     b.stored = r->staying;
     b.stored_count = total;
     b.cells = r->cells;
@@ -357,7 +358,7 @@ static octree_status check_moves_and_build(remake *r, bool *settled)
         seen += r->found[i].seen;
         b->done += r->found[i].moved;
     }
-    *settled = looked_up - stay == seen; /* otherwise an id that moves is stored twice */
+    *settled = looked_up - stay == seen; /* if not, an id that moves is stored twice */
     return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }
 

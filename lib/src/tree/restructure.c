@@ -60,8 +60,8 @@ static void sort_by_index(span s)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* Order: stored points first, then the caller's in the given order, so that a leaf refuses the same points as single
- * insertions would. */
+/* The order of insertion: stored points come first, then the caller's in the given order. A leaf then refuses the same
+ * points as with single insertions. */
 static int compare_insertion_order(const void *a, const void *b)
 {
     const morton_item *p = a, *q = b;
@@ -97,7 +97,7 @@ static bool make_leaf_of_items(batch *b, span items, node *made)
     return true;
 }
 
-/* Copy the points of a leaf except the leaving ones, which are sorted by index. */
+/* Append the points of a leaf to another leaf, except the leaving ones, which are sorted by index. */
 static void append_staying(node *made, const node *leaf, span leaving)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
@@ -272,7 +272,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
     return remake_leaf(b, old, leaving, arriving, made);
 }
 
-/* Copy the staying points in and below a node into a leaf. */
+/* Append the staying points in and below a node to a leaf. */
 static void append_staying_below(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {
@@ -302,7 +302,7 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
 
 bool plan_replacement(batch *b, node *at, const node *made)
 {
-    if (at->below == made->below && at->count == made->count) /* equal blocks imply equal octants and room */
+    if (at->below == made->below && at->count == made->count) /* unchanged: equal blocks imply equal octants and room */
         return true;
     const patch p = {at, *made};
     if (list_push(&b->store->memory, &b->patches, &p, sizeof p))

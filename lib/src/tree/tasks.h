@@ -24,12 +24,12 @@ static inline size_t share_start(size_t things, unsigned tasks, size_t number)
     return things / tasks * number + (number < more ? number : more);
 }
 
-/* A node with everything below it. */
+/* A node and everything below it. */
 typedef struct subtree {
     const node *node;
     octree_address address;
     cell cell;
-    size_t before; /* count of points in earlier subtrees */
+    size_t before; /* the number of points in earlier subtrees */
 } subtree;
 
 enum { SUBTREES_AT_MOST = 8 * TASKS_AT_MOST };

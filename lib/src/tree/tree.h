@@ -20,7 +20,7 @@ typedef struct tuning {
 } tuning;
 
 struct octree {
-    octree_def def; /* after clamping, with the capacity in force */
+    octree_def def; /* the caller's definition after clamping, with the capacity in force */
     axis axes[3];
     double scale; /* the power of two that brings the world's extent near 1 (metric.h) */
     uint64_t version;
@@ -48,7 +48,7 @@ static inline bool fits_leaf(const octree *tree, size_t count)
     return count <= tree->def.leaf_capacity;
 }
 
-/* Returns OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE or OUTSIDE. */
+/* Check whether a position is in the world. Returns OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
 
 /* Insert a point with a valid position and its code. Returns OK, DUPLICATE, FULL, NO_MEMORY or TOO_MANY. Unless
@@ -73,7 +73,7 @@ octree_status rebuild_tree(octree *tree, const octree_def *def);
  * code's octant. */
 typedef struct path {
     node *nodes[OCTREE_MAX_DEPTH + 1];
-    unsigned depth; /* of the last node */
+    unsigned depth; /* the depth of the last node */
 } path;
 
 path find_path(const octree *tree, uint64_t code);
@@ -86,10 +86,10 @@ static inline node *path_end(const path *p)
 /* Where a pair (position, id) is stored. */
 typedef struct found_point {
     path path;
-    uint32_t index; /* in the leaf at the path's end */
+    uint32_t index; /* the point's index in the leaf at the path's end */
 } found_point;
 
-/* False when the pair is not in the tree. */
+/* Find a pair (position, id). False when it is not in the tree. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);
 
 #endif
