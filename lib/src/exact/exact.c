@@ -89,6 +89,15 @@ int exact_sign(exact_sum *sum)
     return carry < 0 ? -1 : any; /* a carry is never positive: products leave 23 bits free in their last digit */
 }
 
+int exact_sign_of_sum(const double terms[], int count)
+{
+    exact_sum sum;
+    exact_clear(&sum);
+    for (int i = 0; i < count; i++)
+        exact_add_product(&sum, 1, terms[i], 1);
+    return exact_sign(&sum);
+}
+
 /* The exact rounding error of sum = fl(a + b), by Dekker's FastTwoSum. Knuth's TwoSum can overflow in between. */
 static double sum_error(double a, double b, double sum)
 {

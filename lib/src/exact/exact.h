@@ -28,6 +28,9 @@ void exact_add_product(exact_sum *sum, int factor, double a, double b);
 /* The sign of the sum: -1, 0 or 1. Normalizes the digits: clear the sum before using it again. */
 int exact_sign(exact_sum *sum);
 
+/* The sign of a sum of terms: -1, 0 or 1. */
+int exact_sign_of_sum(const double terms[], int count);
+
 /* The largest double <= a + b, and the smallest double >= a + b, for the real sum. A sum beyond the range of doubles
  * gives +-DBL_MAX, or an infinity if no finite double is a bound. */
 double exact_add_down(double a, double b);

@@ -83,25 +83,16 @@ static int test_in_doubles(const sweep *box, const double from[3], const double 
 
 /* ---- Exactly ------------------------------------------------------------------------------------------------ */
 
-static int sign_of_sum(const double terms[], int count)
-{
-    exact_sum sum;
-    exact_clear(&sum);
-    for (int i = 0; i < count; i++)
-        exact_add_product(&sum, 1, terms[i], 1);
-    return exact_sign(&sum);
-}
-
 /* The sign of u - w: 1 if the point moves down relative to the box, 0 if it is at rest. */
 static int motion_sign(const ends *e)
 {
-    return sign_of_sum((double[]){e->p, -e->a, -e->q, e->b}, 4);
+    return exact_sign_of_sum((double[]){e->p, -e->a, -e->q, e->b}, 4);
 }
 
 /* Whether side * (point - middle) <= size. */
 static bool is_within_size(double point, double middle, int side, double size)
 {
-    return sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
+    return exact_sign_of_sum((double[]){size, -side * point, side * middle}, 3) >= 0;
 }
 
 /* Add factor * (way * u + reach) of one axis times the length |u - w| of another axis. */

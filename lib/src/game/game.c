@@ -33,21 +33,19 @@ const char *octree_shape_name(octree_shape_kind kind)
  * player's, and the tree stores only its end.
  */
 
-typedef struct hit_collector {
-    const octree_game *game;
-    point_collector hits;
-} hit_collector;
-
 static bool was_moved_in_tick(const octree_game *game, const moving_body *body)
 {
     return body->moved == game->tick.number;
 }
 
+/* An octree_point_visitor: collect a hit; with sweep, unless this tick has moved the body. */
 static bool collect_hit(const octree_point *point, void *context)
 {
-    hit_collector *c = context;
-    const moving_body *body = c->game->tick.swept ? bodies_find(&c->game->bodies, point->id) : NULL;
-    return (body && was_moved_in_tick(c->game, body)) || collect_point(point, &c->hits);
+    octree_game *game = context;
+    const moving_body *body = game->tick.swept ? bodies_find(&game->bodies, point->id) : NULL;
+    if (!body || !was_moved_in_tick(game, body))
+        game->out_of_memory |= !list_push(&game->memory, &game->hits, point, sizeof *point);
+    return !game->out_of_memory;
 }
 
 /* Collect points of the tree; with sweep, without the bodies that this tick has moved. */
@@ -56,11 +54,10 @@ static bool collect_hit_points(octree_game *game, const octree_point *self)
     const octree_tick *tick = &game->tick;
     const double *from = tick->swept ? tick->from : tick->attempt;
     const octree_search how = game_search_options(game, &game->tick.hit_cost);
-    hit_collector found = {game, {&game->memory, &game->hits, false}};
     /* The arguments are valid, so the search cannot fail. */
     octree_collide_swept(game->tree, from, tick->attempt, game->session->player.box_size, self, &how, collect_hit,
-                         &found);
-    return !found.hits.failed;
+                         game);
+    return !game->out_of_memory;
 }
 
 /* Collect the bodies that this tick has moved. */
@@ -88,7 +85,7 @@ static bool list_hit_origins(octree_game *game)
     const octree_point *hits = game->hits.items;
     game->hit_from.count = 0;
     for (size_t i = 0; i < game->hits.count; i++) {
-        /* not null: every point except the player's is a body */
+        /* The body is not null: every point except the player's is a body. */
         const moving_body *body = bodies_find(&game->bodies, hits[i].id);
         const double *from = was_moved_in_tick(game, body) ? body->before : hits[i].position;
         if (!list_push(&game->memory, &game->hit_from, from, sizeof(double[3])))

@@ -35,7 +35,7 @@ struct octree_game {
     int64_t steps[3]; /* the player's net steps on each axis; its position is computed from them */
     double fastest;   /* the largest speed of the session's bodies along one axis */
     bool quit;
-    bool lost_visits; /* out of memory while visited nodes were recorded */
+    bool out_of_memory; /* a visitor or tracer could not record a hit or a node */
     tree_summary summary;
     foreign foreign;
     judge judge;

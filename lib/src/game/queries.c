@@ -39,11 +39,9 @@ static bool ask_in_game(octree_game *game, const octree_query *query, bool by_ke
     octree_answer *answer = list_append(&game->memory, &game->answers, sizeof *answer);
     if (!answer)
         return false;
-    query_run run = {game->tree,
-                     game_search_options(game, NULL),
-                     {&game->memory, &game->found_points, false},
-                     &game->found_neighbors,
-                     NULL};
+    query_run run = {.tree = game->tree, .how = game_search_options(game, NULL), .memory = &game->memory};
+    run.points = &game->found_points;
+    run.neighbors = &game->found_neighbors;
     run.how.skip = query->at_player ? OCTREE_SKIP_ID : OCTREE_SKIP_NONE;
     run.how.skip_id = game->session->player.id;
     const size_t points = game->found_points.count, neighbors = game->found_neighbors.count;
@@ -94,7 +92,7 @@ static void record_visit(octree_address node, octree_trace_kind touch, void *con
 {
     octree_game *game = context;
     const octree_visit visit = {node, touch, touch == OCTREE_TRACE_TAKEN};
-    game->lost_visits |= !list_push(&game->memory, &game->visits, &visit, sizeof visit);
+    game->out_of_memory |= !list_push(&game->memory, &game->visits, &visit, sizeof visit);
 }
 
 octree_search game_search_options(octree_game *game, octree_cost *cost)
@@ -164,7 +162,7 @@ static void sort_leaves(octree_game *game)
 
 bool game_finish_queries(octree_game *game)
 {
-    if (game->lost_visits || !add_result_leaves(game))
+    if (game->out_of_memory || !add_result_leaves(game))
         return false;
     assign_results(game);
     sort_visits(game);

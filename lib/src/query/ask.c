@@ -101,13 +101,6 @@ octree_status octree_query_check(const octree_query *query)
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
-bool collect_point(const octree_point *point, void *context)
-{
-    point_collector *c = context;
-    c->failed = !list_push(c->memory, c->points, point, sizeof *point);
-    return !c->failed;
-}
-
 void sort_points(list *points, size_t first)
 {
     if (points->count > first)
@@ -121,7 +114,8 @@ bool collect_unless_skipped(const octree_point *point, void *context)
     const octree_answer *asked = run->asked;
     const bool skipped = (asked->skip == OCTREE_SKIP_ID && point->id == asked->skip_id) ||
                          (asked->skip == OCTREE_SKIP_COINCIDENT && same_position(point->position, asked->target));
-    return skipped || collect_point(point, &run->points);
+    run->failed = !skipped && !list_push(run->memory, run->points, point, sizeof *point);
+    return !run->failed;
 }
 
 static size_t size_of_member(octree_member_type type)
@@ -169,7 +163,7 @@ void round_answer(octree_answer *answer)
 octree_status ask_query(query_run *run, const octree_query *query, const double player[3], octree_answer *answer)
 {
     const bool neighbors = octree_query_about(query->kind)->neighbors;
-    const list *found = neighbors ? run->neighbors : run->points.points;
+    const list *found = neighbors ? run->neighbors : run->points;
     const size_t first = found->count;
     *answer = query_to_answer(query, player);
     run->asked = answer;
@@ -178,17 +172,17 @@ octree_status ask_query(query_run *run, const octree_query *query, const double 
         run->how.skip = query->skip;
         run->how.skip_id = query->skip_id;
     }
-    /* the exact answer judges; epsilon is what the foreign answer may deviate by */
+    /* The exact answer judges; epsilon is the error that the foreign answer may have. */
     if (query_is_judged(query))
         run->how.epsilon = 0;
     else if (query->epsilon > 0)
         run->how.epsilon = query->epsilon;
     octree_status status = query_rules_of(query->kind)->ask(run, answer);
-    if (run->points.failed)
+    if (run->failed)
         status = OCTREE_NO_MEMORY;
     answer->count = found->count - first;
     if (status == OCTREE_OK && !neighbors)
-        sort_points(run->points.points, first);
+        sort_points(run->points, first);
     return status;
 }
 
@@ -217,7 +211,7 @@ octree_status octree_query_answer(const octree *tree, const octree_query *query,
         return status;
     arena memory = {.allocator = tree->def.allocator};
     list points = {0}, neighbors = {0};
-    query_run run = {tree, search_or_default(how), {&memory, &points, false}, &neighbors, NULL};
+    query_run run = {tree, search_or_default(how), &memory, &points, &neighbors, NULL, false};
     octree_answer made;
     status = ask_query(&run, query, player, &made);
     made.points = move_to_block(&memory, &points, sizeof(octree_point));

@@ -6,15 +6,6 @@
 #include "octree/query.h"
 #include "pool.h"
 
-/* A visitor that appends points to a list of octree_point. It stops and sets `failed` when there is no memory. */
-typedef struct point_collector {
-    arena *memory;
-    list *points;
-    bool failed;
-} point_collector;
-
-bool collect_point(const octree_point *point, void *context);
-
 /* Sort the points of a list from index `first` on, by id and then by position. */
 void sort_points(list *points, size_t first);
 
@@ -22,9 +13,11 @@ void sort_points(list *points, size_t first);
 typedef struct query_run {
     const octree *tree;
     octree_search how;
-    point_collector points;
+    arena *memory;
+    list *points;    /* a list of octree_point */
     list *neighbors; /* a list of octree_neighbor */
     const octree_answer *asked;
+    bool failed; /* there was no memory for a point */
 } query_run;
 
 /* An octree_point_visitor with a query_run as its context: collect the point unless the query skips it. */

@@ -8,7 +8,7 @@ octree_status ask_knearest(query_run *run, octree_answer *answer)
     const size_t first = run->neighbors->count, all = octree_count(run->tree);
     const size_t k = answer->k < all ? answer->k : all;
     while (run->neighbors->count < first + k)
-        if (!list_append(run->points.memory, run->neighbors, sizeof(octree_neighbor)))
+        if (!list_append(run->memory, run->neighbors, sizeof(octree_neighbor)))
             return OCTREE_NO_MEMORY;
     octree_neighbor *neighbors = k ? (octree_neighbor *)run->neighbors->items + first : NULL;
     size_t found;

@@ -14,12 +14,7 @@ static bool is_within_gap(double a, double b, double length)
 {
     if (isinf(a) || isinf(b))
         return a <= b;
-    exact_sum sum;
-    exact_clear(&sum);
-    exact_add_product(&sum, 1, a, 1);
-    exact_add_product(&sum, -1, b, 1);
-    exact_add_product(&sum, -1, length, 1);
-    return exact_sign(&sum) <= 0;
+    return exact_sign_of_sum((double[]){a, -b, -length}, 3) <= 0;
 }
 
 bool contains_range(const octree_answer *asked, const double position[3], double slack)

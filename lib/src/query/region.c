@@ -25,21 +25,16 @@ typedef struct descent {
 /* Visit every point in and below a node. False when the visitor stopped. */
 static bool visit_points_below(region *r, const node *n)
 {
-    const node *stack[STACK_ROOM];
-    size_t size = 0;
-    stack[size++] = n;
-    while (size > 0) {
-        const node *next = stack[--size];
-        for (unsigned i = bits_count8(next->octants); i-- > 0;) {
-            stack[size++] = &children_of(next)[i];
-            prefetch_memory(children_of(next)[i].below);
-        }
-        if (next->octants)
-            continue;
-        for (uint32_t i = 0; i < next->count; i++)
-            if (!r->visit(&leaf_points(next)[i], r->context))
-                return false;
-    }
+    const unsigned children = bits_count8(n->octants);
+    const node *child = children_of(n);
+    for (unsigned i = 0; i < children; i++)
+        prefetch_memory(child[i].below);
+    for (unsigned i = 0; i < children; i++)
+        if (!visit_points_below(r, &child[i]))
+            return false;
+    for (uint32_t i = 0; children == 0 && i < n->count; i++)
+        if (!r->visit(&leaf_points(n)[i], r->context))
+            return false;
     return true;
 }
 
@@ -200,7 +195,7 @@ octant_masks box_shape_enter(void *shape, const octree *tree, unsigned depth, un
         const int32_t middle = low + half, high = low + size;
         const uint8_t below = octants_beside[i][0], above = octants_beside[i][1];
         s->low[depth][i] = low;
-        /* the node itself meets the box */
+        /* The node itself meets the box, so that only its middle plane decides. */
         meets &= bits_if(s->near.min[i] < middle, below) | bits_if(middle <= s->near.max[i], above);
         inside &= (bits_if(s->whole.min[i] < low, below) & bits_if(middle <= s->whole.max[i], below)) |
                   (bits_if(s->whole.min[i] < middle, above) & bits_if(high <= s->whole.max[i], above));

@@ -108,7 +108,7 @@ static void collect_valid_items(batch *b)
         collect_valid_range(b, 0, b->count);
         return;
     }
-    run_parts(b, collect_valid_part, d);
+    run_parts(b, collect_valid_part);
     for (unsigned i = 0; i < d->tasks; i++)
         append_part_items(&b->valid, d->parts[i].batch.valid);
 }
@@ -338,11 +338,6 @@ static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, le
 
 /* ---- Visiting by tasks -------------------------------------------------------------------------------------- */
 
-typedef struct visits {
-    division *division;
-    leaf_visitor *visitor;
-} visits;
-
 /* Make jobs of subtrees with their items, each of at most `grain` items or a single leaf. False when there is no
  * memory.
  */
@@ -366,16 +361,16 @@ static span empty_list_from(span list, size_t before)
 /* The lists of a part begin at the index of its first item, so that parts do not overlap. */
 static void visit_leaves_of_part(size_t number, void *context)
 {
-    const visits *v = context;
-    const size_t first = v->division->starts[number], end = v->division->starts[number + 1];
-    const job *jobs = v->division->work.jobs.items;
-    batch *b = &v->division->parts[number].batch;
+    division *d = context;
+    const size_t first = d->starts[number], end = d->starts[number + 1];
+    const job *jobs = d->work.jobs.items;
+    batch *b = &d->parts[number].batch;
     const size_t before = first < end ? (size_t)(jobs[first].arriving.items - b->valid.items) : 0;
     b->leaving = empty_list_from(b->leaving, before);
     b->arriving = empty_list_from(b->arriving, before);
     b->done = 0;
     for (size_t i = first; i < end; i++) /* const is cast away: the nodes of the tree are not const */
-        visit_leaves_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, v->visitor);
+        visit_leaves_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, d->visitor);
 }
 
 /* Visit the leaves of all items. False when there is no memory; then nothing was visited. */
@@ -384,8 +379,9 @@ static bool visit_leaves_by_tasks(batch *b, leaf_visitor *visitor)
     division *d = b->division;
     const bool ok = add_visit_jobs(b, &b->tree->root, 0, b->valid);
     if (ok) {
+        d->visitor = visitor;
         share_jobs(d);
-        run_parts(b, visit_leaves_of_part, &(visits){d, visitor});
+        run_parts(b, visit_leaves_of_part);
     }
     for (unsigned i = 0; ok && i < d->tasks; i++) {
         const batch *part = &d->parts[i].batch;

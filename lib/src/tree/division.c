@@ -47,7 +47,7 @@ void join_part_pools(batch *b)
     }
 }
 
-void run_parts(batch *b, octree_task *task, void *context)
+void run_parts(batch *b, octree_task *task)
 {
     division *d = b->division;
     for (unsigned i = 0; i < d->tasks; i++) {
@@ -61,7 +61,7 @@ void run_parts(batch *b, octree_task *task, void *context)
         own->duplicate = before.duplicate;
         own->overflow = before.overflow;
     }
-    run_tasks(b->tree, task, d->tasks, context);
+    run_tasks(b->tree, task, d->tasks, d);
 }
 
 bool add_job(batch *b, const node *old, cell c, span leaving, span arriving)

@@ -51,6 +51,7 @@ typedef struct division {
     unsigned tasks;
     size_t grain; /* the greatest number of items of a job */
     job_list work;
+    leaf_visitor *visitor;            /* set while jobs are visits */
     size_t starts[TASKS_AT_MOST + 1]; /* index of the first job of each task */
     part parts[TASKS_AT_MOST];
 } division;
@@ -63,8 +64,9 @@ void release_division(batch *b);
 void create_part_pools(batch *b, size_t expected);
 void join_part_pools(batch *b);
 
-/* Run a task for each part. Each part becomes a copy of the batch and keeps its own plan. */
-void run_parts(batch *b, octree_task *task, void *context);
+/* Run a task for each part, with the division as its context. Each part becomes a copy of the batch and keeps its own
+ * plan. */
+void run_parts(batch *b, octree_task *task);
 
 /* Add a job. False when there is no memory. */
 bool add_job(batch *b, const node *old, cell c, span leaving, span arriving);

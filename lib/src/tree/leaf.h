@@ -21,9 +21,6 @@ typedef struct node {
 #define LEAF_HASHED 255
 #define LEAF_NONE UINT32_MAX
 
-/* The greatest size of a stack of nodes to visit: 7 siblings per level, and 8 at the deepest level. */
-#define STACK_ROOM (7 * OCTREE_MAX_DEPTH + 8)
-
 /* The memory of a tree. */
 typedef struct store {
     arena memory;

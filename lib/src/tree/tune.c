@@ -47,7 +47,7 @@ typedef struct sample {
     size_t count, room;
     octree_mix mix;
     octree_neighbor *neighbors; /* room for the results of any search of the mix */
-    double extents[TARGETS];    /* half the side of each target's range */
+    double extents[TARGETS];    /* for each target, half the side of its range */
 } sample;
 
 static bool add_sample_point(const octree_point *point, void *context)
@@ -88,7 +88,7 @@ static bool make_sample(sample *s, octree *tree)
         return false;
     octree_walk(tree, copy_selected_cell,
                 &(cell_picker){s, tree, cell, 0, count <= s->room ? 1 : count / (MOST_CELL / cell)});
-    /* makes the sample independent of the order in leaves */
+    /* Sorted, so that the sample does not depend on the order in leaves. */
     qsort(s->points, s->count, sizeof *s->points, octree_compare_points);
     return true;
 }
@@ -100,17 +100,14 @@ static const octree_point *target_of(const sample *s, size_t i)
 
 /* ---- Trials ------------------------------------------------------------------------------------------------- */
 
-/* For each target, find the cube with the volume of the ball that contains `hits` points. */
-static octree_status measure_ranges(sample *s, const octree *trial)
+/* For each target, find the cube with the volume of the ball that contains `hits` points. The searches cannot fail. */
+static void measure_ranges(sample *s, const octree *trial)
 {
-    octree_status status = OCTREE_OK;
-    /* unreachable: a search for a stored point in a valid tree cannot fail */
-    for (size_t i = 0; status == OCTREE_OK && i < TARGETS; i++) {
+    for (size_t i = 0; i < TARGETS; i++) {
         size_t found = 0;
-        status = octree_nearest_k(trial, target_of(s, i)->position, s->mix.hits, NULL, s->neighbors, &found);
+        octree_nearest_k(trial, target_of(s, i)->position, s->mix.hits, NULL, s->neighbors, &found);
         s->extents[i] = found ? 0.806 * s->neighbors[found - 1].distance : 0;
     }
-    return status;
 }
 
 static octree_cost cost_of_change(const octree *trial, const octree_point *target)
@@ -129,7 +126,7 @@ static octree_cost cost_of_nearest(const sample *s, const octree *trial, const o
     return cost;
 }
 
-/* A range visits all nodes below a node that it takes whole; octree_cost does not count these, so the tracer does. */
+/* The cost of a range search. octree_cost leaves out the nodes below a node that is taken whole; a tracer adds them. */
 typedef struct range_cost {
     const octree *trial;
     octree_cost all;
@@ -183,10 +180,11 @@ static octree_status try_capacity(sample *s, octree_def def, double *cost)
     octree_status status = octree_create(&def, &trial);
     if (status == OCTREE_OK)
         status = octree_insert_many(trial, s->points, s->count, NULL, NULL);
-    if (status == OCTREE_OK && def.leaf_capacity == LEAST_CAPACITY)
-        status = measure_ranges(s, trial);
-    if (status == OCTREE_OK)
+    if (status == OCTREE_OK) {
+        if (def.leaf_capacity == LEAST_CAPACITY)
+            measure_ranges(s, trial);
         *cost = cost_of_mix(s, trial);
+    }
     octree_destroy(trial);
     return status;
 }
