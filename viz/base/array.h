@@ -4,9 +4,11 @@
 #ifndef BASE_ARRAY_H
 #define BASE_ARRAY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Returns the array with room for at least `count` items; the caller frees it with free(). Returns null when out of
  * memory: the old array is then unchanged and still the caller's. Cost: O(1) per item, amortized. */
@@ -22,6 +24,22 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
     if (grown)
         *room = wanted;
     return grown;
+}
+
+/* Make room for at least `count` items in an array; `array` is the address of the pointer to its items. Returns false
+ * when out of memory: the array is then unchanged. With `struct { int *items; size_t count, room; } *list`:
+ *   if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items))
+ *       return false;
+ *   list->items[list->count++] = 7;
+ */
+static inline bool array_grow(void *array, size_t count, size_t *room, size_t item_size)
+{
+    void *items;
+    memcpy(&items, array, sizeof items); /* a copy, since void ** is not compatible with the pointer's type */
+    items = array_reserve(items, count, room, item_size);
+    if (items || count == 0)
+        memcpy(array, &items, sizeof items);
+    return items || count == 0;
 }
 
 /* The order, for qsort() and bsearch(), of items that begin with a uint64_t. */

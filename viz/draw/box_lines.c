@@ -64,16 +64,11 @@ static const hash_map_keys by_key = {sizeof(line), hash_key, same_key};
 
 static uint32_t add_line(box_lines *kept, const line_key *key)
 {
-    line *lines = array_reserve(kept->lines, kept->count + 1, &kept->room, sizeof *lines);
-    if (!lines)
+    if (!array_grow(&kept->lines, kept->count + 1, &kept->room, sizeof *kept->lines) ||
+        !array_grow(&kept->changed, kept->count + 1, &kept->changed_room, sizeof *kept->changed))
         return LINE_NONE;
-    kept->lines = lines;
-    uint8_t *changed = array_reserve(kept->changed, kept->count + 1, &kept->changed_room, sizeof *changed);
-    if (!changed)
-        return LINE_NONE;
-    kept->changed = changed;
-    lines[kept->count] = (line){.key = *key};
-    if (!hash_map_add(&kept->map, &by_key, lines))
+    kept->lines[kept->count] = (line){.key = *key};
+    if (!hash_map_add(&kept->map, &by_key, kept->lines))
         return LINE_NONE;
     kept->idle++;
     return (uint32_t)kept->count++;
@@ -150,11 +145,9 @@ static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *ch
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,
                     *found = find_box(&kept->before, *old, box);
-    lined_box *items = array_reserve(kept->now.items, kept->now.count + 1, &kept->now.room, sizeof *items);
-    if (!items)
+    if (!array_grow(&kept->now.items, kept->now.count + 1, &kept->now.room, sizeof *kept->now.items))
         return false;
-    kept->now.items = items;
-    lined_box *added = &items[kept->now.count++];
+    lined_box *added = &kept->now.items[kept->now.count++];
     *changed = *changed || !found || found != next;
     if (!found) {
         added->box = *box;

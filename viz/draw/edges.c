@@ -167,14 +167,12 @@ static void sort_intervals(interval *line, size_t count)
 /* Fill *one with the sorted intervals of a line. */
 static bool gather_line(interval_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
 {
-    interval *items = array_reserve(one->items, on->intervals + 1, &one->room, sizeof *items);
-    if (!items)
+    if (!array_grow(&one->items, on->intervals + 1, &one->room, sizeof *one->items))
         return false;
     for (size_t i = 0; i < on->intervals; i++)
-        items[i] = interval_of(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
-    one->items = items;
+        one->items[i] = interval_of(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
     one->count = on->intervals;
-    sort_intervals(items, one->count);
+    sort_intervals(one->items, one->count);
     return true;
 }
 
@@ -194,17 +192,9 @@ static double *find_last_end(const sweep *w)
     return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
 }
 
-static bool reserve_edges(edge_array *edges, size_t count)
-{
-    edge *items = array_reserve(edges->items, edges->count + count, &edges->room, sizeof *items);
-    if (items)
-        edges->items = items;
-    return items != NULL;
-}
-
 static bool add_edge(const sweep *w, const interval *of, double from, double to)
 {
-    if (!reserve_edges(w->edges, 1))
+    if (!array_grow(&w->edges->items, w->edges->count + 1, &w->edges->room, sizeof *w->edges->items))
         return false;
     edge *added = &w->edges->items[w->edges->count++];
     *added = (edge){.style = of->style, .depth = of->depth};
@@ -222,7 +212,7 @@ static bool same_style(scene_style a, scene_style b)
 }
 
 /* Emit [from, to] with the style of an interval: extend the last edge where it fits, else add one. */
-static bool emit(const sweep *w, const interval *of, double from, double to)
+static bool extend_or_add_edge(const sweep *w, const interval *of, double from, double to)
 {
     double *end = find_last_end(w);
     const edge *last = end ? &w->edges->items[w->edges->count - 1] : NULL;
@@ -271,7 +261,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
             continue;
         }
         const double to = find_next_change(line, count, begun, now);
-        if (!emit(w, now, at, to))
+        if (!extend_or_add_edge(w, now, at, to))
             return false;
         at = to;
         while (first < count && line[first].to <= at)
@@ -288,7 +278,7 @@ static bool copy_edges(edge_list *list, const line *of)
     edge_array *now = &list->now;
     if (of->count == 0)
         return true;
-    if (!reserve_edges(now, of->count))
+    if (!array_grow(&now->items, now->count + of->count, &now->room, sizeof *now->items))
         return false;
     memcpy(now->items + now->count, list->before.items + of->first, of->count * sizeof *now->items);
     now->count += of->count;

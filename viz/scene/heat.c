@@ -14,30 +14,28 @@ void heat_release(heat *h)
 }
 
 /* The cell of an address, or null. */
-static heat_cell *find(const heat *h, octree_address node)
+static heat_cell *find_cell(const heat *h, octree_address node)
 {
     const uint32_t place = hash_map_find(&h->places, &by_node, h->cells, &node);
     return place == HASH_MAP_NONE ? NULL : &h->cells[place];
 }
 
 /* Null when there is no memory. */
-static heat_cell *find_or_add(heat *h, octree_address node)
+static heat_cell *find_or_add_cell(heat *h, octree_address node)
 {
-    heat_cell *cell = find(h, node);
+    heat_cell *cell = find_cell(h, node);
     if (cell)
         return cell;
     const size_t count = h->places.count;
-    heat_cell *cells = array_reserve(h->cells, count + 1, &h->room, sizeof *cells);
-    if (!cells)
+    if (!array_grow(&h->cells, count + 1, &h->room, sizeof *h->cells))
         return NULL;
-    h->cells = cells;
-    cells[count] = (heat_cell){.node = node};
-    return hash_map_add(&h->places, &by_node, cells) ? &cells[count] : NULL;
+    h->cells[count] = (heat_cell){.node = node};
+    return hash_map_add(&h->places, &by_node, h->cells) ? &h->cells[count] : NULL;
 }
 
 heat_cell heat_at(const heat *h, octree_address node)
 {
-    const heat_cell *cell = h ? find(h, node) : NULL;
+    const heat_cell *cell = h ? find_cell(h, node) : NULL;
     return cell ? *cell : (heat_cell){0};
 }
 
@@ -49,14 +47,14 @@ typedef struct heat_walk {
 static octree_walk_order add_points(const octree_node *node, void *context)
 {
     heat_walk *w = context;
-    heat_cell *cell = find_or_add(w->heat, node->address);
+    heat_cell *cell = find_or_add_cell(w->heat, node->address);
     w->failed = !cell;
     if (cell)
         cell->points += node->count;
     return cell ? OCTREE_WALK_ON : OCTREE_WALK_STOP;
 }
 
-/* Whether an address is a node's or lies below it. */
+/* Whether an address is that of a node or of one of its descendants. */
 static bool is_within(octree_address address, octree_address node)
 {
     while (address > node)
@@ -70,7 +68,7 @@ static void add_visit(heat *h, const octree *tree, octree_address address, bool 
     octree_node node;
     if (octree_node_at(tree, address, &node) != OCTREE_OK)
         return;
-    find(h, address)->visits++;
+    find_cell(h, address)->visits++;
     for (unsigned octant = 0; below && octant < 8; octant++)
         if (node.octants >> octant & 1)
             add_visit(h, tree, address << 3 | octant, true);

@@ -63,35 +63,27 @@ static uint64_t key_count(octree_address address)
     return UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
 }
 
-typedef struct change_context {
-    kept_tree *kept;
-    const octree *tree;
-} change_context;
-
 /* Add the key of the leaf at a changed position. If the leaf was deleted, octree_locate() returns the node above it. If
  * that node is above a kept subtree, the subtree no longer exists, and the walk does not look for it. */
-static void add_key(const change_context *l, const double at[3])
+static void add_key(kept_tree *k, const double at[3])
 {
-    kept_tree *k = l->kept;
     octree_node leaf;
-    uint64_t *keys = array_reserve(k->changed, k->changed_count + 1, &k->changed_room, sizeof *keys);
-    k->changed = keys ? keys : k->changed;
-    k->lost =
-        k->lost || !keys || k->changed_count >= most_changes(l->tree) || octree_locate(l->tree, at, &leaf) != OCTREE_OK;
+    k->lost = k->lost || k->changed_count >= most_changes(k->tree) || octree_locate(k->tree, at, &leaf) != OCTREE_OK ||
+              !array_grow(&k->changed, k->changed_count + 1, &k->changed_room, sizeof *k->changed);
     if (!k->lost)
-        keys[k->changed_count++] = first_key(leaf.address);
+        k->changed[k->changed_count++] = first_key(leaf.address);
 }
 
 static void add_change(const octree_change *change, void *context)
 {
-    const change_context *l = context;
-    if (change->kind != OCTREE_INSERTED && !l->kept->lost)
-        add_key(l, change->from);
-    if (change->kind != OCTREE_REMOVED && !l->kept->lost)
-        add_key(l, change->to);
+    kept_tree *k = context;
+    if (change->kind != OCTREE_INSERTED && !k->lost)
+        add_key(k, change->from);
+    if (change->kind != OCTREE_REMOVED && !k->lost)
+        add_key(k, change->to);
 }
 
-/* A name that no change log had before. */
+/* Returns a name that no change log of this process had before. */
 static size_t make_log_name(void)
 {
     static atomic_size_t names;
@@ -99,17 +91,12 @@ static size_t make_log_name(void)
     return name ? name : 1;
 }
 
-static int compare_keys(const void *a, const void *b)
-{
-    const uint64_t p = *(const uint64_t *)a, q = *(const uint64_t *)b;
-    return p < q ? -1 : p > q;
-}
-
 static bool read_changes(kept_tree *k, const octree *tree)
 {
     k->changed_count = k->next_changed = 0;
     k->lost = false;
-    return octree_changes_since(tree, make_log_name(), &k->cursor, add_change, &(change_context){k, tree}) && !k->lost;
+    k->tree = tree;
+    return octree_changes_since(tree, make_log_name(), &k->cursor, add_change, k) && !k->lost;
 }
 
 /* Read the changes since the last walk. False if they are unknown or too many. Reading makes the tree log its further
@@ -123,7 +110,7 @@ static bool update_changes(kept_tree *k, const octree *tree)
     if (known) {
         k->backoff = 0;
         if (k->changed_count > 0)
-            qsort(k->changed, k->changed_count, sizeof *k->changed, compare_keys);
+            qsort(k->changed, k->changed_count, sizeof *k->changed, by_uint64);
         return true;
     }
     if (is_first)
@@ -174,13 +161,12 @@ const kept_subtree *kept_tree_find(kept_tree *k, octree_address address)
     for (; k->passed < k->before.count && first_key(k->before.items[k->passed].address) < first; k->passed++)
         free(k->before.items[k->passed].nodes);
     kept_subtree *there = k->passed < k->before.count ? &k->before.items[k->passed] : NULL;
-    kept_subtree *items = array_reserve(k->now.items, k->now.count + 1, &k->now.room, sizeof *items);
-    k->now.items = items ? items : k->now.items;
-    if (!items || changed || !there || there->address != address)
+    if (changed || !there || there->address != address ||
+        !array_grow(&k->now.items, k->now.count + 1, &k->now.room, sizeof *k->now.items))
         return NULL;
     k->passed++;
-    items[k->now.count] = *there;
-    return &items[k->now.count++];
+    k->now.items[k->now.count] = *there;
+    return &k->now.items[k->now.count++];
 }
 
 /* ---- Collecting a subtree ----------------------------------------------------------------------------------- */
@@ -193,11 +179,9 @@ void kept_tree_open(kept_tree *k, octree_address address, const scene *s)
 
 bool kept_tree_add_node(kept_tree *k, const scene_box *box)
 {
-    kept_node *nodes = array_reserve(k->nodes, k->open.node_count + 1, &k->node_room, sizeof *nodes);
-    if (!nodes)
+    if (!array_grow(&k->nodes, k->open.node_count + 1, &k->node_room, sizeof *k->nodes))
         return false;
-    k->nodes = nodes;
-    nodes[k->open.node_count++] = (kept_node){.box = *box, .digest = digest_box(&k->names, box), .count = 1};
+    k->nodes[k->open.node_count++] = (kept_node){.box = *box, .digest = digest_box(&k->names, box), .count = 1};
     return true;
 }
 
@@ -233,24 +217,21 @@ static digest_run digest_markers(const digest_names *names, const scene_marker *
 /* If there is no memory, the run is not noted, and scene_digest() digests its elements one by one. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
 {
-    digest_run *items = run.end > 0 ? array_reserve(runs->items, runs->count + 1, &runs->room, sizeof *items) : NULL;
-    if (!items)
+    if (run.end == 0 || !array_grow(&runs->items, runs->count + 1, &runs->room, sizeof *runs->items))
         return;
-    runs->items = items;
     run.first += first;
     run.end += first;
-    items[runs->count++] = run;
+    runs->items[runs->count++] = run;
 }
 
 bool kept_tree_close(kept_tree *k, const scene *s)
 {
     kept_subtree made = k->open;
-    kept_subtree *items = array_reserve(k->now.items, k->now.count + 1, &k->now.room, sizeof *items);
     made.marker_count = (uint32_t)(s->markers.count - k->first_marker);
     const size_t nodes = made.node_count * sizeof *made.nodes, markers = made.marker_count * sizeof *made.markers;
-    k->now.items = items ? items : k->now.items;
+    const bool grown = array_grow(&k->now.items, k->now.count + 1, &k->now.room, sizeof *k->now.items);
     k->open = (kept_subtree){0};
-    made.nodes = items ? malloc(nodes + markers + 1) : NULL;
+    made.nodes = grown ? malloc(nodes + markers + 1) : NULL;
     if (!made.nodes)
         return false;
     made.markers = (scene_marker *)(made.nodes + made.node_count);
@@ -260,6 +241,6 @@ bool kept_tree_close(kept_tree *k, const scene *s)
         memcpy(made.markers, s->markers.items + k->first_marker, markers);
     count_nodes(&made);
     made.run = digest_markers(&k->names, made.markers, made.marker_count);
-    items[k->now.count++] = made;
+    k->now.items[k->now.count++] = made;
     return true;
 }

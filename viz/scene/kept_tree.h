@@ -60,6 +60,7 @@ typedef struct kept_tree {
     size_t passed;          /* number of subtrees in `before` that the walk has passed */
     octree_cursor cursor;   /* into the tree's change log */
     unsigned wait, backoff; /* ticks until the change log is used again; the length of the last wait */
+    const octree *tree;     /* whose changes are being read */
     uint64_t *changed;      /* the keys of changed positions, sorted */
     size_t changed_count, changed_room, next_changed;
     bool lost;         /* `changed` is incomplete: there were too many changes, or no memory */

@@ -37,23 +37,19 @@ void scene_release(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Reserve room for `count` items. Null, with out_of_memory set, if there is no memory. */
-static void *grow(scene *s, void *items, size_t count, size_t *room, size_t size)
+/* Make room for `count` items in one of the scene's arrays. False, with out_of_memory set, when out of memory. */
+static bool grow(scene *s, void *array, size_t count, size_t *room, size_t size)
 {
-    void *grown = array_reserve(items, count, room, size);
-    if (!grown)
-        s->out_of_memory = true;
+    const bool grown = array_grow(array, count, room, size);
+    s->out_of_memory |= !grown;
     return grown;
 }
 
 /* Append an item to one of the scene's arrays. */
 #define APPEND(s, array, item)                                                                                         \
     do {                                                                                                               \
-        void *grown = grow(s, (array).items, (array).count + 1, &(array).room, sizeof *(array).items);                 \
-        if (grown) {                                                                                                   \
-            (array).items = grown;                                                                                     \
+        if (grow(s, &(array).items, (array).count + 1, &(array).room, sizeof *(array).items))                          \
             (array).items[(array).count++] = (item);                                                                   \
-        }                                                                                                              \
     } while (0)
 
 static bool all_finite(const double *values, size_t count)
@@ -64,8 +60,8 @@ static bool all_finite(const double *values, size_t count)
     return true;
 }
 
-/* Whether an element is added: its layer is shown and its geometry finite. */
-static bool admits(scene *s, scene_style style, bool finite)
+/* Whether an element may be added: its layer is shown and its geometry finite. Counts elements that are not finite. */
+static bool is_accepted(scene *s, scene_style style, bool finite)
 {
     if (!view_shows(&s->view, style.layer))
         return false;
@@ -75,19 +71,19 @@ static bool admits(scene *s, scene_style style, bool finite)
 
 void scene_add_box(scene *s, scene_box box)
 {
-    if (admits(s, box.style, all_finite(box.box.min, 3) && all_finite(box.box.max, 3)))
+    if (is_accepted(s, box.style, all_finite(box.box.min, 3) && all_finite(box.box.max, 3)))
         APPEND(s, s->boxes, box);
 }
 
 void scene_add_segment(scene *s, scene_segment segment)
 {
-    if (admits(s, segment.style, all_finite(segment.ends[0], 3) && all_finite(segment.ends[1], 3)))
+    if (is_accepted(s, segment.style, all_finite(segment.ends[0], 3) && all_finite(segment.ends[1], 3)))
         APPEND(s, s->segments, segment);
 }
 
 void scene_add_marker(scene *s, scene_marker marker)
 {
-    if (admits(s, marker.style, all_finite(marker.at, 3)))
+    if (is_accepted(s, marker.style, all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
 }
 
@@ -102,16 +98,17 @@ void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape
     scene_add_marker(s, (scene_marker){.id = id, .at = {at[0], at[1], at[2]}, .style = style, .shape = (uint8_t)shape});
 }
 
+static bool grow_markers(scene *s, size_t count)
+{
+    return grow(s, &s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
+}
+
 /* Reserve room once: a call of scene_add_marker() for each point took 2 % more instructions for the picture of a cloud.
  */
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style)
 {
-    if (count == 0 || !view_shows(&s->view, style.layer))
+    if (!view_shows(&s->view, style.layer) || !grow_markers(s, count))
         return;
-    void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
-    if (!grown)
-        return;
-    s->markers.items = grown;
     for (size_t i = 0; i < count; i++) {
         const double *at = points[i].position;
         const bool finite = all_finite(at, 3);
@@ -124,12 +121,8 @@ void scene_add_points(scene *s, const octree_point *points, size_t count, scene_
 
 void scene_add_markers(scene *s, const scene_marker *markers, size_t count)
 {
-    if (count == 0)
+    if (count == 0 || !grow_markers(s, count))
         return;
-    void *grown = grow(s, s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
-    if (!grown)
-        return;
-    s->markers.items = grown;
     memcpy(s->markers.items + s->markers.count, markers, count * sizeof *markers);
     s->markers.count += count;
 }
@@ -148,19 +141,19 @@ void scene_set_view(scene *s, const view *v)
 {
     s->view = *v;
     s->unit = view_unit(v);
-    s->text = lettering_of_text(v);
-    s->title = lettering_of_title(v);
+    s->text = lettering_of(v, false);
+    s->title = lettering_of(v, true);
 }
 
 void scene_add_label(scene *s, scene_label label)
 {
-    if (admits(s, label.style, all_finite(label.at, 3)))
+    if (is_accepted(s, label.style, all_finite(label.at, 3)))
         APPEND(s, s->labels, label);
 }
 
 void scene_add_panel(scene *s, scene_panel panel)
 {
-    if (admits(s, panel.style, true))
+    if (is_accepted(s, panel.style, true))
         APPEND(s, s->panels, panel);
 }
 
