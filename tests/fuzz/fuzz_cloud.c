@@ -83,10 +83,11 @@ static void check_values(const cloud *cloud)
     if (v->ids || v->first != 0 || v->count > cloud->count + cloud->skipped ||
         (v->count > 0) != (point_values_kinds(v) > 0))
         abort();
-    if ((v->colors && !known) || (!v->colors && cloud->color_full != 0))
+    const bool colored = point_values_kinds(v) >> POINT_COLOR & 1;
+    if ((colored && !known) || (!colored && cloud->color_full != 0))
         abort();
     for (size_t row = 0; row < v->count; row++)
-        if (point_values_has(v, row, POINT_INTENSITY) && !isfinite(v->intensities[row]))
+        if (v->rows[row].has[POINT_INTENSITY] && !isfinite(v->rows[row].intensity))
             abort();
 }
 

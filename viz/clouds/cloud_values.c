@@ -89,9 +89,11 @@ void cloud_drop_values(cloud_file *file)
 static void raise_full_scale(cloud *points)
 {
     const bool unit = points->color_full == UNIT;
-    unsigned char *at = points->values.colors ? points->values.colors[0] : NULL;
-    for (size_t i = 0; at && i < 3 * points->values.count; i++)
-        at[i] = unit && at[i] > BYTE / 2;
+    for (size_t i = 0; i < points->values.count; i++)
+        for (int j = 0; j < 3; j++) {
+            unsigned char *channel = &points->values.rows[i].color[j];
+            *channel = unit && *channel > BYTE / 2;
+        }
     points->color_full = unit ? BYTE : WORD;
 }
 
@@ -187,28 +189,32 @@ point_value cloud_convert_values(cloud_file *file, const double *numbers)
     return value;
 }
 
-static bool all_zero(const void *items, size_t size)
+/* Remove the values of each kind that is zero in every row. */
+static void drop_zero_kinds(point_values *v)
 {
-    const unsigned char *bytes = items;
-    for (size_t i = 0; i < size; i++)
-        if (bytes[i])
-            return false;
-    return true;
+    bool keeps[POINT_VALUE_KINDS] = {false};
+    for (size_t i = 0; i < v->count; i++) {
+        const point_value *row = &v->rows[i];
+        keeps[POINT_COLOR] = keeps[POINT_COLOR] || row->color[0] || row->color[1] || row->color[2];
+        keeps[POINT_INTENSITY] = keeps[POINT_INTENSITY] || row->intensity != 0;
+        keeps[POINT_CLASS] = keeps[POINT_CLASS] || row->class != 0;
+    }
+    for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
+        if (keeps[kind])
+            continue;
+        v->kinds &= ~(1U << kind);
+        for (size_t i = 0; i < v->count; i++)
+            v->rows[i].has[kind] = false;
+    }
 }
 
 void cloud_finish_values(cloud_file *file)
 {
     point_values *v = &file->out->values;
-    if (file->zero_is_missing) {
-        if (v->colors && all_zero(v->colors, v->count * sizeof *v->colors))
-            point_values_drop(v, POINT_COLOR);
-        if (v->intensities && all_zero(v->intensities, v->count * sizeof *v->intensities))
-            point_values_drop(v, POINT_INTENSITY);
-        if (v->classes && all_zero(v->classes, v->count * sizeof *v->classes))
-            point_values_drop(v, POINT_CLASS);
-    }
-    if (point_values_kinds(v) == 0)
+    if (file->zero_is_missing)
+        drop_zero_kinds(v);
+    if (v->kinds == 0)
         cloud_drop_values(file);
-    if (!v->colors)
+    if (!(v->kinds >> POINT_COLOR & 1))
         file->out->color_full = 0;
 }

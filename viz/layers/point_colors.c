@@ -76,7 +76,7 @@ static theme_color color_of_marker(const painting *p, const scene_marker *m)
     case POINTS_BY_Z:
         return color_on_axis(p, m, 2);
     case POINTS_BY_LEAF:
-        return p->values && p->values->colors ? color_of_value(p, m->id) : color_on_axis(p, m, 2);
+        return point_values_kinds(p->values) >> POINT_COLOR & 1 ? color_of_value(p, m->id) : color_on_axis(p, m, 2);
     case POINTS_BY_ID:
         return theme_ramp(fraction_between((double)m->id, scale->ids[0], scale->ids[1]));
     default:
@@ -101,8 +101,8 @@ static unsigned class_kinds_in(const point_values *values)
 {
     unsigned kinds = 0;
     for (size_t row = 0; values && row < values->count; row++)
-        if (point_values_has(values, row, POINT_CLASS))
-            kinds |= 1u << kind_of_class(values->classes[row]);
+        if (values->rows[row].has[POINT_CLASS])
+            kinds |= 1u << kind_of_class(values->rows[row].class);
     return kinds;
 }
 

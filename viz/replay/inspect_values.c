@@ -29,9 +29,9 @@ static value_summary summarize_values(const point_values *v)
     value_summary s = {0};
     for (size_t row = 0; row < v->count; row++) {
         for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
-            s.counts[kind] += point_values_has(v, row, (point_value_kind)kind);
-        if (point_values_has(v, row, POINT_INTENSITY))
-            count_intensity(&s, v->intensities[row]);
+            s.counts[kind] += v->rows[row].has[kind];
+        if (v->rows[row].has[POINT_INTENSITY])
+            count_intensity(&s, v->rows[row].intensity);
     }
     return s;
 }
@@ -39,11 +39,12 @@ static value_summary summarize_values(const point_values *v)
 bool inspect_count_classes(inspection *i)
 {
     const point_values *v = &i->values;
-    i->classes = v->classes ? calloc(CLASSES, sizeof *i->classes) : NULL;
+    const bool any = v->kinds >> POINT_CLASS & 1;
+    i->classes = any ? calloc(CLASSES, sizeof *i->classes) : NULL;
     for (size_t row = 0; i->classes && row < v->count; row++)
-        if (point_values_has(v, row, POINT_CLASS))
-            i->classes[v->classes[row]]++;
-    return i->classes || !v->classes;
+        if (v->rows[row].has[POINT_CLASS])
+            i->classes[v->rows[row].class]++;
+    return i->classes || !any;
 }
 
 static void print_classes(const size_t *classes, FILE *out)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* point_scale.c - one walk over the points of tick 0 measures the ranges for colours and the spacing for sizes.
  *
- * Ranges: a single outlier would take most colours from all other points, so that a range is that from the first to the
- * last percentile. Percentiles of all points would need memory for all of them; a sample of at most MOST_SAMPLES points
+ * Ranges: a single outlier would take most colours from all other points, so that a range reaches from the 1st to the
+ * 99th percentile. Percentiles of all points would need memory for all of them; a sample of at most MOST_SAMPLES points
  * is enough. A point is in the sample if the lowest bits of a hash of its id and position are zero, and the number of
  * bits grows when the sample is full. The sample depends only on the set of points, not on their order or on the tree,
  * so that frames with other leaf capacities have the same colours.
@@ -26,7 +26,7 @@
 /* Leaves with fewer points have no spacing. */
 #define FEWEST 4
 
-/* The most points in the sample: enough to know the rank of a percentile to about a tenth of itself. */
+/* The most points in the sample: the rank of a percentile is then known to within about a tenth. */
 #define MOST_SAMPLES ((size_t)1 << 16)
 
 /* The visible points of one leaf. */
@@ -102,18 +102,15 @@ static void add_sample(gathering *g, const octree_point *point)
 {
     samples *s = &g->samples;
     const uint64_t hash = hash_of(point);
-    const size_t row = point_values_row(g->values, point->id);
     if (hash & s->mask)
         return;
-    sample *items = array_reserve(s->items, s->count + 1, &s->room, sizeof *items);
-    g->out_of_memory |= !items;
-    if (!items)
+    if (!array_grow(&s->items, s->count + 1, &s->room, sizeof *s->items)) {
+        g->out_of_memory = true;
         return;
-    s->items = items;
-    const bool has = point_values_has(g->values, row, POINT_INTENSITY);
-    items[s->count++] = (sample){
-        hash,
-        {point->position[0], point->position[1], point->position[2], has ? (double)g->values->intensities[row] : NAN}};
+    }
+    const point_value value = point_values_get(g->values, point->id);
+    const double *at = point->position, intensity = value.has[POINT_INTENSITY] ? (double)value.intensity : NAN;
+    s->items[s->count++] = (sample){hash, {at[0], at[1], at[2], intensity}};
     thin_out(s);
 }
 
@@ -137,15 +134,15 @@ static void add_leaf(gathering *g, const octree_node *leaf)
         count++;
         g->points++;
     }
-    leaf_spacing *leaves = count ? array_reserve(g->leaves, g->count + 1, &g->room, sizeof *leaves) : NULL;
-    g->out_of_memory |= count && !leaves;
-    if (!leaves)
+    if (count == 0)
         return;
-    g->leaves = leaves;
-    g->leaves[g->count++] = (leaf_spacing){spacing_of(low, high, count), count};
+    if (array_grow(&g->leaves, g->count + 1, &g->room, sizeof *g->leaves))
+        g->leaves[g->count++] = (leaf_spacing){spacing_of(low, high, count), count};
+    else
+        g->out_of_memory = true;
 }
 
-static octree_walk_order gather(const octree_node *node, void *context)
+static octree_walk_order gather_leaf(const octree_node *node, void *context)
 {
     gathering *g = context;
     if (!filter_enters(g->filter, &g->world, node))
@@ -163,7 +160,7 @@ typedef struct weighted {
     size_t weight;
 } weighted;
 
-static void swap(weighted *a, weighted *b)
+static void swap_values(weighted *a, weighted *b)
 {
     const weighted kept = *a;
     *a = *b;
@@ -172,7 +169,7 @@ static void swap(weighted *a, weighted *b)
 
 /* Partition: values below the pivot go to [0, *low), values above it to [*high, count). Returns the weight of the
  * values below; adds the weight of the values equal to the pivot to *equal. */
-static size_t divide(weighted *values, size_t count, double pivot, size_t *low, size_t *high, size_t *equal)
+static size_t partition(weighted *values, size_t count, double pivot, size_t *low, size_t *high, size_t *equal)
 {
     size_t below = 0;
     *low = 0;
@@ -180,9 +177,9 @@ static size_t divide(weighted *values, size_t count, double pivot, size_t *low, 
     for (size_t i = 0; i < *high;) {
         if (values[i].value < pivot) {
             below += values[i].weight;
-            swap(&values[i++], &values[(*low)++]);
+            swap_values(&values[i++], &values[(*low)++]);
         } else if (values[i].value > pivot) {
-            swap(&values[i], &values[--*high]);
+            swap_values(&values[i], &values[--*high]);
         } else {
             *equal += values[i++].weight;
         }
@@ -199,7 +196,7 @@ static double select_value(weighted *values, size_t count, size_t rank)
         size_t low, high, equal = 0;
         state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
         const double pivot = values[(size_t)((double)(state >> 11) * 0x1p-53 * (double)count)].value;
-        const size_t below = divide(values, count, pivot, &low, &high, &equal);
+        const size_t below = partition(values, count, pivot, &low, &high, &equal);
         if (rank < below) {
             count = low;
         } else if (rank < below + equal || high == count) {
@@ -233,7 +230,7 @@ static double measure_spacing(const gathering *g, weighted *room)
     return isfinite(spacing) ? spacing : 0;
 }
 
-static point_scale measure(const gathering *g, weighted *room)
+static point_scale measure_scale(const gathering *g, weighted *room)
 {
     point_scale s = {.ids = {g->ids[0], g->ids[1]}};
     for (int axis = 0; axis < 3; axis++)
@@ -255,13 +252,13 @@ bool point_scale_fit(view *v, const octree *tree, const point_values *values)
     gathering g = {.filter = &v->filter,
                    .world = octree_definition(tree).world,
                    .values = v->point_color == POINTS_BY_INTENSITY ? values : NULL};
-    octree_walk(tree, gather, &g);
+    octree_walk(tree, gather_leaf, &g);
     const size_t count = g.count > g.samples.count ? g.count : g.samples.count;
     weighted *room = count ? malloc(count * sizeof *room) : NULL;
     const bool measured = !g.out_of_memory && (room || count == 0);
     v->point_scale.given = measured && g.count > 0;
     if (v->point_scale.given)
-        v->point_scale.of = measure(&g, room);
+        v->point_scale.of = measure_scale(&g, room);
     free(room);
     free(g.leaves);
     free(g.samples.items);
@@ -277,7 +274,7 @@ const char *point_scale_lacks(const view *v, const point_values *values)
     } rows[] = {{POINTS_BY_FILE, POINT_COLOR, "a colour"},
                 {POINTS_BY_INTENSITY, POINT_INTENSITY, "an intensity"},
                 {POINTS_BY_CLASS, POINT_CLASS, "a class"}};
-    const unsigned kinds = values ? point_values_kinds(values) : 0;
+    const unsigned kinds = point_values_kinds(values);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (v->point_color == rows[i].color && !(kinds >> rows[i].kind & 1))
             return rows[i].name;

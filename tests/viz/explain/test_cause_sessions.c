@@ -238,12 +238,12 @@ static void give_some(variant *v)
 
 static void change_intensity(variant *v)
 {
-    v->values.intensities[0] = 0.1F;
+    v->values.rows[0].intensity = 0.1F;
 }
 
 static void change_class(variant *v)
 {
-    v->values.classes[point_values_row(&v->values, 9)] = 6;
+    v->values.rows[point_values_find(&v->values, 9) - v->values.rows].class = 6;
 }
 
 static void drop_values(variant *v)

@@ -36,7 +36,7 @@ static void values_are_found_by_id(void **state)
                "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 6, \"position\": [1,1,1], \"class\": 65535}}]}");
     const point_values *v = &file.values;
     (void)state;
-    assert_int_equal(point_values_row(v, 1), POINT_VALUES_NONE);
+    assert_null(point_values_find(v, 1));
     const point_value at70 = point_values_get(v, 70), at6 = point_values_get(v, 6),
                       far = point_values_get(v, UINT64_C(9000000000000));
     assert_true(at70.has[POINT_CLASS] && at70.has[POINT_COLOR] && !at70.has[POINT_INTENSITY]);
@@ -205,7 +205,7 @@ static void values_of_a_file_skip_the_id_of_the_player(void **state)
     session_file file =
         read_with_cloud(*state, "x y z class\n1 2 3 7\n4 5 6 8\n7 8 9 9\n", "\"player\": {\"id\": 2}, ");
     assert_writes(&file, "\"points\": [\n[1, 2, 3, 1, 7],\n[4, 5, 6, 3, 8],\n[7, 8, 9, 4, 9]\n]}");
-    assert_false(point_values_has(&file.values, point_values_row(&file.values, 2), POINT_CLASS));
+    assert_false(point_values_get(&file.values, 2).has[POINT_CLASS]);
     session_release(&file);
 }
 
