@@ -53,7 +53,7 @@ bool digest_picture(const char *path, image_color background, frame_digest *dige
 {
     image about;
     uint64_t pixels;
-    if (!image_digest_png_by(digest->kind, path, background, &about, &pixels, error))
+    if (!image_digest_png(digest->kind, path, background, &about, &pixels, error))
         return false;
     *digest = (frame_digest){pixels, about.width, about.height, digest->kind, 0};
     return true;

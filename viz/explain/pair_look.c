@@ -30,7 +30,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     image about;
     uint64_t pixels;
     errno = 0;
-    if (!image_digest_png_by(origin->kind, frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
+    if (!image_digest_png(origin->kind, frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
         return !check_system_resources(&ignored); /* the digest is unknown, so no fault is reported */
     return pixels == origin->pixels;
 }

@@ -111,7 +111,7 @@ static bool check_pixels(const char *path, frame_origin *origin, octreel_error *
     uint64_t stated = 0;
     origin->kind = IMAGE_DIGEST_NEWEST;
     const bool has_digest = read_pixels(path, &origin->kind, &stated, error);
-    if (!image_digest_png_by(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &reason))
+    if (!image_digest_png(origin->kind, path, IMAGE_WHITE, &about, &origin->pixels, &reason))
         return error_set(error, "%s", reason.text);
     return has_digest && (stated == origin->pixels || error_set(error, "%s: %s", path, pixels_changed));
 }

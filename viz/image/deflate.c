@@ -39,7 +39,7 @@ enum {
 
 struct deflater {
     size_t stride, rows, pixel;
-    size_t kept; /* bytes of history that slide() keeps in the window */
+    size_t kept; /* bytes of history that slide_window() keeps in the window */
     size_t room; /* size of the window */
     size_t end;  /* end of the bytes in the window */
     size_t at;   /* the first byte without a token */
@@ -176,7 +176,7 @@ static inline repeat repeat_at(const deflater *d, size_t at, size_t distance, in
 }
 
 /* The last position with the same hash, which becomes `at`. Returns `at` if there is none within reach. */
-static inline size_t last_place(deflater *d, size_t at)
+static inline size_t find_last_place(deflater *d, size_t at)
 {
     const uint64_t bytes = bytes_load(d->window + at) << (8 * (WORD - HASHED));
     uint32_t *head = &d->heads[bytes * UINT64_C(0x9e3779b97f4a7c15) >> (64 - HASH_BITS)];
@@ -198,14 +198,14 @@ static inline repeat find_repeat(deflater *d, size_t at)
         best = run;
     if (d->pixel == 1 || best.length >= LONG_REPEAT)
         return best;
-    const size_t place = last_place(d, at);
+    const size_t place = find_last_place(d, at);
     const repeat far = place < at ? repeat_at(d, at, at - place, FAR_BITS) : best;
     return far.gain > best.gain ? far : best;
 }
 
 /* Encode the next literals or the next repeat. An index costs few bits as a literal, so that looking for repeats at
  * every index does not pay: those before the next possible repeat are skipped together. */
-static void put_next(deflater *d)
+static void encode_next(deflater *d)
 {
     if (d->pixel == 1) {
         const size_t count = count_single(d);
@@ -227,10 +227,10 @@ static void put_next(deflater *d)
         put_bytes(d, 1);
 }
 
-static void put_all(deflater *d)
+static void encode_all(deflater *d)
 {
     while (d->at < d->end) {
-        put_next(d);
+        encode_next(d);
         if (deflate_is_full(&d->blocks))
             end_block(d, false);
     }
@@ -240,7 +240,7 @@ static void put_all(deflater *d)
 /* ---- The window ---------------------------------------------------------------------------------------------- */
 
 /* Move the history that is kept to the window's beginning. */
-static void slide(deflater *d)
+static void slide_window(deflater *d)
 {
     if (d->end <= d->kept)
         return;
@@ -259,8 +259,8 @@ static void slide(deflater *d)
 void deflater_add(deflater *d, const uint8_t *pixels)
 {
     if (d->end + d->stride > d->room) {
-        put_all(d);
-        slide(d);
+        encode_all(d);
+        slide_window(d);
     }
     d->window[d->end] = 0;
     memcpy(d->window + d->end + 1, pixels, d->stride - 1);
@@ -268,7 +268,7 @@ void deflater_add(deflater *d, const uint8_t *pixels)
     if (d->begun)
         return;
     put_bytes(d, d->pixel); /* the first bytes have nothing before them to repeat */
-    put_all(d);
+    encode_all(d);
     d->begun = true;
     d->above = d->stride <= DEFLATE_FARTHEST;
 }
@@ -304,7 +304,7 @@ void deflater_close(deflater *d)
 
 void deflater_finish(deflater *d)
 {
-    put_all(d);
+    encode_all(d);
     end_block(d, true);
     const uint32_t sum = find_adler32(d);
     const uint8_t bytes[] = {(uint8_t)(sum >> 24), (uint8_t)(sum >> 16), (uint8_t)(sum >> 8), (uint8_t)sum};

@@ -6,9 +6,9 @@
  * block this file counts the symbols, builds both codes, computes the exact size of the block with these codes, with
  * the fixed codes of the standard, and stored without compression, and writes the smallest.
  *
- * Bits are collected in a 64-bit word and moved to the output in whole bytes (settle()). Literals and repeats take the
- * same path without a branch, because the kind of the next token is unpredictable: list_beginnings() prepares, for
- * each of the 512 token kinds, the bits of the symbol together with the extra bits of a length.
+ * Bits are collected in a 64-bit word and moved to the output in whole bytes (move_whole_bytes()). Literals and repeats
+ * take the same path without a branch, because the kind of the next token is unpredictable: list_beginnings() prepares,
+ * for each of the 512 token kinds, the bits of the symbol together with the extra bits of a length.
  */
 #include "deflate_block.h"
 #include "bytes.h"
@@ -39,6 +39,7 @@ void deflate_blocks_begin(deflate_blocks *b, deflate_sink *sink, void *context)
 {
     b->sink = sink;
     b->context = context;
+    b->writer.to = b->output;
     for (uint8_t symbol = 0; symbol < sizeof length_extra; symbol++)
         for (int i = 0; i < 1 << length_extra[symbol] && length_bases[symbol] + i <= DEFLATE_LONGEST; i++)
             b->length_symbols[length_bases[symbol] + i - DEFLATE_SHORTEST] = symbol;
@@ -60,40 +61,21 @@ void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance)
 
 void deflate_flush(deflate_blocks *b)
 {
-    const size_t size = b->size;
-    b->size = 0;
+    const size_t size = (size_t)(b->writer.to - b->output);
+    b->writer.to = b->output;
     if (size > 0)
         b->sink(b->context, b->output, size);
 }
 
-/* A local copy of the writer's state, so that the compiler keeps it in registers. */
-typedef struct bit_writer {
-    uint64_t bits;
-    int count;
-    uint8_t *to;
-} bit_writer;
-
-static inline bit_writer begin_bits(deflate_blocks *b)
-{
-    return (bit_writer){b->bits, b->bit_count, b->output + b->size};
-}
-
-static inline void end_bits(deflate_blocks *b, const bit_writer *w)
-{
-    b->bits = w->bits;
-    b->bit_count = w->count;
-    b->size = (size_t)(w->to - b->output);
-}
-
-/* Append bits; at most 56 between two calls of settle(). */
-static inline void put(bit_writer *w, uint32_t bits, int count)
+/* Append bits; at most 56 between two calls of move_whole_bytes(). */
+static inline void put_bits(bit_writer *w, uint32_t bits, int count)
 {
     w->bits |= (uint64_t)bits << w->count;
     w->count += count;
 }
 
 /* Move whole bytes to the output, where deflate_write_block() reserved room for the block. */
-static inline void settle(bit_writer *w)
+static inline void move_whole_bytes(bit_writer *w)
 {
     bytes_store(w->to, w->bits);
     w->to += w->count >> 3;
@@ -103,23 +85,23 @@ static inline void settle(bit_writer *w)
 
 static inline void put_symbol(bit_writer *w, const huffman_code *code, unsigned symbol)
 {
-    put(w, code->bits[symbol], code->lengths[symbol]);
+    put_bits(w, code->bits[symbol], code->lengths[symbol]);
 }
 
 void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
 {
-    if (b->bit_count > 0) {
-        b->output[b->size++] = (uint8_t)b->bits;
-        b->bits = 0;
-        b->bit_count = 0;
-    }
+    bit_writer *w = &b->writer;
+    if (w->count > 0)
+        *w->to++ = (uint8_t)w->bits;
+    w->bits = 0;
+    w->count = 0;
     while (size > 0) {
-        const size_t room = sizeof b->output - b->size, part = size < room ? size : room;
-        memcpy(b->output + b->size, bytes, part);
-        b->size += part;
+        const size_t room = (size_t)(b->output + sizeof b->output - w->to), part = size < room ? size : room;
+        memcpy(w->to, bytes, part);
+        w->to += part;
         bytes += part;
         size -= part;
-        if (b->size == sizeof b->output)
+        if (part == room)
             deflate_flush(b);
     }
 }
@@ -205,21 +187,21 @@ static size_t header_bits(const header *h)
 
 static void put_header(bit_writer *w, const header *h)
 {
-    put(w, (uint32_t)(h->literal_count - DEFLATE_END - 1), 5);
-    put(w, (uint32_t)(h->distance_count - 1), 5);
-    put(w, (uint32_t)(h->precode_count - 4), 4);
+    put_bits(w, (uint32_t)(h->literal_count - DEFLATE_END - 1), 5);
+    put_bits(w, (uint32_t)(h->distance_count - 1), 5);
+    put_bits(w, (uint32_t)(h->precode_count - 4), 4);
     for (size_t i = 0; i < h->precode_count; i++) {
-        settle(w);
-        put(w, h->precode.lengths[precode_order[i]], 3);
+        move_whole_bytes(w);
+        put_bits(w, h->precode.lengths[precode_order[i]], 3);
     }
     for (size_t i = 0; i < h->count; i++) {
         const unsigned symbol = h->symbols[i];
-        settle(w);
+        move_whole_bytes(w);
         put_symbol(w, &h->precode, symbol);
         if (symbol >= 16)
-            put(w, h->extra[i], extra_of_run[symbol - 16]);
+            put_bits(w, h->extra[i], extra_of_run[symbol - 16]);
     }
-    settle(w);
+    move_whole_bytes(w);
 }
 
 /* ---- Blocks -------------------------------------------------------------------------------------------------- */
@@ -266,7 +248,7 @@ static void count_tokens(deflate_blocks *b)
         b->literal_counts[DEFLATE_END + 1 + b->length_symbols[more]] += kinds[DEFLATE_REPEAT + more];
 }
 
-/* Bits that are written by one put(). */
+/* Bits that are written by one put_bits(). */
 typedef struct bit_string {
     uint32_t bits;
     int32_t count;
@@ -286,24 +268,24 @@ static void list_beginnings(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
     }
 }
 
-static void put_tokens(bit_writer *to, deflate_blocks *b)
+static void put_tokens(deflate_blocks *b)
 {
     bit_string beginnings[TOKEN_KINDS];
-    bit_writer w = *to;
+    bit_writer w = b->writer; /* a local copy, which the compiler keeps in registers */
     list_beginnings(beginnings, b);
     b->distances.lengths[DEFLATE_DISTANCES] = 0;
     b->distances.bits[DEFLATE_DISTANCES] = 0;
     for (size_t i = 0; i < b->count; i++) {
         const deflate_token t = b->tokens[i];
         const bit_string beginning = beginnings[kind_of(t)];
-        put(&w, beginning.bits, beginning.count);
+        put_bits(&w, beginning.bits, beginning.count);
         put_symbol(&w, &b->distances, distance_of(t));
-        put(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_of(t)]);
-        settle(&w);
+        put_bits(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_of(t)]);
+        move_whole_bytes(&w);
     }
     put_symbol(&w, &b->literals, DEFLATE_END);
-    settle(&w);
-    *to = w;
+    move_whole_bytes(&w);
+    b->writer = w;
 }
 
 enum { STORED, FIXED, DYNAMIC };
@@ -311,10 +293,8 @@ enum { STORED, FIXED, DYNAMIC };
 static void write_stored(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
 {
     const uint8_t sizes[4] = {(uint8_t)size, (uint8_t)(size >> 8), (uint8_t)~size, (uint8_t)(~size >> 8)};
-    bit_writer w = begin_bits(b);
-    put(&w, (uint32_t)(last | STORED << 1), 3);
-    settle(&w);
-    end_bits(b, &w);
+    put_bits(&b->writer, (uint32_t)(last | STORED << 1), 3);
+    move_whole_bytes(&b->writer);
     deflate_write_bytes(b, sizes, sizeof sizes);
     deflate_write_bytes(b, bytes, size);
 }
@@ -322,19 +302,17 @@ static void write_stored(deflate_blocks *b, const uint8_t *bytes, size_t size, b
 /* `h`: the header of the block's own codes; null for the fixed codes. */
 static void write_coded(deflate_blocks *b, const header *h, bool last)
 {
-    bit_writer w = begin_bits(b);
-    put(&w, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);
+    put_bits(&b->writer, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);
     if (h)
-        put_header(&w, h);
-    put_tokens(&w, b);
-    end_bits(b, &w);
+        put_header(&b->writer, h);
+    put_tokens(b);
 }
 
 void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
 {
     header h;
     huffman_code fixed[2];
-    if (b->size > sizeof b->output - MOST_OF_BLOCK)
+    if ((size_t)(b->writer.to - b->output) > sizeof b->output - MOST_OF_BLOCK)
         deflate_flush(b);
     count_tokens(b);
     huffman_build(&b->literals, b->literal_counts, DEFLATE_LITERALS - 2, HUFFMAN_LONGEST);

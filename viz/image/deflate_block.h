@@ -4,7 +4,25 @@
 #define IMAGE_DEFLATE_BLOCK_H
 
 #include "deflate.h"
-#include "huffman.h"
+
+/* ---- Huffman codes: huffman.c -------------------------------------------------------------------------------- */
+
+enum { HUFFMAN_MOST_SYMBOLS = 288, HUFFMAN_LONGEST = 15 };
+
+typedef struct huffman_code {
+    uint16_t bits[HUFFMAN_MOST_SYMBOLS];   /* code words; the bit that is sent first is the lowest */
+    uint8_t lengths[HUFFMAN_MOST_SYMBOLS]; /* bits of each code word; 0: the symbol has none */
+} huffman_code;
+
+/* Build a short code for symbols that occur counts[i] times, without code words longer than `longest` bits; `longest`
+ * must be enough for `count` symbols. The code is complete: if fewer than two symbols occur, two get code words all the
+ * same. Equal counts give equal codes on every machine. */
+void huffman_build(huffman_code *code, const uint32_t *counts, size_t count, int longest);
+
+/* Compute the canonical code words of symbols whose lengths are set. */
+void huffman_assign_bits(huffman_code *code, size_t count);
+
+/* ---- Blocks: deflate_block.c ---------------------------------------------------------------------------------- */
 
 enum {
     DEFLATE_SHORTEST = 3,     /* length of the shortest repeat */
@@ -24,13 +42,17 @@ enum {
 typedef uint32_t deflate_token;
 enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
 
+typedef struct bit_writer {
+    uint64_t bits; /* bits not yet in the output, the first one lowest */
+    int count;     /* number of these bits; below 8 between tokens */
+    uint8_t *to;   /* where the next byte goes */
+} bit_writer;
+
 typedef struct deflate_blocks {
     deflate_sink *sink;
     void *context;
-    uint64_t bits; /* bits not yet in the output, the first one lowest */
-    int bit_count; /* number of these bits; below 8 between tokens */
-    size_t size;   /* bytes in `output` */
-    size_t count;  /* tokens in `tokens` */
+    bit_writer writer;                                                                 /* into `output` */
+    size_t count;                                                                      /* tokens in `tokens` */
     uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1]; /* symbols in the tokens */
     huffman_code literals, distances;
     uint8_t length_symbols[TOKEN_KINDS - DEFLATE_REPEAT]; /* by length - DEFLATE_SHORTEST: the symbol - 257 */

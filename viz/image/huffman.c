@@ -10,15 +10,15 @@
  * The limited code is not always optimal, as one by package-merge would be, but deflate's limit of 15 bits is reached
  * so rarely in blocks of 4096 tokens that the difference does not show.
  */
-#include "huffman.h"
+#include "deflate_block.h"
 
 #include <string.h>
 
 /* A sort key holds a count above a symbol: keys sort by count, then by symbol. */
 enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
 
-/* Shellsort: short, and fast enough for 288 keys. */
-static void sort(uint32_t *keys, size_t count)
+/* Shellsort: short, and faster than qsort() for 288 keys. */
+static void sort_keys(uint32_t *keys, size_t count)
 {
     static const size_t gaps[] = {132, 57, 23, 10, 4, 1};
     for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; g++)
@@ -41,7 +41,7 @@ static size_t list_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
     for (size_t i = 0; used < 2; i++)
         if (counts[i] == 0)
             keys[used++] = (uint32_t)i;
-    sort(keys, used);
+    sort_keys(keys, used);
     return used;
 }
 

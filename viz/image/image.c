@@ -55,43 +55,35 @@ image_color image_color_at(const image *image, int x, int y)
 
 /* ---- Shrinking ---------------------------------------------------------------------------------------------- */
 
-/* A square block of pixels of `of` that becomes one pixel; its top left pixel is at offset `at`. */
-typedef struct block {
-    const image *of;
-    const uint8_t *own;
-    size_t at;
-    int side;
-} block;
-
-/* Whether all pixels of the block have the same colour of the palette: the common case, which needs no mean. */
-static bool is_flat(const block *b)
+/* Whether all pixels of a square have the same colour of the palette: the common case, which needs no mean. */
+static bool is_flat(const image *of, size_t corner, int side)
 {
-    const uint8_t *at = b->of->pixels + b->at;
-    if (*at >= b->of->palette.count)
-        return b->side == 1;
-    for (int y = 0; y < b->side; y++, at += b->of->width)
-        for (int x = 0; x < b->side; x++)
-            if (at[x] != b->of->pixels[b->at])
+    const uint8_t *at = of->pixels + corner;
+    if (*at >= of->palette.count)
+        return side == 1;
+    for (int y = 0; y < side; y++, at += of->width)
+        for (int x = 0; x < side; x++)
+            if (at[x] != of->pixels[corner])
                 return false;
     return true;
 }
 
-static image_color sample_at(const block *b, size_t at)
+static image_color sample_at(const image *of, const uint8_t *own, size_t at)
 {
-    const uint8_t index = b->of->pixels[at];
-    if (index < b->of->palette.count)
-        return b->of->palette.colors[index];
-    const uint8_t *own = b->own + 3 * at;
-    return (image_color){own[0], own[1], own[2]};
+    const uint8_t index = of->pixels[at];
+    if (index < of->palette.count)
+        return of->palette.colors[index];
+    return (image_color){own[3 * at], own[3 * at + 1], own[3 * at + 2]};
 }
 
-static image_color mean_of(const block *b)
+/* The mean colour of a square of pixels whose top left pixel is at offset `corner`. */
+static image_color mean_of(const image *of, const uint8_t *own, size_t corner, int side)
 {
-    const unsigned count = (unsigned)(b->side * b->side);
+    const unsigned count = (unsigned)(side * side);
     unsigned sums[3] = {count / 2, count / 2, count / 2}; /* half a unit, so that the division rounds to nearest */
-    for (int y = 0; y < b->side; y++) {
-        for (int x = 0; x < b->side; x++) {
-            const image_color color = sample_at(b, b->at + (size_t)y * (size_t)b->of->width + (size_t)x);
+    for (int y = 0; y < side; y++) {
+        for (int x = 0; x < side; x++) {
+            const image_color color = sample_at(of, own, corner + (size_t)y * (size_t)of->width + (size_t)x);
             sums[0] += color.r;
             sums[1] += color.g;
             sums[2] += color.b;
@@ -105,12 +97,12 @@ bool image_shrink(const image *from, const uint8_t *own, int factor, image *smal
     if (factor < 1 || factor > 16 || from->channels != 1 || small->channels != 3 ||
         from->width != small->width * factor || from->height != small->height * factor)
         return false;
-    block b = {.of = from, .own = own, .side = factor};
     uint8_t *out = small->pixels;
     for (int y = 0; y < small->height; y++) {
-        b.at = (size_t)y * (size_t)factor * (size_t)from->width;
-        for (int x = 0; x < small->width; x++, b.at += (size_t)factor, out += 3) {
-            const image_color color = is_flat(&b) ? sample_at(&b, b.at) : mean_of(&b);
+        size_t at = (size_t)y * (size_t)factor * (size_t)from->width;
+        for (int x = 0; x < small->width; x++, at += (size_t)factor, out += 3) {
+            const image_color color =
+                is_flat(from, at, factor) ? sample_at(from, own, at) : mean_of(from, own, at, factor);
             out[0] = color.r;
             out[1] = color.g;
             out[2] = color.b;

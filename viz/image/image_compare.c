@@ -191,7 +191,7 @@ static bool stored_alike(const image *a, const image *b)
 }
 
 /* Measure a pair of colours into c->last_square and c->last_channel. */
-static void measure(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
+static void measure_pair(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
     if (memcmp(a, c->last[0], sizeof *a) == 0 && memcmp(b, c->last[1], sizeof *b) == 0)
         return;
@@ -237,7 +237,7 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
                         const pixel_samples *b)
 {
     image_difference *difference = &c->difference;
-    measure(c, a, b);
+    measure_pair(c, a, b);
     const verdict v = judge_pixel(c->tolerance, r, x, y, c->last_square);
     difference->ignored += v == IGNORED;
     difference->close += v == CLOSE;

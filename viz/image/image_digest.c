@@ -235,7 +235,7 @@ static void add_rows(digesting *d, const image *rows)
 
 /* ---- A picture ------------------------------------------------------------------------------------------------ */
 
-static void begin(digesting *d, image_digest_kind kind, const image *about)
+static void begin_digest(digesting *d, image_digest_kind kind, const image *about)
 {
     d->kind = kind;
     d->digest =
@@ -256,7 +256,7 @@ static void add_band(digesting *d, const image *rows)
         add_rows(d, rows);
 }
 
-static uint64_t finish(const digesting *d)
+static uint64_t finish_digest(const digesting *d)
 {
     return d->kind == IMAGE_DIGEST_RUNS ? digest_run(d->digest, d->length, d->color, d->wide) : d->digest;
 }
@@ -264,9 +264,9 @@ static uint64_t finish(const digesting *d)
 uint64_t image_digest_by(image_digest_kind kind, const image *image)
 {
     digesting d;
-    begin(&d, kind, image);
+    begin_digest(&d, kind, image);
     add_band(&d, image);
-    return finish(&d);
+    return finish_digest(&d);
 }
 
 uint64_t image_digest(const image *image)
@@ -274,8 +274,8 @@ uint64_t image_digest(const image *image)
     return image_digest_by(IMAGE_DIGEST_NEWEST, image);
 }
 
-bool image_digest_png_by(image_digest_kind kind, const char *path, image_color background, image *about,
-                         uint64_t *digest, octreel_error *error)
+bool image_digest_png(image_digest_kind kind, const char *path, image_color background, image *about, uint64_t *digest,
+                      octreel_error *error)
 {
     image_source *source = image_source_open(path, background, false, error);
     if (!source)
@@ -284,16 +284,11 @@ bool image_digest_png_by(image_digest_kind kind, const char *path, image_color b
     about->pixels = NULL;
     const int rows = image_band_rows(about);
     digesting d;
-    begin(&d, kind, about);
+    begin_digest(&d, kind, about);
     for (image band; image_source_next(source, rows, &band);)
         add_band(&d, &band);
-    *digest = finish(&d);
+    *digest = finish_digest(&d);
     const bool done = !image_source_failed(source);
     image_source_close(source);
     return done;
-}
-
-bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error)
-{
-    return image_digest_png_by(IMAGE_DIGEST_NEWEST, path, background, about, digest, error);
 }

@@ -9,22 +9,15 @@
  * same colours have the same digest. */
 uint64_t image_digest(const image *image);
 
-/* The digest of a PNG file, read row by row under the rules of image_read_png_over(). *about receives the image's
- * description without pixels. Returns false and sets *error if the file cannot be read. */
-bool image_digest_png(const char *path, image_color background, image *about, uint64_t *digest, octreel_error *error);
-
 /* All digest algorithms that Octreel has used, the newest last, with their names in baseline files. A frame that was
  * accepted with an older algorithm is compared with that algorithm. */
-#define IMAGE_DIGEST_MAP(X) X(RUNS, "runs") X(ROWS, "rows")
+#define IMAGE_DIGEST_MAP(X) X(IMAGE_DIGEST_RUNS, "runs") X(IMAGE_DIGEST_ROWS, "rows")
 
-typedef enum image_digest_kind {
-#define IMAGE_DIGEST_ENUM(kind, name) IMAGE_DIGEST_##kind,
-    IMAGE_DIGEST_MAP(IMAGE_DIGEST_ENUM)
-#undef IMAGE_DIGEST_ENUM
-        IMAGE_DIGEST_KINDS
-} image_digest_kind;
+#define IMAGE_DIGEST_VALUE(kind, name) kind,
+typedef enum image_digest_kind { IMAGE_DIGEST_MAP(IMAGE_DIGEST_VALUE) IMAGE_DIGEST_KINDS } image_digest_kind;
+#undef IMAGE_DIGEST_VALUE
 
-#define IMAGE_DIGEST_NEWEST ((image_digest_kind)(IMAGE_DIGEST_KINDS - 1)) /* used by the functions above */
+#define IMAGE_DIGEST_NEWEST ((image_digest_kind)(IMAGE_DIGEST_KINDS - 1)) /* used by image_digest() */
 
 const char *image_digest_kind_name(image_digest_kind kind);
 
@@ -38,9 +31,12 @@ char *image_digest_print(image_digest_kind kind, uint64_t digest, char text[IMAG
 /* Parse such a text. Returns false and changes nothing for any other text, including kinds of later versions. */
 bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *digest);
 
-/* image_digest() and image_digest_png() with a given algorithm. */
+/* The same with a given algorithm. */
 uint64_t image_digest_by(image_digest_kind kind, const image *image);
-bool image_digest_png_by(image_digest_kind kind, const char *path, image_color background, image *about,
-                         uint64_t *digest, octreel_error *error);
+
+/* The digest of a PNG file, read row by row under the rules of image_read_png_over(). *about receives the image's
+ * description without pixels. Returns false and sets *error if the file cannot be read. */
+bool image_digest_png(image_digest_kind kind, const char *path, image_color background, image *about, uint64_t *digest,
+                      octreel_error *error);
 
 #endif

@@ -56,7 +56,7 @@ static bool find_chunk(page *p, size_t offset, chunk *c)
 }
 
 /* Read the first page of a file; `file` may be null. Closes the file and returns null if it is not a PNG. */
-static FILE *begin_png(FILE *file, page *p)
+static FILE *read_first_page(FILE *file, page *p)
 {
     p->size = file ? fread(p->bytes, 1, sizeof p->bytes, file) : 0;
     if (p->size >= sizeof signature && memcmp(p->bytes, signature, sizeof signature) == 0)
@@ -69,14 +69,14 @@ static FILE *begin_png(FILE *file, page *p)
 static FILE *open_png(const char *path, page *p)
 {
     char ignored[FILE_REASON];
-    return begin_png(file_open(path, NULL, ignored), p);
+    return read_first_page(file_open(path, NULL, ignored), p);
 }
 
 /* Only regular files are opened, because opening a pipe would block. */
 static FILE *open_to_change(const char *path, page *p)
 {
     struct stat status;
-    return begin_png(stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "r+b") : NULL, p);
+    return read_first_page(stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "r+b") : NULL, p);
 }
 
 /* ---- Size ---------------------------------------------------------------------------------------------------- */
@@ -132,7 +132,7 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
 }
 
 /* The text and its CRC are adjacent and within one page of 4096 bytes: one write replaces both atomically. */
-static bool replace(FILE *file, page *p, const char *keyword, const char *text)
+static bool replace_in_page(FILE *file, page *p, const char *keyword, const char *text)
 {
     chunk c;
     const size_t length = strlen(text);
@@ -149,6 +149,6 @@ bool image_replace_text(const char *path, const char *keyword, const char *text)
 {
     page p;
     FILE *file = open_to_change(path, &p);
-    const bool replaced = file && replace(file, &p, keyword, text);
+    const bool replaced = file && replace_in_page(file, &p, keyword, text);
     return file && fclose(file) == 0 && replaced;
 }

@@ -33,6 +33,7 @@ struct image_source {
     size_t samples;             /* per pixel, as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
     int passes;                 /* 7 if the file is interlaced, else 1 */
     image about;                /* the image's description; pixels only if `whole` */
+    image *wanted;              /* the rows that decode_band() reads */
     uint8_t *band;              /* pixels of the last band */
     int band_rows;              /* rows that fit `band` */
     int next_y;                 /* the first row of the next band */
@@ -49,7 +50,7 @@ static bool fail(image_source *s, const char *reason)
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
 
 /* A step of reading, which an error of libpng aborts. */
-typedef void step(png_structp png, png_infop info, void *context);
+typedef void step(image_source *s);
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
 {
@@ -64,7 +65,7 @@ static void ignore_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-/* libpng's error handler: keep the reason and jump back to run(). */
+/* libpng's error handler: keep the reason and jump back to run_step(). */
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
     fail(png_get_error_ptr(png), message);
@@ -72,11 +73,11 @@ static _Noreturn void raise_error(png_structp png, png_const_charp message)
 }
 
 /* Run a step; returns false if libpng fails. No local variable changes between setjmp and longjmp. */
-static bool run(image_source *s, step *task, void *context)
+static bool run_step(image_source *s, step *task)
 {
     if (setjmp(png_jmpbuf(s->png)) != 0)
         return false;
-    task(s->png, s->info, context);
+    task(s);
     return true;
 }
 
@@ -128,63 +129,64 @@ static bool is_indexed(const image_source *s)
 
 /* Have libpng deliver whole samples without loss. Blending with the background is done here, because libpng 1.6.39
  * turns the white of 16-bit files into 254. */
-static void set_conversion(png_structp png, png_infop info, image_source *s)
+static void set_conversion(image_source *s)
 {
-    s->color_type = png_get_color_type(png, info);
-    s->depth = png_get_bit_depth(png, info);
-    const bool keyed = png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+    s->color_type = png_get_color_type(s->png, s->info);
+    s->depth = png_get_bit_depth(s->png, s->info);
+    const bool keyed = png_get_valid(s->png, s->info, PNG_INFO_tRNS) != 0;
     s->about.wide = s->depth == 16;
     s->about.transparent = keyed || (s->color_type & PNG_COLOR_MASK_ALPHA) != 0;
     s->samples = s->about.transparent ? 4 : 3;
     if (is_indexed(s)) {
         s->samples = 1;
-        png_set_packing(png);
+        png_set_packing(s->png);
         return;
     }
-    png_set_expand(png);
-    png_set_gray_to_rgb(png);
+    png_set_expand(s->png);
+    png_set_gray_to_rgb(s->png);
     const uint16_t one = 1;
     if (s->depth == 16 && *(const uint8_t *)&one == 1)
-        png_set_swap(png);
+        png_set_swap(s->png);
 }
 
 /* Refuse impossible sizes before memory is allocated. */
-static void check_size(png_structp png, png_infop info, const image_source *s)
+static void check_size(const image_source *s)
 {
-    const png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+    const png_uint_32 width = png_get_image_width(s->png, s->info), height = png_get_image_height(s->png, s->info);
     if (width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE)
-        png_error(png, "a side is longer than 16384 pixels, the largest that Octreel reads");
-    const uint64_t stored = (uint64_t)png_get_rowbytes(png, info) * height;
+        png_error(s->png, "a side is longer than 16384 pixels, the largest that Octreel reads");
+    const uint64_t stored = (uint64_t)png_get_rowbytes(s->png, s->info) * height;
     if (stored > MOST_BYTES_A_BYTE * s->file_size)
-        png_error(png, "the file is truncated, or claims more pixels than it can hold");
+        png_error(s->png, "the file is truncated, or claims more pixels than it can hold");
 }
 
 /* Blend a sample with the background; alpha is 0 to `most`. */
-static unsigned mix(unsigned value, unsigned ground, unsigned alpha, unsigned most)
+static unsigned blend_sample(unsigned value, unsigned ground, unsigned alpha, unsigned most)
 {
     return (value * alpha + ground * (most - alpha) + most / 2) / most;
 }
 
-static image_color mix_color(image_color color, image_color ground, unsigned alpha)
+static image_color blend_color(image_color color, image_color ground, unsigned alpha)
 {
-    return (image_color){(uint8_t)mix(color.r, ground.r, alpha, 255), (uint8_t)mix(color.g, ground.g, alpha, 255),
-                         (uint8_t)mix(color.b, ground.b, alpha, 255)};
+    return (image_color){(uint8_t)blend_sample(color.r, ground.r, alpha, 255),
+                         (uint8_t)blend_sample(color.g, ground.g, alpha, 255),
+                         (uint8_t)blend_sample(color.b, ground.b, alpha, 255)};
 }
 
 /* Fill the palette with the colours of the file's indices or grey levels, blended with the background. */
-static void set_colors(png_structp png, png_infop info, image_source *s)
+static void set_colors(image_source *s)
 {
     image_palette *palette = &s->about.palette;
     png_colorp colors = NULL;
     png_bytep alphas = NULL;
     png_color_16p key = NULL;
     int alpha_count = 0;
-    png_get_tRNS(png, info, &alphas, &alpha_count, &key);
+    png_get_tRNS(s->png, s->info, &alphas, &alpha_count, &key);
     const bool grey = s->color_type == PNG_COLOR_TYPE_GRAY;
     if (grey)
         palette->count = 1 << s->depth;
     else
-        png_get_PLTE(png, info, &colors, &palette->count);
+        png_get_PLTE(s->png, s->info, &colors, &palette->count);
     for (int i = 0; i < palette->count; i++) {
         const uint8_t level = (uint8_t)(grey ? i * 255 / (palette->count - 1) : 0);
         const image_color color =
@@ -194,7 +196,7 @@ static void set_colors(png_structp png, png_infop info, image_source *s)
             alpha = s->about.transparent && key->gray == i ? 0 : 255;
         else if (i < alpha_count)
             alpha = alphas[i];
-        palette->colors[i] = mix_color(color, s->background, alpha);
+        palette->colors[i] = blend_color(color, s->background, alpha);
     }
 }
 
@@ -204,14 +206,15 @@ static size_t row_size(const image_source *s)
     return (size_t)s->about.width * s->samples * (s->depth == 16 ? 2 : 1);
 }
 
-static void begin(png_structp png, png_infop info, void *context)
+static void read_description(image_source *s)
 {
-    image_source *s = context;
+    const png_structp png = s->png;
+    const png_infop info = s->info;
     set_rules(png, s->file);
     png_set_compression_buffer_size(png, COMPRESSED_BUFFER_SIZE);
     png_read_info(png, info);
-    check_size(png, info, s);
-    set_conversion(png, info, s);
+    check_size(s);
+    set_conversion(s);
     s->about.color_space = digest_color_chunks(png, info);
     s->passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
@@ -221,7 +224,7 @@ static void begin(png_structp png, png_infop info, void *context)
     if (png_get_rowbytes(png, info) != row_size(s))
         png_error(png, "libpng cannot convert the pixels to whole samples");
     if (s->samples == 1)
-        set_colors(png, info, s);
+        set_colors(s);
     /* Interlaced rows arrive in passes, and whether 16 bits a sample are needed shows only when all rows are read. */
     s->whole = s->whole || s->passes > 1 || s->about.wide;
 }
@@ -229,11 +232,11 @@ static void begin(png_structp png, png_infop info, void *context)
 /* ---- Pixels -------------------------------------------------------------------------------------------------- */
 
 /* Blend r, g, b, alpha with the background to r, g, b, in place. */
-static void blend(uint8_t *pixels, size_t count, image_color ground)
+static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     for (size_t n = 0; n < count; n++) {
         const uint8_t *from = pixels + 4 * n;
-        const image_color color = mix_color((image_color){from[0], from[1], from[2]}, ground, from[3]);
+        const image_color color = blend_color((image_color){from[0], from[1], from[2]}, ground, from[3]);
         memcpy(pixels + 3 * n, &color, 3);
     }
 }
@@ -247,9 +250,9 @@ static bool fits_bytes(const uint8_t *samples, size_t count)
     return true;
 }
 
-/* blend() for samples of 16 bits. Blending rounds; a pixel that 8 bits hold is rounded to 8 bits, so that the same
- * picture stored with 8 or with 16 bits gives the same colours. */
-static void blend_wide(uint8_t *pixels, size_t count, image_color ground)
+/* blend_pixels() for samples of 16 bits. Blending rounds; a pixel that 8 bits hold is rounded to 8 bits, so that the
+ * same picture stored with 8 or with 16 bits gives the same colours. */
+static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
     for (size_t n = 0; n < count; n++) {
@@ -257,7 +260,7 @@ static void blend_wide(uint8_t *pixels, size_t count, image_color ground)
         memcpy(from, pixels + n * sizeof from, sizeof from);
         const unsigned unit = fits_bytes(pixels + n * sizeof from, 4) ? 257 : 1;
         for (size_t i = 0; i < 3; i++)
-            to[i] = (uint16_t)(mix(from[i] / unit, grounds[i] / unit, from[3] / unit, 65535 / unit) * unit);
+            to[i] = (uint16_t)(blend_sample(from[i] / unit, grounds[i] / unit, from[3] / unit, 65535 / unit) * unit);
         memcpy(pixels + n * sizeof to, to, sizeof to);
     }
 }
@@ -274,39 +277,31 @@ static void narrow_where_exact(image *band)
 }
 
 /* Convert a band, in place, from libpng's samples to the image's format. */
-static void convert(image_source *s, image *band)
+static void convert_band(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
         s->beyond = s->beyond || !image_indices_are_valid(band); /* libpng accepts indices beyond the palette */
     if (s->samples == 4)
-        (band->wide ? blend_wide : blend)(band->pixels, count, s->background);
+        (band->wide ? blend_wide_pixels : blend_pixels)(band->pixels, count, s->background);
     narrow_where_exact(band);
 }
 
-/* The argument of decode(). */
-typedef struct band_request {
-    image_source *source;
-    image *band;
-} band_request;
-
-/* Read a band of rows; after the last row, read to the end of the file to check it. */
-static void decode(png_structp png, png_infop info, void *context)
+/* Read the rows of s->wanted; after the last row, read to the end of the file to check it. */
+static void decode_band(image_source *s)
 {
-    (void)info;
-    const band_request *r = context;
-    image_source *s = r->source;
+    image *band = s->wanted;
     const size_t size = row_size(s);
     for (int pass = 0; pass < s->passes; pass++)
-        for (int y = 0; y < r->band->height; y++)
-            png_read_row(png, r->band->pixels + (size_t)y * size, NULL);
-    convert(s, r->band);
-    s->next_y += r->band->height;
+        for (int y = 0; y < band->height; y++)
+            png_read_row(s->png, band->pixels + (size_t)y * size, NULL);
+    convert_band(s, band);
+    s->next_y += band->height;
     if (s->next_y < s->about.height)
         return;
-    png_read_end(png, NULL);
+    png_read_end(s->png, NULL);
     if (s->beyond)
-        png_error(png, "a pixel's index is beyond the palette");
+        png_error(s->png, "a pixel's index is beyond the palette");
 }
 
 static bool read_whole(image_source *s)
@@ -314,7 +309,8 @@ static bool read_whole(image_source *s)
     s->about.pixels = malloc(row_size(s) * (size_t)s->about.height);
     if (!s->about.pixels)
         return fail(s, strerror(ENOMEM));
-    if (!run(s, decode, &(band_request){s, &s->about}))
+    s->wanted = &s->about;
+    if (!run_step(s, decode_band))
         return false;
     s->next_y = 0;
     return true;
@@ -342,7 +338,8 @@ bool image_source_next(image_source *s, int rows, image *band)
         if (!reserve_band(s, band->height))
             return false;
         band->pixels = s->band;
-        return run(s, decode, &(band_request){s, band});
+        s->wanted = band;
+        return run_step(s, decode_band);
     }
     band->pixels += (size_t)s->next_y * (size_t)s->about.width * image_pixel_size(&s->about);
     s->next_y += band->height;
@@ -372,7 +369,7 @@ static bool open_png(image_source *s)
 {
     s->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, s, raise_error, ignore_warning);
     s->info = s->png ? png_create_info_struct(s->png) : NULL;
-    return s->info ? run(s, begin, s) : fail(s, strerror(ENOMEM));
+    return s->info ? run_step(s, read_description) : fail(s, strerror(ENOMEM));
 }
 
 image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error)

@@ -99,7 +99,7 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
 }
 
 /* libpng's warnings are treated as errors: it warns when it changes its input, such as an invalid keyword. */
-static bool encode(output *out)
+static bool encode_png(output *out)
 {
     const size_t pixel = out->rows->palette ? 1 : 3, row_size = (size_t)out->rows->width * pixel + 1;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, out, raise_error, raise_error);
@@ -124,10 +124,10 @@ static bool write_file(output *out, const char *path)
         return error_set(out->error, "%s: exists and is not a regular file; choose another name", path);
     if (!file_writer_open(&out->file, path, out->error))
         return false;
-    return encode(out) ? file_writer_close(&out->file, out->error) : file_writer_abandon(&out->file);
+    return encode_png(out) ? file_writer_close(&out->file, out->error) : file_writer_abandon(&out->file);
 }
 
-static const uint8_t *find_row(int y, void *context)
+static const uint8_t *row_of_image(int y, void *context)
 {
     const image *image = context;
     return image->pixels + (size_t)y * (size_t)image->width * (size_t)image->channels;
@@ -142,8 +142,8 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
     const image_rows rows = {.width = image->width,
                              .height = image->height,
                              .palette = image->channels == 1 ? &image->palette : NULL,
-                             .row = find_row,
-                             .context = (void *)image}; /* find_row() only reads it */
+                             .row = row_of_image,
+                             .context = (void *)image}; /* row_of_image() only reads it */
     return write_file(&(output){.rows = &rows, .texts = texts, .text_count = text_count, .error = error}, path);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_deflate.c - compression of rows: zlib decodes the streams, and they are smaller than its own for drawings. */
 #include "deflate.h"
-#include "huffman.h"
+#include "deflate_block.h"
 #include "octree/digest.h"
 #include "octree/sample.h"
 
