@@ -221,11 +221,6 @@ bool read_color(const command_option *option, const char *text, void *into)
     return true;
 }
 
-const char *draw_fill_name_at(int index)
-{
-    return draw_fill_name((draw_fill)index);
-}
-
 const char *draw_fill_words_at(int index)
 {
     static const char *const words[] = {
@@ -308,11 +303,6 @@ bool read_view(const view_options *given, view *v)
 
 /* ---- Options of the renderer --------------------------------------------------------------------------------- */
 
-static const char *context_at(int n)
-{
-    return draw_context_name((draw_context)n);
-}
-
 static const char *context_words_at(int n)
 {
     static const char *const words[DRAW_CONTEXTS] = {[DRAW_AUTO] = "the first of the others that works",
@@ -325,7 +315,7 @@ bool renderer_option_row(size_t n, command_option *option)
 {
     static const command_option rows[] = {
         {"context", "NAME", "how OpenGL draws without a window (default auto): one of", .read = read_choice,
-         OPTION_VALUE(renderer_choice, context), .names = context_at, .words = context_words_at},
+         OPTION_VALUE(renderer_choice, context), .names = draw_context_name, .words = context_words_at},
         {"any-renderer", NULL,
          "with --context egl: allow a graphics card. Its frames are the same only for the same card and driver; the "
          "frames of llvmpipe, Mesa's software renderer, are the same everywhere",

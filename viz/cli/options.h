@@ -89,7 +89,7 @@ command_option_reader read_quiet;   /* sets is_quiet() */
 #define FILL_OPTION(type, member)                                                                                      \
     {                                                                                                                  \
         "fill", "WITH", "the rasterizer; the pixels are the same (--any-renderer implies gl): one of",                 \
-            .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_name_at, .words = draw_fill_words_at   \
+            .read = read_choice, OPTION_VALUE(type, member), .names = draw_fill_name, .words = draw_fill_words_at      \
     }
 
 /* True if -o, whose value `reader` reads, would take this path: the user may have forgotten to type -o. */
@@ -142,6 +142,6 @@ option_table_row renderer_option_row;
 /* Call after all options are read. False, with an error printed, if --any-renderer and --context contradict. */
 bool check_renderer(const renderer_choice *choice);
 
-json_name draw_fill_name_at, draw_fill_words_at;
+json_name draw_fill_words_at;
 
 #endif

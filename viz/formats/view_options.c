@@ -14,24 +14,6 @@
 
 /* ---- Names to choose from ----------------------------------------------------------------------------------- */
 
-/* Define camera_at() and camera_words_at() for view_camera, and the same for other enumerations: the name of the n-th
- * choice and its description. */
-#define NAMES(choice)                                                                                                  \
-    static const char *choice##_at(int n)                                                                              \
-    {                                                                                                                  \
-        return view_##choice##_name((view_##choice)n);                                                                 \
-    }                                                                                                                  \
-    static const char *choice##_words_at(int n)                                                                        \
-    {                                                                                                                  \
-        return view_##choice##_words((view_##choice)n);                                                                \
-    }
-NAMES(camera)
-NAMES(coloring)
-NAMES(tree)
-NAMES(diagram)
-NAMES(point_color)
-NAMES(shade)
-
 const char *view_layer_at(int n)
 {
     return n < LAYER_COUNT ? layer_rows[n].name : NULL;
@@ -325,7 +307,8 @@ static const view_option rows[] = {
      parse_size, MEMBER("size", &json_ints, width), .member.size = 2, .standard = "1280x720", .member.min = 1,
      .member.max = VIEW_MAX_SIDE, .member.about = "a width and a height in pixels as in [1280, 720]"},
     {"camera", "NAME", "camera", "the camera (default iso): one of", parse_choice,
-     MEMBER("camera", &json_choice, camera), .standard = "iso", .member.names = camera_at, .words = camera_words_at},
+     MEMBER("camera", &json_choice, camera), .standard = "iso", .member.names = view_camera_name,
+     .words = view_camera_words},
     {"fit", "WHAT", "fit", "what the camera frames: one of", parse_choice,
      MEMBER("fit", JSON_CODEC(json_read_choice, write_fit), fit), .standard = "world", .member.names = fit_at,
      .words = fit_words_at},
@@ -346,24 +329,24 @@ static const view_option rows[] = {
      .member.advice = "the name of a layer", .member.names = view_layer_at, .words = layer_words_at, .noun = "layer",
      .by_element = true},
     {"color-by", "MODE", "colour mode", "meaning of a node's colour (default depth): one of", parse_choice,
-     MEMBER("color_by", &json_choice, coloring), .standard = "depth", .member.names = coloring_at,
-     .words = coloring_words_at, .noun = "colouring"},
+     MEMBER("color_by", &json_choice, coloring), .standard = "depth", .member.names = view_coloring_name,
+     .words = view_coloring_words, .noun = "colouring"},
     {"color-points", "MODE", "point colour",
      "meaning of a point's colour (default plain; inspect: file if the cloud has colours, leaf if it has more points "
      "than the picture has pixels, else height): one of",
      parse_point_color, MEMBER("color_points", &json_choice, point_color), .standard = "plain",
-     .member.names = point_color_at, .words = point_color_words_at, .noun = "colouring of points"},
+     .member.names = view_point_color_name, .words = view_point_color_words, .noun = "colouring of points"},
     {"shade", "MODE", "shade",
      "how points show their distance from the eye (default bands; inspect: edl if the points are dense enough to form "
      "surfaces): one of",
-     parse_choice, MEMBER("shade", &json_choice, shade), .standard = "bands", .member.names = shade_at,
-     .words = shade_words_at},
+     parse_choice, MEMBER("shade", &json_choice, shade), .standard = "bands", .member.names = view_shade_name,
+     .words = view_shade_words},
     {"tree", "WHOSE", "tree", "the tree whose nodes are drawn if the session has foreign nodes (default auto): one of",
-     parse_choice, MEMBER("tree", &json_choice, tree), .standard = "auto", .member.names = tree_at,
-     .words = tree_words_at},
+     parse_choice, MEMBER("tree", &json_choice, tree), .standard = "auto", .member.names = view_tree_name,
+     .words = view_tree_words},
     {"diagram", "WHERE", "diagram", "draw the tree as a diagram with its root at the top (default none): one of",
-     parse_choice, MEMBER("diagram", &json_choice, diagram), .standard = "none", .member.names = diagram_at,
-     .words = diagram_words_at},
+     parse_choice, MEMBER("diagram", &json_choice, diagram), .standard = "none", .member.names = view_diagram_name,
+     .words = view_diagram_words},
     {"no-closeup", NULL, NULL,
      "no close-up: do not enlarge, in a part of the picture, what appears small in it (the surroundings of the player, "
      "else the queries, else the changes of the tick)",

@@ -13,10 +13,10 @@
 #define MARGIN 1.1
 #define THINNEST 1e-3   /* a world that appears thinner than this is not enlarged further */
 #define ORBIT_TICKS 480 /* ticks for a full turn */
-#define FOCAL 1.6       /* of the following camera: focal length in half windows */
+#define FOCAL 1.6       /* focal length of the camera that follows the player, in half windows */
 
-/* Limits of the quick test in is_seen_below(): how far a box may be off the view axis, relative to its depth, and how
- * far from the eye, for rounding errors to stay below ROUNDING pixels. */
+/* Limits within which the rounding errors of is_seen_below() stay below ROUNDING pixels: how far a box may be off the
+ * view axis, relative to its depth, and how far from the eye. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
 #define ROUNDING 1e-6
@@ -40,25 +40,15 @@ void camera_turn(double turns, double *cosine, double *sine)
     double c, s;
     turn_octant(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
     s = turns * 4 < whole ? -s : s;
-    const int quarter = (int)fmod(whole, 4);
-    switch (quarter < 0 ? quarter + 4 : quarter) {
-    case 0:
-        *cosine = c, *sine = s;
-        break;
-    case 1:
-        *cosine = -s, *sine = c;
-        break;
-    case 2:
-        *cosine = -c, *sine = -s;
-        break;
-    default:
-        *cosine = s, *sine = -c;
-    }
+    const double cosines[4] = {c, -s, -c, s}; /* after 0 to 3 quarter turns; the sine is the cosine a quarter before */
+    const int quarter = (int)fmod(whole, 4) + 4;
+    *cosine = cosines[quarter % 4];
+    *sine = cosines[(quarter + 3) % 4];
 }
 
-/* Look along a direction given by azimuth (0: along +y, growing to the left of it) and elevation of the eye, in turns.
- */
-static void aim(camera *c, double azimuth, double elevation)
+/* Set the camera's axes. azimuth: the direction of view, 0 along +y, growing to the left; elevation: of the eye. Both
+ * in turns. */
+static void set_axes(camera *c, double azimuth, double elevation)
 {
     double ca, sa, ce, se;
     camera_turn(azimuth, &ca, &sa);
@@ -98,7 +88,7 @@ static const struct {
  * vertical cylinder around the box is fitted into the window. Each rim of the cylinder appears widest where the line of
  * sight touches it, and reaches highest and lowest at its nearest and farthest points. In perspective it reaches
  * farther down than up: *lift is the shift, in pixels, that centres it. */
-static double fit_turning(const camera *c, camera_window window, double *lift)
+static double find_orbit_zoom(const camera *c, camera_window window, double *lift)
 {
     const double radius = sqrt(c->half[0] * c->half[0] + c->half[1] * c->half[1]), rise = c->up[2];
     const double fall = -c->forward[2];
@@ -119,7 +109,7 @@ static double fit_turning(const camera *c, camera_window window, double *lift)
 }
 
 /* Zoom of an orthographic camera: the framed box just fits into the window. */
-static double fit(const camera *c, camera_window window)
+static double find_zoom(const camera *c, camera_window window)
 {
     const double across = fmax(half_span(c->right, c->half), THINNEST),
                  along = fmax(half_span(c->up, c->half), THINNEST);
@@ -127,7 +117,7 @@ static double fit(const camera *c, camera_window window)
     return x < y ? x : y;
 }
 
-static void measure(camera *c, const octree_box *world)
+static void measure_box(camera *c, const octree_box *world)
 {
     double extent[3];
     c->scale = 1;
@@ -146,11 +136,11 @@ static void measure(camera *c, const octree_box *world)
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
-    measure(&c, v->fit == FIT_BOX ? &v->focus : world);
+    measure_box(&c, v->fit == FIT_BOX ? &v->focus : world);
     const bool placed = v->center.given || v->camera == CAMERA_FOLLOW;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
-    aim(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
-        v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);
+    set_axes(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
+             v->look.given ? v->look.elevation / 360 : cameras[v->camera].elevation);
     c.distance = v->camera == CAMERA_FOLLOW ? 1 : 4.2;
     double target[3] = {0, 0, 0}, lift = 0;
     for (int i = 0; i < 3; i++)
@@ -161,8 +151,8 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
         camera_unit(&c, c.center, target);
     const double smaller = window.width < window.height ? window.width : window.height;
     c.zoom = v->camera == CAMERA_FOLLOW  ? FOCAL * smaller / 2
-             : v->camera == CAMERA_ORBIT ? fit_turning(&c, window, &lift)
-                                         : fit(&c, window);
+             : v->camera == CAMERA_ORBIT ? find_orbit_zoom(&c, window, &lift)
+                                         : find_zoom(&c, window);
     c.zoom *= view_zoom(v);
     place_eye(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
@@ -316,7 +306,7 @@ static double half_of(const octree_box *box, int axis)
     return box->max[axis] / 2 - box->min[axis] / 2;
 }
 
-static void widen(octree_box *box)
+static void widen_box(octree_box *box)
 {
     double longest = 0;
     for (int i = 0; i < 3; i++)
@@ -345,6 +335,6 @@ void camera_fit(view *v, const octree *tree)
     octree_node leaf;
     if (b.count && is_single_position(&b.box) && octree_locate(tree, b.box.min, &leaf) == OCTREE_OK)
         b.box = leaf.box;
-    widen(&b.box);
+    widen_box(&b.box);
     v->focus = b.box;
 }

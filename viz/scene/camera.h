@@ -30,7 +30,7 @@ typedef struct camera {
     bool perspective;
     double zoom;                  /* pixels a unit; under perspective, at distance 1 */
     double middle[2];             /* the pixel on the axis of view */
-    double center[3];             /* the world position at that pixel that the camera looks at */
+    double center[3];             /* the world position that the camera looks at; `middle` shows it */
     double distance;              /* from the eye to the center, in unit coordinates */
     double near;                  /* geometry at a smaller depth is clipped */
     double near_depth, far_depth; /* the box's range of depth, which the depth bands divide */

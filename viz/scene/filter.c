@@ -5,14 +5,14 @@
 
 #include <stdio.h>
 
-static bool cuts(const view_filter *f, const octree_box *world, const octree_box *box)
+static bool slice_cuts(const view_filter *f, const octree_box *world, const octree_box *box)
 {
     const int axis = f->slice - 'x';
     const double at = f->slice_at, max = box->max[axis];
     return box->min[axis] <= at && (at < max || (at == max && max == world->max[axis]));
 }
 
-static bool meet(const octree_box *a, const octree_box *b)
+static bool boxes_meet(const octree_box *a, const octree_box *b)
 {
     for (int i = 0; i < 3; i++)
         if (a->max[i] < b->min[i] || b->max[i] < a->min[i])
@@ -22,7 +22,7 @@ static bool meet(const octree_box *a, const octree_box *b)
 
 bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node)
 {
-    return (!f->slice || cuts(f, world, &node->box)) && (!f->by_region || meet(&f->region, &node->box));
+    return (!f->slice || slice_cuts(f, world, &node->box)) && (!f->by_region || boxes_meet(&f->region, &node->box));
 }
 
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node)
@@ -43,7 +43,7 @@ bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned dept
         return false;
     if (f->slice && !(box->min[axis] <= f->slice_at && f->slice_at <= box->max[axis]))
         return false;
-    return !f->by_region || meet(&f->region, box);
+    return !f->by_region || boxes_meet(&f->region, box);
 }
 
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf)

@@ -21,12 +21,12 @@
 
 /* All zero shows the whole tree. */
 typedef struct view_filter {
-    char slice;                    /* 'x', 'y' or 'z': the nodes that cut a plane across this axis; 0: all */
-    double slice_at;               /* where the plane is */
+    char slice;                    /* 'x', 'y' or 'z': only nodes that a plane across this axis cuts; 0: all nodes */
+    double slice_at;               /* the plane's coordinate on this axis */
     bool by_depth;                 /* only nodes from min_depth to max_depth */
     unsigned min_depth, max_depth; /* 0 to OCTREE_MAX_DEPTH */
     bool leaves;                   /* only leaves */
-    bool by_region;                /* only what meets a closed box */
+    bool by_region;                /* only nodes and points that meet the region */
     octree_box region;
 } view_filter;
 
@@ -47,8 +47,8 @@ bool filter_shows_point(const view_filter *f, const double position[3]);
 /* Whether any part of the filter is set. */
 bool filter_is_on(const view_filter *f);
 
-/* Null if the filter can show some node of a tree with this world and depth; else a sentence, in `text`, why it shows
- * none. */
+/* Returns null if the filter can show some node of a tree with this world and depth; otherwise a sentence, in `text`,
+ * that says why it can show none. */
 #define FILTER_TEXT 256
 const char *filter_refusal(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* layout.c - the areas of a picture; see layout.h. */
 #include "layout.h"
 #include "layer.h"
 
@@ -14,23 +15,21 @@
 
 int panel_width(const view *v)
 {
-    const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_of_text(v).width;
+    const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_of(v, false).width;
     return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
 }
 
-/* layout.c - the areas of a picture; see layout.h. */
-
 /* The picture without the column of text. */
-static camera_window rest_of(const view *v)
+static camera_window area_beside_text(const view *v)
 {
     const int column = panel_width(v);
     return (camera_window){column, 0, v->width - column, v->height};
 }
 
 /* The picture without the column of text and the diagram. */
-static camera_window whole_space(const view *v)
+static camera_window area_of_world(const view *v)
 {
-    camera_window w = rest_of(v);
+    camera_window w = area_beside_text(v);
     const camera_window diagram = layout_diagram(v);
     if (v->diagram == DIAGRAM_BESIDE && diagram.height == w.height)
         w.width -= diagram.width;
@@ -47,7 +46,7 @@ static double closeup_strip(const camera_window *space)
 
 camera_window layout_space(const scene *s)
 {
-    camera_window w = whole_space(&s->view);
+    camera_window w = area_of_world(&s->view);
     const double strip = closeup_strip(&w);
     if (s->has_closeup && w.width >= w.height)
         w.width -= strip;
@@ -58,12 +57,7 @@ camera_window layout_space(const scene *s)
 
 int layout_number_letters(const octree_box *box)
 {
-    enum {
-        FEW_DIGITS = 4,
-        LEAST = 6,
-        MOST = 9,
-        MORE = 3
-    }; /* MORE than the digits: a sign or a margin, and the tick mark */
+    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 }; /* MORE: for a sign or a margin, and for the tick mark */
     double most = 0;
     int digits = 1;
     for (int i = 0; i < 3; i++)
@@ -87,10 +81,10 @@ camera_window layout_camera(const scene *s, const octree_box *world)
 
 camera_window layout_closeup(const view *v)
 {
-    const camera_window space = whole_space(v);
+    const camera_window space = area_of_world(v);
     const int margin = CLOSEUP_MARGIN * view_unit(v), least = CLOSEUP_LEAST * view_unit(v);
     const bool beside = space.width >= space.height;
-    const double across = closeup_strip(&space) - 2 * margin; /* of the strip, and along it */
+    const double across = closeup_strip(&space) - 2 * margin; /* the extent of the close-up across the strip */
     const double along = fmin((beside ? space.height : space.width) - 2 * margin, floor(across * CLOSEUP_RATIO));
     camera_window w = {.width = beside ? across : along, .height = beside ? along : across};
     w.x = beside ? space.x + space.width - margin - w.width : space.x + floor((space.width - w.width) / 2);
@@ -100,7 +94,7 @@ camera_window layout_closeup(const view *v)
 
 camera_window layout_diagram(const view *v)
 {
-    camera_window w = rest_of(v);
+    camera_window w = area_beside_text(v);
     if (v->diagram == DIAGRAM_NONE)
         return (camera_window){0};
     if (v->diagram == DIAGRAM_ONLY)

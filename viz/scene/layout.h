@@ -51,8 +51,8 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
 /* Reserve the area of a mark at a world position; `half` is half its width, in half units of the frame. */
 void text_space_keep_mark(text_space *t, const scene *s, const double at[3], unsigned half);
 
-/* Add a label beside such a mark, on the first side with room, on a background of its own. False if no side has room.
- * True also if the mark is outside of the space view, where it gets no label. */
+/* Add a label beside a mark of this half width, on the first side with room, on a background of its own. False if no
+ * side has room. True also if the mark is outside of the space view, where it gets no label. */
 bool text_add_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half);
 
 /* Add a label on a filled rectangle, so that lines and points do not make it hard to read. The rectangle has the

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
+/* lettering.c - the choice of a face; see lettering.h. */
 #include "lettering.h"
 
 #include <stddef.h>
 
-/* lettering.c - one row for each range of heights of a picture, by view_height_in_wide(). Leading grows with the face.
- */
+/* One row for each range of heights of a picture, by view_height_in_wide(). Leading grows with the face. */
 static const struct lettering_row {
     int from; /* the least height of the range */
     text_face text;
@@ -28,7 +28,7 @@ static lettering of_face(text_face face, int multiple, int leading)
     return (lettering){face, multiple, width, height, height + leading * multiple};
 }
 
-static lettering choose(const view *v, bool title)
+lettering lettering_of(const view *v, bool title)
 {
     const int height = view_height_in_wide(v);
     size_t row = sizeof rows / sizeof rows[0] - 1;
@@ -40,14 +40,4 @@ static lettering choose(const view *v, bool title)
         row--;
     return title ? of_face(rows[row].title, rows[row].title_multiple, 0)
                  : of_face(rows[row].text, 1, rows[row].leading);
-}
-
-lettering lettering_of_text(const view *v)
-{
-    return choose(v, false);
-}
-
-lettering lettering_of_title(const view *v)
-{
-    return choose(v, true);
 }

@@ -24,8 +24,7 @@ typedef struct lettering {
     int line;          /* pixels from a line of text to the next */
 } lettering;
 
-/* The letters of text, and those of titles, which are about twice as large. */
-lettering lettering_of_text(const view *v);
-lettering lettering_of_title(const view *v);
+/* The letters of text, or of titles, which are about twice as large. */
+lettering lettering_of(const view *v, bool title);
 
 #endif

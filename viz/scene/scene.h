@@ -2,8 +2,8 @@
 /* scene.h - the draw list of one tick: the elements of a frame as plain arrays, which tests can check without a GPU.
  *
  * World geometry (boxes, segments, markers, letters) is in world coordinates and is drawn through the camera; panels
- * and labels, and segments that say so, are in pixels. Every element has a layer, a role (its colour) and a stable id,
- * unique within its kind and layer.
+ * and labels, and segments with in_picture, are in pixels. Every element has a layer, a role (its colour) and a stable
+ * id, unique within its kind and layer.
  */
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
@@ -17,8 +17,8 @@
 typedef enum scene_stroke {
     STROKE_SOLID,
     STROKE_DASHED,
-    STROKE_CUT,   /* dashed, with gaps in the background colour: a solid line beneath looks dashed; letters have a rim
-                     in it */
+    STROKE_CUT, /* dashed, with gaps in the background colour: a solid line beneath looks dashed; letters have a rim of
+                   this colour */
     STROKE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
 } scene_stroke;
 
@@ -169,19 +169,19 @@ void scene_release(scene *s);
 /* Set the view, and the sizes that follow from it. The caller sets the camera. */
 void scene_set_view(scene *s, const view *v);
 
-/* Append an element if the view shows its layer. This is the only test of that. */
+/* Append an element, unless the view hides its layer; no other code tests that. */
 void scene_add_box(scene *s, scene_box box);
 void scene_add_segment(scene *s, scene_segment segment);
 void scene_add_marker(scene *s, scene_marker marker);
 void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
-/* A segment in the world, a marker, the markers of points, and a rectangle of the picture. */
+/* Append a segment in the world, a marker, the markers of points, and a rectangle of the picture. */
 void scene_add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style);
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style);
 
-/* Markers that a scene with this view has had. */
+/* Append copies of markers that a scene with the same view had, without testing them again. */
 void scene_add_markers(scene *s, const scene_marker *markers, size_t count);
 
 void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[2], unsigned layer, unsigned role);

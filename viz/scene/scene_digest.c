@@ -82,15 +82,15 @@ static uint64_t digest_segment(const digest_names *n, const scene_segment *segme
     return digest_doubles(digest_doubles(digest, segment->ends[0], 3), segment->ends[1], 3);
 }
 
-/* 0 if the element has no colour of its own. */
-static unsigned word_of(theme_color color)
+/* A colour as one number: 0 for elements without a colour of their own. */
+static unsigned pack_color(theme_color color)
 {
     return (unsigned)color.r << 16 | (unsigned)color.g << 8 | color.b;
 }
 
 uint64_t digest_marker(const digest_names *n, const scene_marker *marker)
 {
-    const unsigned extra = marker->shape | word_of(marker->color) << 8;
+    const unsigned extra = marker->shape | pack_color(marker->color) << 8;
     return digest_doubles(digest_style(n, marker->id, marker->style, extra), marker->at, 3);
 }
 
@@ -103,13 +103,13 @@ static uint64_t digest_label(const digest_names *n, const scene_label *label)
 
 static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 {
-    uint64_t digest = digest_style(n, panel->id, panel->style, word_of(panel->color));
+    uint64_t digest = digest_style(n, panel->id, panel->style, pack_color(panel->color));
     digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
 
-/* Each element's digest is computed independently, so that a processor can work on several at once. That of the first
- * ones is known. */
+/* Add an array to a digest; `known` is the polynomial of the elements before `first`. Each element is hashed on its
+ * own, so that a processor can work on several at once. */
 #define DIGEST_FROM(first, known, digest, array, digest_one)                                                           \
     do {                                                                                                               \
         uint64_t all = known;                                                                                          \
@@ -118,7 +118,8 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
         digest = octree_digest_word(octree_digest_word(digest, (array).count), all);                                   \
     } while (0)
 
-/* The digests of runs are known, as far as the run is of the elements that are there. */
+/* Add an array to a digest. The elements of known runs are not hashed again; runs that end beyond the array are
+ * ignored. */
 #define DIGEST_RUNS(digest, array, digest_one, runs)                                                                   \
     do {                                                                                                               \
         uint64_t sum = 0;                                                                                              \

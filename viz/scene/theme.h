@@ -20,51 +20,48 @@
  * is drawn over them, for every kind of vision. To add a role, add a row before the kinds: `test_theme --propose`
  * prints colours that differ visibly from all others. Scene digests hash the names. */
 #define THEME_ROLE_MAP(X)                                                                                              \
-    X(BACKGROUND, "background", 13, 17, 26)                                                                            \
-    X(PANEL, "panel", 24, 30, 43)                                                                                      \
-    X(TEXT, "text", 236, 240, 246)                                                                                     \
-    X(FAINT, "faint", 139, 150, 170) /* secondary text, axes */                                                        \
-    X(WORLD, "world", 96, 108, 130)                                                                                    \
-    X(POINT, "point", 245, 247, 250)                                                                                   \
-    X(PLAYER, "player", 254, 246, 84)                                                                                  \
-    X(COLLISION, "collision", 255, 64, 64) /* the only red */                                                          \
-    X(RANGE, "range", 240, 165, 30)                                                                                    \
-    X(RADIUS, "radius", 140, 250, 185)                                                                                 \
-    X(KNEAREST, "knearest", 180, 152, 255)                                                                             \
-    X(NEAREST, "nearest", 255, 172, 222)                                                                               \
-    X(WARNING, "warning", 240, 190, 90) /* refused, full, wrong: beside its word */                                    \
-    X(NODE, "node", 84, 98, 150)        /* the root; the rows below are the depths 1 to 9 */                           \
-    X(NODE_1, "node-1", 74, 110, 168)                                                                                  \
-    X(NODE_2, "node-2", 62, 122, 176)                                                                                  \
-    X(NODE_3, "node-3", 54, 136, 176)                                                                                  \
-    X(NODE_4, "node-4", 58, 150, 168)                                                                                  \
-    X(NODE_5, "node-5", 78, 164, 152)                                                                                  \
-    X(NODE_6, "node-6", 106, 174, 128)                                                                                 \
-    X(NODE_7, "node-7", 142, 186, 112)                                                                                 \
-    X(NODE_8, "node-8", 178, 196, 104)                                                                                 \
-    X(NODE_9, "node-9", 212, 206, 116)                                                                                 \
-    X(SHAPE, "shape", 142, 196, 252)                                                                                   \
-    X(WRONG, "wrong", 228, 40, 255) /* a program's answer, and what it named wrongly */                                \
-    X(MISSED, "missed", 0, 216, 174)                                                                                   \
-    X(HIT, "hit", 102, 122, 254)       /* leaves that hold what was found */                                           \
-    X(CHANGE, "change", 210, 250, 130) /* of the tree: solid where it splits, dashed where it merges */                \
-    X(KIND, "kind", 112, 208, 136)     /* of a program's nodes: the first; the rows below are the others */            \
-    X(KIND_1, "kind-1", 248, 136, 224)                                                                                 \
-    X(KIND_2, "kind-2", 200, 216, 80)                                                                                  \
-    X(KIND_3, "kind-3", 120, 32, 248)                                                                                  \
-    X(KIND_4, "kind-4", 176, 80, 0)                                                                                    \
-    X(KIND_5, "kind-5", 56, 112, 88)                                                                                   \
-    X(KIND_6, "kind-6", 144, 56, 176)
+    X(ROLE_BACKGROUND, "background", 13, 17, 26)                                                                       \
+    X(ROLE_PANEL, "panel", 24, 30, 43)                                                                                 \
+    X(ROLE_TEXT, "text", 236, 240, 246)                                                                                \
+    X(ROLE_FAINT, "faint", 139, 150, 170) /* secondary text, axes */                                                   \
+    X(ROLE_WORLD, "world", 96, 108, 130)                                                                               \
+    X(ROLE_POINT, "point", 245, 247, 250)                                                                              \
+    X(ROLE_PLAYER, "player", 254, 246, 84)                                                                             \
+    X(ROLE_COLLISION, "collision", 255, 64, 64) /* the only red */                                                     \
+    X(ROLE_RANGE, "range", 240, 165, 30)                                                                               \
+    X(ROLE_RADIUS, "radius", 140, 250, 185)                                                                            \
+    X(ROLE_KNEAREST, "knearest", 180, 152, 255)                                                                        \
+    X(ROLE_NEAREST, "nearest", 255, 172, 222)                                                                          \
+    X(ROLE_WARNING, "warning", 240, 190, 90) /* next to the words refused, full and wrong */                           \
+    X(ROLE_NODE, "node", 84, 98, 150)        /* the root; the rows below are the depths 1 to 9 */                      \
+    X(ROLE_NODE_1, "node-1", 74, 110, 168)                                                                             \
+    X(ROLE_NODE_2, "node-2", 62, 122, 176)                                                                             \
+    X(ROLE_NODE_3, "node-3", 54, 136, 176)                                                                             \
+    X(ROLE_NODE_4, "node-4", 58, 150, 168)                                                                             \
+    X(ROLE_NODE_5, "node-5", 78, 164, 152)                                                                             \
+    X(ROLE_NODE_6, "node-6", 106, 174, 128)                                                                            \
+    X(ROLE_NODE_7, "node-7", 142, 186, 112)                                                                            \
+    X(ROLE_NODE_8, "node-8", 178, 196, 104)                                                                            \
+    X(ROLE_NODE_9, "node-9", 212, 206, 116)                                                                            \
+    X(ROLE_SHAPE, "shape", 142, 196, 252)                                                                              \
+    X(ROLE_WRONG, "wrong", 228, 40, 255) /* wrong answers of a foreign index, and the points that they name */         \
+    X(ROLE_MISSED, "missed", 0, 216, 174)                                                                              \
+    X(ROLE_HIT, "hit", 102, 122, 254)       /* leaves with points that queries found */                                \
+    X(ROLE_CHANGE, "change", 210, 250, 130) /* splits, solid, and merges, dashed */                                    \
+    X(ROLE_KIND, "kind", 112, 208, 136)     /* the first kind of foreign nodes; the rows below are the other kinds */  \
+    X(ROLE_KIND_1, "kind-1", 248, 136, 224)                                                                            \
+    X(ROLE_KIND_2, "kind-2", 200, 216, 80)                                                                             \
+    X(ROLE_KIND_3, "kind-3", 120, 32, 248)                                                                             \
+    X(ROLE_KIND_4, "kind-4", 176, 80, 0)                                                                               \
+    X(ROLE_KIND_5, "kind-5", 56, 112, 88)                                                                              \
+    X(ROLE_KIND_6, "kind-6", 144, 56, 176)
 
 #define THEME_NODE_DEPTHS 10 /* deeper nodes share the last */
-#define THEME_NODE_KINDS 7   /* and so do further kinds */
+#define THEME_NODE_KINDS 7   /* further kinds share the last */
 
-typedef enum theme_role {
-#define THEME_ROLE_ENUM(role, ...) ROLE_##role,
-    THEME_ROLE_MAP(THEME_ROLE_ENUM)
-#undef THEME_ROLE_ENUM
-        ROLE_COUNT
-} theme_role;
+#define THEME_ROLE_VALUE(role, ...) role,
+typedef enum theme_role { THEME_ROLE_MAP(THEME_ROLE_VALUE) ROLE_COUNT } theme_role;
+#undef THEME_ROLE_VALUE
 
 typedef struct theme_color {
     uint8_t r, g, b;
@@ -121,11 +118,11 @@ theme_role theme_node_kind_role(unsigned kind);
  * 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
 unsigned theme_step(uint64_t amount, unsigned shift);
 
-/* The step of the ramp for a part of a whole: 0 alone has the first, and up to the whole the others are of one size.
- * More than the whole has the last. `whole` is below 2^60. */
+/* The step of the ramp for a part of a whole: only 0 has the first step; the other steps divide the whole into equal
+ * parts. More than the whole has the last step. `whole` is below 2^60. */
 unsigned theme_part_step(uint64_t amount, uint64_t whole);
 
-/* Where the last step begins, with a shift of 1. */
+/* The amount at which the last step of theme_step() begins, with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
 /* The colour of nodes under COLORING_PLAIN. */

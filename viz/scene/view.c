@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: MIT */
+/* view.c - units of a view, and the names of its choices; see view.h. */
 #include "view.h"
 
 #include <stddef.h>
@@ -19,13 +20,13 @@ int view_unit(const view *v)
 #define VIEW_ROW(name, ...) {__VA_ARGS__},
 #define VIEW_NAMES(type, map, count)                                                                                   \
     static const char *const type##_rows[count][2] = {map(VIEW_ROW)};                                                  \
-    const char *type##_name(type value)                                                                                \
+    const char *type##_name(int n)                                                                                     \
     {                                                                                                                  \
-        return (unsigned)value < count ? type##_rows[value][0] : NULL;                                                 \
+        return (unsigned)n < count ? type##_rows[n][0] : NULL;                                                         \
     }                                                                                                                  \
-    const char *type##_words(type value)                                                                               \
+    const char *type##_words(int n)                                                                                    \
     {                                                                                                                  \
-        return (unsigned)value < count ? type##_rows[value][1] : NULL;                                                 \
+        return (unsigned)n < count ? type##_rows[n][1] : NULL;                                                         \
     }
 
 VIEW_NAMES(view_camera, VIEW_CAMERA_MAP, CAMERA_COUNT)

@@ -8,98 +8,65 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The cameras: enumerator, name on the command line, description in --help. */
+/* The cameras: value, name on the command line, description in --help. */
 #define VIEW_CAMERA_MAP(X)                                                                                             \
-    X(ISO, "iso", "from above, a three-quarter view, orthographic")                                                    \
-    X(TOP, "top", "along -z, x to the right, y up, orthographic")                                                      \
-    X(FRONT, "front", "along +y, x to the right, z up, orthographic")                                                  \
-    X(SIDE, "side", "along -x, y to the right, z up, orthographic")                                                    \
-    X(FOLLOW, "follow", "from behind and above the player, in perspective")                                            \
-    X(ORBIT, "orbit", "circling the world by a fixed angle each tick, in perspective")
+    X(CAMERA_ISO, "iso", "from above, a three-quarter view, orthographic")                                             \
+    X(CAMERA_TOP, "top", "along -z, x to the right, y up, orthographic")                                               \
+    X(CAMERA_FRONT, "front", "along +y, x to the right, z up, orthographic")                                           \
+    X(CAMERA_SIDE, "side", "along -x, y to the right, z up, orthographic")                                             \
+    X(CAMERA_FOLLOW, "follow", "from behind and above the player, in perspective")                                     \
+    X(CAMERA_ORBIT, "orbit", "circling the world by a fixed angle each tick, in perspective")
 
 /* The meanings of a node's colour, with the same columns. */
 #define VIEW_COLORING_MAP(X)                                                                                           \
-    X(DEPTH, "depth", "its depth in the tree")                                                                         \
-    X(OCCUPANCY, "occupancy",                                                                                          \
+    X(COLORING_DEPTH, "depth", "its depth in the tree")                                                                \
+    X(COLORING_OCCUPANCY, "occupancy",                                                                                 \
       "the number of points of a leaf relative to its capacity; of a foreign leaf, in powers of two")                  \
-    X(PLAIN, "plain", "no meaning: all nodes have one colour")                                                         \
-    X(KIND, "kind", "the kind of a foreign node, by its word")
+    X(COLORING_PLAIN, "plain", "no meaning: all nodes have one colour")                                                \
+    X(COLORING_KIND, "kind", "the kind of a foreign node, by its word")
 
 /* The trees whose nodes are shown if the session has foreign nodes, with the same columns. */
 #define VIEW_TREE_MAP(X)                                                                                               \
-    X(AUTO, "auto", "foreign nodes from the first tick that has any; Octreel's nodes before")                          \
-    X(OWN, "own", "only Octreel's nodes")                                                                              \
-    X(FOREIGN, "foreign", "only foreign nodes")                                                                        \
-    X(BOTH, "both", "both")
+    X(TREE_AUTO, "auto", "foreign nodes from the first tick that has any; Octreel's nodes before")                     \
+    X(TREE_OWN, "own", "only Octreel's nodes")                                                                         \
+    X(TREE_FOREIGN, "foreign", "only foreign nodes")                                                                   \
+    X(TREE_BOTH, "both", "both")
 
 /* The meanings of a point's colour, with the same columns. */
-#define VIEW_POINT_COLOR_MAP(ROW)                                                                                      \
-    ROW(PLAIN, "plain", "no meaning: all points have one colour")                                                      \
-    ROW(HEIGHT, "height", "its height, which is z")                                                                    \
-    ROW(X, "x", "its x")                                                                                               \
-    ROW(Y, "y", "its y")                                                                                               \
-    ROW(Z, "z", "its z")                                                                                               \
-    ROW(FILE, "file", "its own colour from its file or session")                                                       \
-    ROW(LEAF, "leaf", "its leaf: alternately dark and light, in the point's own colour or that of height")             \
-    ROW(DEPTH, "depth", "the depth of its leaf in the tree")                                                           \
-    ROW(DENSITY, "density", "the number of points on its pixel")                                                       \
-    ROW(CLASS, "class", "its class, as in LAS: ground, vegetation, buildings, water")                                  \
-    ROW(INTENSITY, "intensity", "its intensity")                                                                       \
-    ROW(ID, "id", "its id; in a cloud, its row in the file")
+#define VIEW_POINT_COLOR_MAP(X)                                                                                        \
+    X(POINTS_BY_PLAIN, "plain", "no meaning: all points have one colour")                                              \
+    X(POINTS_BY_HEIGHT, "height", "its height, which is z")                                                            \
+    X(POINTS_BY_X, "x", "its x")                                                                                       \
+    X(POINTS_BY_Y, "y", "its y")                                                                                       \
+    X(POINTS_BY_Z, "z", "its z")                                                                                       \
+    X(POINTS_BY_FILE, "file", "its own colour from its file or session")                                               \
+    X(POINTS_BY_LEAF, "leaf", "its leaf: alternately dark and light, in the point's own colour or that of height")     \
+    X(POINTS_BY_DEPTH, "depth", "the depth of its leaf in the tree")                                                   \
+    X(POINTS_BY_DENSITY, "density", "the number of points on its pixel")                                               \
+    X(POINTS_BY_CLASS, "class", "its class, as in LAS: ground, vegetation, buildings, water")                          \
+    X(POINTS_BY_INTENSITY, "intensity", "its intensity")                                                               \
+    X(POINTS_BY_ID, "id", "its id; in a cloud, its row in the file")
 
 /* How points show their distance from the eye, with the same columns. */
 #define VIEW_SHADE_MAP(X)                                                                                              \
-    X(BANDS, "bands", "eight bands, darker with distance")                                                             \
-    X(EDL, "edl", "eye-dome lighting: points behind nearer ones are darker, which shows surfaces")                     \
-    X(NONE, "none", "not at all")
+    X(SHADE_BANDS, "bands", "eight bands, darker with distance")                                                       \
+    X(SHADE_EDL, "edl", "eye-dome lighting: points behind nearer ones are darker, which shows surfaces")               \
+    X(SHADE_NONE, "none", "not at all")
 
 /* Where the diagram of the tree is drawn, with the same columns. */
 #define VIEW_DIAGRAM_MAP(X)                                                                                            \
-    X(NONE, "none", "nowhere")                                                                                         \
-    X(BESIDE, "beside", "beside the space view, or below it if the picture is higher than wide")                       \
-    X(ONLY, "only", "in place of the space view")
+    X(DIAGRAM_NONE, "none", "nowhere")                                                                                 \
+    X(DIAGRAM_BESIDE, "beside", "beside the space view, or below it if the picture is higher than wide")               \
+    X(DIAGRAM_ONLY, "only", "in place of the space view")
 
-typedef enum view_camera {
-#define VIEW_CAMERA_ENUM(name, ...) CAMERA_##name,
-    VIEW_CAMERA_MAP(VIEW_CAMERA_ENUM)
-#undef VIEW_CAMERA_ENUM
-        CAMERA_COUNT
-} view_camera;
-
-typedef enum view_coloring {
-#define VIEW_COLORING_ENUM(name, ...) COLORING_##name,
-    VIEW_COLORING_MAP(VIEW_COLORING_ENUM)
-#undef VIEW_COLORING_ENUM
-        COLORING_COUNT
-} view_coloring;
-
-typedef enum view_tree {
-#define VIEW_TREE_ENUM(name, ...) TREE_##name,
-    VIEW_TREE_MAP(VIEW_TREE_ENUM)
-#undef VIEW_TREE_ENUM
-        TREE_COUNT
-} view_tree;
-
-typedef enum view_diagram {
-#define VIEW_DIAGRAM_ENUM(name, ...) DIAGRAM_##name,
-    VIEW_DIAGRAM_MAP(VIEW_DIAGRAM_ENUM)
-#undef VIEW_DIAGRAM_ENUM
-        DIAGRAM_COUNT
-} view_diagram;
-
-typedef enum view_point_color {
-#define VIEW_POINT_COLOR_ENUM(name, ...) POINTS_BY_##name,
-    VIEW_POINT_COLOR_MAP(VIEW_POINT_COLOR_ENUM)
-#undef VIEW_POINT_COLOR_ENUM
-        POINTS_BY_COUNT
-} view_point_color;
-
-typedef enum view_shade {
-#define VIEW_SHADE_ENUM(name, ...) SHADE_##name,
-    VIEW_SHADE_MAP(VIEW_SHADE_ENUM)
-#undef VIEW_SHADE_ENUM
-        SHADE_COUNT
-} view_shade;
+#define VIEW_VALUE(value, ...) value,
+typedef enum view_camera { VIEW_CAMERA_MAP(VIEW_VALUE) CAMERA_COUNT } view_camera;
+typedef enum view_coloring { VIEW_COLORING_MAP(VIEW_VALUE) COLORING_COUNT } view_coloring;
+typedef enum view_tree { VIEW_TREE_MAP(VIEW_VALUE) TREE_COUNT } view_tree;
+typedef enum view_point_color { VIEW_POINT_COLOR_MAP(VIEW_VALUE) POINTS_BY_COUNT } view_point_color;
+typedef enum view_shade { VIEW_SHADE_MAP(VIEW_VALUE) SHADE_COUNT } view_shade;
+typedef enum view_diagram { VIEW_DIAGRAM_MAP(VIEW_VALUE) DIAGRAM_COUNT } view_diagram;
+#undef VIEW_VALUE
 
 /* Ranges and spacing of the points shown at tick 0, for colours and sizes: point_scale.h. */
 typedef struct point_scale {
@@ -183,20 +150,10 @@ static inline bool view_is_rgb(const view *v)
     return view_samples(v) > 1 || view_paints_points(v);
 }
 
-/* The name of a choice; null beyond the last. */
-const char *view_camera_name(view_camera camera);
-const char *view_coloring_name(view_coloring coloring);
-const char *view_tree_name(view_tree tree);
-const char *view_diagram_name(view_diagram diagram);
-const char *view_point_color_name(view_point_color color);
-const char *view_shade_name(view_shade shade);
-
-/* The description of a choice; null beyond the last. */
-const char *view_camera_words(view_camera camera);
-const char *view_coloring_words(view_coloring coloring);
-const char *view_tree_words(view_tree tree);
-const char *view_diagram_words(view_diagram diagram);
-const char *view_point_color_words(view_point_color color);
-const char *view_shade_words(view_shade shade);
+/* The name or the description of the n-th value of an enumeration; null beyond the last. */
+typedef const char *view_choice_text(int n);
+view_choice_text view_camera_name, view_coloring_name, view_tree_name, view_diagram_name, view_point_color_name,
+    view_shade_name, view_camera_words, view_coloring_words, view_tree_words, view_diagram_words,
+    view_point_color_words, view_shade_words;
 
 #endif
