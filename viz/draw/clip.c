@@ -4,10 +4,10 @@
  * an edge crosses the side.
  *
  * Coordinates are integers of 1/256 pixel and so are new corners. GL would clip too, but in single precision, and
- * pixels would depend on the CPU. crossing() orders the two ends of an edge before it divides: two quads that share an
- * edge, each in its own direction, get the same new corner, so no gap opens between them. The result has up to eight
- * corners. It is split into a fan of quads around the first corner, because rasterizers take quads only. */
-#include "clip.h"
+ * pixels would depend on the CPU. find_crossing() orders the two ends of an edge before it divides: two quads that
+ * share an edge, each in its own direction, get the same new corner, so no gap opens between them. The result has up to
+ * eight corners. It is split into a fan of quads around the first corner, because rasterizers take quads only. */
+#include "quads.h"
 
 /* A cut removes at least one corner of a convex polygon and adds two: 4 corners and 4 cuts give at most 8. */
 #define MOST_CORNERS 8
@@ -36,7 +36,7 @@ static void add_corner(polygon *p, int32_t x, int32_t y)
 
 /* The coordinate, on the other axis, at which an edge crosses a bound; rounded. The order of the ends does not matter.
  */
-static int32_t crossing(const int32_t a[2], const int32_t b[2], int axis, int32_t bound)
+static int32_t find_crossing(const int32_t a[2], const int32_t b[2], int axis, int32_t bound)
 {
     const int32_t *low = a[axis] < b[axis] ? a : b, *high = a[axis] < b[axis] ? b : a;
     const int64_t length = (int64_t)high[axis] - low[axis], rise = (int64_t)high[1 - axis] - low[1 - axis];
@@ -54,7 +54,7 @@ static void keep_side(polygon *p, int axis, int side, int32_t bound)
         const bool was_in = side > 0 ? last[axis] >= bound : last[axis] <= bound;
         const bool is_in = side > 0 ? corner[axis] >= bound : corner[axis] <= bound;
         if (was_in != is_in) {
-            const int32_t across = crossing(last, corner, axis, bound);
+            const int32_t across = find_crossing(last, corner, axis, bound);
             add_corner(p, axis ? across : bound, axis ? bound : across);
         }
         if (is_in)

@@ -27,20 +27,9 @@ static const struct {
 #endif
 };
 
-const char *draw_context_name(draw_context kind)
+const char *draw_context_name(int kind)
 {
     return (unsigned)kind < DRAW_CONTEXTS ? kinds[kind].name : NULL;
-}
-
-bool draw_context_parse(const char *name, draw_context *kind)
-{
-    for (int i = 0; i < DRAW_CONTEXTS; i++) {
-        if (strcmp(name, kinds[i].name) == 0) {
-            *kind = (draw_context)i;
-            return true;
-        }
-    }
-    return false;
 }
 
 bool draw_context_built(draw_context kind)
@@ -91,13 +80,21 @@ context *context_open(const renderer_choice *choice, octreel_error *error)
     return NULL;
 }
 
-void *context_load(const char *name, const char *other_name, const char *sentence, octreel_error *error)
+void *context_create(const context *face, size_t size, const char *const names[2], const char *sentence,
+                     octreel_error *error)
 {
-    void *library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
-    library = library ? library : dlopen(other_name, RTLD_NOW | RTLD_LOCAL);
-    if (!library)
+    void *library = dlopen(names[0], RTLD_NOW | RTLD_LOCAL);
+    library = library ? library : dlopen(names[1], RTLD_NOW | RTLD_LOCAL);
+    context *c = library ? calloc(1, size) : NULL;
+    if (c) {
+        *c = *face;
+        c->library = library;
+    } else if (library) {
+        error_no_memory(error);
+    } else {
         error_set(error, "%s: %s", sentence, dlerror());
-    return library;
+    }
+    return c;
 }
 
 /* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bits are the same. */

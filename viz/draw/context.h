@@ -11,9 +11,8 @@
 /* DRAW_AUTO tries the kinds in this order. */
 typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
 
-/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. The inverse returns false for an unknown name. */
-const char *draw_context_name(draw_context kind);
-bool draw_context_parse(const char *name, draw_context *kind);
+/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. */
+const char *draw_context_name(int kind);
 
 /* Whether this program was built with a kind. */
 bool draw_context_built(draw_context kind);
@@ -46,14 +45,15 @@ typedef void (*context_function)(void);
 typedef struct context context;
 struct context {
     const char *name;
+    void *library; /* set by context_create() */
 
     /* Make it current, even if the library says that it is: contexts of different kinds share Mesa's current context,
      * so a library may not know that another one changed it. */
-    bool (*use)(context *c);
+    bool (*make_current)(context *c);
 
     /* Look up a GL function in this context's own library, since two GL libraries in one process export the same
      * symbols. Null: the library does not have it. */
-    context_function (*find)(const context *c, const char *name);
+    context_function (*find_function)(const context *c, const char *name);
 
     void (*close)(context *c);
 };
@@ -69,8 +69,10 @@ context_opener context_osmesa_open, context_egl_open;
 /* Opens the kind that is chosen; under DRAW_AUTO, the first kind that can be opened. */
 context_opener context_open;
 
-/* Load a library by either of two names. Null with an error, which begins with `sentence`. */
-void *context_load(const char *name, const char *other_name, const char *sentence, octreel_error *error);
+/* Load a library by either of two names, and allocate a context of `size` bytes: a copy of `face`, then zeros. Null
+ * with an error, which begins with `sentence` if the library cannot be loaded. */
+void *context_create(const context *face, size_t size, const char *const names[2], const char *sentence,
+                     octreel_error *error);
 
 /* Look up a function of a library and write it to *function, a function pointer of `size` bytes. */
 bool context_symbol(void *library, const char *name, void *function, size_t size);

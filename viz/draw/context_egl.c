@@ -74,7 +74,7 @@ static EGLDisplay open_display(const egl *egl, bool any_renderer)
 
 /* Releases the context first: EGL does nothing for a context that it believes current, even if another library has
  * made its own context current since. */
-static bool use(context *face)
+static bool make_current(context *face)
 {
     const egl_context *c = (const egl_context *)face;
     const egl *egl = &c->egl;
@@ -83,7 +83,7 @@ static bool use(context *face)
            egl->MakeCurrent(c->display, EGL_NO_SURFACE, EGL_NO_SURFACE, c->mesa);
 }
 
-static context_function find(const context *face, const char *name)
+static context_function find_function(const context *face, const char *name)
 {
     return ((const egl_context *)face)->egl.GetProcAddress(name);
 }
@@ -106,21 +106,18 @@ static bool open_mesa(egl_context *c, bool any_renderer)
     if (!c->display || !egl->BindAPI(EGL_OPENGL_API))
         return false;
     c->mesa = egl->CreateContext(c->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, NULL);
-    return c->mesa && use(&c->face);
+    return c->mesa && make_current(&c->face);
 }
 
 context *context_egl_open(const renderer_choice *choice, octreel_error *error)
 {
-    void *library = context_load("libEGL.so.1", "libEGL.so",
-                                 "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
-    egl_context *c = library ? calloc(1, sizeof *c) : NULL;
-    if (!c) {
-        if (library)
-            error_no_memory(error);
+    static const context face = {
+        .name = "egl", .make_current = make_current, .find_function = find_function, .close = close_context};
+    egl_context *c = context_create(&face, sizeof *c, (const char *const[]){"libEGL.so.1", "libEGL.so"},
+                                    "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
+    if (!c)
         return NULL;
-    }
-    c->face = (context){.name = "egl", .use = use, .find = find, .close = close_context};
-    if (look_up(&c->egl, library) && open_mesa(c, choice->any_renderer))
+    if (look_up(&c->egl, c->face.library) && open_mesa(c, choice->any_renderer))
         return &c->face;
     error_set(error,
               "EGL gives no OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error 0x%04x",

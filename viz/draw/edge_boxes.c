@@ -67,7 +67,6 @@ void edge_boxes_release(edge_boxes *all)
 
 /* A merged edge as it was painted. */
 typedef struct stroke {
-    const edge *edge;
     line_key line;
     double from, to;
     double seen[2][3]; /* camera coordinates of the ends */
@@ -82,8 +81,7 @@ static stroke stroke_of(const scene *s, const edge *e)
         axis++;
     if (e->ends[0][axis] == e->ends[1][axis])
         axis = 0;
-    stroke k = {
-        .edge = e, .line = line_key_at(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
+    stroke k = {.line = line_key_at(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
     piece pieces[QUAD_BANDS];
     bool overflowed;
     const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);

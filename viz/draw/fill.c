@@ -88,7 +88,7 @@ static edge_walk walk_edge(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int p
     return w;
 }
 
-static void step_on(edge_walk *w)
+static void advance_edge(edge_walk *w)
 {
     w->at += w->turn;
     w->beyond -= w->rest;
@@ -134,18 +134,18 @@ static int64_t find_first_across(const strip_walk *w)
     return w->lower.at + (w->lower_is_out && w->lower.beyond == 0);
 }
 
-static void fill_clipped(strip_walk w)
+static void fill_clipped_strip(strip_walk w)
 {
-    for (; w.steps > 0; w.steps--, w.step += w.next, step_on(&w.lower)) {
+    for (; w.steps > 0; w.steps--, w.step += w.next, advance_edge(&w.lower)) {
         const int64_t first = find_first_across(&w);
         for (int64_t j = first < 0 ? 0 : first; j < first + w.width && j < w.across.size; j++)
             w.step[j * w.across.step] = w.color;
     }
 }
 
-static void fill_inside(strip_walk w)
+static void fill_whole_strip(strip_walk w)
 {
-    for (; w.steps > 0; w.steps--, w.step += w.next, step_on(&w.lower)) {
+    for (; w.steps > 0; w.steps--, w.step += w.next, advance_edge(&w.lower)) {
         uint8_t *pixel = w.step + (ptrdiff_t)find_first_across(&w) * w.across.step;
         for (int j = 0; j < w.width; j++, pixel += w.across.step)
             *pixel = w.color;
@@ -153,7 +153,7 @@ static void fill_inside(strip_walk w)
 }
 
 /* Whether a strip stays inside the picture on the axis across. */
-static bool is_inside(const int32_t across[4], int size)
+static bool is_strip_inside(const int32_t across[4], int size)
 {
     const int64_t end = (int64_t)size * QUAD_SUBPIXELS;
     return across[0] >= 0 && across[1] >= 0 && across[2] <= end && across[3] <= end;
@@ -177,10 +177,10 @@ static void fill_strip(const target *t, const quad *q, bool flat)
                           .lower_is_out = flat && across[to] > across[from],
                           .lower = walk_edge(along[from], across[from], along[to], across[to], begin),
                           .color = q->color};
-    if (is_inside(across, other.size))
-        fill_inside(w);
+    if (is_strip_inside(across, other.size))
+        fill_whole_strip(w);
     else
-        fill_clipped(w);
+        fill_clipped_strip(w);
 }
 
 /* ---- Convex quads ------------------------------------------------------------------------------------------- */
@@ -194,7 +194,7 @@ typedef struct side {
 } side;
 
 /* Advance to the edge that crosses the centres of a row. */
-static void begin_edge(side *s, const quad *q, int row, int height)
+static void begin_next_edge(side *s, const quad *q, int row, int height)
 {
     int from;
     do {
@@ -217,15 +217,15 @@ static void fill_convex(const target *t, const quad *q, int turn)
     side left = {.corner = top, .way = turn > 0 ? 3 : 1}, right = {.corner = top, .way = turn > 0 ? 1 : 3};
     for (int row = find_pixel(q->y[top], t->height); row < end; row++) {
         if (row >= left.end)
-            begin_edge(&left, q, row, t->height);
+            begin_next_edge(&left, q, row, t->height);
         if (row >= right.end)
-            begin_edge(&right, q, row, t->height);
+            begin_next_edge(&right, q, row, t->height);
         const int64_t first = left.edge.at > 0 ? left.edge.at : 0,
                       last = right.edge.at < t->width ? right.edge.at : t->width;
         if (first < last)
             memset(t->bytes + (size_t)row * (size_t)t->width + (size_t)first, q->color, (size_t)(last - first));
-        step_on(&left.edge);
-        step_on(&right.edge);
+        advance_edge(&left.edge);
+        advance_edge(&right.edge);
     }
 }
 

@@ -3,12 +3,10 @@
  *
  * The framebuffer has one channel, which holds indices of colours, as PNG files do. The viewport is a square whose side
  * is a power of two: the way from 1/256 pixel to clip space and back is then exact in single precision, so that no CPU
- * can round it differently, with FMA or without. Quads lie inside it (clip.h), so that GL has nothing to clip.
+ * can round it differently, with FMA or without. Quads lie inside it (clip.c), so that GL has nothing to clip.
  */
-#include "clip.h"
 #include "context.h"
-#include "renderer.h"
-#include "surface.h"
+#include "fill.h"
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -54,7 +52,7 @@ static bool gl_load(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
 #define GL_LOOK_UP(result, name, parameters)                                                                           \
-    functions->name = (result(GLAPIENTRY *) parameters)c->find(c, "gl" #name);                                         \
+    functions->name = (result(GLAPIENTRY *) parameters)c->find_function(c, "gl" #name);                                \
     if (!functions->name)                                                                                              \
         missing = "gl" #name;
     GL_FUNCTIONS(GL_LOOK_UP)
@@ -152,11 +150,11 @@ static void write_vertices(gl_surface *s, const quad *quads, size_t count)
                 (float)quads[i].x[j] * scale - 1, (float)quads[i].y[j] * scale - 1, {quads[i].color, 0, 0, 255}};
 }
 
-static bool fill(surface *face, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
-                 octreel_error *error)
+static bool fill_with_gl(surface *face, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
+                         octreel_error *error)
 {
     gl_surface *s = (gl_surface *)face;
-    if (!s->context->use(s->context))
+    if (!s->context->make_current(s->context))
         return error_set(error, "the renderer's context cannot be made current");
     const gl *gl = &s->gl;
     gl->ClearColor(0, 0, 0, 0);
@@ -171,10 +169,10 @@ static bool fill(surface *face, const quad *quads, size_t count, renderer_part p
     return failure == GL_NO_ERROR || error_set(error, "GL reports error 0x%04x", failure);
 }
 
-static renderer_info about(surface *face)
+static renderer_info describe_surface(surface *face)
 {
     gl_surface *s = (gl_surface *)face;
-    s->context->use(s->context); /* GL describes the current context */
+    s->context->make_current(s->context); /* GL describes the current context */
     return (renderer_info){
         .context = s->context->name,
         .vendor = (const char *)s->gl.GetString(GL_VENDOR),
@@ -198,7 +196,7 @@ surface *surface_open(int width, int height, const renderer_choice *choice, octr
         error_no_memory(error);
         return NULL;
     }
-    s->face = (surface){.fill = fill, .about = about, .close = close_surface};
+    s->face = (surface){.fill = fill_with_gl, .about = describe_surface, .close = close_surface};
     s->width = width;
     s->height = height;
     s->side = clip_square(width, height);

@@ -54,15 +54,13 @@ static void add_letter(quad_list *list, quad *q, const glyph_set *set, char lett
     const unsigned i = at < GLYPH_COUNT ? at : '?' - GLYPH_FIRST;
     for (const glyph_part *part = set->parts + set->first[i]; part < set->parts + set->first[i + 1]; part++) {
         const int left = x + part->x * pixel - rim, top = y + part->y * pixel - rim;
-        const int right = left + part->width * pixel + 2 * rim, bottom = top + part->height * pixel + 2 * rim;
-        memcpy(q->x, (int32_t[]){left, right, right, left}, sizeof q->x);
-        memcpy(q->y, (int32_t[]){top, top, bottom, bottom}, sizeof q->y);
-        quads_add(list, q);
+        quads_add_rectangle(list, q, left, top, left + part->width * pixel + 2 * rim,
+                            top + part->height * pixel + 2 * rim);
     }
 }
 
 /* The width in pixels of the dark rim around a label's letters. */
-static int rim_of(const scene *s, const scene_label *label)
+static int rim_width(const scene *s, const scene_label *label)
 {
     return label->style.stroke != STROKE_CUT ? 0 : s->unit > 2 ? s->unit / 2 : 1;
 }
@@ -75,7 +73,7 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
     int left, top;
     if (!place_text(s, label, &left, &top))
         return;
-    for (int rim = rim_of(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
+    for (int rim = rim_width(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
         q.color = theme_index(rim > 0 ? ROLE_BACKGROUND : label->style.role, 0);
         for (int i = 0; label->text[i]; i++)
             add_letter(list, &q, &glyph_sets[letters->face], label->text[i], (left + i * letters->width) * sub,
@@ -89,7 +87,7 @@ static bool find_box(const scene *s, const scene_label *label, draw_box *box)
     const lettering *letters = scene_lettering(s, label);
     if (!place_text(s, label, &box->x, &box->y))
         return false;
-    const int rim = rim_of(s, label);
+    const int rim = rim_width(s, label);
     box->x -= rim;
     box->y -= rim;
     box->width = (int)strlen(label->text) * letters->width + 2 * rim;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* no_gl.c - replaces gl_surface.c in programs that are built without GL, and in the page. */
-#include "surface.h"
+#include "fill.h"
 
 surface *surface_open(int width, int height, const renderer_choice *choice, octreel_error *error)
 {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* paint.c - turns a scene into quads in painter's order. */
 #include "paint.h"
-#include "clip.h"
 #include "layer.h"
 #include "letters.h"
 #include "stroke.h"
@@ -24,7 +23,8 @@ void painter_release(painter *p)
     memset(p, 0, sizeof *p);
 }
 
-static void stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_style style, unsigned depth)
+static void add_stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_style style,
+                       unsigned depth)
 {
     const pencil with = pencil_make(s, style, depth);
     stroke_line(&p->quads, &with, pieces, count);
@@ -37,7 +37,7 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     bool overflowed;
     const unsigned count = project_segment(s, from, to, pieces, &overflowed);
     p->overflowed += overflowed;
-    stroke(p, s, pieces, count, style, depth);
+    add_stroke(p, s, pieces, count, style, depth);
 }
 
 /* Paint the segments in world coordinates, or those in picture coordinates. */
@@ -52,7 +52,7 @@ static void paint_segments(painter *p, const scene *s, bool in_picture)
         if (!in_picture)
             paint_segment(p, s, segment->ends[0], segment->ends[1], segment->style, 0);
         else if (project_flat(s, segment->ends[0], segment->ends[1], &flat))
-            stroke(p, s, &flat, 1, segment->style, 0);
+            add_stroke(p, s, &flat, 1, segment->style, 0);
     }
 }
 
@@ -92,18 +92,6 @@ static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
 static bool is_point(const scene_marker *marker)
 {
     return marker->style.layer == LAYER_POINTS;
-}
-
-bool paint_find_sample(const scene *s, const scene_marker *marker, size_t *place, unsigned *band)
-{
-    double pixel[2];
-    if (!is_point(marker) || !project_point(s, marker->at, pixel, band))
-        return false;
-    const double x = floor(pixel[0]), y = floor(pixel[1]);
-    if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
-        return false;
-    *place = (size_t)y * (size_t)s->view.width + (size_t)x;
-    return true;
 }
 
 /* Reserve a zeroed byte for each sample, and a place for each marker. */

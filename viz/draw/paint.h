@@ -31,8 +31,4 @@ bool paint(painter *p, const scene *picture);
 size_t paint_edge_count(const painter *p);
 const edge *paint_edge_at(const painter *p, size_t index);
 
-/* Find the sample at which a point is drawn, and its band; points at one sample share a quad. False for markers of
- * other layers, and outside the picture. `s` is from project_samples(). */
-bool paint_find_sample(const scene *s, const scene_marker *marker, size_t *place, unsigned *band);
-
 #endif

@@ -12,6 +12,7 @@
 #include "pixel.h"
 #include "array.h"
 #include "edge_boxes.h"
+#include "fill.h"
 #include "layer.h"
 #include "paint.h"
 #include "project.h"
@@ -36,15 +37,13 @@ typedef struct source {
     bool points_listed;       /* add_painted_points() is done */
 } source;
 
-/* The scene, and its close-up; the second is empty if there is none. */
-typedef struct sources {
-    source of[2];
-} sources;
+/* The scene and its close-up; the second is empty if there is none. */
+typedef source sources[2];
 
-static void sources_release(sources *s)
+static void sources_release(sources all)
 {
     for (int i = 0; i < 2; i++)
-        edge_boxes_release(&s->of[i].boxes);
+        edge_boxes_release(&all[i].boxes);
 }
 
 /* False when out of memory. */
@@ -60,21 +59,19 @@ static bool open_source(source *from, const scene *s, const painter *p)
     return edge_boxes_make(&from->boxes, &from->fine);
 }
 
-/* *all must not be moved afterwards. */
-static bool sources_open(sources *all, const scene *s, const painter *p)
+/* Open zeroed sources, which must not be moved afterwards. False when out of memory. */
+static bool sources_open(sources all, const scene *s, const painter *p)
 {
-    source *close = &all->of[1];
-    *all = (sources){0};
-    if (!open_source(&all->of[0], s, p) || (s->has_closeup && !open_source(close, s->closeup, p->closeup)))
+    if (!open_source(&all[0], s, p) || (s->has_closeup && !open_source(&all[1], s->closeup, p->closeup)))
         return false;
-    close->strokes_before = all->of[0].strokes;
-    close->elements_before = (uint32_t)scene_count(s);
+    all[1].strokes_before = all[0].strokes;
+    all[1].elements_before = (uint32_t)scene_count(s);
     return true;
 }
 
-static source *source_of(sources *all, const quad *q)
+static source *source_of(sources all, const quad *q)
 {
-    return &all->of[q->kind >= QUAD_IN_CLOSEUP];
+    return &all[q->kind >= QUAD_IN_CLOSEUP];
 }
 
 /* The element of a quad. For boxes q->index is that of a merged edge, so the caller supplies the index of the box. */
@@ -105,7 +102,7 @@ static bool fill_all(renderer *r, const scene *s, const painter *p, uint8_t *sam
 }
 
 /* The number of a quad's stroke: that of its element, with merged edges in place of boxes. */
-static uint64_t number_stroke(sources *all, const quad *q)
+static uint64_t number_stroke(sources all, const quad *q)
 {
     const source *from = source_of(all, q);
     const scene_kind kind = element_of(q, 0).kind;
@@ -116,10 +113,10 @@ static uint64_t number_stroke(sources *all, const quad *q)
 }
 
 /* Draw the number of the topmost stroke at each sample: one pass for each byte of the largest number. */
-static bool draw_strokes(renderer *r, const scene *s, painter *p, sources *all, uint32_t *numbers, octreel_error *error)
+static bool draw_strokes(renderer *r, const scene *s, painter *p, sources all, uint32_t *numbers, octreel_error *error)
 {
     const size_t size = count_samples(s);
-    const uint64_t largest = all->of[0].strokes + all->of[1].strokes;
+    const uint64_t largest = all[0].strokes + all[1].strokes;
     uint8_t *bytes = largest <= UINT32_MAX ? malloc(size) : NULL;
     bool ok = bytes || error_no_memory(error);
     memset(numbers, 0, size * sizeof *numbers);
@@ -145,11 +142,11 @@ static uint32_t find_element(const source *from, uint32_t stroke, int x, int y)
 }
 
 /* Replace the numbers of strokes by the numbers of elements. */
-static void number_elements(const scene *s, const sources *all, uint32_t *numbers)
+static void number_elements(const scene *s, const sources all, uint32_t *numbers)
 {
     const size_t width = (size_t)s->view.width * (size_t)view_samples(&s->view), size = count_samples(s);
     for (size_t i = 0; i < size; i++) {
-        const source *from = &all->of[numbers[i] > all->of[0].strokes];
+        const source *from = &all[numbers[i] > all[0].strokes];
         if (numbers[i] > 0)
             numbers[i] = from->elements_before + find_element(from, numbers[i] - (uint32_t)from->strokes_before,
                                                               (int)(i % width), (int)(i / width));
@@ -162,11 +159,11 @@ bool renderer_number_samples(renderer *r, const scene *s, uint32_t *numbers, oct
         return false;
     painter p = {0}; /* not the renderer's own, which keeps the last frame */
     sources all = {0};
-    const bool ok = ((paint(&p, s) && sources_open(&all, s, &p)) || error_no_memory(error)) &&
-                    draw_strokes(r, s, &p, &all, numbers, error);
+    const bool ok = ((paint(&p, s) && sources_open(all, s, &p)) || error_no_memory(error)) &&
+                    draw_strokes(r, s, &p, all, numbers, error);
     if (ok)
-        number_elements(s, &all, numbers);
-    sources_release(&all);
+        number_elements(s, all, numbers);
+    sources_release(all);
     painter_release(&p);
     return ok;
 }
@@ -220,97 +217,79 @@ typedef struct probe {
     sources sources;
     renderer_part part; /* the pixel's samples */
     unsigned taken;     /* bits of samples whose topmost element is known */
-    draw_touches *list;
+    const quad *quad;   /* the quad being added */
+    draw_covers *list;
     bool out_of_memory;
 } probe;
 
-void draw_touches_release(draw_touches *list)
+void draw_covers_release(draw_covers *list)
 {
     free(list->items);
-    *list = (draw_touches){0};
-}
-
-static draw_touch *find_touch(draw_touches *list, uint32_t number)
-{
-    for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].number == number)
-            return &list->items[i];
-    return NULL;
+    *list = (draw_covers){0};
 }
 
 /* Append an element that has no entry yet. Null when out of memory. */
-static draw_touch *append_touch(probe *p, uint32_t number)
+static draw_cover *append_cover(probe *p, uint32_t number)
 {
-    draw_touches *list = p->list;
-    draw_touch *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
-    if (!items) {
+    draw_covers *list = p->list;
+    if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items)) {
         p->out_of_memory = true;
         return NULL;
     }
-    list->items = items;
-    list->items[list->count] = (draw_touch){.number = number};
+    list->items[list->count] = (draw_cover){.number = number};
     return &list->items[list->count++];
 }
 
 /* Find the entry of an element, or append one. Null when out of memory. */
-static draw_touch *find_or_append(probe *p, scene_element element)
+static draw_cover *find_or_append(probe *p, scene_element element)
 {
     const uint32_t number = scene_number_of(p->picture, element);
-    draw_touch *found = find_touch(p->list, number);
-    return found ? found : append_touch(p, number);
+    for (size_t i = 0; i < p->list->count; i++)
+        if (p->list->items[i].number == number)
+            return &p->list->items[i];
+    return append_cover(p, number);
 }
 
-/* Record that an element covers a sample. Quads come from the topmost to the lowest. */
-static void add_sample(probe *p, scene_element element, uint8_t color, int sample)
+/* Record that the quad's element, which has this index, covers a sample. Quads come from the topmost to the lowest. */
+static void add_sample(probe *p, size_t index, int sample)
 {
-    draw_touch *touch = find_or_append(p, element);
+    draw_cover *cover = find_or_append(p, element_of(p->quad, index));
     const bool shown = !(p->taken >> sample & 1);
-    if (!touch || touch->at >> sample & 1)
+    if (!cover || cover->at >> sample & 1)
         return;
-    if (touch->painted == 0 || (shown && touch->shown == 0))
-        touch->color = color;
-    touch->at |= (uint16_t)(1u << sample);
-    touch->painted++;
-    touch->shown += shown;
+    if (cover->painted == 0 || (shown && cover->shown == 0))
+        cover->color = p->quad->color;
+    cover->at |= (uint16_t)(1u << sample);
+    cover->painted++;
+    cover->shown += shown;
 }
 
-/* A quad that covers the pixel. */
-typedef struct probed {
-    probe *probe;
-    const quad *quad;
-} probed;
-
-/* Add a box that shares the edge of a quad. */
+/* Add a box that shares the edge of the quad. */
 static void add_sharing_box(size_t box, void *context)
 {
-    const probed *at = context;
-    find_or_append(at->probe, element_of(at->quad, box));
+    probe *p = context;
+    find_or_append(p, element_of(p->quad, box));
 }
 
 /* Append a point without searching the list, since points may be many and none added here has an entry yet. */
-static void append_point(probe *p, const quad *q, size_t index)
+static void append_point(probe *p, size_t index)
 {
-    if (index != q->index)
-        append_touch(p, scene_number_of(p->picture, element_of(q, index)));
+    if (index != p->quad->index)
+        append_cover(p, scene_number_of(p->picture, element_of(p->quad, index)));
 }
 
 /* Add the points that share the sample of a drawn point. */
-static void add_sharing_points(probe *p, const quad *q)
+static void add_sharing_points(probe *p, const source *from)
 {
-    const scene *s = &source_of(&p->sources, q)->fine;
-    size_t place, other;
-    unsigned band;
-    if (!paint_find_sample(s, &s->markers.items[q->index], &place, &band))
-        return;
-    for (size_t i = 0; i < s->markers.count; i++)
-        if (paint_find_sample(s, &s->markers.items[i], &other, &band) && other == place)
-            append_point(p, q, i);
+    const point_place *places = from->painter->places;
+    for (size_t i = 0; i < from->scene->markers.count; i++)
+        if (places[i].seen && places[i].pixel == places[p->quad->index].pixel)
+            append_point(p, i);
 }
 
 /* Add the points of the pixel that view_paints_points() paints as discs, hidden ones included. */
-static void add_painted_points(probe *p, const quad *q)
+static void add_painted_points(probe *p, source *from)
 {
-    source *from = source_of(&p->sources, q);
     const splat_square samples = {p->part.x - from->left, p->part.y - from->top, p->part.width};
     splat_list list = {.count = 0};
     if (from->points_listed)
@@ -318,62 +297,41 @@ static void add_painted_points(probe *p, const quad *q)
     from->points_listed = true;
     p->out_of_memory |= !splats_list(&from->fine, &samples, &list);
     for (size_t i = 0; i < list.count; i++)
-        append_point(p, q, list.items[i].marker);
+        append_point(p, list.items[i].marker);
     free(list.items);
 }
 
-static void add_points(probe *p, const quad *q)
+static void add_points(probe *p)
 {
-    const scene *s = &source_of(&p->sources, q)->fine;
-    if (s->markers.items[q->index].style.layer != LAYER_POINTS)
+    source *from = source_of(p->sources, p->quad);
+    if (from->scene->markers.items[p->quad->index].style.layer != LAYER_POINTS)
         return;
-    if (view_paints_points(&s->view))
-        add_painted_points(p, q);
+    if (view_paints_points(&from->scene->view))
+        add_painted_points(p, from);
     else
-        add_sharing_points(p, q);
+        add_sharing_points(p, from);
 }
 
-/* Twice the signed area of the triangle of two corners of a quad and the point (x, y): its sign tells the side. */
-static int64_t side_of(const quad *q, int from, int to, int64_t x, int64_t y)
-{
-    return ((int64_t)q->x[to] - q->x[from]) * (y - q->y[from]) - ((int64_t)q->y[to] - q->y[from]) * (x - q->x[from]);
-}
-
-/* Whether all corners of a square are outside one side of a quad; `turn` is the sign of the quad's area. */
-static bool is_beyond(const quad *q, int from, int to, int turn, const int64_t x[2], const int64_t y[2])
-{
-    for (int corner = 0; corner < 4; corner++)
-        if (turn * side_of(q, from, to, x[corner & 1], y[corner >> 1]) >= 0)
-            return false;
-    return true;
-}
-
-/* Whether a quad may cover a sample of the pixel: no side separates it from the pixel and a margin of one sample. */
+/* Whether a quad may cover a sample of the pixel: its bounding box reaches the pixel. */
 static bool may_reach(const quad *q, const renderer_part *part)
 {
-    const int64_t x[2] = {(int64_t)(part->x - 1) * QUAD_SUBPIXELS,
-                          (int64_t)(part->x + part->width + 1) * QUAD_SUBPIXELS};
-    const int64_t y[2] = {(int64_t)(part->y - 1) * QUAD_SUBPIXELS,
-                          (int64_t)(part->y + part->height + 1) * QUAD_SUBPIXELS};
-    int left = 0, right = 0, above = 0, below = 0; /* the number of corners on each side */
+    const int32_t left = part->x * QUAD_SUBPIXELS, right = (part->x + part->width) * QUAD_SUBPIXELS;
+    const int32_t top = part->y * QUAD_SUBPIXELS, bottom = (part->y + part->height) * QUAD_SUBPIXELS;
+    int before = 0, after = 0, above = 0, below = 0; /* the number of corners on each side of the pixel */
     for (int i = 0; i < 4; i++) {
-        left += q->x[i] < x[0];
-        right += q->x[i] > x[1];
-        above += q->y[i] < y[0];
-        below += q->y[i] > y[1];
+        before += q->x[i] < left;
+        after += q->x[i] > right;
+        above += q->y[i] < top;
+        below += q->y[i] > bottom;
     }
-    const int64_t area = side_of(q, 0, 1, q->x[2], q->y[2]);
-    bool apart = left == 4 || right == 4 || above == 4 || below == 4;
-    for (int i = 0; area != 0 && !apart && i < 4; i++)
-        apart = is_beyond(q, i, (i + 1) % 4, area > 0 ? 1 : -1, x, y);
-    return !apart;
+    return before < 4 && after < 4 && above < 4 && below < 4;
 }
 
-/* Find the samples of the pixel that a quad covers, as bits. *ok: whether drawing succeeds. */
-static unsigned find_covered(renderer *r, const probe *p, const quad *q, bool *ok, octreel_error *error)
+/* Find the samples of the pixel that the quad covers, as bits. *ok: whether drawing succeeds. */
+static unsigned find_covered(renderer *r, const probe *p, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
-    quad alone = *q;
+    quad alone = *p->quad;
     unsigned bits = 0;
     alone.color = 1;
     *ok = renderer_fill(r, &alone, 1, p->part, bytes, error);
@@ -383,33 +341,32 @@ static unsigned find_covered(renderer *r, const probe *p, const quad *q, bool *o
 }
 
 /* Add the boxes of a merged edge: its owners, which may differ from sample to sample, then the boxes that share it. */
-static void add_edge(probe *p, const quad *q, unsigned bits)
+static void add_edge(probe *p, unsigned bits)
 {
-    const source *from = source_of(&p->sources, q);
-    const edge *e = paint_edge_at(from->painter, q->index);
-    probed at = {p, q};
+    const source *from = source_of(p->sources, p->quad);
+    const edge *e = paint_edge_at(from->painter, p->quad->index);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < p->part.width * p->part.height; i++) {
             const int x = p->part.x + i % p->part.width - from->left, y = p->part.y + i / p->part.width - from->top;
             if (!(bits >> i & 1))
                 continue;
             if (pass == 0)
-                add_sample(p, element_of(q, edge_boxes_find_owner(&from->boxes, e, x, y)), q->color, i);
+                add_sample(p, edge_boxes_find_owner(&from->boxes, e, x, y), i);
             else
-                edge_boxes_visit(&from->boxes, e, x, y, add_sharing_box, &at);
+                edge_boxes_visit(&from->boxes, e, x, y, add_sharing_box, p);
         }
     }
 }
 
-static void add_quad(probe *p, const quad *q, unsigned bits)
+static void add_quad(probe *p, unsigned bits)
 {
-    if (is_edge(q))
-        add_edge(p, q, bits);
-    for (int i = 0; !is_edge(q) && i < MOST_SAMPLES; i++)
+    if (is_edge(p->quad))
+        add_edge(p, bits);
+    for (int i = 0; !is_edge(p->quad) && i < MOST_SAMPLES; i++)
         if (bits >> i & 1)
-            add_sample(p, element_of(q, q->index), q->color, i);
-    if (element_of(q, 0).kind == SCENE_MARKER)
-        add_points(p, q);
+            add_sample(p, p->quad->index, i);
+    if (element_of(p->quad, 0).kind == SCENE_MARKER)
+        add_points(p);
     p->taken |= bits;
 }
 
@@ -417,28 +374,27 @@ static bool probe_quads(renderer *r, probe *p, octreel_error *error)
 {
     bool ok = true;
     for (size_t i = p->painter.quads.count; ok && i-- > 0;) {
-        const quad *q = &p->painter.quads.items[i];
-        const unsigned bits = may_reach(q, &p->part) ? find_covered(r, p, q, &ok, error) : 0;
+        p->quad = &p->painter.quads.items[i];
+        const unsigned bits = may_reach(p->quad, &p->part) ? find_covered(r, p, &ok, error) : 0;
         if (bits)
-            add_quad(p, q, bits);
+            add_quad(p, bits);
     }
     return ok;
 }
 
-bool renderer_list_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error)
+bool renderer_list_pixel(renderer *r, const scene *s, int x, int y, draw_covers *list, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
-    probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}};
-    p.list = list;
+    probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}, .list = list};
     list->count = 0;
     if (!renderer_fits(r, s, error))
         return false;
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return error_set(error, "pixel (%d, %d) is outside the picture, which has %d x %d pixels", x, y, s->view.width,
                          s->view.height);
-    p.out_of_memory = !paint(&p.painter, s) || !sources_open(&p.sources, s, &p.painter);
+    p.out_of_memory = !paint(&p.painter, s) || !sources_open(p.sources, s, &p.painter);
     const bool ok = p.out_of_memory || probe_quads(r, &p, error);
-    sources_release(&p.sources);
+    sources_release(p.sources);
     painter_release(&p.painter);
     return p.out_of_memory ? error_no_memory(error) : ok;
 }

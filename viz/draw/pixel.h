@@ -16,7 +16,7 @@ bool renderer_number_samples(renderer *r, const scene *s, uint32_t *numbers, oct
 bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *mask, octreel_error *error);
 
 /* How an element covers a pixel. */
-typedef struct draw_touch {
+typedef struct draw_cover {
     uint32_t number;
     int shown;     /* the number of samples at which it is on top */
     int painted;   /* the number of samples that its quads cover. 0: it shares the quad of an element before it in the
@@ -24,16 +24,16 @@ typedef struct draw_touch {
                       points hide */
     uint16_t at;   /* the samples that its quads cover, as bits, row by row */
     uint8_t color; /* its colour there, an index of the theme's table; 0 also in gaps of STROKE_CUT */
-} draw_touch;
+} draw_cover;
 
-typedef struct draw_touches {
-    draw_touch *items;
+typedef struct draw_covers {
+    draw_cover *items;
     size_t count, room;
-} draw_touches;
+} draw_covers;
 
-void draw_touches_release(draw_touches *list);
+void draw_covers_release(draw_covers *list);
 
 /* Fill a list with all elements at a pixel, from top to bottom, including hidden ones. A zeroed list is empty. */
-bool renderer_list_pixel(renderer *r, const scene *s, int x, int y, draw_touches *list, octreel_error *error);
+bool renderer_list_pixel(renderer *r, const scene *s, int x, int y, draw_covers *list, octreel_error *error);
 
 #endif

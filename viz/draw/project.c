@@ -128,7 +128,7 @@ static bool is_near(double x, double y, double depth)
 }
 
 /* Transform a position to camera coordinates. False when they could overflow later. */
-static bool transform(const scene *s, const double position[3], double seen[3])
+static bool transform_to_camera(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
     return is_near(seen[0], seen[1], seen[2]);
@@ -138,7 +138,7 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
                          bool *overflowed)
 {
     double a[3], b[3];
-    *overflowed = !transform(s, first, a) || !transform(s, second, b);
+    *overflowed = !transform_to_camera(s, first, a) || !transform_to_camera(s, second, b);
     if (*overflowed)
         return 0;
     if (s->camera.perspective && !keep_side(a, b, 2, 1, s->camera.near))
@@ -175,7 +175,7 @@ bool project_place(const scene *s, const double position[3], double pixel[2], do
 {
     double seen[3];
     const camera *c = &s->camera;
-    if (!transform(s, position, seen) || !is_at_depth(c, seen[2]))
+    if (!transform_to_camera(s, position, seen) || !is_at_depth(c, seen[2]))
         return false;
     camera_project(&s->camera, seen, pixel);
     *depth = seen[2];
@@ -193,7 +193,7 @@ typedef struct point_run {
     double seen[RUN];                           /* 0: the point is not in the picture */
 } point_run;
 
-static void turn_run(const point_run *run, const double axis[3], double seen[RUN])
+static void measure_along_axis(const point_run *run, const double axis[3], double seen[RUN])
 {
     double turned[RUN];
     for (int i = 0; i < RUN; i++)
@@ -202,7 +202,7 @@ static void turn_run(const point_run *run, const double axis[3], double seen[RUN
 }
 
 /* The tests of is_near() and is_at_depth(), and whether the pixel is in the picture. */
-static void see_run(const scene *s, point_run *run)
+static void find_visible(const scene *s, point_run *run)
 {
     const camera *c = &s->camera;
     const double width = s->view.width, height = s->view.height;
@@ -230,9 +230,9 @@ static void project_run(const scene *s, point_run *run)
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
             run->from_eye[axis][i] = camera_unit_on(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
-    turn_run(run, c.right, run->across);
-    turn_run(run, c.up, run->along);
-    turn_run(run, c.forward, run->depth);
+    measure_along_axis(run, c.right, run->across);
+    measure_along_axis(run, c.up, run->along);
+    measure_along_axis(run, c.forward, run->depth);
     for (int i = 0; i < RUN; i++) {
         const double scale = c.perspective ? c.zoom / run->depth[i] : c.zoom;
         run->x[i] = c.middle[0] + run->across[i] * scale;
@@ -240,11 +240,11 @@ static void project_run(const scene *s, point_run *run)
     }
     for (int i = 0; i < RUN; i++)
         run->band[i] = band_position(&c, run->depth[i]);
-    see_run(s, run);
+    find_visible(s, run);
 }
 
 /* Fills up with the first marker where there are fewer than RUN. */
-static void gather_run(const scene_marker *markers, size_t count, point_run *run)
+static void gather_positions(const scene_marker *markers, size_t count, point_run *run)
 {
     for (size_t i = 0; i < RUN; i++) {
         const double *at = markers[i < count ? i : 0].at;
@@ -268,7 +268,7 @@ void project_points(const scene *s, const scene_marker *markers, size_t count, p
     for (size_t first = 0; first < count; first += RUN) {
         point_run run;
         const size_t size = count - first < RUN ? count - first : RUN;
-        gather_run(markers + first, size, &run);
+        gather_positions(markers + first, size, &run);
         project_run(s, &run);
         for (size_t i = 0; i < size; i++)
             places[first + i] = place_of(s, &run, i);

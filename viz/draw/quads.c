@@ -2,7 +2,6 @@
 /* quads.c - a list of quads, each with one colour, sorted in painter's order. */
 #include "quads.h"
 #include "array.h"
-#include "clip.h"
 #include "layer.h"
 
 #include <stdlib.h>
@@ -27,22 +26,20 @@ void quads_release(quad_list *list)
     memset(list, 0, sizeof *list);
 }
 
-static void append(quad_list *list, const quad *q)
+static void append_quad(quad_list *list, const quad *q)
 {
-    quad *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
-    if (!items) {
+    if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items)) {
         list->out_of_memory = true;
         return;
     }
-    list->items = items;
-    quad *added = &items[list->count++];
+    quad *added = &list->items[list->count++];
     *added = *q;
     added->kind = list->kind;
     added->index = list->index;
 }
 
 /* Negative coordinates become large unsigned numbers, so that one comparison tests both sides. */
-static bool is_within(const quad *q, const int32_t limits[2])
+static bool is_quad_within(const quad *q, const int32_t limits[2])
 {
     uint32_t x = 0, y = 0;
     for (int i = 0; i < 4; i++) {
@@ -54,14 +51,23 @@ static bool is_within(const quad *q, const int32_t limits[2])
 
 void quads_add(quad_list *list, const quad *q)
 {
-    if (list->limits[0] == 0 || is_within(q, list->limits)) {
-        append(list, q);
+    if (list->limits[0] == 0 || is_quad_within(q, list->limits)) {
+        append_quad(list, q);
         return;
     }
     quad pieces[CLIP_PIECES];
     const int count = clip_quad(q, list->limits, pieces);
     for (int i = 0; i < count; i++)
-        append(list, &pieces[i]);
+        append_quad(list, &pieces[i]);
+}
+
+void quads_add_rectangle(quad_list *list, quad *q, int32_t left, int32_t top, int32_t right, int32_t bottom)
+{
+    for (int i = 0; i < 4; i++) {
+        q->x[i] = i == 1 || i == 2 ? right : left;
+        q->y[i] = i < 2 ? top : bottom;
+    }
+    quads_add(list, q);
 }
 
 bool quads_sort(quad_list *list)
@@ -88,10 +94,9 @@ bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32
 {
     const uint16_t after = (uint16_t)(quad_order(LAYER_CLOSEUP, 0, 0) + 1);
     const size_t count = closeup->count;
-    quad *items = array_reserve(list->items, list->count + count, &list->room, sizeof *items);
-    if (!items)
+    if (!array_grow(&list->items, list->count + count, &list->room, sizeof *list->items))
         return false;
-    list->items = items;
+    quad *items = list->items;
     size_t at = list->count;
     while (at > 0 && items[at - 1].order >= after)
         at--;

@@ -41,6 +41,9 @@ static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
 /* Add a convex quad. Out of memory is reported by list->out_of_memory. */
 void quads_add(quad_list *list, const quad *q);
 
+/* Set the corners of a quad to those of a rectangle, in subpixels, and add it. */
+void quads_add_rectangle(quad_list *list, quad *q, int32_t left, int32_t top, int32_t right, int32_t bottom);
+
 /* Insert the quads of a close-up, moved by `by` subpixels, after all quads up to LAYER_CLOSEUP. Both lists are sorted.
  * False when out of memory. */
 bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2]);
@@ -56,5 +59,17 @@ uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
 /* The order of letters and panels, which have no depth: last in their layer. Letters of axes come after nodes and
  * points, letters of nodes after points and velocities. */
 uint16_t quad_order_of_text(unsigned layer);
+
+/* ---- clip.c --------------------------------------------------------------------------------------------------- */
+
+/* The side of the square to which the quads of a picture are clipped: the least power of two that holds the picture. */
+int clip_square(int width, int height);
+
+#define CLIP_PIECES 3
+
+/* Clip a convex quad to [0, limits[axis]] on each axis. Writes 0 to CLIP_PIECES quads that share no pixel and returns
+ * their number. New corners are rounded to 1/256 pixel. Axis-aligned rectangles may have any coordinates, other quads
+ * coordinates within 2^28 of 0. */
+int clip_quad(const quad *q, const int32_t limits[2], quad pieces[CLIP_PIECES]);
 
 #endif

@@ -3,8 +3,8 @@
 #include "renderer.h"
 #include "canvas.h"
 #include "fill.h"
+#include "json_table.h"
 #include "paint.h"
-#include "surface.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,20 +21,9 @@ struct renderer {
 static const char *const fills[DRAW_FILLS] = {
     [DRAW_FILL_INTEGERS] = "integers", [DRAW_FILL_CHECKED] = "checked", [DRAW_FILL_GL] = "gl"};
 
-const char *draw_fill_name(draw_fill fill)
+const char *draw_fill_name(int fill)
 {
     return (unsigned)fill < DRAW_FILLS ? fills[fill] : NULL;
-}
-
-bool draw_fill_parse(const char *name, draw_fill *fill)
-{
-    for (int i = 0; i < DRAW_FILLS; i++) {
-        if (strcmp(name, fills[i]) == 0) {
-            *fill = (draw_fill)i;
-            return true;
-        }
-    }
-    return false;
 }
 
 static bool check_size(int width, int height, octreel_error *error)
@@ -128,8 +117,8 @@ bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_er
     const quad_list *last = &r->canvas.last;
     if (!r->surface && !(r->surface = surface_open(r->width, r->height, &r->choice, error)))
         return false;
-    return draw_context_parse(r->surface->about(r->surface).context, by) &&
-           r->surface->fill(r->surface, last->items, last->count, all, indices, error);
+    *by = (draw_context)json_find_name(draw_context_name, r->surface->about(r->surface).context);
+    return r->surface->fill(r->surface, last->items, last->count, all, indices, error);
 }
 
 const uint8_t *renderer_own_colors(const renderer *r)

@@ -14,9 +14,8 @@
 
 typedef struct renderer renderer;
 
-/* "integers", "checked", "gl"; null from DRAW_FILLS on. The inverse returns false for an unknown name. */
-const char *draw_fill_name(draw_fill fill);
-bool draw_fill_parse(const char *name, draw_fill *fill);
+/* "integers", "checked", "gl"; null from DRAW_FILLS on. */
+const char *draw_fill_name(int fill);
 
 /* What draws. The strings are valid while the renderer is open. */
 typedef struct renderer_info {
@@ -45,21 +44,5 @@ const uint8_t *renderer_own_colors(const renderer *r);
 
 /* The number of elements of the last scene that cannot be drawn: not finite, or too far away for doubles. */
 size_t renderer_left_out(const renderer *r);
-
-/* ---- For this folder ---------------------------------------------------------------------------------------- */
-
-struct quad;
-
-/* Whether a scene's picture has the renderer's size in samples; an error where it does not. */
-bool renderer_fits(const renderer *r, const scene *s, octreel_error *error);
-
-/* A rectangle of samples. */
-typedef struct renderer_part {
-    int x, y, width, height;
-} renderer_part;
-
-/* Fill quads in this order on a background of zeros, and read a part of the result. */
-bool renderer_fill(renderer *r, const struct quad *quads, size_t count, renderer_part part, uint8_t *bytes,
-                   octreel_error *error);
 
 #endif

@@ -167,20 +167,18 @@ static void draw_discs(splats *t, const splatter *with)
 /* Steeper slopes count as this one: the neighbour belongs to another object. */
 #define STEEPEST (4 * DEPTH_PARTS)
 
-#define NO_POINT INT32_MIN
-
-/* By how much the point at a sample is nearer than `depth`. NO_POINT: there is none. */
+/* By how much the point at a sample is nearer than `depth`; 0 if there is no point. */
 static int32_t compare_depth(const splats *t, const scene *s, int x, int y, int32_t depth)
 {
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
-        return NO_POINT;
+        return 0;
     const splat *n = &t->samples[(size_t)y * (size_t)s->view.width + (size_t)x];
-    return n->owner ? depth - n->depth : NO_POINT;
+    return n->owner ? depth - n->depth : 0;
 }
 
-static int32_t limit(int32_t value, int32_t most)
+static int32_t clamp_slope(int32_t value, int32_t most)
 {
-    return value == NO_POINT ? 0 : value > most ? most : value < -most ? -most : value;
+    return value > most ? most : value < -most ? -most : value;
 }
 
 /* By how much a sample lies deeper than the eight samples at distance `reach`. Opposite neighbours are added first, so
@@ -192,8 +190,8 @@ static int32_t measure_sink(const splats *t, const scene *s, int x, int y, int r
     int32_t sum = 0;
     for (int i = 0; i < 4; i++) {
         const int dx = around[i][0] * reach, dy = around[i][1] * reach;
-        const int32_t both = limit(compare_depth(t, s, x + dx, y + dy, depth), most) +
-                             limit(compare_depth(t, s, x - dx, y - dy, depth), most);
+        const int32_t both = clamp_slope(compare_depth(t, s, x + dx, y + dy, depth), most) +
+                             clamp_slope(compare_depth(t, s, x - dx, y - dy, depth), most);
         sum += both > 0 ? both : 0;
     }
     return sum / reach;
@@ -247,12 +245,9 @@ static void set_color(uint8_t *at, theme_color color)
 static void add_run(quad_list *quads, uint32_t index, int left, int right, int y)
 {
     quad q = {.color = THEME_OWN, .order = quad_order(LAYER_POINTS, 0, 0)};
-    for (int i = 0; i < 4; i++) {
-        q.x[i] = (i == 1 || i == 2 ? right : left) * QUAD_SUBPIXELS;
-        q.y[i] = (i < 2 ? y : y + 1) * QUAD_SUBPIXELS;
-    }
     quads_begin(quads, SCENE_MARKER, index);
-    quads_add(quads, &q);
+    quads_add_rectangle(quads, &q, left * QUAD_SUBPIXELS, y * QUAD_SUBPIXELS, right * QUAD_SUBPIXELS,
+                        (y + 1) * QUAD_SUBPIXELS);
 }
 
 static void color_run(splats *t, const splatter *with, int x, int end, int y)
@@ -344,7 +339,7 @@ void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const
 /* ---- Hidden points -------------------------------------------------------------------------------------------- */
 
 /* Find the least depth of a disc in a square of samples. False: it covers none of them. */
-static bool covers(const splat_square *q, int32_t depth, const splat_square *samples, int32_t *least)
+static bool find_least_depth(const splat_square *q, int32_t depth, const splat_square *samples, int32_t *least)
 {
     bool any = false;
     for (int i = 0; i < samples->side * samples->side; i++) {
@@ -376,13 +371,11 @@ bool splats_list(const scene *s, const splat_square *samples, splat_list *list)
         splat_square square;
         splat_covering one = {.marker = i, .id = s->markers.items[i].id};
         if (!place_disc(&with, &s->markers.items[i], &square, &one.view_depth) ||
-            !covers(&square, depth_of(&with, one.view_depth), samples, &one.depth))
+            !find_least_depth(&square, depth_of(&with, one.view_depth), samples, &one.depth))
             continue;
-        splat_covering *items = array_reserve(list->items, list->count + 1, &list->room, sizeof *items);
-        if (!items)
+        if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items))
             return false;
-        list->items = items;
-        items[list->count++] = one;
+        list->items[list->count++] = one;
     }
     if (list->count)
         qsort(list->items, list->count, sizeof *list->items, compare_covering);

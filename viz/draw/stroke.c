@@ -89,13 +89,7 @@ static int32_t pixel_edge(int64_t pixel)
 /* Add a filled rectangle of whole samples. */
 static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t width, int64_t height)
 {
-    const int32_t left = pixel_edge(x), right = pixel_edge(x + width);
-    const int32_t top = pixel_edge(y), bottom = pixel_edge(y + height);
-    for (int i = 0; i < 4; i++) {
-        q.x[i] = i == 1 || i == 2 ? right : left;
-        q.y[i] = i < 2 ? top : bottom;
-    }
-    quads_add(list, &q);
+    quads_add_rectangle(list, &q, pixel_edge(x), pixel_edge(y), pixel_edge(x + width), pixel_edge(y + height));
 }
 
 /* Whether a segment is shorter than a sample on both axes, so that a parallelogram might cover no sample's centre. */

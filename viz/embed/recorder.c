@@ -6,6 +6,7 @@
 #include "contents.h"
 #include "error.h"
 #include "folder.h"
+#include "json_table.h"
 #include "number.h"
 #include "octree/octree.h"
 #include "replacement.h"
@@ -160,13 +161,14 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     film_options *film = &r->settings.film;
     film->every = def->every;
     film->replace = def->replace;
-    if (!draw_fill_parse(def->fill, &film->renderer.fill))
+    const int fill = json_find_name(draw_fill_name, def->fill), context = json_find_name(draw_context_name, def->context);
+    if (fill < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "fill: there is no \"%s\"; octreel record --help lists the rasterizers", def->fill);
-    if (!draw_context_parse(def->context, &film->renderer.context))
+    if (context < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "context: unknown name \"%s\"; octreel record --help lists the names", def->context);
-    film->renderer.any_renderer = def->any_renderer;
+    film->renderer = (renderer_choice){(draw_context)context, (draw_fill)fill, def->any_renderer};
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "any_renderer: works only with the context \"egl\"");
     if (def->every > SESSION_LAST_TICK)

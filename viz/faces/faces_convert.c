@@ -9,7 +9,7 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { MOST_WIDTH = 16, MOST_HEIGHT = 32, MOST_BYTES = 1 << 20, PSF2_HEADER = 32 };
+enum { MOST_FACES = 16, MOST_WIDTH = 16, MOST_HEIGHT = 32, MOST_BYTES = 1 << 20, PSF2_HEADER = 32 };
 
 /* A font's file, and where its glyphs lie in it: rows of whole bytes, the highest bit at the left. */
 typedef struct font {
@@ -48,7 +48,7 @@ static void read_header(font *f, const char *path)
         f->each = f->height = b[3];
         f->width = 8;
     } else {
-        stop(path, "is no console font (PSF)");
+        stop(path, "is not a console font (PSF)");
     }
 }
 
@@ -63,9 +63,9 @@ static void read_font(font *f, const char *path)
     f->size = (unsigned)size;
     read_header(f, path);
     if (f->width > MOST_WIDTH || f->height > MOST_HEIGHT || f->each == 0 || f->each != (f->width + 7) / 8 * f->height)
-        stop(path, "has letters of a size that there is no room for");
+        stop(path, "has letters larger than 16 x 32 pixels or of a wrong size");
     if (f->count < GLYPH_FIRST + GLYPH_COUNT || f->at > f->size || (f->size - f->at) / f->each < f->count)
-        stop(path, "ends too early");
+        stop(path, "is cut short, or has too few letters");
 }
 
 static bitmap glyph_of(const font *f, unsigned letter)
@@ -78,7 +78,7 @@ static bitmap glyph_of(const font *f, unsigned letter)
     return b;
 }
 
-/* How many pixels are set to the right of one, `most` at most. */
+/* The number of set pixels from (x, y) to the right, at most `most`. */
 static int run_of(const bitmap *b, int x, int y, int most)
 {
     int run = 0;
@@ -87,7 +87,7 @@ static int run_of(const bitmap *b, int x, int y, int most)
     return run;
 }
 
-/* The largest rectangle of set pixels whose top left corner is here. */
+/* The largest rectangle of set pixels whose top left corner is (x, y). */
 static glyph_part largest_at(const bitmap *b, int x, int y)
 {
     glyph_part best = {0};
@@ -101,7 +101,7 @@ static glyph_part largest_at(const bitmap *b, int x, int y)
     return best;
 }
 
-/* Take the largest rectangle out of a glyph; one of width 0 when nothing is set. */
+/* Clear the largest rectangle of set pixels and return it; its width is 0 if no pixel is set. */
 static glyph_part take_largest(bitmap *b)
 {
     glyph_part best = {0};
@@ -116,44 +116,48 @@ static glyph_part take_largest(bitmap *b)
     return best;
 }
 
-/* Write the parts of a face, and note where each letter's begin. */
-static void write_parts(FILE *out, const font *f, unsigned face, unsigned first[GLYPH_COUNT + 1])
+/* A face: the size of its letters, and the number of the first part of each letter, and one after the last. */
+typedef struct face {
+    unsigned width, height, first[GLYPH_COUNT + 1];
+} face;
+
+/* Write the parts of the letters of a font. */
+static face write_parts(FILE *out, const font *f, int number)
 {
+    face made = {.width = f->width, .height = f->height};
     unsigned count = 0;
-    fprintf(out, "static const glyph_part parts_%u[] = {\n", face);
+    fprintf(out, "static const glyph_part parts_%d[] = {\n", number);
     for (unsigned i = 0; i < GLYPH_COUNT; i++) {
         bitmap b = glyph_of(f, GLYPH_FIRST + i);
-        first[i] = count;
+        made.first[i] = count;
         for (glyph_part p = take_largest(&b); p.width; p = take_largest(&b), count++)
             fprintf(out, "{%d, %d, %d, %d},\n", p.x, p.y, p.width, p.height);
     }
-    first[GLYPH_COUNT] = count;
+    made.first[GLYPH_COUNT] = count;
     fprintf(out, "};\n");
-}
-
-static void write_set(FILE *out, const char *path, unsigned face, char *sets, size_t room)
-{
-    static font f;
-    unsigned first[GLYPH_COUNT + 1];
-    size_t used = strlen(sets);
-    read_font(&f, path);
-    write_parts(out, &f, face, first);
-    used += (size_t)snprintf(sets + used, room - used, "{%u, %u, parts_%u, {", f.width, f.height, face);
-    for (int i = 0; i <= GLYPH_COUNT; i++)
-        used += (size_t)snprintf(sets + used, room - used, "%u,%s", first[i], i % 16 == 15 ? "\n" : " ");
-    snprintf(sets + used, room - used, "}},\n");
+    return made;
 }
 
 int main(int argc, char **argv)
 {
-    static char sets[1 << 16];
-    FILE *out = argc > 2 ? fopen(argv[1], "w") : NULL;
+    static font f;
+    static face faces[MOST_FACES];
+    FILE *out = argc > 2 && argc - 2 <= MOST_FACES ? fopen(argv[1], "w") : NULL;
     if (!out)
         stop(argc > 1 ? argv[1] : "", "cannot be written");
     fprintf(out, "/* Made by faces_convert of the fonts of Spleen; see viz/THIRD-PARTY. */\n#include \"glyphs.h\"\n\n");
-    for (int i = 2; i < argc; i++)
-        write_set(out, argv[i], (unsigned)i - 2, sets, sizeof sets);
-    fprintf(out, "const glyph_set glyph_sets[] = {\n%s};\n", sets);
+    for (int i = 0; i < argc - 2; i++) {
+        read_font(&f, argv[i + 2]);
+        faces[i] = write_parts(out, &f, i);
+    }
+    fprintf(out, "const glyph_set glyph_sets[] = {\n");
+    for (int i = 0; i < argc - 2; i++) {
+        fprintf(out, "{%u, %u, parts_%d, {", faces[i].width, faces[i].height, i);
+        for (int j = 0; j <= GLYPH_COUNT; j++)
+            fprintf(out, "%u,%s", faces[i].first[j], j % 16 == 15 ? "\n" : " ");
+        fprintf(out, "}},\n");
+    }
+    fprintf(out, "};\n");
     if (ferror(out) || fclose(out) != 0)
         stop(argv[1], "cannot be written");
     return 0;

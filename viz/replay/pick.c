@@ -119,7 +119,7 @@ static void copy_foreign_node(pick_element *e)
 static bool name_elements(pick *p, renderer *r, const playback *from, octreel_error *error)
 {
     const scene *s = &from->scene;
-    draw_touches touches = {0};
+    draw_covers touches = {0};
     bool ok = renderer_list_pixel(r, s, p->pixel[0], p->pixel[1], &touches, error);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
     ok = ok && (p->elements || touches.count == 0 || error_no_memory(error));
@@ -134,7 +134,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
         };
         copy_foreign_node(&p->elements[p->count++]);
     }
-    draw_touches_release(&touches);
+    draw_covers_release(&touches);
     return ok;
 }
 

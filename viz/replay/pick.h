@@ -18,9 +18,9 @@ typedef struct pick_options {
     renderer_choice renderer;
 } pick_options;
 
-/* An element at a pixel; see draw_touch. */
+/* An element at a pixel; see draw_cover. */
 typedef struct pick_element {
-    draw_touch touch;
+    draw_cover touch;
     scene_kind kind;
     const char *layer;
     bool in_closeup;

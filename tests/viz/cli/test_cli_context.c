@@ -53,7 +53,7 @@ static void assert_not_drawn(const command_setting *setting, const char *options
 static void every_context_records_and_is_named_in_the_recording(void **state)
 {
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
-        const char *name = draw_context_name((draw_context)kind);
+        const char *name = draw_context_name(kind);
         const place folder = place_in(*state, name);
         char option[32];
         snprintf(option, sizeof option, "--fill gl --context %s", name);
@@ -71,7 +71,7 @@ static void version_names_every_context(void **state)
     assert_done(&result);
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
         char line[32];
-        snprintf(line, sizeof line, "\n%s: llvmpipe", draw_context_name((draw_context)kind));
+        snprintf(line, sizeof line, "\n%s: llvmpipe", draw_context_name(kind));
         assert_int_equal(strstr(result.out, line) != NULL, draw_context_built((draw_context)kind));
     }
     command_release(&result);
@@ -186,7 +186,7 @@ static void renderer_other_than_llvmpipe_is_refused(void **state)
     assert_unchecked(&softpipe, "", *state, "soft", "softpipe");
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
         char option[32];
-        snprintf(option, sizeof option, "--fill gl --context %s", draw_context_name((draw_context)kind));
+        snprintf(option, sizeof option, "--fill gl --context %s", draw_context_name(kind));
         assert_not_drawn(&softpipe, option, &folder,
                          draw_context_built((draw_context)kind) ? "llvmpipe alone" : "without the");
     }

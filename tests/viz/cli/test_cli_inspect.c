@@ -429,9 +429,9 @@ static void degenerate_clouds_are_drawn(void **state)
     for (size_t i = 0; i < 3; i++) {
         file_write_text(points.path, clouds[i]);
         for (int camera = 0; camera < CAMERA_COUNT; camera++) {
-            command_result result = run_octreel(
-                NULL, "inspect %s --capacity 2 --size 160x90 --layers points --camera %s --fit %s -o %s", points.path,
-                view_camera_name((view_camera)camera), camera % 2 ? "world" : "points", picture.path);
+            command_result result =
+                run_octreel(NULL, "inspect %s --capacity 2 --size 160x90 --layers points --camera %s --fit %s -o %s",
+                            points.path, view_camera_name(camera), camera % 2 ? "world" : "points", picture.path);
             assert_done(&result);
             command_release(&result);
             image drawn = assert_read(picture.path);

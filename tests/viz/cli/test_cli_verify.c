@@ -28,7 +28,7 @@ static void recording_is_identical_with_every_context(void **state)
     assert_done(&result);
     command_release(&result);
     for (int kind = 0; kind < DRAW_CONTEXTS; kind++) {
-        const char *name = draw_context_name((draw_context)kind);
+        const char *name = draw_context_name(kind);
         result = run_octreel(NULL, "verify %s --context %s", folder.path, name);
         if (draw_context_built((draw_context)kind)) {
             assert_done(&result);

@@ -265,15 +265,15 @@ static void both_rasterizers_find_the_same_elements(void **state)
     assert_true(renderer_number_samples(b.gl, &s, other, &error));
     assert_memory_equal(one, other, frame_samples(&s) * sizeof *one);
     for (int x = 0; x < 320; x += 17) {
-        draw_touches a = {0}, c = {0};
+        draw_covers a = {0}, c = {0};
         assert_true(renderer_list_pixel(b.integers, &s, x, 90, &a, &error));
         assert_true(renderer_list_pixel(b.gl, &s, x, 90, &c, &error));
         assert_int_equal(a.count, c.count);
         for (size_t i = 0; i < a.count; i++)
             assert_true(a.items[i].number == c.items[i].number && a.items[i].at == c.items[i].at &&
                         a.items[i].shown == c.items[i].shown);
-        draw_touches_release(&a);
-        draw_touches_release(&c);
+        draw_covers_release(&a);
+        draw_covers_release(&c);
     }
     free(one);
     free(other);

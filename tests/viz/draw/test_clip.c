@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* test_clip.c - a clipped quad stays in its square and keeps its pixels, except for the rounding of its corners. */
-#include "clip.h"
 #include "fill.h"
 #include "fixture.h"
 

@@ -84,7 +84,7 @@ static void elements_of_the_close_up_are_picked(void **state)
             const int *at = s.closeup->place;
             const bool is_in =
                 x >= at[0] && y >= at[1] && x < at[0] + s.closeup->view.width && y < at[1] + s.closeup->view.height;
-            draw_touches list = {0};
+            draw_covers list = {0};
             if (number == 0)
                 continue;
             const scene_element element = scene_element_at(&s, number);
@@ -93,7 +93,7 @@ static void elements_of_the_close_up_are_picked(void **state)
             nodes += element.in_closeup && element.kind == SCENE_BOX;
             assert_true(renderer_list_pixel(r, &s, x, y, &list, &error));
             assert_int_equal(list.items[0].number, number);
-            draw_touches_release(&list);
+            draw_covers_release(&list);
         }
     assert_true(inside > 20 && nodes > 5);
     free(numbers);

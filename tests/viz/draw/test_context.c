@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_context.c - all contexts draw the same pixels, also two at once, and only llvmpipe is accepted. */
 #include "frames.h"
+#include "json_table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -68,15 +69,13 @@ static void context_names_survive_the_round_trip(void **state)
 {
     (void)state;
     static const char *const names[DRAW_CONTEXTS] = {"auto", "osmesa", "egl"};
-    draw_context found;
     for (int kind = 0; kind < DRAW_CONTEXTS; kind++) {
-        assert_string_equal(draw_context_name((draw_context)kind), names[kind]);
-        assert_true(draw_context_parse(names[kind], &found));
-        assert_int_equal(found, kind);
+        assert_string_equal(draw_context_name(kind), names[kind]);
+        assert_int_equal(json_find_name(draw_context_name, names[kind]), kind);
     }
     assert_null(draw_context_name(DRAW_CONTEXTS));
-    assert_false(draw_context_parse("glx", &found));
-    assert_false(draw_context_parse("", &found));
+    assert_int_equal(json_find_name(draw_context_name, "glx"), -1);
+    assert_int_equal(json_find_name(draw_context_name, ""), -1);
 }
 
 static void missing_context_is_refused_by_name(void **state)
@@ -103,7 +102,7 @@ static void auto_uses_the_first_available_context(void **state)
     while (!draw_context_built((draw_context)kind))
         kind++;
     renderer *r = open_renderer_of(DRAW_AUTO, 16, 16);
-    assert_string_equal(renderer_about(r).context, draw_context_name((draw_context)kind));
+    assert_string_equal(renderer_about(r).context, draw_context_name(kind));
     renderer_close(r);
 }
 
@@ -159,7 +158,7 @@ static void two_contexts_at_once_do_not_disturb_each_other(void **state)
         const draw_context second = first == DRAW_OSMESA ? DRAW_EGL : DRAW_OSMESA;
         renderer *a = open_renderer_of((draw_context)first, 160, 90), *b = open_renderer_of(second, 320, 180);
         uint8_t *frames[4] = {draw(a, &small), draw(b, &large), draw(a, &small), NULL};
-        assert_string_equal(renderer_about(a).context, draw_context_name((draw_context)first));
+        assert_string_equal(renderer_about(a).context, draw_context_name(first));
         renderer_close(a);
         frames[3] = draw(b, &large);
         renderer_close(b);

@@ -51,7 +51,7 @@ static GLenum GLAPIENTRY get_state(GLenum target)
     return fault.state;
 }
 
-static context_function find(const context *c, const char *name)
+static context_function find_function(const context *c, const char *name)
 {
     if (name_count < MOST_NAMES)
         names[name_count++] = name;
@@ -65,12 +65,12 @@ static context_function find(const context *c, const char *name)
         return (context_function)get_error;
     if (fault.state && strcmp(name, "glCheckFramebufferStatus") == 0)
         return (context_function)get_state;
-    return real.find(c, name);
+    return real.find_function(c, name);
 }
 
-static bool use(context *c)
+static bool make_current(context *c)
 {
-    return !fault.not_current && real.use(c);
+    return !fault.not_current && real.make_current(c);
 }
 
 context *__real_context_open(const renderer_choice *choice, octreel_error *error);
@@ -85,8 +85,8 @@ context *__wrap_context_open(const renderer_choice *choice, octreel_error *error
     context *c = __real_context_open(choice, error);
     if (c) {
         real = *c;
-        c->find = find;
-        c->use = use;
+        c->find_function = find_function;
+        c->make_current = make_current;
     }
     return c;
 }

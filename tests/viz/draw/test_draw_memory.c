@@ -33,11 +33,11 @@ static bool mask_it(renderer *r, const scene *s, void *bytes, octreel_error *err
 /* Find the numbers of the elements in the middle of the picture. */
 static bool ask_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
-    draw_touches list = {0};
+    draw_covers list = {0};
     const bool done = renderer_list_pixel(r, s, s->view.width / 2, s->view.height / 2, &list, error);
     for (size_t i = 0; done && i < list.count && i < SIDE; i++)
         ((uint32_t *)bytes)[i] = list.items[i].number;
-    draw_touches_release(&list);
+    draw_covers_release(&list);
     return done;
 }
 

@@ -89,11 +89,11 @@ static void files_that_are_not_fonts_are_refused(void **state)
         unsigned value;
         const char *why;
     } rows[] = {
-        {0, 0, 0, "is no console font"},        {28, 0, 17, "of a size that there is no room for"},
-        {24, 0, 33, "of a size that there is"}, {20, 0, 9, "of a size that there is no room for"},
-        {16, 0, 127 - 32, "ends too early"},    {8, 0, ROOM + 1, "ends too early"},
-        {16, 0, GLYPHS + 1, "ends too early"},  {28, HEADER - 1, 12, "is no console font"},
-        {28, 3, 12, "is no console font"},
+        {0, 0, 0, "is not a console font"},        {28, 0, 17, "larger than 16 x 32 pixels"},
+        {24, 0, 33, "larger than 16 x 32 pixels"}, {20, 0, 9, "larger than 16 x 32 pixels"},
+        {16, 0, 127 - 32, "is cut short"},         {8, 0, ROOM + 1, "is cut short"},
+        {16, 0, GLYPHS + 1, "is cut short"},       {28, HEADER - 1, 12, "is not a console font"},
+        {28, 3, 12, "is not a console font"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         font f = make_second();
@@ -103,7 +103,7 @@ static void files_that_are_not_fonts_are_refused(void **state)
     }
     font f = make_first();
     f.bytes[2] = 1; /* a flag for 512 letters */
-    assert_refused(*state, &f, "ends too early");
+    assert_refused(*state, &f, "is cut short");
 }
 
 /* A size of zero must not cause a division by zero. */
@@ -112,10 +112,10 @@ static void letters_without_pixels_are_refused(void **state)
     font f = make_second();
     put(&f, 20, 0);
     put(&f, 24, 0);
-    assert_refused(*state, &f, "of a size that there is no room for");
+    assert_refused(*state, &f, "larger than 16 x 32 pixels");
     f = make_first();
     f.bytes[3] = 0;
-    assert_refused(*state, &f, "of a size that there is no room for");
+    assert_refused(*state, &f, "larger than 16 x 32 pixels");
 }
 
 static void assert_fails(const char *arguments, const char *why)

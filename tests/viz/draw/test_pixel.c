@@ -20,9 +20,9 @@ static scene blank_scene(view_camera camera, int aa)
     return empty_scene(&v, &world);
 }
 
-static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
+static draw_covers touches_at(renderer *r, const scene *s, int x, int y)
 {
-    draw_touches list = {0};
+    draw_covers list = {0};
     octreel_error error = {""};
     if (!renderer_list_pixel(r, s, x, y, &list, &error))
         fail_msg("%s", error.text);
@@ -30,7 +30,7 @@ static draw_touches touches_at(renderer *r, const scene *s, int x, int y)
 }
 
 /* The index of an element in the list, or -1. */
-static int place_of(const scene *s, const draw_touches *list, scene_kind kind, size_t index)
+static int place_of(const scene *s, const draw_covers *list, scene_kind kind, size_t index)
 {
     for (size_t i = 0; i < list->count; i++)
         if (list->items[i].number == scene_number_of(s, (scene_element){.kind = kind, .index = index}))
@@ -52,17 +52,17 @@ static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_
 
 static void check_pixel(renderer *r, const scene *s, const uint32_t *numbers, int x, int y)
 {
-    draw_touches list = touches_at(r, s, x, y);
+    draw_covers list = touches_at(r, s, x, y);
     const int samples = view_samples(&s->view);
     int shown = 0;
     for (size_t i = 0; i < list.count; i++) {
-        const draw_touch *touch = &list.items[i];
+        const draw_cover *touch = &list.items[i];
         assert_int_equal(touch->shown, picked(s, numbers, x, y, touch->number));
         assert_true(touch->shown <= touch->painted && touch->painted <= samples * samples);
         shown += touch->shown;
     }
     assert_int_equal(shown + picked(s, numbers, x, y, 0), samples * samples);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
 }
 
 static void element_at_a_pixel_equals_that_of_the_whole_picture(void **state)
@@ -104,17 +104,17 @@ static void covered_elements_follow_the_elements_that_cover_them(void **state)
     scene_add_panel(&s, panel);
     scene_add_panel(&s, panel);
     renderer *r = open_renderer_for(&s);
-    draw_touches list = touches_at(r, &s, 12, 12);
+    draw_covers list = touches_at(r, &s, 12, 12);
     assert_int_equal(list.count, 2);
     assert_int_equal(place_of(&s, &list, SCENE_PANEL, 1), 0);
     assert_int_equal(list.items[0].shown, 1);
     assert_int_equal(list.items[0].color, theme_index(ROLE_PANEL, 0));
     assert_int_equal(list.items[1].shown, 0);
     assert_int_equal(list.items[1].painted, 1);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
     list = touches_at(r, &s, 9, 12);
     assert_int_equal(list.count, 0);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
     renderer_close(r);
     scene_release(&s);
 }
@@ -130,13 +130,13 @@ static void samples_of_a_pixel_are_shared_among_elements(void **state)
                                               .style = style,
                                               .ends = {{20, 30.75 + 0.5 * i, 0}, {60, 30.75 + 0.5 * i, 0}}});
     renderer *r = open_renderer_for(&s);
-    draw_touches list = touches_at(r, &s, 40, 30);
+    draw_covers list = touches_at(r, &s, 40, 30);
     const int above = place_of(&s, &list, SCENE_SEGMENT, 0), below = place_of(&s, &list, SCENE_SEGMENT, 1);
     assert_true(above >= 0 && below >= 0);
     assert_int_equal(list.items[below].shown, 4); /* the last one is painted from 30.75 on */
     assert_int_equal(list.items[above].painted, 12);
     assert_int_equal(list.items[above].shown, 8);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
     renderer_close(r);
     scene_release(&s);
 }
@@ -159,14 +159,14 @@ static void all_points_of_a_pixel_are_listed(void **state)
     scene_add_marker(&s, point_at(5, 60, 20));
     pixel_of(&s, s.markers.items[0].at, pixel);
     renderer *r = open_renderer_for(&s);
-    draw_touches list = touches_at(r, &s, (int)pixel[0], (int)pixel[1]);
+    draw_covers list = touches_at(r, &s, (int)pixel[0], (int)pixel[1]);
     assert_int_equal(list.count, 5);
     assert_int_equal(list.items[0].shown, 1);
     for (size_t i = 0; i < 5; i++)
         assert_true(place_of(&s, &list, SCENE_MARKER, i) >= 0);
     for (size_t i = 1; i < 5; i++)
         assert_int_equal(list.items[i].painted, 0);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
     renderer_close(r);
     scene_release(&s);
 }
@@ -191,7 +191,7 @@ static void hidden_points_are_listed_nearest_first(void **state)
         s.markers.items[5].id = 1;
         pixel_of(&s, s.markers.items[0].at, pixel);
         renderer *r = open_renderer_for(&s);
-        draw_touches list = touches_at(r, &s, (int)pixel[0], (int)pixel[1]);
+        draw_covers list = touches_at(r, &s, (int)pixel[0], (int)pixel[1]);
         static const size_t expected[] = {3, 2, 5, 1, 0};
         assert_int_equal(list.count, 5);
         for (int i = 0; i < 5; i++) {
@@ -199,7 +199,7 @@ static void hidden_points_are_listed_nearest_first(void **state)
             assert_int_equal(list.items[i].shown, i == 0 ? aa * aa : 0);
             assert_int_equal(list.items[i].painted, i == 0 ? aa * aa : 0);
         }
-        draw_touches_release(&list);
+        draw_covers_release(&list);
         renderer_close(r);
         scene_release(&s);
     }
@@ -226,23 +226,23 @@ static void all_boxes_of_an_edge_are_listed(void **state)
     renderer *r = open_renderer_for(&s);
 
     pixel_of(&s, left, pixel);
-    draw_touches list = touches_at(r, &s, (int)floor(pixel[0]), (int)floor(pixel[1]));
+    draw_covers list = touches_at(r, &s, (int)floor(pixel[0]), (int)floor(pixel[1]));
     assert_int_equal(list.count, 2);
     assert_int_equal(place_of(&s, &list, SCENE_BOX, 0), 0);
     assert_true(list.items[0].shown == 1 && list.items[0].painted >= 1);
     assert_int_equal(place_of(&s, &list, SCENE_BOX, 1), 1);
     assert_int_equal(list.items[1].painted, 0);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
 
     pixel_of(&s, joint, pixel); /* the wall between the two */
     list = touches_at(r, &s, (int)floor(pixel[0] - 0.5), (int)floor(pixel[1]));
     if (list.count == 0) {
-        draw_touches_release(&list);
+        draw_covers_release(&list);
         list = touches_at(r, &s, (int)floor(pixel[0] + 0.5), (int)floor(pixel[1]));
     }
     assert_int_equal(list.count, 2);
     assert_true(place_of(&s, &list, SCENE_BOX, 1) >= 0 && place_of(&s, &list, SCENE_BOX, 2) >= 0);
-    draw_touches_release(&list);
+    draw_covers_release(&list);
     renderer_close(r);
     scene_release(&s);
 }
@@ -261,9 +261,9 @@ static void gap_of_a_cut_line_belongs_to_it_and_of_a_dashed_line_does_not(void *
         renderer *r = open_renderer_for(&s);
         int gaps = 0, dashes = 0;
         for (int x = 25; x < 115; x++) {
-            draw_touches list = touches_at(r, &s, x, 50);
+            draw_covers list = touches_at(r, &s, x, 50);
             if (list.count == 0) {
-                draw_touches_release(&list);
+                draw_covers_release(&list);
                 list = touches_at(r, &s, x, 49);
             }
             const int upper = place_of(&s, &list, SCENE_SEGMENT, 1);
@@ -273,7 +273,7 @@ static void gap_of_a_cut_line_belongs_to_it_and_of_a_dashed_line_does_not(void *
                 dashes++;
             else
                 gaps++;
-            draw_touches_release(&list);
+            draw_covers_release(&list);
         }
         assert_true(gaps > 15 && dashes > 15);
         renderer_close(r);
@@ -288,11 +288,11 @@ static void pixel_outside_the_picture_is_refused(void **state)
     scene s = blank_scene(CAMERA_TOP, 1);
     renderer *r = open_renderer_for(&s);
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
-        draw_touches list = {0};
+        draw_covers list = {0};
         octreel_error error = {""};
         assert_false(renderer_list_pixel(r, &s, outside[i][0], outside[i][1], &list, &error));
         assert_non_null(strstr(error.text, "320 x 240"));
-        draw_touches_release(&list);
+        draw_covers_release(&list);
     }
     renderer_close(r);
     scene_release(&s);

@@ -177,7 +177,7 @@ static void environment_of_a_poor_processor_reaches_each_context(void **state)
         char name[16], options[64];
         snprintf(name, sizeof name, "film%zu", i);
         snprintf(options, sizeof options, "--keys w --size 16x16 --fill gl --context %s",
-                 draw_context_name((draw_context)(i % DRAW_CONTEXTS)));
+                 draw_context_name((i % DRAW_CONTEXTS)));
         if (!can_draw(&machine, (draw_context)(i % DRAW_CONTEXTS)))
             continue;
         const place folder = place_in(*state, name);

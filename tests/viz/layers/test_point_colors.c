@@ -196,7 +196,7 @@ static void every_colouring_works_without_values_and_reports_the_lack(void **sta
     for (int color = 0; color < POINTS_BY_COUNT; color++) {
         painted p = paint_points((view_point_color)color, NULL);
         if (!has_text(&p.scene, said[color]))
-            fail_msg("%s: no \"%s\"", view_point_color_name((view_point_color)color), said[color]);
+            fail_msg("%s: no \"%s\"", view_point_color_name(color), said[color]);
         release(&p);
     }
 }

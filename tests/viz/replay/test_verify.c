@@ -22,7 +22,7 @@ static void recordings_with_every_camera_and_anti_aliasing_are_identical(void **
 {
     const octree_session session = octree_session_default();
     for (int kind = 0; kind < CAMERA_COUNT; kind++) {
-        const place folder = place_in(*state, view_camera_name((view_camera)kind));
+        const place folder = place_in(*state, view_camera_name(kind));
         film_options options = small_film(folder.path);
         options.every = 50;
         options.view.camera = (view_camera)kind;
