@@ -27,11 +27,7 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
 }
 
 /* Make room for at least `count` items in an array; `array` is the address of the pointer to its items. Returns false
- * when out of memory: the array is then unchanged. With `struct { int *items; size_t count, room; } *list`:
- *   if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items))
- *       return false;
- *   list->items[list->count++] = 7;
- */
+ * when out of memory: the array is then unchanged. */
 static inline bool array_grow(void *array, size_t count, size_t *room, size_t item_size)
 {
     void *items;
@@ -41,6 +37,19 @@ static inline bool array_grow(void *array, size_t count, size_t *room, size_t it
         memcpy(array, &items, sizeof items);
     return items || count == 0;
 }
+
+/* An array whose items it owns, and the same with array_grow(): room for `more` items.
+ *   ARRAY(int) list = {0};
+ *   if (ARRAY_GROW(&list, 1))
+ *       list.items[list.count++] = 7;
+ */
+#define ARRAY(type)                                                                                                    \
+    struct {                                                                                                           \
+        type *items;                                                                                                   \
+        size_t count, room;                                                                                            \
+    }
+#define ARRAY_GROW(array, more)                                                                                        \
+    array_grow(&(array)->items, (array)->count + (more), &(array)->room, sizeof *(array)->items)
 
 /* The order, for qsort() and bsearch(), of items that begin with a uint64_t. */
 static inline int by_uint64(const void *a, const void *b)

@@ -145,7 +145,7 @@ static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *ch
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,
                     *found = find_box(&kept->before, *old, box);
-    if (!array_grow(&kept->now.items, kept->now.count + 1, &kept->now.room, sizeof *kept->now.items))
+    if (!ARRAY_GROW(&kept->now, 1))
         return false;
     lined_box *added = &kept->now.items[kept->now.count++];
     *changed = *changed || !found || found != next;

@@ -6,6 +6,7 @@
 #ifndef DRAW_BOX_LINES_H
 #define DRAW_BOX_LINES_H
 
+#include "array.h"
 #include "hash_map.h"
 #include "scene.h"
 
@@ -71,10 +72,7 @@ typedef struct lined_box {
     uint32_t lines[BOX_EDGES];
 } lined_box;
 
-typedef struct lined_boxes {
-    lined_box *items;
-    size_t count, room;
-} lined_boxes;
+typedef ARRAY(lined_box) lined_boxes;
 
 /* Zeroed: empty. */
 typedef struct box_lines {

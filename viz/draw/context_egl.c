@@ -29,7 +29,7 @@ typedef struct egl_context {
     EGLContext mesa;
 } egl_context;
 
-static bool look_up(egl *egl, void *library)
+static bool find_egl_functions(egl *egl, void *library)
 {
 #define EGL_FIND(name) context_symbol(library, "egl" #name, &egl->name, sizeof egl->name)
     return EGL_FIND(GetProcAddress) && EGL_FIND(QueryString) && EGL_FIND(GetError) && EGL_FIND(Initialize) &&
@@ -117,7 +117,7 @@ context *context_egl_open(const renderer_choice *choice, octreel_error *error)
                                     "EGL, the off-screen renderer, cannot be loaded (Debian: libegl1)", error);
     if (!c)
         return NULL;
-    if (look_up(&c->egl, c->face.library) && open_mesa(c, choice->any_renderer))
+    if (find_egl_functions(&c->egl, c->face.library) && open_mesa(c, choice->any_renderer))
         return &c->face;
     error_set(error,
               "EGL gives no OpenGL context without a display (Debian: libegl-mesa0 and libgl1-mesa-dri): error 0x%04x",

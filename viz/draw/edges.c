@@ -25,10 +25,7 @@ typedef struct interval {
     uint8_t depth;
 } interval;
 
-typedef struct interval_list {
-    interval *items;
-    size_t count, room;
-} interval_list;
+typedef ARRAY(interval) interval_list;
 
 void edges_release(edge_list *list)
 {
@@ -194,7 +191,7 @@ static double *find_last_end(const sweep *w)
 
 static bool add_edge(const sweep *w, const interval *of, double from, double to)
 {
-    if (!array_grow(&w->edges->items, w->edges->count + 1, &w->edges->room, sizeof *w->edges->items))
+    if (!ARRAY_GROW(w->edges, 1))
         return false;
     edge *added = &w->edges->items[w->edges->count++];
     *added = (edge){.style = of->style, .depth = of->depth};
@@ -278,7 +275,7 @@ static bool copy_edges(edge_list *list, const line *of)
     edge_array *now = &list->now;
     if (of->count == 0)
         return true;
-    if (!array_grow(&now->items, now->count + of->count, &now->room, sizeof *now->items))
+    if (!ARRAY_GROW(now, of->count))
         return false;
     memcpy(now->items + now->count, list->before.items + of->first, of->count * sizeof *now->items);
     now->count += of->count;

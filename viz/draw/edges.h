@@ -3,6 +3,7 @@
 #ifndef DRAW_EDGES_H
 #define DRAW_EDGES_H
 
+#include "array.h"
 #include "box_lines.h"
 
 /* A segment of a line in the world, parallel to an axis, with one style and depth. */
@@ -12,10 +13,7 @@ typedef struct edge {
     uint8_t depth;
 } edge;
 
-typedef struct edge_array {
-    edge *items;
-    size_t count, room;
-} edge_array;
+typedef ARRAY(edge) edge_array;
 
 typedef struct edge_list {
     edge_array now;

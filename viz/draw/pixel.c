@@ -232,7 +232,7 @@ void draw_covers_release(draw_covers *list)
 static draw_cover *append_cover(probe *p, uint32_t number)
 {
     draw_covers *list = p->list;
-    if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items)) {
+    if (!ARRAY_GROW(list, 1)) {
         p->out_of_memory = true;
         return NULL;
     }

@@ -3,6 +3,7 @@
 #ifndef DRAW_PIXEL_H
 #define DRAW_PIXEL_H
 
+#include "array.h"
 #include "renderer.h"
 
 /* Draw a scene as renderer_draw() does, but write to each sample the number (scene_number_of) of its topmost element;
@@ -26,10 +27,7 @@ typedef struct draw_cover {
     uint8_t color; /* its colour there, an index of the theme's table; 0 also in gaps of STROKE_CUT */
 } draw_cover;
 
-typedef struct draw_covers {
-    draw_cover *items;
-    size_t count, room;
-} draw_covers;
+typedef ARRAY(draw_cover) draw_covers;
 
 void draw_covers_release(draw_covers *list);
 

@@ -28,7 +28,7 @@ void quads_release(quad_list *list)
 
 static void append_quad(quad_list *list, const quad *q)
 {
-    if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items)) {
+    if (!ARRAY_GROW(list, 1)) {
         list->out_of_memory = true;
         return;
     }
@@ -94,7 +94,7 @@ bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32
 {
     const uint16_t after = (uint16_t)(quad_order(LAYER_CLOSEUP, 0, 0) + 1);
     const size_t count = closeup->count;
-    if (!array_grow(&list->items, list->count + count, &list->room, sizeof *list->items))
+    if (!ARRAY_GROW(list, count))
         return false;
     quad *items = list->items;
     size_t at = list->count;

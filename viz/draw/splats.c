@@ -373,7 +373,7 @@ bool splats_list(const scene *s, const splat_square *samples, splat_list *list)
         if (!place_disc(&with, &s->markers.items[i], &square, &one.view_depth) ||
             !find_least_depth(&square, depth_of(&with, one.view_depth), samples, &one.depth))
             continue;
-        if (!array_grow(&list->items, list->count + 1, &list->room, sizeof *list->items))
+        if (!ARRAY_GROW(list, 1))
             return false;
         list->items[list->count++] = one;
     }

@@ -7,6 +7,7 @@
 #ifndef DRAW_SPLATS_H
 #define DRAW_SPLATS_H
 
+#include "array.h"
 #include "quads.h"
 
 /* Buffers that are reused from frame to frame. Zeroed: empty. */
@@ -31,10 +32,7 @@ void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const
 
 /* The points that cover samples of a square, including hidden ones, nearest first. Zeroed: empty. The caller frees the
  * items. */
-typedef struct splat_list {
-    struct splat_covering *items;
-    size_t count, room;
-} splat_list;
+typedef ARRAY(struct splat_covering) splat_list;
 
 typedef struct splat_covering {
     size_t marker; /* its index in the scene */

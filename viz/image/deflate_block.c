@@ -154,7 +154,7 @@ static void add_runs(header *h, const uint8_t *lengths, size_t count)
 static const uint8_t precode_order[PRECODE_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                        11, 4,  12, 3, 13, 2, 14, 1, 15};
 
-static size_t find_end(const uint8_t *lengths, size_t count, size_t least)
+static size_t count_used(const uint8_t *lengths, size_t count, size_t least)
 {
     while (count > least && lengths[count - 1] == 0)
         count--;
@@ -166,8 +166,8 @@ static void make_header(header *h, const deflate_blocks *b)
     uint8_t lengths[HEADER_ROOM];
     memset(h->counts, 0, sizeof h->counts);
     h->count = 0;
-    h->literal_count = find_end(b->literals.lengths, DEFLATE_LITERALS - 2, DEFLATE_END + 1);
-    h->distance_count = find_end(b->distances.lengths, DEFLATE_DISTANCES, 1);
+    h->literal_count = count_used(b->literals.lengths, DEFLATE_LITERALS - 2, DEFLATE_END + 1);
+    h->distance_count = count_used(b->distances.lengths, DEFLATE_DISTANCES, 1);
     memcpy(lengths, b->literals.lengths, h->literal_count);
     memcpy(lengths + h->literal_count, b->distances.lengths, h->distance_count);
     add_runs(h, lengths, h->literal_count + h->distance_count);
@@ -223,7 +223,7 @@ static void set_fixed(huffman_code *literals, huffman_code *distances)
     memset(distances->lengths, 5, DEFLATE_DISTANCES);
 }
 
-static inline unsigned kind_of(deflate_token token)
+static inline unsigned token_kind(deflate_token token)
 {
     return token % TOKEN_KINDS;
 }
@@ -239,7 +239,7 @@ static void count_tokens(deflate_blocks *b)
     memset(b->literal_counts, 0, sizeof b->literal_counts);
     memset(b->distance_counts, 0, sizeof b->distance_counts);
     for (size_t i = 0; i < b->count; i++) {
-        kinds[kind_of(b->tokens[i])]++;
+        kinds[token_kind(b->tokens[i])]++;
         b->distance_counts[distance_of(b->tokens[i])]++;
     }
     memcpy(b->literal_counts, kinds, DEFLATE_REPEAT * sizeof *kinds);
@@ -277,7 +277,7 @@ static void put_tokens(deflate_blocks *b)
     b->distances.bits[DEFLATE_DISTANCES] = 0;
     for (size_t i = 0; i < b->count; i++) {
         const deflate_token t = b->tokens[i];
-        const bit_string beginning = beginnings[kind_of(t)];
+        const bit_string beginning = beginnings[token_kind(t)];
         put_bits(&w, beginning.bits, beginning.count);
         put_symbol(&w, &b->distances, distance_of(t));
         put_bits(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_of(t)]);

@@ -36,7 +36,7 @@ bool image_indices_are_valid(const image *image)
     return largest < image->palette.count;
 }
 
-static uint8_t narrow(uint16_t sample)
+static uint8_t narrow_sample(uint16_t sample)
 {
     return (uint8_t)((sample + 128u) / 257u);
 }
@@ -50,7 +50,7 @@ image_color image_color_at(const image *image, int x, int y)
         return (image_color){at[0], at[1], at[2]};
     uint16_t samples[3];
     memcpy(samples, at, sizeof samples);
-    return (image_color){narrow(samples[0]), narrow(samples[1]), narrow(samples[2])};
+    return (image_color){narrow_sample(samples[0]), narrow_sample(samples[1]), narrow_sample(samples[2])};
 }
 
 /* ---- Shrinking ---------------------------------------------------------------------------------------------- */

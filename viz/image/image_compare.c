@@ -42,13 +42,13 @@ typedef struct pixel_samples {
 } pixel_samples;
 
 /* The largest sample value to which both images are expanded. */
-static int samples_range(const image *a, const image *b)
+static int common_range(const image *a, const image *b)
 {
     return a->wide || b->wide ? 65535 : 255;
 }
 
 /* Read `count` pixels from the n-th pixel on, and scale their samples to the range. */
-static void samples_read(const image *image, size_t n, int count, int range, pixel_samples *span)
+static void read_samples(const image *image, size_t n, int count, int range, pixel_samples *span)
 {
     const size_t step = image_pixel_size(image);
     const unsigned scale = range == 65535 ? 257 : 1;
@@ -183,7 +183,7 @@ typedef struct rows {
 } rows;
 
 /* Whether equal bytes mean equal colours. Palettes can be compared as a whole because unused entries are zero. */
-static bool stored_alike(const image *a, const image *b)
+static bool are_stored_alike(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)
         return false;
@@ -263,8 +263,8 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
             i += (int)(bytes_common_prefix(at_a + at, at_b + at, (size_t)some * size) / size);
             some = i < count;
         }
-        samples_read(r->a, n + (size_t)i, some, c->difference.channel_range, a);
-        samples_read(r->b, n + (size_t)i, some, c->difference.channel_range, b);
+        read_samples(r->a, n + (size_t)i, some, c->difference.channel_range, a);
+        read_samples(r->b, n + (size_t)i, some, c->difference.channel_range, b);
         for (int j = 0; j < some; j++)
             if (!samples_equal(&a[j], &b[j])) /* a palette may have a colour twice */
                 count_pixel(c, r, x + i + j, y, &a[j], &b[j]);
@@ -277,10 +277,10 @@ image_comparison image_comparison_begin(const image *a, const image *b, const im
     return (image_comparison){
         .tolerance = tolerance,
         .difference = {.same_size = a->width == b->width && a->height == b->height,
-                       .channel_range = samples_range(a, b),
+                       .channel_range = common_range(a, b),
                        .unlike = none,
                        .counted = none},
-        .stored_alike = stored_alike(a, b),
+        .stored_alike = are_stored_alike(a, b),
     };
 }
 
@@ -336,7 +336,7 @@ static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 4
 /* Colours that differ from the greys under colour blindness too; each is brighter than the one before. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
 
-static uint8_t between(int from, int to, int part, int whole)
+static uint8_t interpolate(int from, int to, int part, int whole)
 {
     return (uint8_t)(from + (to - from) * part / whole);
 }
@@ -345,15 +345,15 @@ static image_color heat_color(int i)
 {
     const int half = HEATS / 2, which = i < half ? 0 : 1, part = i - which * half;
     const image_color *from = &HEAT_COLORS[which], *to = from + 1;
-    return (image_color){between(from->r, to->r, part, half), between(from->g, to->g, part, half),
-                         between(from->b, to->b, part, half)};
+    return (image_color){interpolate(from->r, to->r, part, half), interpolate(from->g, to->g, part, half),
+                         interpolate(from->b, to->b, part, half)};
 }
 
 image_palette image_difference_palette(void)
 {
     image_palette palette = {.count = 256};
     for (int i = 0; i < GREYS; i++) {
-        const uint8_t grey = between(4, 92, i, GREYS - 1);
+        const uint8_t grey = interpolate(4, 92, i, GREYS - 1);
         palette.colors[i] = (image_color){grey, grey, grey};
     }
     palette.colors[FORGIVEN] = FORGIVEN_COLOR;
@@ -379,15 +379,15 @@ static uint8_t unlike_index(const rows *r, const image_tolerance *tolerance, int
 
 void image_difference_row(const image *a, const image *b, const image_tolerance *tolerance, int y, uint8_t *row)
 {
-    const int range = samples_range(a, b), longest = larger(a->width, b->width);
+    const int range = common_range(a, b), longest = larger(a->width, b->width);
     const int common = y >= a->height || y >= b->height ? 0 : smaller(a->width, b->width);
     const rows r = {a, b, 0};
     if (a->width != b->width || a->height != b->height)
         tolerance = &exact;
     for (int x = 0; x < common; x++) {
         pixel_samples p, q;
-        samples_read(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
-        samples_read(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
+        read_samples(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
+        read_samples(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
         row[x] = samples_equal(&p, &q) ? grey_index(&p, range)
                                        : unlike_index(&r, tolerance, x, y, delta_square(&p, &q, range));
     }

@@ -161,8 +161,7 @@ const kept_subtree *kept_tree_find(kept_tree *k, octree_address address)
     for (; k->passed < k->before.count && first_key(k->before.items[k->passed].address) < first; k->passed++)
         free(k->before.items[k->passed].nodes);
     kept_subtree *there = k->passed < k->before.count ? &k->before.items[k->passed] : NULL;
-    if (changed || !there || there->address != address ||
-        !array_grow(&k->now.items, k->now.count + 1, &k->now.room, sizeof *k->now.items))
+    if (changed || !there || there->address != address || !ARRAY_GROW(&k->now, 1))
         return NULL;
     k->passed++;
     k->now.items[k->now.count] = *there;
@@ -217,7 +216,7 @@ static digest_run digest_markers(const digest_names *names, const scene_marker *
 /* If there is no memory, the run is not noted, and scene_digest() digests its elements one by one. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
 {
-    if (run.end == 0 || !array_grow(&runs->items, runs->count + 1, &runs->room, sizeof *runs->items))
+    if (run.end == 0 || !ARRAY_GROW(runs, 1))
         return;
     run.first += first;
     run.end += first;
@@ -229,7 +228,7 @@ bool kept_tree_close(kept_tree *k, const scene *s)
     kept_subtree made = k->open;
     made.marker_count = (uint32_t)(s->markers.count - k->first_marker);
     const size_t nodes = made.node_count * sizeof *made.nodes, markers = made.marker_count * sizeof *made.markers;
-    const bool grown = array_grow(&k->now.items, k->now.count + 1, &k->now.room, sizeof *k->now.items);
+    const bool grown = ARRAY_GROW(&k->now, 1);
     k->open = (kept_subtree){0};
     made.nodes = grown ? malloc(nodes + markers + 1) : NULL;
     if (!made.nodes)

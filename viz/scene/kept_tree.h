@@ -14,6 +14,7 @@
 #ifndef SCENE_KEPT_TREE_H
 #define SCENE_KEPT_TREE_H
 
+#include "array.h"
 #include "octree/types.h"
 #include "scene_digest.h"
 
@@ -47,10 +48,7 @@ typedef struct kept_subtree {
     uint32_t looser;  /* number of points that a sieve with one bit less keeps */
 } kept_subtree;
 
-typedef struct kept_list {
-    kept_subtree *items;
-    size_t count, room;
-} kept_list;
+typedef ARRAY(kept_subtree) kept_list;
 
 /* Empty when zeroed. */
 typedef struct kept_tree {

@@ -104,7 +104,7 @@ static void add_sample(gathering *g, const octree_point *point)
     const uint64_t hash = hash_of(point);
     if (hash & s->mask)
         return;
-    if (!array_grow(&s->items, s->count + 1, &s->room, sizeof *s->items)) {
+    if (!ARRAY_GROW(s, 1)) {
         g->out_of_memory = true;
         return;
     }

@@ -37,19 +37,13 @@ void scene_release(scene *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Make room for `count` items in one of the scene's arrays. False, with out_of_memory set, when out of memory. */
-static bool grow(scene *s, void *array, size_t count, size_t *room, size_t size)
-{
-    const bool grown = array_grow(array, count, room, size);
-    s->out_of_memory |= !grown;
-    return grown;
-}
-
 /* Append an item to one of the scene's arrays. */
 #define APPEND(s, array, item)                                                                                         \
     do {                                                                                                               \
-        if (grow(s, &(array).items, (array).count + 1, &(array).room, sizeof *(array).items))                          \
+        if (ARRAY_GROW(&(array), 1))                                                                                   \
             (array).items[(array).count++] = (item);                                                                   \
+        else                                                                                                           \
+            (s)->out_of_memory = true;                                                                                 \
     } while (0)
 
 static bool all_finite(const double *values, size_t count)
@@ -100,7 +94,9 @@ void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape
 
 static bool grow_markers(scene *s, size_t count)
 {
-    return grow(s, &s->markers.items, s->markers.count + count, &s->markers.room, sizeof *s->markers.items);
+    const bool grown = ARRAY_GROW(&s->markers, count);
+    s->out_of_memory |= !grown;
+    return grown;
 }
 
 /* Reserve room once: a call of scene_add_marker() for each point took 2 % more instructions for the picture of a cloud.

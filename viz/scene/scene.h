@@ -8,6 +8,7 @@
 #ifndef SCENE_SCENE_H
 #define SCENE_SCENE_H
 
+#include "array.h"
 #include "camera.h"
 #include "lettering.h"
 #include "octree/types.h"
@@ -89,13 +90,6 @@ typedef struct scene_panel {
     int x, y, width, height;
 } scene_panel;
 
-/* A growing array; see scene_add_*. */
-#define SCENE_ARRAY(type)                                                                                              \
-    struct {                                                                                                           \
-        type *items;                                                                                                   \
-        size_t count, room;                                                                                            \
-    }
-
 /* Counts of velocity arrows that a scene leaves out. */
 typedef struct scene_arrows {
     size_t thinned;  /* beyond the view's budget */
@@ -141,11 +135,11 @@ typedef struct scene {
     int unit;              /* whole pixels a unit of the widths of lines and marks */
     lettering text, title; /* of labels; see scene_lettering() */
     double spacing;        /* between the points that it shows, where they are painted, in world units; 0: not known */
-    SCENE_ARRAY(scene_box) boxes;
-    SCENE_ARRAY(scene_segment) segments;
-    SCENE_ARRAY(scene_marker) markers;
-    SCENE_ARRAY(scene_label) labels;
-    SCENE_ARRAY(scene_panel) panels;
+    ARRAY(scene_box) boxes;
+    ARRAY(scene_segment) segments;
+    ARRAY(scene_marker) markers;
+    ARRAY(scene_label) labels;
+    ARRAY(scene_panel) panels;
     scene_tally tally;
     struct scene *closeup; /* a scene of its own, drawn into a part of the picture; read where has_closeup */
     bool has_closeup;

@@ -11,6 +11,7 @@
 #ifndef SCENE_SCENE_DIGEST_H
 #define SCENE_SCENE_DIGEST_H
 
+#include "array.h"
 #include "layer.h"
 #include "scene.h"
 
@@ -33,9 +34,6 @@ typedef struct digest_run {
     uint64_t sum, power; /* the value, and DIGEST_BASE to the power of their count */
 } digest_run;
 
-typedef struct digest_runs {
-    digest_run *items;
-    size_t count, room;
-} digest_runs;
+typedef ARRAY(digest_run) digest_runs;
 
 #endif

@@ -76,7 +76,7 @@ static const theme_color ramp[RAMP_STEPS] = {
     {204, 225, 38}, {221, 227, 38}, {237, 229, 37}, {253, 231, 37},
 };
 
-static uint8_t between(uint8_t from, uint8_t to, int part)
+static uint8_t interpolate(uint8_t from, uint8_t to, int part)
 {
     return (uint8_t)(from + ((to - from) * part + 128) / 256);
 }
@@ -89,7 +89,7 @@ theme_color theme_ramp(double part)
         return ramp[RAMP_STEPS - 1];
     const int at = (int)(part * ((RAMP_STEPS - 1) * 256)), step = at / 256, rest = at % 256;
     const theme_color a = ramp[step], b = ramp[step + 1];
-    return (theme_color){between(a.r, b.r, rest), between(a.g, b.g, rest), between(a.b, b.b, rest)};
+    return (theme_color){interpolate(a.r, b.r, rest), interpolate(a.g, b.g, rest), interpolate(a.b, b.b, rest)};
 }
 
 theme_color theme_kind(unsigned kind)
