@@ -9,7 +9,7 @@
  * not found is new. A wrong guess costs time only: the box is then removed and added again. Only removed and new boxes
  * look up lines in the hash map. Each line counts its users; lines without users stay until edges.c rebuilds the whole
  * set. */
-#include "box_lines.h"
+#include "edges.h"
 #include "array.h"
 
 #include <string.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* canvas.c - fills the quads of a frame, and copies the pixels of quads that did not change since the last frame. */
-#include "canvas.h"
 #include "fill.h"
 
 #include <stdlib.h>

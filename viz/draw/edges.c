@@ -203,17 +203,12 @@ static bool add_edge(const sweep *w, const interval *of, double from, double to)
     return true;
 }
 
-static bool same_style(scene_style a, scene_style b)
-{
-    return a.layer == b.layer && a.role == b.role && a.stroke == b.stroke && a.width == b.width;
-}
-
 /* Emit [from, to] with the style of an interval: extend the last edge where it fits, else add one. */
 static bool extend_or_add_edge(const sweep *w, const interval *of, double from, double to)
 {
     double *end = find_last_end(w);
     const edge *last = end ? &w->edges->items[w->edges->count - 1] : NULL;
-    if (!last || *end != from || last->depth != of->depth || !same_style(last->style, of->style))
+    if (!last || *end != from || last->depth != of->depth || memcmp(&last->style, &of->style, sizeof of->style) != 0)
         return add_edge(w, of, from, to);
     *end = to;
     return true;

@@ -4,7 +4,98 @@
 #define DRAW_EDGES_H
 
 #include "array.h"
-#include "box_lines.h"
+#include "hash_map.h"
+#include "scene.h"
+
+/* ---- box_lines.c: the set of lines in the world on which the edges of a scene's boxes lie --------------------
+ *
+ * Boxes with equal lines may share edges. The set is updated from scene to scene, and lines whose boxes changed are
+ * marked. */
+
+/* A line parallel to an axis; `u` and `v` are its coordinates on the two other axes. */
+typedef struct line_key {
+    double u, v;
+    uint32_t kind; /* layer, stroke, width and axis */
+} line_key;
+
+/* The line through a point. */
+static inline line_key line_key_at(scene_style style, unsigned axis, const double at[3])
+{
+    return (line_key){
+        .u = at[(axis + 1) % 3],
+        .v = at[(axis + 2) % 3],
+        .kind = (uint32_t)style.layer << 24 | (uint32_t)style.stroke << 16 | (uint32_t)style.width << 8 | axis,
+    };
+}
+
+/* The line of one of the four edges of a box that are parallel to an axis. */
+static inline line_key line_key_of(const scene_box *box, unsigned axis, unsigned corner)
+{
+    double at[3] = {0};
+    at[(axis + 1) % 3] = (corner & 1 ? box->box.max : box->box.min)[(axis + 1) % 3];
+    at[(axis + 2) % 3] = (corner & 2 ? box->box.max : box->box.min)[(axis + 2) % 3];
+    return line_key_at(box->style, axis, at);
+}
+
+static inline unsigned line_key_axis(const line_key *key)
+{
+    return key->kind & 0xff;
+}
+
+static inline int compare_doubles(double a, double b)
+{
+    return (a > b) - (a < b);
+}
+
+/* The painting order: by kind, then by coordinates. */
+static inline int line_key_compare(const line_key *a, const line_key *b)
+{
+    if (a->kind != b->kind)
+        return a->kind < b->kind ? -1 : 1;
+    const int u = compare_doubles(a->u, b->u);
+    return u ? u : compare_doubles(a->v, b->v);
+}
+
+typedef struct line {
+    line_key key;
+    uint32_t users;        /* the number of box edges on this line */
+    uint32_t first, count; /* its merged edges: a range of edge_list.now */
+    /* Used while edges.c merges: the number of intervals collected, the box of the last one, and the index of the first
+     * one in the list for all lines. */
+    uint32_t intervals, last, start;
+} line;
+
+#define LINE_NONE HASH_MAP_NONE
+#define BOX_EDGES 12
+
+/* A box and the lines of its edges, four along each axis. LINE_NONE where the box has no extent along that axis. */
+typedef struct lined_box {
+    scene_box box;
+    uint32_t lines[BOX_EDGES];
+} lined_box;
+
+typedef ARRAY(lined_box) lined_boxes;
+
+/* Zeroed: empty. */
+typedef struct box_lines {
+    lined_boxes now, before; /* of the last two scenes */
+    line *lines;             /* no two are equal; new lines are appended */
+    size_t count, room;
+    uint8_t *changed; /* for each line: whether its merged edges are out of date */
+    size_t changed_room;
+    size_t idle;  /* lines without users */
+    hash_map map; /* from keys to lines */
+} box_lines;
+
+void box_lines_clear(box_lines *kept);
+void box_lines_release(box_lines *kept);
+
+/* Replace the boxes by those of a scene in the layers [first, end). Marks the lines of boxes that were added or removed
+ * as changed; *changed: whether there are any. False when out of memory; the caller must then call box_lines_clear().
+ * Cost: O(n) for n boxes, plus one hash look-up for each edge of an added box. */
+bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed);
+
+/* ---- edges.c ------------------------------------------------------------------------------------------------- */
 
 /* A segment of a line in the world, parallel to an axis, with one style and depth. */
 typedef struct edge {

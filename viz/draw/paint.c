@@ -97,20 +97,11 @@ static bool is_point(const scene_marker *marker)
 /* Reserve a zeroed byte for each sample, and a place for each marker. */
 static bool reserve_points(painter *p, const scene *s)
 {
-    const size_t pixels = (size_t)s->view.width * (size_t)s->view.height;
-    if (p->pixels != pixels) {
-        free(p->nearest);
-        p->nearest = malloc(pixels);
-        p->pixels = p->nearest ? pixels : 0;
-    }
-    if (p->place_room < s->markers.count) {
-        free(p->places);
-        p->places = malloc(s->markers.room * sizeof *p->places);
-        p->place_room = p->places ? s->markers.room : 0;
-    }
-    if (!p->nearest || p->place_room < s->markers.count)
+    const size_t samples = (size_t)s->view.width * (size_t)s->view.height;
+    if (!array_grow(&p->nearest, samples, &p->nearest_room, 1) ||
+        !array_grow(&p->places, s->markers.count, &p->place_room, sizeof *p->places))
         return false;
-    memset(p->nearest, 0, pixels);
+    memset(p->nearest, 0, samples);
     return true;
 }
 

@@ -14,7 +14,7 @@ typedef struct painter {
     edge_list tree;   /* edges of the world and the nodes, which often stay the same from tick to tick */
     edge_list edges;  /* edges of boxes in other layers */
     uint8_t *nearest; /* while points are painted, for each sample: 1 + the nearest band of its points; 0: none */
-    size_t pixels;
+    size_t nearest_room;
     point_place *places; /* for each marker */
     size_t place_room;
     splats splats;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* renderer.c - turns scenes into indices with the integer rasterizer or GL; gl_surface.c makes the GL calls. */
 #include "renderer.h"
-#include "canvas.h"
 #include "fill.h"
 #include "json_table.h"
 #include "paint.h"
@@ -123,7 +122,7 @@ bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_er
 
 const uint8_t *renderer_own_colors(const renderer *r)
 {
-    return r->painter.splats.colors;
+    return (const uint8_t *)r->painter.splats.colors;
 }
 
 size_t renderer_left_out(const renderer *r)

@@ -139,7 +139,7 @@ static uint32_t *find_counter(const splats *t, const scene *s, const splat_squar
 {
     const int samples = view_samples(&s->view), half = (q->side - 1) / 2;
     const int x = q->left + half, y = q->top + half;
-    if (!t->shared || x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
+    if (s->view.point_color != POINTS_BY_DENSITY || x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return NULL;
     return &t->shared[(size_t)(y / samples) * (size_t)(s->view.width / samples) + (size_t)(x / samples)];
 }
@@ -235,13 +235,6 @@ static theme_color color_of(const splats *t, const scene *s, const splatter *wit
     return banded ? theme_shade(color, project_band(&s->camera, depth)) : color;
 }
 
-static void set_color(uint8_t *at, theme_color color)
-{
-    at[0] = color.r;
-    at[1] = color.g;
-    at[2] = color.b;
-}
-
 static void add_run(quad_list *quads, uint32_t index, int left, int right, int y)
 {
     quad q = {.color = THEME_OWN, .order = quad_order(LAYER_POINTS, 0, 0)};
@@ -256,8 +249,7 @@ static void color_run(splats *t, const splatter *with, int x, int end, int y)
     const size_t row = (size_t)y * (size_t)s->view.width;
     const theme_color color = color_of(t, s, with, t->samples[row + (size_t)x].owner - 1);
     for (; x < end; x++)
-        set_color(t->colors + 3 * (row + (size_t)x),
-                  s->view.shade == SHADE_EDL ? theme_fade(color, light_at(t, s, x, y)) : color);
+        t->colors[row + (size_t)x] = s->view.shade == SHADE_EDL ? theme_fade(color, light_at(t, s, x, y)) : color;
 }
 
 /* Add one quad for each run of samples with the same point. */
@@ -287,22 +279,14 @@ void splats_release(splats *t)
 
 static bool make_room(splats *t, const scene *s)
 {
-    const size_t size = (size_t)s->view.width * (size_t)s->view.height;
-    const size_t side = (size_t)view_samples(&s->view), pixels = size / side / side;
-    const bool counts = s->view.point_color == POINTS_BY_DENSITY;
-    if (t->room != size || (counts && !t->shared)) {
-        splats_release(t);
-        t->samples = malloc(size * sizeof *t->samples);
-        t->colors = malloc(3 * size);
-        t->shared = counts ? malloc(pixels * sizeof *t->shared) : NULL;
-        t->room = size;
-    }
-    if (!t->samples || !t->colors || (counts && !t->shared)) {
-        splats_release(t);
+    const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)view_samples(&s->view);
+    const size_t pixels = s->view.point_color == POINTS_BY_DENSITY ? size / side / side : 0;
+    if (!array_grow(&t->samples, size, &t->sample_room, sizeof *t->samples) ||
+        !array_grow(&t->colors, size, &t->color_room, sizeof *t->colors) ||
+        !array_grow(&t->shared, pixels, &t->shared_room, sizeof *t->shared))
         return false;
-    }
     memset(t->samples, 0, size * sizeof *t->samples);
-    if (counts)
+    if (pixels > 0)
         memset(t->shared, 0, pixels * sizeof *t->shared);
     return true;
 }
@@ -324,7 +308,7 @@ void splats_fill(splats *t, const scene *s, const scene_panel *panel)
     for (int y = panel->y * samples; y < (panel->y + panel->height) * samples && y < s->view.height; y++)
         for (int x = panel->x * samples; x < (panel->x + panel->width) * samples && x < s->view.width; x++)
             if (x >= 0 && y >= 0)
-                set_color(t->colors + ((size_t)y * (size_t)s->view.width + (size_t)x) * 3, panel->color);
+                t->colors[(size_t)y * (size_t)s->view.width + (size_t)x] = panel->color;
 }
 
 void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer)
@@ -333,7 +317,7 @@ void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const
     const size_t row = (size_t)closer->view.width, left = (size_t)closer->place[0] * side,
                  top = (size_t)closer->place[1] * side;
     for (size_t y = 0; y < (size_t)closer->view.height; y++)
-        memcpy(t->colors + 3 * ((top + y) * width + left), closeup->colors + 3 * y * row, 3 * row);
+        memcpy(t->colors + (top + y) * width + left, closeup->colors + y * row, row * sizeof *t->colors);
 }
 
 /* ---- Hidden points -------------------------------------------------------------------------------------------- */

@@ -14,8 +14,8 @@
 typedef struct splats {
     struct splat *samples; /* the nearest point at each sample */
     uint32_t *shared;      /* with POINTS_BY_DENSITY: the number of points whose centre is in each pixel */
-    uint8_t *colors;       /* r, g, b for each sample; valid where the picture has the index THEME_OWN */
-    size_t room;           /* the number of samples for which there is memory */
+    theme_color *colors;   /* of each sample; valid where the picture has the index THEME_OWN */
+    size_t sample_room, shared_room, color_room;
 } splats;
 
 void splats_release(splats *t);

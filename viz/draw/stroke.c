@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The length of a dash and of the gap after it, in half units. */
 #define DASH 6
@@ -71,11 +72,8 @@ static void add_line(quad_list *list, const pencil *with, unsigned band, const d
     const bool flat = abs(x1 - x0) >= abs(y1 - y0);
     const int32_t half = with->width * QUAD_SUBPIXELS / 2;
     const int32_t dx = flat ? 0 : half, dy = flat ? half : 0;
-    const int32_t x[4] = {x0 - dx, x1 - dx, x1 + dx, x0 + dx}, y[4] = {y0 - dy, y1 - dy, y1 + dy, y0 + dy};
-    for (int i = 0; i < 4; i++) {
-        q.x[i] = x[i];
-        q.y[i] = y[i];
-    }
+    memcpy(q.x, (int32_t[]){x0 - dx, x1 - dx, x1 + dx, x0 + dx}, sizeof q.x);
+    memcpy(q.y, (int32_t[]){y0 - dy, y1 - dy, y1 + dy, y0 + dy}, sizeof q.y);
     quads_add(list, &q);
 }
 
@@ -174,10 +172,8 @@ static void add_diamond(quad_list *list, quad q, int left, int top, int side)
 {
     const int32_t reach = side * QUAD_SUBPIXELS / 2;
     const int32_t cx = left * QUAD_SUBPIXELS + reach, cy = top * QUAD_SUBPIXELS + reach;
-    for (int i = 0; i < 4; i++) {
-        q.x[i] = cx + (i == 0 ? -reach : i == 2 ? reach : 0);
-        q.y[i] = cy + (i == 1 ? -reach : i == 3 ? reach : 0);
-    }
+    memcpy(q.x, (int32_t[]){cx - reach, cx, cx + reach, cx}, sizeof q.x);
+    memcpy(q.y, (int32_t[]){cy, cy - reach, cy, cy + reach}, sizeof q.y);
     quads_add(list, &q);
 }
 

@@ -103,9 +103,7 @@ bool image_shrink(const image *from, const uint8_t *own, int factor, image *smal
         for (int x = 0; x < small->width; x++, at += (size_t)factor, out += 3) {
             const image_color color =
                 is_flat(from, at, factor) ? sample_at(from, own, at) : mean_of(from, own, at, factor);
-            out[0] = color.r;
-            out[1] = color.g;
-            out[2] = color.b;
+            memcpy(out, &color, sizeof color);
         }
     }
     return true;

@@ -140,11 +140,6 @@ static inline uint64_t digest_pixel(size_t place, uint64_t color, bool wide)
     return octree_digest_word(~(uint64_t)place, color | (uint64_t)wide << 48);
 }
 
-static inline uint64_t digest_place(size_t group, uint64_t sum)
-{
-    return octree_digest_word((uint64_t)group, sum);
-}
-
 /* The sum of the pixel hashes of a group of `count` pixels, at most GROUP; the last group of a row may be shorter. */
 static uint64_t digest_group(const digesting *d, const image *rows, const uint8_t *pixels, size_t count)
 {
@@ -171,7 +166,7 @@ typedef struct row_groups {
 
 static inline void set_group(row_groups *g, size_t group, uint64_t sum)
 {
-    const uint64_t digest = digest_place(group, sum);
+    const uint64_t digest = octree_digest_word((uint64_t)group, sum);
     g->sum += digest - g->of_group[group];
     g->of_group[group] = digest;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* png_read.c - reads PNG files through libpng, strictly: a damaged file is an error, never a picture. */
 #include "png_read.h"
+#include "array.h"
 #include "file.h"
 #include "octree/digest.h"
 
@@ -35,7 +36,7 @@ struct image_source {
     image about;                /* the image's description; pixels only if `whole` */
     image *wanted;              /* the rows that decode_band() reads */
     uint8_t *band;              /* pixels of the last band */
-    int band_rows;              /* rows that fit `band` */
+    size_t band_room;           /* bytes that fit `band` */
     int next_y;                 /* the first row of the next band */
     bool beyond;                /* an index beyond the palette occurred; reported after the last row */
     bool failed;
@@ -316,17 +317,6 @@ static bool read_whole(image_source *s)
     return true;
 }
 
-/* Make room for a band of rows. */
-static bool reserve_band(image_source *s, int rows)
-{
-    uint8_t *band = rows > s->band_rows ? realloc(s->band, row_size(s) * (size_t)rows) : s->band;
-    if (!band)
-        return fail(s, strerror(ENOMEM));
-    s->band = band;
-    s->band_rows = rows > s->band_rows ? rows : s->band_rows;
-    return true;
-}
-
 bool image_source_next(image_source *s, int rows, image *band)
 {
     const int left = s->about.height - s->next_y;
@@ -335,8 +325,8 @@ bool image_source_next(image_source *s, int rows, image *band)
     *band = s->about;
     band->height = left < rows ? left : rows;
     if (!s->whole) {
-        if (!reserve_band(s, band->height))
-            return false;
+        if (!array_grow(&s->band, row_size(s) * (size_t)band->height, &s->band_room, 1))
+            return fail(s, strerror(ENOMEM));
         band->pixels = s->band;
         s->wanted = band;
         return run_step(s, decode_band);

@@ -52,11 +52,8 @@ static void set_header(png_structp png, png_infop info, const image_rows *rows)
                  indexed ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE,
                  PNG_FILTER_TYPE_BASE);
     if (indexed) {
-        png_color colors[256];
-        for (int i = 0; i < palette->count; i++) {
-            image_color color = palette->colors[i];
-            colors[i] = (png_color){color.r, color.g, color.b};
-        }
+        png_color colors[256]; /* has the same three bytes as image_color */
+        memcpy(colors, palette->colors, sizeof colors);
         png_set_PLTE(png, info, colors, palette->count);
     }
 }

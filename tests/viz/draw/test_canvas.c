@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* test_canvas.c - quads that are not filled again, because they did not change, are in the picture all the same. */
 #include "frames.h"
-#include "canvas.h"
+#include "fill.h"
 
 #include <stdlib.h>
 #include <string.h>
