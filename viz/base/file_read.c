@@ -51,10 +51,8 @@ static bool read_block(reading *r, size_t *got)
 {
     const size_t most = (size_t)1 << 20;
     const bool full = r->room < r->size + 2;
-    char *bytes = array_reserve(r->bytes, full ? r->size + most : r->room, &r->room, 1);
-    if (!bytes)
+    if (!array_grow(&r->bytes, full ? r->size + most : r->room, &r->room, 1))
         return false;
-    r->bytes = bytes;
     const size_t left = r->room - r->size - 1;
     *got = fread(r->bytes + r->size, 1, left < most ? left : most, r->stream);
     r->size += *got;

@@ -88,15 +88,13 @@ static bool make_room(json_stream *s)
         memmove(s->bytes, s->bytes + s->begin, s->size - s->begin);
     s->size -= s->begin;
     s->begin = 0;
-    char *bytes = array_reserve(s->bytes, s->size + BLOCK, &s->room, 1);
-    if (bytes)
-        s->bytes = bytes;
-    char *smaller = bytes && s->room > 64 * BLOCK && s->size < BLOCK ? realloc(bytes, 2 * BLOCK) : NULL;
+    const bool grown = array_grow(&s->bytes, s->size + BLOCK, &s->room, 1);
+    char *smaller = grown && s->room > 64 * BLOCK && s->size < BLOCK ? realloc(s->bytes, 2 * BLOCK) : NULL;
     if (smaller) {
         s->bytes = smaller;
         s->room = 2 * BLOCK;
     }
-    return bytes;
+    return grown;
 }
 
 /* Waits until there is something to read. False: keep_going() stops the wait. */

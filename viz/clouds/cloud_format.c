@@ -16,13 +16,12 @@
 static bool add_row(cloud_file *file)
 {
     cloud *points = file->out;
-    size_t *rows = array_reserve(points->rows, points->count + 1, &file->row_room, sizeof *rows);
-    if (!rows)
+    const bool first = !points->rows;
+    if (!array_grow(&points->rows, points->count + 1, &file->row_room, sizeof *points->rows))
         return false;
-    for (size_t i = 0; !points->rows && i < points->count; i++)
-        rows[i] = i;
-    points->rows = rows;
-    rows[points->count] = points->count + points->skipped;
+    for (size_t i = 0; first && i < points->count; i++)
+        points->rows[i] = i;
+    points->rows[points->count] = points->count + points->skipped;
     return true;
 }
 
@@ -77,10 +76,8 @@ bool cloud_add(cloud_file *file, const double *position)
     cloud *points = file->out;
     if (cloud_skip_nonfinite(file, position))
         return true;
-    void *grown = array_reserve(points->positions, points->count + 1, &file->room, sizeof *points->positions);
-    if (grown)
-        points->positions = grown;
-    if (!grown || (points->skipped > 0 && !add_row(file)) ||
+    if (!array_grow(&points->positions, points->count + 1, &file->room, sizeof *points->positions) ||
+        (points->skipped > 0 && !add_row(file)) ||
         (file->channels && !add_values(file, points->count + points->skipped, position)))
         return cloud_fail(file, "out of memory after %zu points", points->count);
     memcpy(points->positions[points->count++], position, sizeof *points->positions);

@@ -24,10 +24,9 @@ typedef struct file_set {
 /* Copy a file to NAME.part beside its final path. The set takes ownership of `path`; null: out of memory. */
 static bool prepare_copy(file_set *set, const char *from, char *path, octreel_error *error)
 {
-    set_file *grown = path ? array_reserve(set->files, set->count + 1, &set->room, sizeof *grown) : NULL;
-    set->files = grown ? grown : set->files;
-    if (grown ? file_copy_prepare(&grown[set->count].copy, from, path, error) : error_no_memory(error)) {
-        grown[set->count++].path = path;
+    const bool room = path && array_grow(&set->files, set->count + 1, &set->room, sizeof *set->files);
+    if (room ? file_copy_prepare(&set->files[set->count].copy, from, path, error) : error_no_memory(error)) {
+        set->files[set->count++].path = path;
         return true;
     }
     free(path);

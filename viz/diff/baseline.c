@@ -99,14 +99,11 @@ static bool is_same_acceptance(const acceptance *a, const acceptance *b)
 /* Append a copy that owns its reason. */
 static bool append_acceptance(diff_side *side, const acceptance *from, octreel_error *error)
 {
-    acceptance *grown =
-        array_reserve(side->acceptances, side->acceptance_count + 1, &side->acceptance_room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&side->acceptances, side->acceptance_count + 1, &side->acceptance_room, sizeof *side->acceptances))
         return error_no_memory(error);
-    side->acceptances = grown;
-    grown[side->acceptance_count] = *from;
-    grown[side->acceptance_count].reason = strdup(from->reason);
-    if (!grown[side->acceptance_count].reason)
+    side->acceptances[side->acceptance_count] = *from;
+    side->acceptances[side->acceptance_count].reason = strdup(from->reason);
+    if (!side->acceptances[side->acceptance_count].reason)
         return error_no_memory(error);
     side->acceptance_count++;
     return true;

@@ -11,10 +11,8 @@
 
 bool frame_list_add(frame_list *list, const char *name, size_t line, octreel_error *error)
 {
-    listed_frame *grown = array_reserve(list->frames, list->count + 1, &list->room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&list->frames, list->count + 1, &list->room, sizeof *list->frames))
         return error_no_memory(error);
-    list->frames = grown;
     list->frames[list->count++] = (listed_frame){name, line};
     return true;
 }

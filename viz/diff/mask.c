@@ -15,10 +15,8 @@ static bool pack(pixel_mask *mask, const uint8_t *bytes)
     mask->runs = NULL;
     for (size_t i = 0; i < size; mask->count++) {
         const size_t first = i;
-        uint32_t *grown = array_reserve(mask->runs, mask->count + 1, &room, sizeof *grown);
-        if (!grown)
+        if (!array_grow(&mask->runs, mask->count + 1, &room, sizeof *mask->runs))
             return false;
-        mask->runs = grown;
         while (i < size && (bytes[i] != 0) == (mask->count % 2 != 0))
             i++;
         mask->runs[mask->count] = (uint32_t)(i - first);

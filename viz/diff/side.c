@@ -36,9 +36,8 @@ static const char *base_name(const char *path)
 bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
 {
     const bool has_path = side->kind != DIFF_BASELINE;
-    diff_frame *grown = array_reserve(side->frames, side->count + 1, &side->room, sizeof *grown);
+    const bool grown = array_grow(&side->frames, side->count + 1, &side->room, sizeof *side->frames);
     diff_frame frame = {.name = grown ? strdup(name) : NULL, .digest = digest};
-    side->frames = grown ? grown : side->frames;
     if (frame.name && has_path)
         frame.path = side->kind == DIFF_PICTURE ? strdup(side->source) : path_join(side->path, name);
     if (frame.name && (frame.path || !has_path)) {

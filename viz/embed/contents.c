@@ -76,11 +76,9 @@ static bool start_table(contents *c)
 
 static bool make_room(contents *c, size_t more)
 {
-    change *changes = more <= UINT32_MAX - c->change_count
-                          ? array_reserve(c->changes, c->change_count + more, &c->change_room, sizeof *changes)
-                          : NULL;
-    c->changes = changes ? changes : c->changes;
-    return more == 0 || (changes && point_table_reserve(&c->table, c->table.count + more));
+    return more == 0 || (more <= UINT32_MAX - c->change_count &&
+                         array_grow(&c->changes, c->change_count + more, &c->change_room, sizeof *c->changes) &&
+                         point_table_reserve(&c->table, c->table.count + more));
 }
 
 /* Bounds memory while no tick is accepted: changes that cancel out are dropped once they have doubled. */
@@ -160,12 +158,10 @@ static size_t make_log_name(followed_tree *f)
 static void add_heard(const octree_change *change, void *context)
 {
     followed_tree *f = context;
-    octree_change *heard = array_reserve(f->heard, f->heard_count + 1, &f->heard_room, sizeof *heard);
-    f->lost |= !heard;
-    if (!heard)
-        return;
-    f->heard = heard;
-    f->heard[f->heard_count++] = *change;
+    if (array_grow(&f->heard, f->heard_count + 1, &f->heard_room, sizeof *f->heard))
+        f->heard[f->heard_count++] = *change;
+    else
+        f->lost = true;
 }
 
 static bool read_log(followed_tree *f, const octree *tree)

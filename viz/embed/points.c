@@ -20,9 +20,7 @@ void points_release(points *p)
 
 bool points_reserve(points *p, size_t count)
 {
-    octree_point *items = array_reserve(p->items, count, &p->room, sizeof *items);
-    p->items = items ? items : p->items;
-    return items || count == 0;
+    return array_grow(&p->items, count, &p->room, sizeof *p->items);
 }
 
 static octree_walk_order add_leaf(const octree_node *node, void *context)

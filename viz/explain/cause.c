@@ -57,10 +57,8 @@ static bool trees_differ(playing *p)
 /* Append the details of a tick; the facts move into it. */
 static bool append_tick(cause *c, uint64_t tick, cause_facts *facts)
 {
-    cause_tick *grown = array_reserve(c->ticks, c->count + 1, &c->room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&c->ticks, c->count + 1, &c->room, sizeof *c->ticks))
         return false;
-    c->ticks = grown;
     c->ticks[c->count++] = (cause_tick){.tick = tick, .facts = *facts};
     *facts = (cause_facts){0};
     return true;

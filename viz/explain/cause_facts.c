@@ -28,11 +28,9 @@ static cause_group *find_group(const cause_facts *facts, const char *where, cons
 
 static cause_group *add_group(cause_facts *facts, const char *where, const char *query, cause_change change)
 {
-    cause_group *grown = array_reserve(facts->groups, facts->count + 1, &facts->room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&facts->groups, facts->count + 1, &facts->room, sizeof *facts->groups))
         return NULL;
-    facts->groups = grown;
-    cause_group *group = &grown[facts->count++];
+    cause_group *group = &facts->groups[facts->count++];
     *group = (cause_group){.change = change};
     snprintf(group->where, sizeof group->where, "%s", where);
     snprintf(group->query, sizeof group->query, "%s", query);

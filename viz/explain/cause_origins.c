@@ -23,11 +23,9 @@ static size_t find_kind(cause_origins *o, const char *name)
     for (size_t i = 0; i < o->kind_count; i++)
         if (strcmp(o->kinds[i].name, name) == 0)
             return i;
-    cause_kind *grown = array_reserve(o->kinds, o->kind_count + 1, &o->kind_room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&o->kinds, o->kind_count + 1, &o->kind_room, sizeof *o->kinds))
         return SIZE_MAX;
-    o->kinds = grown;
-    cause_kind *kind = &grown[o->kind_count];
+    cause_kind *kind = &o->kinds[o->kind_count];
     kind->since = CAUSE_NO_TICK;
     snprintf(kind->name, sizeof kind->name, "%s", name);
     return o->kind_count++;
@@ -48,10 +46,8 @@ bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const
     const cause_origin *last = o->count ? &o->listed[o->count - 1] : NULL;
     if (origin.kind == SIZE_MAX || (last && last->tick == tick && last->kind == origin.kind))
         return origin.kind != SIZE_MAX;
-    cause_origin *grown = array_reserve(o->listed, o->count + 1, &o->room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&o->listed, o->count + 1, &o->room, sizeof *o->listed))
         return false;
-    o->listed = grown;
     o->listed[o->count++] = origin;
     return true;
 }
@@ -76,12 +72,10 @@ void cause_origins_release(cause_origins *o)
 
 static bool add_stretch(cause_origins *o, uint64_t tick)
 {
-    cause_stretch *grown = array_reserve(o->stretches, o->stretch_count + 1, &o->stretch_room, sizeof *grown);
     text_stream s;
     bool any = false;
-    if (!grown)
+    if (!array_grow(&o->stretches, o->stretch_count + 1, &o->stretch_room, sizeof *o->stretches))
         return false;
-    o->stretches = grown;
     if (text_stream_begin(&s))
         for (size_t i = 0; i < o->kind_count; i++) {
             if (o->kinds[i].since == CAUSE_NO_TICK)
@@ -89,8 +83,8 @@ static bool add_stretch(cause_origins *o, uint64_t tick)
             fprintf(s.stream, "%s%s %" PRIu64, any ? ", " : "", o->kinds[i].name, o->kinds[i].since);
             any = true;
         }
-    grown[o->stretch_count] = (cause_stretch){.first = tick};
-    if (!text_stream_end(&s, &grown[o->stretch_count].causes))
+    o->stretches[o->stretch_count] = (cause_stretch){.first = tick};
+    if (!text_stream_end(&s, &o->stretches[o->stretch_count].causes))
         return false;
     o->stretch_count++;
     return true;

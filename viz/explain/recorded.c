@@ -77,10 +77,9 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
         add_warning(r, "%s/ticks.jsonl %s tick %" PRIu64, r->side->path, words[state], tick);
         return true;
     }
-    uint64_t scene = 0, *grown = array_reserve(r->scenes, r->scene_count + 1, &r->scene_room, sizeof *grown);
-    if (!grown)
+    uint64_t scene = 0;
+    if (!array_grow(&r->scenes, r->scene_count + 1, &r->scene_room, sizeof *r->scenes))
         return error_no_memory(error);
-    r->scenes = grown;
     r->scenes[r->scene_count++] = tick_read_scene(r->lines.line, r->lines.size, tick, &scene) ? scene : 0;
     return true;
 }

@@ -142,10 +142,8 @@ static bool count_part(tracing *t, const trace_part *part)
         made->parts[place].pixels++;
         return true;
     }
-    trace_part *grown = array_reserve(made->parts, made->count + 1, &t->room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&made->parts, made->count + 1, &t->room, sizeof *made->parts))
         return false;
-    made->parts = grown;
     made->parts[made->count++] = *part;
     return hash_map_add(&t->map, &by_part, made->parts);
 }

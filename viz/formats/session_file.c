@@ -219,13 +219,12 @@ static bool append_header_list(json_reader *r, int list, bool before)
     session_list *to = &s->lists[list], *from = &s->header_lists[list];
     if (from->count == 0)
         return true;
-    char *items = array_reserve(to->items, to->count + from->count, &to->room, item_size);
-    if (!items)
+    if (!array_grow(&to->items, to->count + from->count, &to->room, item_size))
         return json_fail(r, NULL, "out of memory after %zu items", to->count);
+    char *items = to->items;
     if (before)
         memmove(items + from->count * item_size, items, to->count * item_size);
     memcpy(items + (before ? 0 : to->count) * item_size, from->items, from->count * item_size);
-    to->items = items;
     to->count += from->count;
     from->count = 0;
     return true;

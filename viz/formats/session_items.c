@@ -241,13 +241,11 @@ const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_
 
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size)
 {
-    void *items = array_reserve(list->items, list->count + 1, &list->room, item_size);
-    if (!items) {
+    if (!array_grow(&list->items, list->count + 1, &list->room, item_size)) {
         json_fail(r, at, "out of memory after %zu items", list->count);
         return NULL;
     }
-    list->items = items;
-    return (char *)items + item_size * list->count++;
+    return (char *)list->items + item_size * list->count++;
 }
 
 static bool read_item(json_reader *r, json_t *value, const json_place *at, void *into)

@@ -77,12 +77,10 @@ static point_value find_value(const session_values *s, uint64_t id)
 
 static bool add_listed(session_values *s, uint64_t id, const point_value *value)
 {
-    point_entry *listed = array_reserve(s->listed, s->ids.count + 1, &s->room, sizeof *listed);
-    if (!listed)
+    if (!array_grow(&s->listed, s->ids.count + 1, &s->room, sizeof *s->listed))
         return false;
-    s->listed = listed;
-    listed[s->ids.count] = (point_entry){id, *value};
-    return hash_map_add(&s->ids, &listed_by_id, listed);
+    s->listed[s->ids.count] = (point_entry){id, *value};
+    return hash_map_add(&s->ids, &listed_by_id, s->listed);
 }
 
 bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
@@ -105,12 +103,10 @@ static bool add_plain_id(session_values *s, uint64_t id)
 {
     if (hash_map_find(&s->plain_ids, &plain_by_id, s->plain, &id) != HASH_MAP_NONE)
         return true;
-    uint64_t *plain = array_reserve(s->plain, s->plain_ids.count + 1, &s->plain_room, sizeof *plain);
-    if (!plain)
+    if (!array_grow(&s->plain, s->plain_ids.count + 1, &s->plain_room, sizeof *s->plain))
         return false;
-    s->plain = plain;
-    plain[s->plain_ids.count] = id;
-    return hash_map_add(&s->plain_ids, &plain_by_id, plain);
+    s->plain[s->plain_ids.count] = id;
+    return hash_map_add(&s->plain_ids, &plain_by_id, s->plain);
 }
 
 /* Set the values of an inserted point. An id that occurred without values cannot have any later: a session that is

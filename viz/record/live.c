@@ -235,11 +235,9 @@ live_recording *live_open(const octree_session *start, const film_options *optio
 
 static bool note_gap(live_recording *live, uint64_t tick, octreel_error *error)
 {
-    uint64_t *gaps = array_reserve(live->gaps, live->gap_count + 1, &live->gap_room, sizeof *gaps);
-    if (!gaps)
+    if (!array_grow(&live->gaps, live->gap_count + 1, &live->gap_room, sizeof *live->gaps))
         return error_no_memory(error);
-    live->gaps = gaps;
-    gaps[live->gap_count++] = tick;
+    live->gaps[live->gap_count++] = tick;
     return true;
 }
 

@@ -97,21 +97,17 @@ static audit_tick *find_or_add_tick(audit_kind *kind, uint64_t tick)
 {
     if (kind->tick_count && kind->ticks[kind->tick_count - 1].tick == tick)
         return &kind->ticks[kind->tick_count - 1];
-    audit_tick *grown = array_reserve(kind->ticks, kind->tick_count + 1, &kind->tick_room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&kind->ticks, kind->tick_count + 1, &kind->tick_room, sizeof *kind->ticks))
         return NULL;
-    kind->ticks = grown;
-    grown[kind->tick_count] = (audit_tick){.tick = tick, .ratio = 1};
-    return &grown[kind->tick_count++];
+    kind->ticks[kind->tick_count] = (audit_tick){.tick = tick, .ratio = 1};
+    return &kind->ticks[kind->tick_count++];
 }
 
 static bool keep_ratio(audit_kind *kind, double ratio)
 {
-    double *grown = array_reserve(kind->ratios, kind->ratio_count + 1, &kind->ratio_room, sizeof *grown);
-    if (!grown)
+    if (!array_grow(&kind->ratios, kind->ratio_count + 1, &kind->ratio_room, sizeof *kind->ratios))
         return false;
-    kind->ratios = grown;
-    grown[kind->ratio_count++] = ratio;
+    kind->ratios[kind->ratio_count++] = ratio;
     return true;
 }
 

@@ -42,10 +42,8 @@ line_state lines_next(line_reader *reader, size_t limit)
     for (int c; (c = getc(reader->stream)) != EOF;) {
         if (reader->size == limit)
             return LINE_LONG;
-        char *grown = array_reserve(reader->line, reader->size + 1, &reader->room, 1);
-        if (!grown)
+        if (!array_grow(&reader->line, reader->size + 1, &reader->room, 1))
             return LINE_TROUBLE;
-        reader->line = grown;
         reader->line[reader->size++] = (char)c;
         if (c == '\n')
             return LINE_WHOLE;
