@@ -21,7 +21,7 @@ static bool same_quad(const quad *a, const quad *b)
            memcmp(a->y, b->y, sizeof a->y) == 0;
 }
 
-static size_t count_same(const quad_list *a, const quad_list *b)
+static size_t count_same_quads(const quad_list *a, const quad_list *b)
 {
     size_t same = 0;
     while (same < a->count && same < b->count && same_quad(&a->items[same], &b->items[same]))
@@ -29,8 +29,8 @@ static size_t count_same(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* Whether to keep a picture of the first `same` quads, the first `start` of which are drawn already. No when it saves
- * too little, or when out of memory. */
+/* Whether to keep a picture of the first `same` quads, of which the first `start` are drawn already. False if that
+ * saves too little, or when out of memory. */
 static bool is_worth_keeping(canvas *c, size_t start, size_t same, size_t pixels)
 {
     if (same - start < WORTH_KEEPING)
@@ -42,7 +42,7 @@ static bool is_worth_keeping(canvas *c, size_t start, size_t same, size_t pixels
 size_t canvas_draw(canvas *c, quad_list *quads, uint8_t *indices)
 {
     const renderer_part all = {0, 0, c->width, c->height};
-    const size_t pixels = (size_t)c->width * (size_t)c->height, same = count_same(&c->last, quads);
+    const size_t pixels = (size_t)c->width * (size_t)c->height, same = count_same_quads(&c->last, quads);
     const size_t kept = c->kept_count <= same ? c->kept_count : 0;
     size_t start = kept;
     if (kept > 0)

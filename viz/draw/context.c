@@ -44,7 +44,7 @@ void draw_context_set_report(draw_context_report *function)
     report = function;
 }
 
-/* A preferred library that is not installed is not worth a report. */
+/* Report that another kind than the preferred one is used, unless the preferred library is not installed. */
 static void report_fallback(int kind, int preferred, const octreel_error *why)
 {
     if (report && kind != preferred && !strstr(why->text, strerror(ENOENT)))
@@ -52,7 +52,7 @@ static void report_fallback(int kind, int preferred, const octreel_error *why)
 }
 
 /* If none can be opened, the error is that of the first kind. */
-static context *open_any(const renderer_choice *choice, octreel_error *error)
+static context *open_first_available(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;
     int first = DRAW_AUTO;
@@ -73,7 +73,7 @@ static context *open_any(const renderer_choice *choice, octreel_error *error)
 context *context_open(const renderer_choice *choice, octreel_error *error)
 {
     if (choice->context == DRAW_AUTO)
-        return open_any(choice, error);
+        return open_first_available(choice, error);
     if (draw_context_built(choice->context))
         return kinds[choice->context].open(choice, error);
     error_set(error, "this program was built without the %s context", draw_context_name(choice->context));

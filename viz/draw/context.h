@@ -41,14 +41,14 @@ void draw_context_set_report(draw_context_report *report);
 
 typedef void (*context_function)(void);
 
-/* The first member of the struct of each kind. */
+/* What all kinds have in common: the first member of the struct of each kind. */
 typedef struct context context;
 struct context {
     const char *name;
     void *library; /* set by context_create() */
 
-    /* Make it current, even if the library says that it is: contexts of different kinds share Mesa's current context,
-     * so a library may not know that another one changed it. */
+    /* Make the context current, even if its library says that it is: contexts of different kinds share Mesa's current
+     * context, so a library may not know that another one changed it. */
     bool (*make_current)(context *c);
 
     /* Look up a GL function in this context's own library, since two GL libraries in one process export the same

@@ -26,7 +26,7 @@ static int compare_edges(const void *a, const void *b)
     return from ? from : (p->box > q->box) - (p->box < q->box);
 }
 
-static box_edge edge_of(const scene_box *box, size_t index, unsigned axis, unsigned corner)
+static box_edge make_box_edge(const scene_box *box, size_t index, unsigned axis, unsigned corner)
 {
     return (box_edge){
         .line = line_key_of(box, axis, corner),
@@ -51,9 +51,9 @@ bool edge_boxes_make(edge_boxes *all, const scene *s)
         const size_t before = all->count;
         for (unsigned axis = 0; axis < 3; axis++)
             for (unsigned corner = 0; corner < 4 && box->box.min[axis] < box->box.max[axis]; corner++)
-                all->items[all->count++] = edge_of(box, i, axis, corner);
+                all->items[all->count++] = make_box_edge(box, i, axis, corner);
         if (all->count == before) /* the box is a single point */
-            all->items[all->count++] = edge_of(box, i, 0, 0);
+            all->items[all->count++] = make_box_edge(box, i, 0, 0);
     }
     qsort(all->items, all->count, sizeof *all->items, compare_edges);
     return true;
@@ -99,7 +99,7 @@ static stroke stroke_of(const scene *s, const edge *e)
 }
 
 /* The coordinate on the line that is seen at a column or row of the picture, clamped to the edge. */
-static double find_place(const scene *s, const stroke *k, double pixel)
+static double find_coordinate(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
     const double slope = (pixel - c->middle[k->across]) / c->zoom * (k->across ? -1 : 1);
@@ -113,7 +113,7 @@ static double find_place(const scene *s, const stroke *k, double pixel)
 }
 
 /* The index of the first box edge on a line, or where it would be inserted. */
-static size_t find_first(const edge_boxes *all, const line_key *wanted)
+static size_t find_first_edge(const edge_boxes *all, const line_key *wanted)
 {
     size_t low = 0, high = all->count;
     while (low < high) {
@@ -126,12 +126,12 @@ static size_t find_first(const edge_boxes *all, const line_key *wanted)
     return low;
 }
 
-static bool is_on(const edge_boxes *all, size_t i, const stroke *k)
+static bool is_on_line(const edge_boxes *all, size_t i, const stroke *k)
 {
     return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
 }
 
-static double distance(const box_edge *edge, double at)
+static double distance_from_edge(const box_edge *edge, double at)
 {
     return at < edge->from ? edge->from - at : at > edge->to ? at - edge->to : 0;
 }
@@ -139,12 +139,12 @@ static double distance(const box_edge *edge, double at)
 size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
 {
     const stroke k = stroke_of(all->scene, e);
-    const double at = k.speck ? k.from : find_place(all->scene, &k, (k.across ? y : x) + 0.5);
+    const double at = k.speck ? k.from : find_coordinate(all->scene, &k, (k.across ? y : x) + 0.5);
     const box_edge *best = NULL;
-    for (size_t i = find_first(all, &k.line); is_on(all, i, &k); i++) {
+    for (size_t i = find_first_edge(all, &k.line); is_on_line(all, i, &k); i++) {
         const box_edge *found = &all->items[i];
         const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
-        if (gives && found->to >= k.from && (!best || distance(found, at) < distance(best, at)))
+        if (gives && found->to >= k.from && (!best || distance_from_edge(found, at) < distance_from_edge(best, at)))
             best = found;
     }
     return best->box; /* not null: a merged edge consists of edges of boxes */
@@ -157,11 +157,11 @@ void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (
     double low = k.from, high = k.to;
     if (!k.speck) {
         const int pixel = k.across ? y : x;
-        const double ends[2] = {find_place(all->scene, &k, pixel), find_place(all->scene, &k, pixel + 1)};
+        const double ends[2] = {find_coordinate(all->scene, &k, pixel), find_coordinate(all->scene, &k, pixel + 1)};
         low = fmin(ends[0], ends[1]);
         high = fmax(ends[0], ends[1]);
     }
-    for (size_t i = find_first(all, &k.line); is_on(all, i, &k); i++)
+    for (size_t i = find_first_edge(all, &k.line); is_on_line(all, i, &k); i++)
         if (all->items[i].from <= high && all->items[i].to >= low)
             visit(all->items[i].box, context);
 }

@@ -110,8 +110,8 @@ typedef struct edge_list {
     edge_array now;
     edge_array before; /* the edges of the last scene, used during a merge */
     box_lines boxes;   /* the boxes of the last scene and their lines */
-    uint32_t *order;   /* indices of lines, in painting order; */
-    size_t ordered;    /* their number: newer lines are not among them yet */
+    uint32_t *order;   /* indices of lines, in painting order */
+    size_t ordered;    /* the number of lines in `order`; newer lines are not in it yet */
 } edge_list;
 
 void edges_release(edge_list *list);

@@ -105,7 +105,7 @@ static bool reserve_points(painter *p, const scene *s)
     return true;
 }
 
-/* Points at one sample become one quad, that of the nearest band: it would cover the others. */
+/* Paint one quad for all points at a sample: that of the nearest band, which would cover the others. */
 static bool paint_points(painter *p, const scene *s)
 {
     if (!reserve_points(p, s))

@@ -30,9 +30,9 @@ typedef struct source {
     const painter *painter;
     scene fine; /* from project_samples() */
     edge_boxes boxes;
-    uint64_t strokes;         /* their number */
+    uint64_t strokes;         /* the number of strokes */
     uint64_t strokes_before;  /* of a close-up: the number of strokes of the scene around it */
-    uint32_t elements_before; /* the same of elements */
+    uint32_t elements_before; /* of a close-up: the number of elements of the scene around it */
     int left, top;            /* its top left sample in the picture */
     bool points_listed;       /* add_painted_points() is done */
 } source;
@@ -94,7 +94,7 @@ static size_t count_samples(const scene *s)
 }
 
 /* Fill all quads; one byte per sample. */
-static bool fill_all(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
+static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
     const int side = view_samples(&s->view);
     const renderer_part all = {0, 0, s->view.width * side, s->view.height * side};
@@ -123,7 +123,7 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, sources all, u
     for (unsigned shift = 0; ok && shift < 32 && largest >> shift; shift += 8) {
         for (size_t i = 0; i < p->quads.count; i++)
             p->quads.items[i].color = (uint8_t)(number_stroke(all, &p->quads.items[i]) >> shift);
-        ok = fill_all(r, s, p, bytes, error);
+        ok = fill_all_quads(r, s, p, bytes, error);
         for (size_t i = 0; ok && i < size; i++)
             numbers[i] |= (uint32_t)bytes[i] << shift;
     }
@@ -198,7 +198,7 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
     bool ok = (samples && paint(&p, s)) || error_no_memory(error);
     for (size_t i = 0; ok && i < p.quads.count; i++)
         p.quads.items[i].color = (layers & layers_of(s, &p, &p.quads.items[i])) != 0;
-    ok = ok && fill_all(r, s, &p, samples, error);
+    ok = ok && fill_all_quads(r, s, &p, samples, error);
     if (ok)
         shrink_mask(&s->view, samples, mask);
     painter_release(&p);
@@ -210,7 +210,7 @@ bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *
 
 #define MOST_SAMPLES 16 /* per pixel: 4 on each axis */
 
-/* The elements of one pixel are being listed. */
+/* The state of listing the elements of one pixel. */
 typedef struct probe {
     const scene *picture;
     painter painter;

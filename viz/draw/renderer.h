@@ -17,11 +17,11 @@ typedef struct renderer renderer;
 /* "integers", "checked", "gl"; null from DRAW_FILLS on. */
 const char *draw_fill_name(int fill);
 
-/* What draws. The strings are valid while the renderer is open. */
+/* The rasterizer that draws, and its context. The strings are valid while the renderer is open. */
 typedef struct renderer_info {
     const char *context;                     /* "osmesa", "egl" */
     const char *vendor, *renderer, *version; /* GL's own strings */
-    const char *fill; /* "integers" or "gl": who fills the pixels; unless it is "gl", all others are null */
+    const char *fill; /* the rasterizer, "integers" or "gl"; unless it is "gl", all other members are null */
 } renderer_info;
 
 /* Open a renderer of this size in samples. Null with an error: the size is outside 1..VIEW_MAX_SIDE, there is no

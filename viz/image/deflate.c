@@ -9,7 +9,7 @@
  * the next position has a clearly better repeat, one literal is written first (lazy matching, as in zlib).
  *
  * The Adler-32 checksum costs nothing for bytes that equal the row above: both of its sums are linear in the bytes, so
- * only the change from one row to the next is added; see end_row().
+ * only the change from one row to the next is added; see end_row_sums().
  *
  * Cost: O(bytes). Result: smaller than zlib level 6 and faster than level 1 on indexed line drawings.
  */
@@ -64,7 +64,7 @@ struct deflater {
  * the byte above, at column x, persists through the remaining m rows (this one included). It adds m * c to the first
  * sum and (m * (m + 1) / 2 * stride - m * x) * c to the second, which weights each byte by its distance from the end.
  */
-static void end_row(deflater *d)
+static void end_row_sums(deflater *d)
 {
     const int64_t m = (int64_t)d->rows_left--, plain = d->row_change % ADLER_BASE;
     const int64_t twice = m * (m + 1) / 2 % ADLER_BASE * (int64_t)d->stride % ADLER_BASE;
@@ -93,7 +93,7 @@ static void add_changes(deflater *d, size_t end)
     enum { MOST = 256 }; /* the sum of this many products fits 32 bits */
     for (size_t at = d->unsummed, next; at < end; at = next) {
         while (at - d->row >= d->stride)
-            end_row(d);
+            end_row_sums(d);
         next = d->row + d->stride < end ? d->row + d->stride : end;
         next = next - at < MOST ? next : at + MOST;
         add_change(d, at, next);
@@ -103,7 +103,7 @@ static void add_changes(deflater *d, size_t end)
 
 static uint32_t find_adler32(deflater *d)
 {
-    end_row(d);
+    end_row_sums(d);
     const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE; /* the first sum's initial 1, added per byte */
     const int64_t first = (d->sums[0] + 1 + ADLER_BASE) % ADLER_BASE;
     const int64_t second = (d->sums[1] + each + ADLER_BASE) % ADLER_BASE;
@@ -119,20 +119,20 @@ static void end_block(deflater *d, bool last)
     d->block_whole = true;
 }
 
-static void put_bytes(deflater *d, size_t count)
+static void add_literals(deflater *d, size_t count)
 {
     deflate_add_bytes(&d->blocks, d->window + d->at, count);
     d->at += count;
 }
 
 /* Whether the next `size` bytes repeat the pixel before them: the repeat that takes the fewest bits. */
-static inline bool is_run(const deflater *d, size_t size)
+static inline bool repeats_last_pixel(const deflater *d, size_t size)
 {
     const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;
     return bytes[0] == before[0] && bytes[size - 1] == before[size - 1] && memcmp(bytes, before, size) == 0;
 }
 
-static void put_repeat(deflater *d, size_t length, size_t distance)
+static void add_repeat(deflater *d, size_t length, size_t distance)
 {
     if (distance == d->stride) {
         add_changes(d, d->at);
@@ -142,7 +142,7 @@ static void put_repeat(deflater *d, size_t length, size_t distance)
         size_t part = length < DEFLATE_LONGEST ? length : DEFLATE_LONGEST;
         if (length > part && length - part < DEFLATE_SHORTEST)
             part -= DEFLATE_SHORTEST;
-        deflate_add_repeat(&d->blocks, part, is_run(d, part) ? d->pixel : distance);
+        deflate_add_repeat(&d->blocks, part, repeats_last_pixel(d, part) ? d->pixel : distance);
         d->at += part;
         length -= part;
         if (deflate_is_full(&d->blocks))
@@ -151,7 +151,7 @@ static void put_repeat(deflater *d, size_t length, size_t distance)
 }
 
 /* The number of literals, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin. */
-static inline size_t count_single(const deflater *d)
+static inline size_t count_literals(const deflater *d)
 {
     const uint8_t *at = d->window + d->at;
     const uint64_t word = bytes_load(at);
@@ -208,8 +208,8 @@ static inline repeat find_repeat(deflater *d, size_t at)
 static void encode_next(deflater *d)
 {
     if (d->pixel == 1) {
-        const size_t count = count_single(d);
-        put_bytes(d, count);
+        const size_t count = count_literals(d);
+        add_literals(d, count);
         if (count == DEFLATE_GROUP || d->at == d->end)
             return;
     }
@@ -217,14 +217,14 @@ static void encode_next(deflater *d)
     if (found.gain > 0 && found.length < LONG_REPEAT && d->at + 1 < d->end) {
         const repeat next = find_repeat(d, d->at + 1);
         if (next.gain > found.gain) {
-            put_bytes(d, 1);
+            add_literals(d, 1);
             found = next;
         }
     }
     if (found.gain > 0)
-        put_repeat(d, found.length, found.distance);
+        add_repeat(d, found.length, found.distance);
     else
-        put_bytes(d, 1);
+        add_literals(d, 1);
 }
 
 static void encode_all(deflater *d)
@@ -267,7 +267,7 @@ void deflater_add(deflater *d, const uint8_t *pixels)
     d->end += d->stride;
     if (d->begun)
         return;
-    put_bytes(d, d->pixel); /* the first bytes have nothing before them to repeat */
+    add_literals(d, d->pixel); /* the first bytes have nothing before them to repeat */
     encode_all(d);
     d->begun = true;
     d->above = d->stride <= DEFLATE_FARTHEST;
