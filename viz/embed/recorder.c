@@ -161,7 +161,8 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     film_options *film = &r->settings.film;
     film->every = def->every;
     film->replace = def->replace;
-    const int fill = json_find_name(draw_fill_name, def->fill), context = json_find_name(draw_context_name, def->context);
+    const int fill = json_find_name(draw_fill_name, def->fill),
+              context = json_find_name(draw_context_name, def->context);
     if (fill < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "fill: there is no \"%s\"; octreel record --help lists the rasterizers", def->fill);

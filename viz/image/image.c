@@ -8,9 +8,8 @@
 bool image_create(image *image, int width, int height, int channels)
 {
     memset(image, 0, sizeof *image);
-    if (width < 1 || width > IMAGE_MAX_SIDE || height < 1 || height > IMAGE_MAX_SIDE)
-        return false;
-    if (channels != 1 && channels != 3)
+    if (width < 1 || width > IMAGE_MAX_SIDE || height < 1 || height > IMAGE_MAX_SIDE ||
+        (channels != 1 && channels != 3))
         return false;
     image->pixels = calloc((size_t)width * (size_t)height, (size_t)channels);
     if (image->pixels == NULL)

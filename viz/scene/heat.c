@@ -39,16 +39,11 @@ heat_cell heat_at(const heat *h, octree_address node)
     return cell ? *cell : (heat_cell){0};
 }
 
-typedef struct heat_walk {
-    heat *heat;
-    bool failed;
-} heat_walk;
-
 static octree_walk_order add_points(const octree_node *node, void *context)
 {
-    heat_walk *w = context;
-    heat_cell *cell = find_or_add_cell(w->heat, node->address);
-    w->failed = !cell;
+    heat *h = context;
+    heat_cell *cell = find_or_add_cell(h, node->address);
+    h->incomplete |= !cell;
     if (cell)
         cell->points += node->count;
     return cell ? OCTREE_WALK_ON : OCTREE_WALK_STOP;
@@ -78,15 +73,14 @@ bool heat_add_tick(heat *h, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree *tree = octree_game_tree(game);
-    heat_walk w = {.heat = h};
-    octree_walk(tree, add_points, &w);
+    octree_walk(tree, add_points, h);
     octree_address taken = 0; /* the last node taken whole: visits are in pre-order, so its descendants come next */
-    for (size_t i = 0; !w.failed && i < tick->visit_count; i++) {
+    for (size_t i = 0; !h->incomplete && i < tick->visit_count; i++) {
         const octree_visit *visit = &tick->visits[i];
         if (visit->touch == OCTREE_TRACE_PRUNED || (taken && is_within(visit->node, taken)))
             continue;
         taken = visit->taken ? visit->node : taken;
         add_visit(h, tree, visit->node, visit->taken);
     }
-    return !w.failed;
+    return !h->incomplete;
 }

@@ -22,6 +22,7 @@ typedef struct heat {
     heat_cell *cells;
     size_t room;
     hash_map places; /* index of a cell by its node */
+    bool incomplete; /* a cell is missing, because there was no memory */
 } heat;
 
 void heat_release(heat *h);
