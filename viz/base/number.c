@@ -143,12 +143,6 @@ bool whole_parse(const char **text, uint64_t max, uint64_t *value)
     return true;
 }
 
-static bool starts_with(const char *at, const char *limit, const char *word)
-{
-    size_t length = strlen(word);
-    return (size_t)(limit - at) >= length && strncasecmp(at, word, length) == 0;
-}
-
 bool number_parse_nonfinite(const char *begin, const char *limit, const char **end)
 {
     static const char *const words[] = {"infinity", "inf", "nan"};
@@ -157,9 +151,10 @@ bool number_parse_nonfinite(const char *begin, const char *limit, const char **e
     if (at < limit && (*at == '-' || *at == '+'))
         at++;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        if (!starts_with(at, limit, words[i]))
+        const size_t length = strlen(words[i]);
+        if ((size_t)(limit - at) < length || strncasecmp(at, words[i], length) != 0)
             continue;
-        *end = at + strlen(words[i]);
+        *end = at + length;
         const char *close = *end < limit && **end == '(' ? memchr(*end, ')', (size_t)(limit - *end)) : NULL;
         if (close)
             *end = close + 1;

@@ -269,23 +269,17 @@ static bool read_uncompressed(las_reader *reader)
     return true;
 }
 
-/* Announce the channels. Every record has room for them, so values that are zero throughout count as missing. */
-static void set_channels(const las_reader *reader)
-{
-    const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
-    cloud_set_channels(reader->file,
-                       1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader->format] ? color : 0), 255);
-    reader->file->zero_is_missing = true;
-}
-
 static bool parse_las(cloud_file *file)
 {
+    const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
     las_reader reader = {.file = file};
     if (!is_las(file))
         return cloud_fail_byte(file, 0, "is not a LAS file: its first bytes are not LASF");
     if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader))
         return false;
-    set_channels(&reader);
+    cloud_set_channels(file, 1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader.format] ? color : 0),
+                       255);
+    file->zero_is_missing = true; /* every record has room for all values */
     return (reader.compressed ? read_compressed : read_uncompressed)(&reader);
 }
 

@@ -25,22 +25,18 @@ static const struct {
     {"label", CLOUD_CLASS},
 };
 
-static bool is_name(cloud_span word, const char *name)
-{
-    const size_t length = (size_t)(word.limit - word.begin);
-    return length == strlen(name) && strncasecmp(word.begin, name, length) == 0;
-}
-
 int cloud_word_channel(cloud_span word)
 {
     static const char before[] = "scalar_";
-    const size_t length = (size_t)(word.limit - word.begin);
+    size_t length = (size_t)(word.limit - word.begin);
     if (length == 1 && *word.begin >= 'x' && *word.begin <= 'z')
         return *word.begin - 'x';
-    if (length >= sizeof before && strncasecmp(word.begin, before, sizeof before - 1) == 0)
+    if (length >= sizeof before && strncasecmp(word.begin, before, sizeof before - 1) == 0) {
         word.begin += sizeof before - 1;
+        length -= sizeof before - 1;
+    }
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (is_name(word, names[i].name))
+        if (strlen(names[i].name) == length && strncasecmp(word.begin, names[i].name, length) == 0)
             return (int)names[i].channel;
     return -1;
 }
