@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* cloud.h - reads point-cloud files in double precision: `x y z` text, PLY, PCD, LAS and LAZ.
  *
- * Text: one point per line, the coordinates in the first three columns. Columns are separated by blanks and tabs, by
- *   commas, or by semicolons, consistently within a line. Blank lines and comments (# and //) are skipped. A first line
- *   of column names, which may be a comment, names the values in further columns. Without names, the columns x y z r g
- * b and x y z intensity r g b are recognised by their numbers: in every line either integers from 0 to 255, the largest
- *   above 127, or fractions from 0 to 1, the largest at least 0.5, that are not all unit normals.
+ * Text: one point per line, the coordinates in the first three columns. Blanks and tabs, commas or semicolons separate
+ * columns, the same within a line. Blank lines and comments (# and //) are skipped. A first line of column names, which
+ * may be a comment, names the values in further columns. Without names, the columns x y z r g b and x y z intensity
+ * r g b are recognised by their numbers: in every line either integers from 0 to 255, the largest above 127, or
+ * fractions from 0 to 1, the largest at least 0.5, that are not all unit normals.
+ *
  * PLY: ascii, binary_little_endian and binary_big_endian; x, y and z of the element "vertex", of any scalar type.
+ *
  * PCD: versions 0.5 to 0.7; ascii, binary and binary_compressed; the fields x, y and z, of any type.
+ *
  * LAS: versions 1.0 to 1.5, all point formats. Coordinates are record * scale + offset in doubles, the same bits as
- *   laspy computes. Withheld (deleted) records are skipped. LAZ and COPC, which are compressed LAS, are read if this
- * was built with liblaszip (see cloud_reads_laz()), with the same bits as uncompressed LAS.
+ * laspy computes. Withheld (deleted) records are skipped. LAZ and COPC, which are compressed LAS, are read with the
+ * same bits if this was built with liblaszip (see cloud_reads_laz()).
  *
  * Values are found by their names, in upper or lower case: red green blue, r g b or diffuse_red ...; PCD's packed rgb
  * and rgba; intensity; class, classification or label. CloudCompare's prefix "scalar_" is ignored. Colours are kept

@@ -25,7 +25,7 @@ static bool add_row(cloud_file *file)
     return true;
 }
 
-void cloud_skip(const cloud_file *file, const char *why)
+void cloud_count_skipped(const cloud_file *file, const char *why)
 {
     file->out->skipped++;
     file->out->why_skipped = why;
@@ -67,11 +67,11 @@ bool cloud_skip_nonfinite(const cloud_file *file, const double *position)
 {
     const bool finite = isfinite(position[0]) && isfinite(position[1]) && isfinite(position[2]);
     if (!finite)
-        cloud_skip(file, "without finite coordinates");
+        cloud_count_skipped(file, "without finite coordinates");
     return !finite;
 }
 
-bool cloud_add(cloud_file *file, const double *position)
+bool cloud_add_point(cloud_file *file, const double *position)
 {
     cloud *points = file->out;
     if (cloud_skip_nonfinite(file, position))
@@ -128,7 +128,7 @@ void cloud_begin_lines(cloud_file *file)
     file->lines = (cloud_lines){begin, limit, find_terminator(begin, limit), 0};
 }
 
-bool cloud_next_line(cloud_file *file, cloud_span *line)
+bool cloud_read_next_line(cloud_file *file, cloud_span *line)
 {
     cloud_lines *lines = &file->lines;
     if (lines->at == lines->limit)
@@ -142,9 +142,9 @@ bool cloud_next_line(cloud_file *file, cloud_span *line)
     return true;
 }
 
-bool cloud_next_filled_line(cloud_file *file, cloud_span *line)
+bool cloud_read_filled_line(cloud_file *file, cloud_span *line)
 {
-    while (cloud_next_line(file, line)) {
+    while (cloud_read_next_line(file, line)) {
         cloud_span rest = *line, word;
         if (cloud_next_word(&rest, &word))
             return true;
@@ -239,14 +239,14 @@ bool cloud_check_text(const cloud_file *file)
         return true;
     cloud_begin_lines(&again);
     while (again.lines.at <= nul)
-        cloud_next_line(&again, &line);
+        cloud_read_next_line(&again, &line);
     return cloud_fail_line(&again, "holds a NUL byte and is not text; supported formats are %s", CLOUD_NAMES);
 }
 
 void cloud_note_trailing_lines(cloud_file *file)
 {
     cloud_span line;
-    if (cloud_next_filled_line(file, &line)) {
+    if (cloud_read_filled_line(file, &line)) {
         cloud_fail_line(file, "more lines follow than the header announces");
         cloud_move_error_to_note(file);
     }

@@ -88,10 +88,10 @@ bool cloud_reserve_rows(cloud_file *file, uint64_t count, uint64_t columns);
 
 /* Append a point from numbers[CLOUD_CHANNELS]: x, y, z and the file's channels are read. A point whose position is not
  * finite is skipped instead. Returns false if memory runs out. */
-bool cloud_add(cloud_file *file, const double *numbers);
+bool cloud_add_point(cloud_file *file, const double *numbers);
 
 /* Count a skipped point. `why` has static storage and is the same for all points of a file. */
-void cloud_skip(const cloud_file *file, const char *why);
+void cloud_count_skipped(const cloud_file *file, const char *why);
 
 /* Skip a point if its position is not finite; returns whether it was skipped. */
 bool cloud_skip_nonfinite(const cloud_file *file, const double *position);
@@ -116,10 +116,10 @@ bool cloud_move_error_to_note(const cloud_file *file);
 void cloud_begin_lines(cloud_file *file);
 
 /* Read the next line without its terminator. Returns false at the end of the file. */
-bool cloud_next_line(cloud_file *file, cloud_span *line);
+bool cloud_read_next_line(cloud_file *file, cloud_span *line);
 
 /* Read the next line that is not blank. */
-bool cloud_next_filled_line(cloud_file *file, cloud_span *line);
+bool cloud_read_filled_line(cloud_file *file, cloud_span *line);
 
 bool cloud_is_blank(char c);
 

@@ -223,7 +223,7 @@ static bool add_record(const las_reader *reader, const unsigned char *record, si
     static const cloud_scalar integer = {CLOUD_SIGNED, 4};
     double numbers[CLOUD_CHANNELS];
     if (record[AT_FLAGS] & reader->withheld) {
-        cloud_skip(reader->file, "marked as withheld");
+        cloud_count_skipped(reader->file, "marked as withheld");
         return true;
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -233,7 +233,7 @@ static bool add_record(const las_reader *reader, const unsigned char *record, si
             return cloud_fail_byte(reader->file, at, "%c is beyond the largest double", "xyz"[axis]);
     }
     read_values(reader, record, numbers);
-    return cloud_add(reader->file, numbers);
+    return cloud_add_point(reader->file, numbers);
 }
 
 static bool add_unpacked(void *context, const unsigned char *record)

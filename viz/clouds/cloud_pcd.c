@@ -188,7 +188,7 @@ static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span res
 /* Read the next line of the header that is not a comment: its first word, and the rest. */
 static bool next_header_line(cloud_file *file, cloud_span *word, cloud_span *rest)
 {
-    while (cloud_next_filled_line(file, rest))
+    while (cloud_read_filled_line(file, rest))
         if (cloud_next_word(rest, word) && *word->begin != '#')
             return true;
     return false;
@@ -302,10 +302,10 @@ static bool read_ascii(pcd_reader *reader, size_t offset)
         cloud_span line;
         double numbers[CLOUD_CHANNELS];
         cloud_report_progress(reader->file, i, i, reader->points);
-        if (!cloud_next_filled_line(reader->file, &line))
+        if (!cloud_read_filled_line(reader->file, &line))
             return cloud_fail_line(reader->file, "the file ends after %" PRIu64 " of %" PRIu64 " points", i,
                                    reader->points);
-        if (!read_line(reader, line, numbers) || !cloud_add(reader->file, numbers))
+        if (!read_line(reader, line, numbers) || !cloud_add_point(reader->file, numbers))
             return false;
     }
     cloud_note_trailing_lines(reader->file);
@@ -332,7 +332,7 @@ static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
         for (size_t k = 0; k < reader->field_count; k++)
             numbers[reader->fields[k].channel] =
                 cloud_read_scalar(reader->fields[k].type, false, bytes + first[k] + i * step[k]);
-        if (!cloud_add(reader->file, numbers))
+        if (!cloud_add_point(reader->file, numbers))
             return false;
     }
     return true;

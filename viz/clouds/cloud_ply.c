@@ -34,15 +34,15 @@ typedef struct ply_reader {
     const ply_element *vertex; /* the element of the points; null: none so far */
     unsigned channels;         /* bits 1 << cloud_channel of its properties */
     unsigned full_color;       /* full scale of colours: 1 for floats, else 255 */
-    bool complete;             /* all points were read; damage in data that follows is only noted */
-    bool ended;                /* the file is truncated */
+    bool has_all_points;       /* all points were read; damage in data that follows is only noted */
+    bool is_truncated;         /* the file ends too early */
 } ply_reader;
 
 static bool is_ply(cloud_file *file)
 {
     cloud_span line, word, more;
     cloud_begin_lines(file);
-    return cloud_next_line(file, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
+    return cloud_read_next_line(file, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
            !cloud_next_word(&line, &more);
 }
 
@@ -185,7 +185,7 @@ static bool check_header(const ply_reader *reader)
 static bool read_header(ply_reader *reader)
 {
     cloud_span line, keyword;
-    while (cloud_next_line(reader->file, &line)) {
+    while (cloud_read_next_line(reader->file, &line)) {
         if (!cloud_next_word(&line, &keyword))
             continue;
         if (cloud_word_is(keyword, "end_header"))
@@ -219,9 +219,9 @@ static bool read_words(ply_reader *reader, const ply_property *property, cloud_s
 static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
 {
     cloud_span line, word;
-    if (!cloud_next_filled_line(reader->file, &line)) {
+    if (!cloud_read_filled_line(reader->file, &line)) {
         char quote[CLOUD_QUOTE];
-        reader->ended = true;
+        reader->is_truncated = true;
         return cloud_fail_line(reader->file, "the file ends after %" PRIu64 " of %" PRIu64 " %s", row, element->count,
                                cloud_quote(element->name, quote));
     }
@@ -247,7 +247,7 @@ static const unsigned char *advance(ply_reader *reader, cloud_scalar type, uint6
 static bool fail_end(ply_reader *reader, const ply_element *element, uint64_t row)
 {
     char quote[CLOUD_QUOTE];
-    reader->ended = true;
+    reader->is_truncated = true;
     return cloud_fail_byte(reader->file, reader->offset, "the file ends within row %" PRIu64 " of %" PRIu64 " %s",
                            row + 1, element->count, cloud_quote(element->name, quote));
 }
@@ -281,7 +281,7 @@ static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t 
 /* Turn damage after the last point into a note. A truncated file stays an error, whatever is missing. */
 static bool note_damage(const ply_reader *reader)
 {
-    return reader->complete && !reader->ended && cloud_move_error_to_note(reader->file);
+    return reader->has_all_points && !reader->is_truncated && cloud_move_error_to_note(reader->file);
 }
 
 static bool read_rows(ply_reader *reader, const ply_element *element)
@@ -298,10 +298,10 @@ static bool read_rows(ply_reader *reader, const ply_element *element)
         cloud_report_progress(reader->file, row, row, element->count);
         if (!read_row(reader, element, row, numbers) && !(reader->encoding == PLY_ASCII && note_damage(reader)))
             return false;
-        if (has_points && !cloud_add(reader->file, numbers))
+        if (has_points && !cloud_add_point(reader->file, numbers))
             return false;
     }
-    reader->complete = reader->complete || has_points;
+    reader->has_all_points = reader->has_all_points || has_points;
     return true;
 }
 

@@ -334,7 +334,7 @@ bool cloud_text_recognise(cloud_file *file)
     double position[3], count;
     char separator = ' ';
     begin_lines(file);
-    for (bool first = true; cloud_next_line(file, &line);) {
+    for (bool first = true; cloud_read_next_line(file, &line);) {
         line.begin = skip_blanks(line);
         if (is_at_end(line))
             continue;
@@ -361,7 +361,7 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
         if (columns->guessed)
             check_guess(file, columns, count, numbers);
     }
-    return cloud_add(file, numbers);
+    return cloud_add_point(file, numbers);
 }
 
 /* Whether a comment holds the names of the columns, as CloudCompare writes them; *line then becomes the names. */
@@ -387,7 +387,7 @@ static bool parse_lines(cloud_file *file, text_columns *columns)
     double count = 0, points = 0;
     size_t count_line = 0; /* the number of the line with the count; 0: none */
     begin_lines(file);
-    while (cloud_next_line(file, &line)) {
+    while (cloud_read_next_line(file, &line)) {
         cloud_report_progress(file, file->lines.number, (uint64_t)(file->lines.at - (const char *)file->bytes),
                               file->size);
         line.begin = skip_blanks(line);

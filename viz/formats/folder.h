@@ -20,7 +20,7 @@ void folder_abandon(const char *folder);
 #define CHUNK_NAME 56
 char *chunk_name(uint64_t first, uint64_t last, char name[CHUNK_NAME]);
 
-/* Parse such a name. False for any other name. */
+/* Parse the name of a chunk. False for any other name. */
 bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 
 /* The name of the i-th file of a recording that is not a frame; null beyond the last. */
@@ -29,8 +29,8 @@ const char *folder_file_name(size_t i);
 /* The folder that holds the old recording while a new one replaces it. */
 #define FOLDER_ASIDE "octreel-replaced"
 
-/* Whether a file of this name shows that its folder holds a recording: one of these files, the lines of a chunk, or a
- * name that begins like a frame. */
+/* Whether a file of this name shows that its folder holds a recording: one of folder_file_name(), the lines of a chunk,
+ * or a name that begins like a frame. */
 bool folder_is_name(const char *name);
 
 /* Whether a file of this name is incomplete because its writer was killed: "session.json.part" and similar names, and

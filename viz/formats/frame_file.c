@@ -84,7 +84,7 @@ static bool read_text(const char *path, const char *keyword, char text[NUMBER_SI
            error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
 }
 
-/* Check that the text with a keyword is the expected digest; `message` is the message if it is not. */
+/* Check that the text with a keyword is the expected digest; `message` is the error if it is not. */
 static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *message,
                          octreel_error *error)
 {

@@ -179,7 +179,7 @@ static bool has_end(const void *structure)
  * more likely a wrong number. */
 #define MOST_TICKS_BETWEEN 1000000
 
-/* Whether a tick is too far behind the last object. It is not if the session reaches it anyway, by "keys" or "ticks".
+/* Whether a tick is too far after the last object. It is not if the session reaches it anyway, by "keys" or "ticks".
  */
 static bool is_too_far_ahead(const session_loader *s, uint64_t tick)
 {

@@ -48,7 +48,7 @@ typedef struct session_values {
 /* The state of reading a session; the context of its json_reader. */
 typedef struct session_loader {
     const char *folder;    /* where paths of files of points start; null: files and samples are refused */
-    session_header header; /* without queries and shapes, which are in the lists below */
+    session_header header; /* its queries and shapes are in the lists below */
     uint64_t tick;         /* of the object that is being read; OCTREE_EVERY_TICK in the header */
     bool ends;             /* the header has "ticks" */
     cloud points;          /* the file of points, if the world had to be computed from it */
