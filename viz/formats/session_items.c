@@ -9,13 +9,13 @@
 
 #define MOST_MEMBERS (12 + OCTREE_QUERY_MEMBERS)
 
-/* The type of a list's items. */
+/* The type of a list's items. An item begins with its tick. */
 struct session_items {
     int list;          /* index in session_loader.lists */
     const char *words; /* for errors: "a list of edits" */
     json_name *kinds;
-    void (*members)(int kind, json_member table[MOST_MEMBERS]); /* fill the table of a kind, the naming member first */
-    size_t size, tick, kind; /* the size of an item, and the offsets of its tick and kind */
+    const json_member (*members)[2]; /* of each kind, the naming member first; null: list_query_members() lists them */
+    size_t size, kind;               /* the size of an item, and the offset of its kind */
 };
 
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
@@ -26,20 +26,15 @@ static const json_member move_members[] = {
     {0},
 };
 
-static const json_member edit_members[] = {
-    [OCTREE_EDIT_INSERT] = {"insert", &session_insert_codec, .offset = offsetof(octree_edit, body)},
-    [OCTREE_EDIT_REMOVE] = {"remove", &json_uint64, offsetof(octree_edit, body.id), .max = JSON_LARGEST_WHOLE},
-    [OCTREE_EDIT_MOVE] = {"move", &json_structure, offsetof(octree_edit, body), .members = move_members},
+static const json_member edit_members[][2] = {
+    [OCTREE_EDIT_INSERT] = {{"insert", &session_insert_codec, .offset = offsetof(octree_edit, body)}},
+    [OCTREE_EDIT_REMOVE] = {{"remove", &json_uint64, offsetof(octree_edit, body.id), .max = JSON_LARGEST_WHOLE}},
+    [OCTREE_EDIT_MOVE] = {{"move", &json_structure, offsetof(octree_edit, body), .members = move_members}},
 };
 
 static const char *edit_name(int n)
 {
-    return (size_t)n < sizeof edit_members / sizeof edit_members[0] ? edit_members[n].name : NULL;
-}
-
-static void list_edit_members(int kind, json_member table[MOST_MEMBERS])
-{
-    table[0] = edit_members[kind];
+    return (size_t)n < sizeof edit_members / sizeof edit_members[0] ? edit_members[n][0].name : NULL;
 }
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
@@ -224,20 +219,22 @@ static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
 
 JSON_NAMES(shape_name, octree_shape_name, octree_shape_kind)
 
-static void list_shape_members(int kind, json_member table[MOST_MEMBERS])
-{
-    memcpy(table, shape_members[kind], sizeof shape_members[kind]);
-}
-
 /* ---- Lists -------------------------------------------------------------------------------------------------- */
 
-#define ITEM(type) sizeof(type), offsetof(type, tick), offsetof(type, kind)
+#define ITEM(type) sizeof(type), offsetof(type, kind)
 
-const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_name, list_edit_members, ITEM(octree_edit)};
-const session_items session_queries = {SESSION_QUERIES, "a list of queries", query_name, list_query_members,
-                                       ITEM(octree_query)};
-const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_name, list_shape_members,
+const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_name, edit_members, ITEM(octree_edit)};
+const session_items session_queries = {SESSION_QUERIES, "a list of queries", query_name, NULL, ITEM(octree_query)};
+const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_name, shape_members,
                                       ITEM(octree_shape)};
+
+static void list_members(const session_items *type, int kind, json_member table[MOST_MEMBERS])
+{
+    if (type->members)
+        memcpy(table, type->members[kind], sizeof type->members[kind]);
+    else
+        list_query_members(kind, table);
+}
 
 void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size)
 {
@@ -259,9 +256,9 @@ static bool read_item(json_reader *r, json_t *value, const json_place *at, void 
     if (!item)
         return false;
     memset(item, 0, type->size);
-    memcpy(item + type->tick, &s->tick, sizeof s->tick);
+    memcpy(item, &s->tick, sizeof s->tick);
     memcpy(item + type->kind, &kind, sizeof kind);
-    type->members(kind, table);
+    list_members(type, kind, table);
     return json_read_members(r, value, at, table, item);
 }
 
@@ -285,7 +282,7 @@ static void write_items(json_writer *w, const void *from)
         json_member table[MOST_MEMBERS] = {0};
         int kind;
         memcpy(&kind, item + type->kind, sizeof kind);
-        type->members(kind, table);
+        list_members(type, kind, table);
         json_write_object(w, table, item);
     }
     json_write_end_array(w);
