@@ -87,8 +87,8 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
         else if (whole && pair->finding == FOUND_SAME_PIXELS)
             ok = prepare_recording_file(a, diff_pair_name(pair), set, error);
     }
-    for (size_t i = 0; ok && whole && folder_file_name(i); i++)
-        ok = prepare_recording_file(a, folder_file_name(i), set, error);
+    for (size_t i = 0; ok && whole && recording_files[i]; i++)
+        ok = prepare_recording_file(a, recording_files[i], set, error);
     return ok;
 }
 

@@ -174,7 +174,7 @@ bool diff_side_check_output(const diff_side *side, const output_file *output, oc
     bool ok = side->kind != DIFF_BASELINE || check_output_is_not_input(output, side->source, error);
     for (size_t i = 0; ok && i < side->count; i++)
         ok = !side->frames[i].path || check_output_is_not_input(output, side->frames[i].path, error);
-    for (size_t i = 0; ok && side->kind == DIFF_RECORDING && folder_file_name(i); i++)
-        ok = check_recording_file(side, folder_file_name(i), output, error);
+    for (size_t i = 0; ok && side->kind == DIFF_RECORDING && recording_files[i]; i++)
+        ok = check_recording_file(side, recording_files[i], output, error);
     return ok;
 }

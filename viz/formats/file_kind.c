@@ -82,8 +82,8 @@ file_kind file_kind_read(const char *path)
 /* One file of a recording is enough: if others are missing, the command that reads the recording reports them. */
 static file_kind find_folder_kind(const char *path)
 {
-    for (size_t i = 0; folder_file_name(i); i++)
-        if (folder_has(path, folder_file_name(i)))
+    for (size_t i = 0; recording_files[i]; i++)
+        if (folder_has(path, recording_files[i]))
             return KIND_RECORDING;
     return folder_has(path, "session.json.live") ? KIND_RECORDING : KIND_FOLDER;
 }

@@ -58,21 +58,13 @@ bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last)
     return *first < *last && strcmp(name, chunk_name(*first, *last, again)) == 0;
 }
 
-/* The files of a recording other than its frames. */
-static const char *const recording_files[] = {"recording.json", "session.json", "renderer.json", "ticks.jsonl",
-                                              "index.html"};
-
-#define RECORDING_FILES (sizeof recording_files / sizeof recording_files[0])
-
-const char *folder_file_name(size_t i)
-{
-    return i < RECORDING_FILES ? recording_files[i] : NULL;
-}
+const char *const recording_files[] = {"recording.json", "session.json", "renderer.json",
+                                       "ticks.jsonl",    "index.html",   NULL};
 
 bool folder_is_name(const char *name)
 {
     uint64_t first, last;
-    for (size_t i = 0; i < RECORDING_FILES; i++)
+    for (size_t i = 0; recording_files[i]; i++)
         if (strcmp(name, recording_files[i]) == 0)
             return true;
     return strncmp(name, "frame_", 6) == 0 || strcmp(name, FOLDER_ASIDE) == 0 || chunk_parse_name(name, &first, &last);
@@ -122,7 +114,7 @@ bool folder_write(const char *folder, const char *name, const char *bytes, size_
 
 void folder_abandon(const char *folder)
 {
-    for (size_t i = 0; i < RECORDING_FILES; i++) {
+    for (size_t i = 0; recording_files[i]; i++) {
         char *path = path_join(folder, recording_files[i]);
         if (path)
             remove(path);
@@ -149,7 +141,7 @@ bool folder_is_unfinished(const char *name)
     const char *end = strrchr(name, '.');
     if (strncmp(name, "frame_", 6) == 0)
         return end && strcmp(end, ".part") == 0;
-    for (size_t i = 0; i < RECORDING_FILES; i++) {
+    for (size_t i = 0; recording_files[i]; i++) {
         const size_t length = strlen(recording_files[i]);
         if (strncmp(name, recording_files[i], length) == 0 && name[length] == '.')
             return is_unfinished_suffix(name + length + 1);

@@ -23,13 +23,13 @@ char *chunk_name(uint64_t first, uint64_t last, char name[CHUNK_NAME]);
 /* Parse the name of a chunk. False for any other name. */
 bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last);
 
-/* The name of the i-th file of a recording that is not a frame; null beyond the last. */
-const char *folder_file_name(size_t i);
+/* The names of the files of a recording that are not frames; null after the last. */
+extern const char *const recording_files[];
 
 /* The folder that holds the old recording while a new one replaces it. */
 #define FOLDER_ASIDE "octreel-replaced"
 
-/* Whether a file of this name shows that its folder holds a recording: one of folder_file_name(), the lines of a chunk,
+/* Whether a file of this name shows that its folder holds a recording: one of recording_files, the lines of a chunk,
  * or a name that begins like a frame. */
 bool folder_is_name(const char *name);
 
