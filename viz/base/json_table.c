@@ -2,11 +2,11 @@
 /* json_table.c - reads and writes structures as JSON objects from one table of members.
  *
  * A reader and a writer written by hand drift apart, and every format repeats the same checks. Here a row gives the
- * name of a member, the offset of its value in the structure, limits, and a codec: the pair of functions for its type.
- * Reading looks up each row's name in the object, and then every name of the object in the table, so that a misspelt
- * member is an error with a suggestion and is never ignored. The version is read first: a file of another version says
- * so before its new members are called unknown. Writing walks the same rows, so members come in a fixed order and files
- * are byte-identical. Cost of reading: members times rows, and both are few. */
+ * name of a member, the offset of its value in the structure, limits, conditions, checks, and a codec: the pair of
+ * functions for its type. Reading looks up each row's name in the object, and then every name of the object in the
+ * table, so that a misspelt member is an error with a suggestion and is never ignored. The version is read first: a
+ * file of another version says so before its new members are called unknown. Writing walks the same rows, so members
+ * come in a fixed order and files are byte-identical. Cost of reading: members times rows, and both are few. */
 #include "json_table.h"
 #include "hint.h"
 #include "octree/types.h"

@@ -28,25 +28,31 @@ typedef const char *json_name(int n);
         return name_of((enumeration)n);                                                                                \
     }
 
+/* A row of a table. The first three members are enough for a plain value. */
 typedef struct json_member {
     const char *name; /* null ends a table */
     const json_codec *codec;
-    size_t offset;                /* of the value in the structure */
-    size_t given;                 /* offset of a bool that reading sets and writing asks; 0: none */
-    size_t nonzero, nonzero_size; /* bytes of the structure; the member is left out while all are 0: see JSON_IF() */
-    bool (*is_set)(const void *structure); /* false: the member is left out; null: it is always written */
-    bool (*check)(json_reader *r, const json_place *at, void *structure); /* called when the value has been read; false
-                                                                             with an error; null: nothing to check */
-    bool required;                                                        /* reading fails without it */
-    bool nullable;                     /* null stands for a value that is not set, instead of leaving the member out */
-    bool line;                         /* written on a line of its own */
+    size_t offset; /* of the value in the structure */
+
+    /* The member is written if all of these conditions hold. */
+    size_t given;                          /* offset of a bool that is true; reading sets it; 0: no condition */
+    size_t nonzero, nonzero_size;          /* bytes of the structure that are not all 0; see JSON_IF() */
+    bool (*is_set)(const void *structure); /* returns true; null: no condition */
+    bool nullable;                         /* otherwise null is written; reading accepts null, too */
+    bool line;                             /* written on a line of its own */
+
+    bool required; /* reading fails without the member */
+    /* Called after reading; false with an error. May be null. */
+    bool (*check)(json_reader *r, const json_place *at, void *structure);
+
+    /* Parameters of the codec. */
     double min, max;                   /* limits of numbers */
-    size_t size;                       /* the count of numbers; the bytes of a label or of a structure in a list */
-    json_name *names;                  /* names of a choice or a set */
-    const struct json_member *members; /* members of an object, or of each object in a list */
+    size_t size;                       /* count of numbers, or bytes of a label or of a structure in a list */
+    json_name *names;                  /* of a choice or a set */
+    const struct json_member *members; /* of an object, or of each object in a list */
     const void *about;                 /* the text of a constant; a noun for a list or label in errors; other data */
-    const char *advice;                /* of a version: what to do with an older file; null: film it again. Of a set:
-                                          what an element is in errors */
+    const char *advice; /* of a version: what to do with an older file; null: record it again. Of a set: a noun for its
+                           elements in errors */
 } json_member;
 
 /* The member is written only if a field of the structure is not zero. */
