@@ -102,13 +102,13 @@ static const command_option options[] = {
      .read = read_node, OPTION_VALUE(arguments, node)},
     {"nodes", "FILE.csv", "write all nodes as CSV; - is standard output, and the report then goes to standard error",
      .read = read_file, OPTION_VALUE(arguments, outputs[NODES].path)},
-    QUERY_OPTIONS(arguments, queries),
+    SHARED_OPTIONS(query_option_row, arguments, queries),
     JSON_OPTION(arguments, json, "print JSON; it lists every point of an answer"),
     {.help = "How the picture looks:"},
-    VIEW_OPTIONS(arguments, view_options),
+    SHARED_OPTIONS(view_option_row, arguments, view_options),
     {.help = "How the picture is drawn:"},
     FILL_OPTION(arguments, renderer.fill),
-    RENDERER_OPTIONS(arguments, renderer),
+    SHARED_OPTIONS(renderer_option_row, arguments, renderer),
     {0},
 };
 

@@ -26,7 +26,7 @@ static const command_option options[] = {
      "where nothing is drawn at the pixel, report the nearest drawn pixel at most N pixels away (default 8; 0: report "
      "nothing)",
      .read = read_whole, OPTION_VALUE(arguments, pick.radius), .max = VIEW_MAX_SIDE},
-    RENDERER_OPTIONS(arguments, pick.renderer),
+    SHARED_OPTIONS(renderer_option_row, arguments, pick.renderer),
     JSON_OPTION(arguments, json,
                 "print JSON: the kind, layer, node or point and a sentence for each element, topmost first. Of the "
                 "`samples` of a pixel, an element has painted `painted` and is visible in `shown`"),

@@ -30,7 +30,7 @@ static const command_option options[] = {
     {"keys", "KEYS", "play these keys instead of the session's: " KEYS_HELP, .read = read_text,
      OPTION_VALUE(arguments, keys)},
     {.help = "How the page looks when it opens:"},
-    VIEW_OPTIONS(arguments, view),
+    SHARED_OPTIONS(view_option_row, arguments, view),
     {0},
 };
 

@@ -13,6 +13,7 @@
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 typedef struct arguments {
@@ -65,10 +66,10 @@ static const command_option options[] = {
      .read = read_flag, OPTION_VALUE(arguments, film.replace)},
     JSON_OPTION(arguments, json, "print a summary as JSON to standard output"),
     {.help = "How the frames look:"},
-    VIEW_OPTIONS(arguments, view),
+    SHARED_OPTIONS(view_option_row, arguments, view),
     {.help = "How the frames are drawn:"},
     FILL_OPTION(arguments, film.renderer.fill),
-    RENDERER_OPTIONS(arguments, film.renderer),
+    SHARED_OPTIONS(renderer_option_row, arguments, film.renderer),
     {0},
 };
 
@@ -160,34 +161,29 @@ static int film_standard_input(arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* --resume without a session or view option needs the session and the view that the folder stores. Returns the name of
- * the file that is missing; null where nothing is. */
-static const char *find_missing_file(const arguments *a)
+/* Returns the name of the session in the folder; null: there is none. */
+static const char *find_stored_session(const char *folder)
 {
-    const char *folder = a->film.folder;
-    if (!a->film.resume || a->session || a->keys || a->every || a->no_frames || find_first_view_option(&a->view))
-        return NULL;
-    if (!folder_has(folder, "recording.json"))
-        return "recording.json";
-    const bool played = folder_has(folder, "session.json") || folder_has(folder, "session.json.live");
-    return played ? NULL : "session.json";
+    return folder_has(folder, "session.json")        ? "session.json"
+           : folder_has(folder, "session.json.live") ? "session.json.live"
+                                                     : NULL;
 }
 
-/* With --resume, the recording supplies the options that the command line leaves out. */
+/* With --resume, the recording supplies the options that the command line leaves out. If the command line has none, the
+ * recording must have a session and a view. */
 static bool complete_film_options(arguments *a)
 {
     octreel_error error;
     uint64_t every = 1;
-    const char *missing = find_missing_file(a);
-    if (missing) {
+    const char *folder = a->film.folder;
+    const bool has_view = folder_has(folder, "recording.json");
+    const bool has_options = a->session || a->keys || a->every || a->no_frames || find_first_view_option(&a->view);
+    if (a->film.resume && !has_options && (!has_view || !find_stored_session(folder)))
         return refuse(
-            "%s: holds no recording that can be resumed: %s is missing; leave out --resume to start a new one",
-            a->film.folder, missing);
-    }
-    if (a->film.resume && folder_has(a->film.folder, "recording.json") &&
-        !recording_read(a->film.folder, &a->film.view, &every, &error)) {
+            "%s: holds no recording that can be resumed: %s is missing; leave out --resume to start a new one", folder,
+            has_view ? "session.json" : "recording.json");
+    if (a->film.resume && has_view && !recording_read(folder, &a->film.view, &every, &error))
         return refuse("%s", error.text);
-    }
     a->film.every = a->no_frames ? 0 : a->every ? a->every : every;
     return read_view(&a->view, &a->film.view);
 }
@@ -196,11 +192,13 @@ static bool read_session(const arguments *a, session_file *file, octreel_error *
 {
     uint64_t digest;
     const octree_session paper = octree_session_default();
-    if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json"))
-        return read_session_file(a->film.folder, file, &digest, error);
-    if (!a->session && a->film.resume && folder_has(a->film.folder, "session.json.live"))
-        return read_live_session(a->film.folder, file, error);
-    return a->session ? session_read(a->session, file, error) : session_copy(&paper, file, error);
+    const char *folder = a->film.folder, *stored = a->film.resume ? find_stored_session(folder) : NULL;
+    if (a->session)
+        return session_read(a->session, file, error);
+    if (!stored)
+        return session_copy(&paper, file, error);
+    return strcmp(stored, "session.json") == 0 ? read_session_file(folder, file, &digest, error)
+                                               : read_live_session(folder, file, error);
 }
 
 static int film_session_file(arguments *a)

@@ -12,7 +12,7 @@ typedef struct arguments {
 } arguments;
 
 static const command_option options[] = {
-    RENDERER_OPTIONS(arguments, renderer),
+    SHARED_OPTIONS(renderer_option_row, arguments, renderer),
     JSON_OPTION(arguments, json, "print JSON"),
     {0},
 };

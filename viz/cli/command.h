@@ -40,7 +40,6 @@ extern const command command_octreel;
 
 /* The n-th command; null: n is beyond the last. */
 const command *command_at(size_t n);
-const command *find_command(const char *name);
 
 /* A kind of file that `octreel help NAME` and a manual of section 5 describe. */
 typedef struct help_topic {
@@ -50,7 +49,6 @@ typedef struct help_topic {
 
 /* The n-th topic; null: n is beyond the last. */
 const help_topic *help_topic_at(size_t n);
-const help_topic *find_help_topic(const char *name);
 
 /* Get the n-th row of a command's options: the rows of its own table, with the shared tables inserted, and then the
  * options that every command has. False: n is beyond the last. */

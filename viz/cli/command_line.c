@@ -140,19 +140,16 @@ static bool find_option(const command *c, int number, command_option *option)
                             : find_option_by_letter(c, (char)number, option);
 }
 
-/* COMMAND_GO_ON, or the exit status. */
-static int read_option(const command *c, int number, char **argv, void *arguments)
+/* Returns COMMAND_GO_ON or the exit status. */
+static int read_option(const command *c, const command_option *o, char **argv, void *arguments)
 {
-    command_option o;
-    if (!find_option(c, number, &o))
-        return print_error("%s", c->negative_error);
-    if (strcmp(o.name, "help") == 0)
+    if (strcmp(o->name, "help") == 0)
         return help_print(stdout, c);
-    if (strcmp(o.name, "version") == 0)
+    if (strcmp(o->name, "version") == 0)
         return version_print();
     if (optarg && optarg == argv[optind - 1] && looks_like_option(optarg))
         return print_error("%s needs a value, but the next argument is the option %s", argv[optind - 2], optarg);
-    return o.read(&o, optarg, (char *)arguments + o.offset) ? COMMAND_GO_ON : EXIT_TROUBLE;
+    return o->read(o, optarg, (char *)arguments + o->offset) ? COMMAND_GO_ON : EXIT_TROUBLE;
 }
 
 static int read_options(const command *c, int argc, char **argv, void *arguments, bool *has_output)
@@ -163,12 +160,14 @@ static int read_options(const command *c, int argc, char **argv, void *arguments
     fill_getopt_tables(c, all, letters);
     optind = 1;
     opterr = 0;
-    for (int option; status == COMMAND_GO_ON && (option = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
-        command_option found;
-        if (option == '?' || option == ':')
-            return refuse_option(c, all, option == ':', argv[optind - 1]);
-        *has_output = *has_output || (find_option(c, option, &found) && option_letter(found.name) == 'o');
-        status = read_option(c, option, argv, arguments);
+    for (int number; status == COMMAND_GO_ON && (number = getopt_long(argc, argv, letters, all, NULL)) != -1;) {
+        command_option option;
+        if (number == '?' || number == ':')
+            return refuse_option(c, all, number == ':', argv[optind - 1]);
+        if (!find_option(c, number, &option))
+            return print_error("%s", c->negative_error);
+        *has_output = *has_output || option_letter(option.name) == 'o';
+        status = read_option(c, &option, argv, arguments);
     }
     return status;
 }

@@ -54,7 +54,7 @@ const command command_octreel = {
                 "octreel diff reference frames -o evidence\n",
 };
 
-const command *find_command(const char *name)
+static const command *find_command(const char *name)
 {
     for (size_t i = 0; command_at(i); i++)
         if (strcmp(name, command_at(i)->name) == 0)
@@ -62,7 +62,7 @@ const command *find_command(const char *name)
     return NULL;
 }
 
-const help_topic *find_help_topic(const char *name)
+static const help_topic *find_help_topic(const char *name)
 {
     for (size_t i = 0; help_topic_at(i); i++)
         if (strcmp(name, help_topic_at(i)->name) == 0)

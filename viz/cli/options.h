@@ -81,6 +81,12 @@ command_option_reader read_color;   /* image_color, as RRGGBB or #RRGGBB */
 command_option_reader read_choice;  /* an enumeration, by its name in `names` */
 command_option_reader read_quiet;   /* sets is_quiet() */
 
+/* Inserts a shared table, whose options set parts of this member. */
+#define SHARED_OPTIONS(table, type, member)                                                                            \
+    {                                                                                                                  \
+        .more = table, OPTION_VALUE(type, member)                                                                      \
+    }
+
 #define JSON_OPTION(type, member, text)                                                                                \
     {                                                                                                                  \
         "json", NULL, text, .read = read_flag, OPTION_VALUE(type, member)                                              \
@@ -118,10 +124,6 @@ typedef struct view_options {
 } view_options;
 
 option_table_row view_option_row;
-#define VIEW_OPTIONS(type, member)                                                                                     \
-    {                                                                                                                  \
-        .more = view_option_row, OPTION_VALUE(type, member)                                                            \
-    }
 
 /* True if this option was given. */
 bool has_view_option(const view_options *given, const char *name);
@@ -134,10 +136,6 @@ bool read_view(const view_options *given, view *v);
 
 /* The options --context and --any-renderer. */
 option_table_row renderer_option_row;
-#define RENDERER_OPTIONS(type, member)                                                                                 \
-    {                                                                                                                  \
-        .more = renderer_option_row, OPTION_VALUE(type, member)                                                        \
-    }
 
 /* Call after all options are read. False, with an error printed, if --any-renderer and --context contradict. */
 bool check_renderer(const renderer_choice *choice);

@@ -15,9 +15,5 @@ typedef struct query_options {
 } query_options;
 
 option_table_row query_option_row;
-#define QUERY_OPTIONS(type, member)                                                                                    \
-    {                                                                                                                  \
-        .more = query_option_row, OPTION_VALUE(type, member)                                                           \
-    }
 
 #endif
