@@ -16,7 +16,7 @@ size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
 
 enum { LONGEST_SUFFIX = 8 };
 
-/* Length of the first line with its end; 0 where it is no suffix. LAZ files are read by another process. */
+/* The length of the first line with its line end; 0 if it is no suffix, or that of LAZ, which another process reads. */
 static size_t measure_head(const uint8_t *data, size_t size)
 {
     size_t length = 0;
@@ -26,8 +26,8 @@ static size_t measure_head(const uint8_t *data, size_t size)
     return is_suffix ? length + 1 : 0;
 }
 
-/* Seven of eight inputs change by words, for the headers of text formats; the others, and LAS, change by bytes. The
- * suffix changes in one of 64. */
+/* Seven of eight inputs change word by word, for the headers of text formats; the others, and LAS, change byte by byte.
+ * The suffix changes in one of 64. */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed)
 {
     static const char *const words[] = {
@@ -74,8 +74,8 @@ static void check_cloud(const cloud *cloud)
                 abort();
 }
 
-/* There is at most one value a row. Intensities are finite. The largest value of a colour channel is known if and only
- * if points have colours. */
+/* There is at most one value per row. Intensities are finite. The largest value of a colour channel is known if and
+ * only if points have colours. */
 static void check_values(const cloud *cloud)
 {
     const point_values *v = &cloud->values;

@@ -16,7 +16,7 @@ static void check(bool holds)
         abort();
 }
 
-/* The stream, inflated while it comes. */
+/* The stream, inflated while it is written. */
 typedef struct inflating {
     z_stream stream;
     int state;
@@ -32,7 +32,7 @@ static void inflate_more(void *context, const uint8_t *bytes, size_t size)
     check(i->stream.avail_in == 0);
 }
 
-/* Each byte of the input stands for a run of a colour, or repeats what stands somewhere before. */
+/* Each byte of the input is a run of a colour, or repeats earlier pixels. */
 static size_t fill(uint8_t *pixels, size_t room, const uint8_t *data, size_t size, unsigned spread)
 {
     size_t made = 0;

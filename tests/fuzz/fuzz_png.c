@@ -4,7 +4,7 @@
  * file. No input may take more memory than the reader promises. Build with clang -fsanitize=fuzzer,address,undefined.
  */
 #undef _POSIX_C_SOURCE
-#define _GNU_SOURCE /* memfd_create */
+#define _GNU_SOURCE /* for memfd_create() */
 #include "image_compare.h"
 #include "image_digest.h"
 #include "png_read.h"
@@ -60,7 +60,7 @@ static void put_chunk(file *f, const char *type, const uint8_t *data, size_t siz
     f->size += size + 12;
 }
 
-/* Kind, sides, number of colours and of alphas, these, and then rows, filter bytes included. */
+/* A recipe: kind, sides, number of colours and of alphas, these values, and then rows with their filter bytes. */
 static void follow_recipe(file *f, const uint8_t *data, size_t size)
 {
     static const uint8_t kinds[][2] = {{0, 1}, {0, 2}, {0, 4}, {0, 8}, {0, 16}, {2, 8}, {2, 16}, {3, 1},
@@ -108,7 +108,7 @@ static void check(bool holds)
         abort();
 }
 
-/* A file in memory, and the path that it is read by. */
+/* Write a file into memory. Returns the path by which it is read. */
 static const char *save(const file *f)
 {
     static int memory = -1;
@@ -120,7 +120,7 @@ static const char *save(const file *f)
     return path;
 }
 
-/* Up to where it fails, in bands: the rows must be those of the whole. */
+/* Read a file in bands, until it fails: the rows must equal those of the whole picture. */
 static bool read_rows(image_source *source, int rows, const image *whole)
 {
     int y = 0;
@@ -132,7 +132,7 @@ static bool read_rows(image_source *source, int rows, const image *whole)
     return !image_source_failed(source) && y == image_source_image(source)->height;
 }
 
-/* Row by row the file is read, or fails, just as it does whole. */
+/* Reading row by row must succeed or fail exactly like reading the whole file. */
 static void check_rows(const file *f, image_color background, const image *whole, const octreel_error *failed)
 {
     octreel_error error = {""};
@@ -160,7 +160,7 @@ static void check_image(const image *read, size_t file_size)
     check(pixels <= 8300 * file_size);
 }
 
-/* An image in 8 bits a sample of the same colours is the same, by comparison and by digest. */
+/* An 8-bit image with the same colours must be equal, by comparison and by digest. */
 static void check_twin(const image *read)
 {
     image twin;

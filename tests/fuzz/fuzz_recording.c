@@ -124,7 +124,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     (void)argc, (void)argv;
     unsetenv("GITHUB_ACTIONS");
-    setenv("LP_NUM_THREADS", "0", 1); /* starting threads is most of what opening a renderer takes */
+    setenv("LP_NUM_THREADS", "0", 1); /* starting threads takes most of the time of opening a renderer */
     snprintf(home, sizeof home, "%s/octreel-fuzz-XXXXXX", access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");
     check(mkdtemp(home) && (nowhere = fopen("/dev/null", "w")) && atexit(remove_home) == 0);
     snprintf(edited, sizeof edited, "%s/edited", home);
@@ -144,7 +144,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
 
 /* ---- What is done with it ----------------------------------------------------------------------------------- */
 
-/* Nothing fails without a sentence. */
+/* Abort if a failure has no error text. Returns `done`. */
 static bool told(bool done, const octreel_error *error)
 {
     check(done || error->text[0]);

@@ -14,13 +14,13 @@ size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
 
 const char *__asan_default_options(void);
 
-/* An input may ask for a hundred million points. */
+/* An input may request a hundred million points. */
 const char *__asan_default_options(void)
 {
     return "allocator_may_return_null=1:max_allocation_size_mb=32";
 }
 
-/* Bytes change in one of eight, and where there is no object yet. */
+/* One of eight inputs changes byte by byte, and so do inputs without an object. */
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed)
 {
     const size_t made = seed % 8 ? edited_json(data, size, most, seed) : 0;

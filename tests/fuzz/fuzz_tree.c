@@ -13,15 +13,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { SIDE = 16, PLACES = SIDE + 2, MOST_POINTS = 4096, MOST_OPERATIONS = 200, MOST_NEIGHBORS = 40, IDS = 64 };
 
-/* A tree and what must be in it. */
+/* A tree and the points that it must hold. */
 typedef struct model {
     octree *tree;
     octree_point points[MOST_POINTS]; /* in no order */
     size_t count;
-    uint16_t (*of)[IDS];    /* one more than the index of each that there may be, by place and id; 0: it is not there */
-    bool grows;             /* else leaves refuse, and it is taken from the statuses what is there */
+    uint16_t (*of)[IDS];    /* by place and id: the index of the point plus 1; 0: it is not stored */
+    bool grows;             /* if not set, leaves refuse points, and the statuses say which points are stored */
     size_t until_no_memory; /* allocations that succeed; SIZE_MAX: all */
-    uint64_t state;         /* of random numbers, for batches */
+    uint64_t state;         /* state of the random numbers for batches */
 } model;
 
 static void check(bool holds)
@@ -106,7 +106,7 @@ static bool is_inside(const octree_point *p)
     return p->position[0] <= SIDE && p->position[1] <= SIDE && p->position[2] <= SIDE;
 }
 
-/* The one status of several that hold, and the change where the tree made it. */
+/* Check the status of an insertion against the statuses that are possible, and insert the point if the tree did. */
 static void insert(model *m, const octree_point *p, octree_status status)
 {
     const octree_status expected = !is_inside(p) ? OCTREE_OUTSIDE : find(m, p) ? OCTREE_DUPLICATE : OCTREE_OK;
@@ -152,7 +152,7 @@ static uint64_t below(model *m, uint64_t most)
     return octree_random(&m->state) % most;
 }
 
-/* Now and then just outside. */
+/* A random point, sometimes just outside the world. */
 static octree_point random_point(model *m)
 {
     octree_point p = {.id = below(m, IDS)};
@@ -161,7 +161,7 @@ static octree_point random_point(model *m)
     return p;
 }
 
-/* One that is there, mostly. */
+/* Mostly a stored point. */
 static octree_point known_point(model *m)
 {
     return m->count > 0 && below(m, 8) ? m->points[below(m, m->count)] : random_point(m);
@@ -224,7 +224,7 @@ static void change_all(model *m, unsigned what)
         status = octree_compact(m->tree);
     else if (what == 2)
         status = m->grows ? octree_tune(m->tree, NULL) : OCTREE_OK;
-    else if (what == 3 && m->grows) /* there and back, for the list knows one world */
+    else if (what == 3 && m->grows) /* change the world and restore it, because the list has only one world */
         for (int i = 1; i >= 0 && status != OCTREE_NO_MEMORY; i--, m->until_no_memory = SIZE_MAX)
             status = octree_reworld(m->tree, &worlds[i]);
     check(status == OCTREE_OK || status == OCTREE_NO_MEMORY);
@@ -283,7 +283,7 @@ static void ask_radius(model *m)
     check(found == expected);
 }
 
-/* How many come before a neighbour: by distance, then by id, then by position. */
+/* The number of points before a neighbour: by distance, then by id, then by position. */
 static size_t rank_of(const model *m, const double target[3], const octree_point *p)
 {
     const double distance = squared_distance(p->position, target);
@@ -317,7 +317,7 @@ static void ask_batch(model *m, size_t count)
     }
     if (octree_nearest_batch(m->tree, (const double(*)[3])targets, count, NULL, found, any) == OCTREE_NO_MEMORY)
         return;
-    for (size_t i = 0; i < count; i += 1 + count / 16) /* a scan each */
+    for (size_t i = 0; i < count; i += 1 + count / 16) /* each check is a scan */
         check(any[i] == (m->count > 0) && (!any[i] || rank_of(m, targets[i], &found[i].point) == 0));
 }
 

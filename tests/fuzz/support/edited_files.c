@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #undef _POSIX_C_SOURCE
-#define _GNU_SOURCE /* nftw */
+#define _GNU_SOURCE /* for nftw() */
 #include "edited_files.h"
 
 #include <ctype.h>
@@ -122,7 +122,7 @@ void edited_files_write(const edited_files *files, const char *folder)
     for (size_t i = 0; i < files->count; i++) {
         const char *path = path_of(folder, files->files[i].name);
         struct stat status;
-        if (lstat(path, &status) != 0) /* else two are of one name now */
+        if (lstat(path, &status) != 0) /* otherwise two files have the same name now */
             write_file(files, &files->files[i], path);
     }
 }
@@ -163,7 +163,7 @@ static bool is_closer(uint8_t c)
     return c == '}' || c == ']';
 }
 
-/* The token of a number, or, where it opens a list or an object, all of that. */
+/* The token of a number; or a whole list or object, if one begins here. */
 static span value_at(const edited_file *f, size_t number)
 {
     size_t count = 0, depth = 0;
@@ -206,7 +206,7 @@ static void replace(edited_file *f, span s, const void *bytes, size_t size)
     f->size = s.at + size + rest;
 }
 
-/* Bytes of the same or another file, put in the place of some. */
+/* Replace a span by bytes of the same file or of another one. */
 static void replace_by(edited_file *f, span s, const edited_file *from, span t, const char *before)
 {
     static uint8_t bytes[EDITED_LARGEST + 1];
@@ -219,7 +219,7 @@ static void replace_by(edited_file *f, span s, const edited_file *from, span t, 
     replace(f, s, bytes, lead + size);
 }
 
-/* With the comma behind it or before it, and with its name where it has one. */
+/* A value with the comma after or before it, and with its name if it has one. */
 static span whole_member(const edited_file *f, span s)
 {
     const span next = next_token(f, s.end);
@@ -378,7 +378,7 @@ static void apply_to_bytes(edited_file *f, const edit *e)
     f->repaired = e->b & 256;
 }
 
-/* A name that stays in the folder. */
+/* Rename a file to a name in the same folder. */
 static void rename_to(edited_file *f, const uint8_t *text, size_t size)
 {
     size = size < EDITED_NAME - 1 ? size : EDITED_NAME - 1;

@@ -16,33 +16,33 @@ typedef enum edited_kind { EDITED_FILE, EDITED_NONE, EDITED_FOLDER, EDITED_LINK,
 
 typedef struct edited_file {
     char name[EDITED_NAME];
-    edited_kind kind; /* what is of this name: a file, nothing, an empty folder, a link to another file, a pipe */
-    size_t other;     /* of a link */
-    uint8_t *bytes;   /* EDITED_LARGEST at most; owned */
+    edited_kind kind; /* what has this name: a file, nothing, an empty folder, a link to another file, or a pipe */
+    size_t other;     /* index of the file to which a link leads */
+    uint8_t *bytes;   /* at most EDITED_LARGEST bytes; owned */
     size_t size;
-    bool repaired; /* of a PNG: its checksums are put right */
+    bool repaired; /* PNG: its checksums are corrected */
 } edited_file;
 
 typedef struct edited_files {
-    edited_file files[EDITED_MOST]; /* in the order of their names */
+    edited_file files[EDITED_MOST]; /* sorted by name */
     size_t count;
 } edited_files;
 
-/* Read all files of a folder; and copy. Aborts where that is not done, as all here. */
+/* Read all files of a folder; copy files. All functions here abort on failure. */
 void edited_files_read(edited_files *files, const char *folder);
 void edited_files_copy(edited_files *files, const edited_files *from);
 void edited_files_release(edited_files *files);
 
-/* The file that was read by this name. */
+/* The file that was read under this name. */
 const edited_file *edited_files_find(const edited_files *files, const char *name);
 
-/* Make the edits that these bytes are: each is 7 bytes and a text whose length is the last of them. */
+/* Apply the edits that these bytes describe: each edit is 7 bytes and a text, whose length is the last of them. */
 void edited_files_apply(edited_files *files, const uint8_t *data, size_t size);
 
-/* Make a folder of just these files: what was in it is removed. */
+/* Write a folder with exactly these files: its former contents are removed. */
 void edited_files_write(const edited_files *files, const char *folder);
 
-/* Remove a folder with the files in it, and whatever is in its folders; it may be missing. */
+/* Remove a folder with all its contents; it may be missing. */
 void remove_folder(const char *folder);
 
 #endif

@@ -6,7 +6,7 @@
 
 enum { SLOTS = 4096 };
 
-/* Where a value is: in an object by its name, or in an array by its place. */
+/* The place of a value: a name in an object, or an index in an array. */
 typedef struct slot {
     json_t *in;
     const char *name;
@@ -14,7 +14,7 @@ typedef struct slot {
 } slot;
 
 typedef struct text {
-    json_t *objects; /* an array of all that the text holds */
+    json_t *objects; /* an array of all objects of the text */
     slot slots[SLOTS];
     size_t count;
     uint64_t random;
@@ -100,7 +100,7 @@ static void drop(const slot *s)
         json_array_remove(s->in, s->at);
 }
 
-/* Beside a value, under the name that it has where it comes from. */
+/* Add a copy of a value beside another one, under its own name. */
 static void add_beside(const slot *s, const slot *from)
 {
     json_t *copy = json_deep_copy(value_of(from));
@@ -150,7 +150,7 @@ static size_t write_objects(const json_t *objects, uint8_t *data, size_t most)
 
 size_t edited_json(uint8_t *data, size_t size, size_t most, unsigned seed)
 {
-    static text t; /* large for a stack */
+    static text t; /* static, because it is large for a stack */
     t = (text){.objects = read_objects(data, size), .random = seed};
     for (size_t edits = choose(&t, 3) + 1; edits > 0; edits--) {
         t.count = 0;

@@ -7,9 +7,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Change one value of a text of objects, as libFuzzer's LLVMFuzzerCustomMutator(): it becomes another one of the text
- * or one that is extreme, or goes, or something of another place comes. Returns the new size; 0 where the text begins
- * with no object, or what comes out does not fit. */
+/* Change one value of a text of JSON objects, for libFuzzer's LLVMFuzzerCustomMutator(): replace it by another value of
+ * the text or an extreme one, remove it, or add a value from elsewhere in the text. Returns the new size; 0 if the text
+ * does not begin with an object, or the result does not fit. */
 size_t edited_json(uint8_t *data, size_t size, size_t most, unsigned seed);
 
 #endif

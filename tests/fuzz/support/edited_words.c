@@ -19,7 +19,7 @@ typedef struct text {
     uint64_t random;
 } text;
 
-/* A line with its end, or a word without. */
+/* A line with its line end, or a word. */
 typedef struct piece {
     size_t begin, size;
 } piece;
@@ -35,7 +35,7 @@ static bool ends(uint8_t byte, bool line)
     return byte == '\n' || (!line && (byte == ' ' || byte == ',' || byte == '\t'));
 }
 
-/* Half of them are near the beginning, where headers are. */
+/* Half of the pieces are near the beginning, where headers are. */
 static piece choose_piece(text *t, bool line)
 {
     const size_t near = t->size < 256 ? t->size : 256;
@@ -47,7 +47,7 @@ static piece choose_piece(text *t, bool line)
     return (piece){begin, end - begin + (line && end < t->size)};
 }
 
-/* What a line has after its first word. */
+/* The rest of a line after its first word. */
 static piece rest_of(const text *t, piece line)
 {
     size_t begin = line.begin, end = line.begin + line.size;
@@ -56,7 +56,7 @@ static piece rest_of(const text *t, piece line)
     return (piece){begin, end - begin - (end > begin && t->bytes[end - 1] == '\n')};
 }
 
-/* In the place of `old` come these bytes, where there is room. */
+/* Replace `old` by these bytes, if there is room. */
 static void replace(text *t, piece old, const void *bytes, size_t size)
 {
     const size_t after = old.begin + old.size;
@@ -115,7 +115,7 @@ static void edit(text *t, const char *const *words, size_t word_count)
 
 size_t edited_words(uint8_t *data, size_t size, size_t most, unsigned seed, const char *const *words, size_t word_count)
 {
-    static text t; /* large for a stack */
+    static text t; /* static, because it is large for a stack */
     t.size = size;
     t.most = most < LARGEST ? most : LARGEST;
     t.random = seed;

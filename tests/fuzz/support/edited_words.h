@@ -7,9 +7,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Change a text in place, as libFuzzer's LLVMFuzzerCustomMutator(): up to four times a line or a word goes, is said
- * again elsewhere, changes places with another one, or becomes one of `words` or of extreme numbers. Returns the new
- * size; 0 where there is nothing to change. */
+/* Change a text in place, for libFuzzer's LLVMFuzzerCustomMutator(). Up to four times, a line or a word is removed,
+ * copied to another place, exchanged with another one, or replaced by one of `words` or by an extreme number. Returns
+ * the new size; 0 if there is nothing to change. */
 size_t edited_words(uint8_t *data, size_t size, size_t most, unsigned seed, const char *const *words,
                     size_t word_count);
 

@@ -93,7 +93,7 @@ static void assert_entries_shown(const char *what, char *shown, const json_t *li
     }
 }
 
-/* All that a value of ticks.jsonl holds comes next, in its order. */
+/* The test fails unless the next reports are all parts of a value in ticks.jsonl, in order. */
 static void assert_facts_said(char **at, const char *what, const json_t *value)
 {
     char inner[160];
@@ -149,7 +149,7 @@ static void page_shows_the_facts_of_every_tick(void **state)
 
 /* ---- Steps -------------------------------------------------------------------------------------------------- */
 
-/* The keys one after the other, and where each leads; a page is a twentieth of 253 ticks. */
+/* Press the keys one after the other; a page is a twentieth of 253 ticks. */
 static void keys_step_through_the_ticks(void **state)
 {
     static const char expected[] = "\nkey Home\t0\nkey ArrowLeft\t0\nkey ArrowRight\t1\nkey ArrowRight\t2\n"
@@ -174,9 +174,9 @@ static void page_shows_the_frame_of_the_tick(void **state)
     assert_said(*state, "frame", "78 frame_000078.png 160x90");
 }
 
-/* Ticks that have one of some events, in order, after those that lie before `from`. */
+/* The ticks after `from` that have one of some events, in order. */
 typedef struct chosen {
-    const char *events; /* with blanks around each */
+    const char *events; /* names with blanks around each */
     size_t from;
     char ticks[2048];
 } chosen;
@@ -198,7 +198,7 @@ static void choose(const char *line, size_t number, void *context)
     json_decref(tick);
 }
 
-/* The key led from `start` to all ticks with the events behind it. */
+/* The test fails unless the key led from `start` to all later ticks with the events. */
 static void assert_walk(const driven *d, const char *what, const char *start, const char *events)
 {
     char expected[2100];
@@ -262,7 +262,7 @@ static void question_mark_lists_the_keys(void **state)
                       "Shift Page Up Shift Page Down c Esc ?");
 }
 
-/* However many ticks there are, the page has a few hundred elements. */
+/* The page has a few hundred elements, however many ticks there are. */
 static void page_stays_small_and_free_of_errors(void **state)
 {
     skip_without_browser();
@@ -311,7 +311,7 @@ static place recording_by_hand(const driven *d, const char *name, const char *ti
     return place_below(folder.path, "index.html");
 }
 
-/* Text is text, long lists are cut and say so, facts without a name here are shown, and a frame may be missing. */
+/* Text is shown as text, long lists are cut and say so, unknown facts are shown, and a frame may be missing. */
 static void page_tolerates_unexpected_members(void **state)
 {
     skip_without_browser();
@@ -343,7 +343,7 @@ static void recording_without_ticks_says_so(void **state)
     free(page);
 }
 
-/* Curves say whose tree they are of, where there are two. */
+/* If there are two trees, each curve names its tree. */
 static void curves_of_two_trees_are_distinguishable(void **state)
 {
     skip_without_browser();

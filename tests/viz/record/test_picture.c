@@ -69,8 +69,8 @@ static void corners_of_the_world_have_the_colour_of_the_visible_layer(void **sta
     }
 }
 
-/* How far a pixel's middle lies outside the outline of eight corners: the largest distance, over the directions of
- * the outline's sides, from all corners. */
+/* The distance of a pixel's middle from the outline of eight corners: the largest one over the directions of the
+ * outline's sides; negative inside. */
 static double outside_by(double corners[8][2], double x, double y)
 {
     double most = -INFINITY;
@@ -118,7 +118,7 @@ static void pixels_outside_the_world_are_background(void **state)
 
 #define ALL_NODE_ROLES ((UINT64_C(1) << (ROLE_NODE + THEME_NODE_DEPTHS)) - (UINT64_C(1) << ROLE_NODE))
 
-/* The roles that a layer may light, as bits. */
+/* The roles that a layer may draw, as bits. */
 static uint64_t roles_of(unsigned layer)
 {
     const uint64_t one = 1;
@@ -192,7 +192,7 @@ static void each_layer_draws_all_its_colours_and_no_others(void **state)
             seen |= roles;
             free(frame);
         }
-        /* This tree has six depths, is never broken, and nobody asks for one of its nodes. */
+        /* This tree has six depths, is never broken, and no node is selected. */
         const bool never = layer == LAYER_BROKEN || layer == LAYER_ASKED;
         assert_true(roles_of(layer) == ALL_NODE_ROLES ? seen != 0 : never || seen == roles_of(layer));
         heat_release(&h);
@@ -214,7 +214,8 @@ static scene_segment line_of(double x0, double y0, double z0, double x1, double 
     return (scene_segment){.ends = {{x0, y0, z0}, {x1, y1, z1}}, .style = {.role = ROLE_RANGE, .width = 1}};
 }
 
-/* One lit pixel in each column (or row) that a line passes, none elsewhere, each beside the line. */
+/* The test fails unless the line draws one pixel in each column (or row) that it passes, next to the line, and no
+ * other. */
 static void assert_one_pixel_a_step(const uint8_t *frame, const double from[2], const double to[2])
 {
     const int major = fabs(to[0] - from[0]) < fabs(to[1] - from[1]);
