@@ -102,7 +102,7 @@ const command command_accept = {
     .about =
         "Copy frames from NEW to REFERENCE: all frames, or only the named ones. NEW is a PNG, a folder of PNGs, a "
         "recording, or - for a PNG from standard input. REFERENCE is one of these or a baseline, and is created if "
-        "it does not exist. References with the same pixels are not touched. A reference without a frame in NEW is "
+        "it does not exist. References with the same pixels are not changed. A reference without a frame in NEW is "
         "removed if all frames are accepted or if it is named. The differences are printed as octreel diff prints "
         "them. Look at the pictures first.\n",
     .more = "Several processes may accept into one reference at the same time; each sees the changes of the others. "

@@ -108,9 +108,10 @@ static const command_option options[] = {
      "ignore pixels of recordings where these layers, such as nodes,points, are on top in either frame; octreel record "
      "--help lists the layers",
      .read = read_layers, .names = view_layer_at},
-    {.help = "Why the frames differ. Two recordings tell it: which members of their sessions and views differ, what "
-             "follows in each tick, and which elements are drawn at the different pixels. Other pictures can tell only "
-             "that rendering alone differs. Causes never change the verdict:"},
+    {.help =
+         "Why the frames differ. For two recordings, the causes are the members of their sessions and views that "
+         "differ, the consequences in each tick, and the elements that are drawn at the different pixels. For other "
+         "pictures, the only known cause is a different rendering. Causes never change the verdict:"},
     {"causes", "N",
      "explain the first N different frames and ticks, and list N findings but at least 10; \"all\", or 0 for none "
      "(default 10, and 50 for the page of -o)",
