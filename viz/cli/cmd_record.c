@@ -126,7 +126,7 @@ static int report_stream_end(const arguments *a, film_stream_end how, const film
     else if (how == FILM_STREAM_STOPPED && ticks == 0)
         print_error("stopped before the first tick was filmed; nothing was written");
     else if (how == FILM_STREAM_STOPPED)
-        print_error("stopped after %" PRIu64 " tick%s; %s is a whole recording of them", ticks, plural(ticks),
+        print_error("stopped after %" PRIu64 " tick%s; %s is a complete recording of these ticks", ticks, plural(ticks),
                     a->film.folder);
     else if (ticks == 0)
         print_error("%s", error->text);
@@ -278,7 +278,7 @@ const command command_record = {
         "be -: the session is read from standard input and filmed while another program writes it.\n",
     .more =
         "Ctrl-C finishes the current frame and prints how to continue. When a session from standard input breaks off, "
-        "is malformed or is stopped, the ticks before that point make a whole recording. After a kill every file is "
+        "is malformed or is stopped, the ticks before that point are a complete recording. After a kill every file is "
         "whole, and --resume completes the recording. After a power cut a file may be damaged, because files are not "
         "synced to the disk (that would cost about 3 ms a frame); octreel verify finds such files.\n"
         "\n"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.c - the options that ask a query, one for each row of query_looks.h that has one. Their numbers are the
- * members of the kind, in the order of OCTREE_QUERY_MEMBER_MAP.
- */
+/* query_options.c - the options that ask queries, one for each row of query_looks.h with a placeholder. The numbers of
+ * an option are the members of its kind of query, in the order of OCTREE_QUERY_MEMBER_MAP. */
 #include "query_options.h"
 #include "number.h"
 #include "octree/octree.h"
@@ -25,23 +24,23 @@ static const struct {
 #undef QUERY_OPTION
 };
 
-static size_t numbers_in(octree_member_type type)
+static size_t count_numbers_of_type(octree_member_type type)
 {
     static const size_t numbers[] = {
         [OCTREE_MEMBER_BOX] = 6, [OCTREE_MEMBER_POSITION] = 3, [OCTREE_MEMBER_COUNT] = 1, [OCTREE_MEMBER_LENGTH] = 1};
     return numbers[type];
 }
 
-static size_t numbers_of(octree_query_kind kind)
+static size_t count_numbers_of_kind(octree_query_kind kind)
 {
     size_t count = 0;
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++)
         if (octree_query_about(kind)->members & octree_query_member_at(i)->bit)
-            count += numbers_in(octree_query_member_at(i)->type);
+            count += count_numbers_of_type(octree_query_member_at(i)->type);
     return count;
 }
 
-/* Set the members that the query's kind reads. False where a count is not a whole number in range. */
+/* Set the members of the query's kind. False if a count is not a whole number in range. */
 static bool set_members(octree_query *query, const double *numbers)
 {
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
@@ -50,12 +49,12 @@ static bool set_members(octree_query *query, const double *numbers)
         if (!(octree_query_about(query->kind)->members & member->bit))
             continue;
         if (member->type != OCTREE_MEMBER_COUNT)
-            memcpy(value, numbers, numbers_in(member->type) * sizeof *numbers);
+            memcpy(value, numbers, count_numbers_of_type(member->type) * sizeof *numbers);
         else if (*numbers >= 1 && *numbers < 0x1p53 && *numbers == floor(*numbers))
             *(size_t *)value = (size_t)*numbers;
         else
             return false;
-        numbers += numbers_in(member->type);
+        numbers += count_numbers_of_type(member->type);
     }
     return true;
 }
@@ -63,20 +62,20 @@ static bool set_members(octree_query *query, const double *numbers)
 static bool read_query(const command_option *option, const char *text, void *into)
 {
     query_options *queries = into;
-    const size_t row = option->min; /* of the table */
+    const size_t row = option->min; /* index in `rows` */
     const char *name = option->name;
     octree_query query = {.kind = rows[row].kind};
     double values[MOST_NUMBERS];
     if (queries->count == MOST_QUERIES)
         return refuse("at most %d queries can be given", MOST_QUERIES);
-    if (!numbers_parse(text, values, numbers_of(query.kind))) {
+    if (!numbers_parse(text, values, count_numbers_of_kind(query.kind))) {
         query.kind = rows[row].with_more;
-        if (!numbers_parse(text, values, numbers_of(query.kind)))
-            return refuse("--%s takes %s, not \"%s\"", name, rows[row].takes, text);
+        if (!numbers_parse(text, values, count_numbers_of_kind(query.kind)))
+            return refuse_value(option, rows[row].takes, text);
     }
     if (!set_members(&query, values))
-        return refuse("--%s: the number of neighbours is whole, from 1 to %.0f, not so in \"%s\"", name, 0x1p53 - 1,
-                      text);
+        return refuse("--%s: the number of neighbours must be a whole number from 1 to %.0f; found \"%s\"", name,
+                      0x1p53 - 1, text);
     const octree_status status = octree_query_check(&query);
     if (status != OCTREE_OK)
         return refuse("--%s: %s in \"%s\"", name, octree_status_text(status), text);
@@ -84,7 +83,7 @@ static bool read_query(const command_option *option, const char *text, void *int
     return true;
 }
 
-/* The n-th option: the last row comes first. */
+/* The n-th option. The rows are listed in reverse order. */
 bool query_option_row(size_t n, command_option *option)
 {
     for (size_t i = sizeof rows / sizeof rows[0]; i-- > 0;) {
