@@ -86,26 +86,39 @@ static void decode(char *text)
     *to = '\0';
 }
 
-/* "driven.html" beside the page. */
-static place write_driven_page(const char *page, const char *const scripts[])
+/* Write "driven.js" beside the page: all scripts, one after the other. */
+static void write_driving_script(const char *folder, const char *const scripts[])
 {
-    place driven;
-    const char *slash = strrchr(page, '/');
-    snprintf(driven.path, sizeof driven.path, "%.*sdriven.html", slash == NULL ? 0 : (int)(slash + 1 - page), page);
-    char *text = file_read(page, NULL);
-    FILE *file = fopen(driven.path, "w");
+    FILE *file = fopen(place_below(folder, "driven.js").path, "w");
     assert_non_null(file);
-    fputs(text, file);
     /* While a timer is due the browser's clock goes on by its steps. Without one it would run to its end at once where
      * the page waits for what has no clock, as for a compiler or a file. */
-    fputs("<script>setInterval(() => {}, 1);</script>\n", file);
+    fputs("setInterval(() => {}, 1);\n", file);
     for (size_t i = 0; scripts[i] != NULL; i++) {
+        char *text = file_read(scripts[i], NULL);
+        fputs(text, file);
         free(text);
-        text = file_read(scripts[i], NULL);
-        fprintf(file, "<script>\n%s</script>\n", text);
     }
     assert_int_equal(fclose(file), 0);
+}
+
+/* Write "driven.html" beside the page. Its security policy also allows scripts from files, and so the driving one. */
+static place write_driven_page(const char *page, const char *const scripts[])
+{
+    static const char policy[] = "script-src ";
+    place folder;
+    const char *slash = strrchr(page, '/');
+    snprintf(folder.path, sizeof folder.path, "%.*s.", slash == NULL ? 0 : (int)(slash + 1 - page), page);
+    const place driven = place_below(folder.path, "driven.html");
+    char *text = file_read(page, NULL), *behind = strstr(text, policy);
+    FILE *file = fopen(driven.path, "w");
+    assert_non_null(file);
+    behind = behind == NULL ? text : behind + strlen(policy);
+    fprintf(file, "%.*s%s%s<script src=\"driven.js\"></script>\n", (int)(behind - text), text,
+            behind == text ? "" : "file: ", behind);
+    assert_int_equal(fclose(file), 0);
     free(text);
+    write_driving_script(folder.path, scripts);
     return driven;
 }
 

@@ -3,16 +3,15 @@
  * have. */
 "use strict";
 
-/* Scripts before and after a page: they replace what does not work in a frame, remove features, and make parts of the
- * page visible to this script. */
+/* A script before a page: it replaces what does not work in a frame, removes features, and makes parts of the page
+ * visible to this script. Behind the page's security policy it would not run. */
 const BEFORE = "<script>var faults = []; history.replaceState = () => {}; requestAnimationFrame = setTimeout;" +
-    "addEventListener('error', event => faults.push(event.message)); MORE<\/script>";
-const BEHIND = "<script>var viewer = () => octreel;<\/script>";
+    "addEventListener('error', event => faults.push(event.message)); var viewer = () => octreel; MORE<\/script>";
 
 async function open(text, more)
 {
     const frame = document.createElement("iframe");
-    frame.srcdoc = BEFORE.replace("MORE", () => more) + text + BEHIND;
+    frame.srcdoc = BEFORE.replace("MORE", () => more) + text;
     const loaded = new Promise(done => frame.addEventListener("load", done));
     document.body.append(frame);
     await loaded;
@@ -28,7 +27,7 @@ async function sayPage({name, text, more = ""})
     const message = byId("message");
     say(`${name}: message`, isShown(message) ? message.textContent.replace(/\s+/g, " ").trim() : "");
     say(`${name}: faults`, page.faults.join(" "));
-    if (!page.viewer || isShown(message))
+    if (isShown(message))
         return;
     say(`${name}: bar`, isShown(byId("live-bar")));
     page.document.body.dispatchEvent(new page.KeyboardEvent("keydown", {key: "ArrowRight", bubbles: true}));

@@ -148,6 +148,18 @@ static void page_loads_no_other_file(void **state)
     free(page);
 }
 
+/* A script that gets into the page, such as one in a label, does not run: its hash is not in the policy. */
+static void page_runs_only_scripts_whose_hashes_it_lists(void **state)
+{
+    const place folder = recording_of(state, TICK);
+    assert_page_written(folder.path);
+    char *page = page_of(folder.path);
+    assert_non_null(strstr(page, "style-src 'sha256-"));
+    assert_non_null(strstr(page, "script-src 'wasm-unsafe-eval' 'sha256-"));
+    assert_null(strstr(page, "unsafe-inline"));
+    free(page);
+}
+
 static void text_in_a_tick_cannot_end_the_embedded_facts(void **state)
 {
     const place folder = recording_of(state, "{\"tick\": 0, \"key\": \"</script><script>alert(1)</script>\"}\n"
@@ -299,6 +311,7 @@ int main(void)
         IN_FOLDER(page_has_the_facts_of_every_tick),
         IN_FOLDER(page_can_be_rewritten_later),
         IN_FOLDER(page_loads_no_other_file),
+        IN_FOLDER(page_runs_only_scripts_whose_hashes_it_lists),
         IN_FOLDER(text_in_a_tick_cannot_end_the_embedded_facts),
         IN_FOLDER(torn_last_line_is_ignored),
         IN_FOLDER(recording_without_ticks_has_a_page),
