@@ -153,7 +153,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     c.zoom = v->camera == CAMERA_FOLLOW  ? FOCAL * smaller / 2
              : v->camera == CAMERA_ORBIT ? find_orbit_zoom(&c, window, &lift)
                                          : find_zoom(&c, window);
-    c.zoom *= view_zoom(v);
+    c.zoom *= v->zoom;
     place_eye(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2 - (placed ? 0 : lift);

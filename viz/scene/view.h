@@ -97,7 +97,7 @@ typedef struct view {
         bool given;
         double place[3]; /* in world coordinates */
     } center;        /* the position that the camera looks at; replaces the middle of the framed box, or the player */
-    double zoom;     /* magnification; 0 means 1 */
+    double zoom;     /* magnification */
     unsigned layers; /* bit 1 << view_layer: layer.h */
     view_coloring coloring;
     view_point_color point_color;
@@ -131,11 +131,6 @@ int view_unit(const view *v);
 static inline bool view_paints_points(const view *v)
 {
     return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
-}
-
-static inline double view_zoom(const view *v)
-{
-    return v->zoom > 0 ? v->zoom : 1;
 }
 
 /* Samples for each pixel on each axis. */

@@ -98,6 +98,8 @@ static view view_of_frame(const golden_frame *frame)
             v = views[i].view;
     v.width = frame->width ? frame->width : 320;
     v.height = frame->height ? frame->height : 180;
+    v.zoom = 1;
+    v.aa = v.aa > 0 ? v.aa : 1;
     return v;
 }
 

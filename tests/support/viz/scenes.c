@@ -6,7 +6,7 @@
 
 view view_of(int width, int height, view_camera camera, unsigned layers)
 {
-    return (view){.width = width, .height = height, .camera = camera, .layers = layers};
+    return (view){.width = width, .height = height, .camera = camera, .layers = layers, .zoom = 1, .aa = 1};
 }
 
 scene empty_scene(const view *v, const octree_box *world)

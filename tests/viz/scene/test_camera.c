@@ -177,7 +177,7 @@ static void an_orbit_keeps_the_world_in_the_window(void **state)
     for (int i = 0; i < 12; i++) {
         const double *size = windows[i % 4];
         const octree_box *world = &worlds[i / 4];
-        const view v = {.width = (int)size[0], .height = (int)size[1], .camera = CAMERA_ORBIT};
+        const view v = {.width = (int)size[0], .height = (int)size[1], .camera = CAMERA_ORBIT, .zoom = 1};
         double most = 0; /* as a fraction of the distance from the middle to a side */
         double low = 0, high = 0;
         for (uint64_t tick = 0; tick < 480; tick++) {
