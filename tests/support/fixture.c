@@ -5,6 +5,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "octree/sample.h"
 
@@ -48,6 +49,12 @@ void assert_valid(const octree *tree)
         char text[OCTREE_ADDRESS_TEXT];
         fail_msg("%s, at node %s", fault, octree_address_format(where != 0 ? where : OCTREE_ROOT, text));
     }
+}
+
+void assert_contains(const char *text, const char *part)
+{
+    if (!text || !strstr(text, part))
+        fail_msg("\"%s\" does not contain \"%s\"", text ? text : "nothing", part);
 }
 
 size_t node_count(const octree *tree)

@@ -27,6 +27,9 @@ void insert_all(octree *tree, const double (*positions)[3], size_t count);
 /* The test fails with the sentence of octree_check() if an invariant does not hold. */
 void assert_valid(const octree *tree);
 
+/* The test fails unless the text contains a part; a null text fails. */
+void assert_contains(const char *text, const char *part);
+
 /* The number of nodes of a tree. */
 size_t node_count(const octree *tree);
 

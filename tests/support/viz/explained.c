@@ -28,9 +28,3 @@ comparison_of assert_explained(const place *a, const place *b, uint64_t most)
         fail_msg("%s", error.text);
     return made;
 }
-
-void assert_contains(const char *text, const char *part)
-{
-    if (!text || !strstr(text, part))
-        fail_msg("\"%s\" does not hold \"%s\"", text ? text : "nothing", part);
-}

@@ -16,7 +16,4 @@ place film_twice(const temp_folder *own, const char *keys, place *b);
 /* Compare two recordings and explain the first `most` pairs. */
 comparison_of assert_explained(const place *a, const place *b, uint64_t most);
 
-/* The test fails unless the text contains a part; a null text fails. */
-void assert_contains(const char *text, const char *part);
-
 #endif

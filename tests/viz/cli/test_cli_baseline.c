@@ -17,12 +17,6 @@ static int without_ci(void **state)
     return temp_folder_make(state);
 }
 
-static void assert_says(const char *text, const char *part)
-{
-    if (!strstr(text, part))
-        fail_msg("\"%s\" does not contain \"%s\"", text, part);
-}
-
 /* Two versions of three frames, of which 2.png differs; and the paths of the test. */
 typedef struct states {
     place before, after, file, store;
@@ -50,7 +44,7 @@ static void assert_diff(const states *s, const place *frames, const char *more, 
 {
     command_result result = run_octreel(NULL, "diff %s %s %s", s->file.path, frames->path, more);
     assert_int_equal(result.status, status);
-    assert_says(result.out, part);
+    assert_contains(result.out, part);
     command_release(&result);
 }
 
@@ -166,7 +160,7 @@ static void only_the_listed_frames_are_accepted(void **state)
     file_write_text(list.path, "2.png\n"); /* --from works for folders of pictures, too */
     result = run_octreel(NULL, "accept %s %s --from %s", s.before.path, s.after.path, list.path);
     assert_done(&result);
-    assert_says(result.out, "1 changed, 0 new, 0 removed");
+    assert_contains(result.out, "1 changed, 0 new, 0 removed");
     command_release(&result);
 }
 

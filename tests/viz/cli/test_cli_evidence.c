@@ -26,16 +26,10 @@ static twins make_twins_of(void **state)
     return made;
 }
 
-static void assert_says(const char *text, const char *part)
-{
-    if (!strstr(text, part))
-        fail_msg("\"%s\" does not contain \"%s\"", text, part);
-}
-
 static void assert_file_says(const char *path, const char *part)
 {
     char *text = file_read(path, NULL);
-    assert_says(text, part);
+    assert_contains(text, part);
     free(text);
 }
 
@@ -48,7 +42,7 @@ static void diff_writes_evidence_and_reports(void **state)
     assert_int_equal(result.status, 1);
     assert_string_equal(result.err, "");
     snprintf(part, sizeof part, "\ncompared exactly\nevidence: %s/report.html\n", t.out.path);
-    assert_says(result.out, part);
+    assert_contains(result.out, part);
     command_release(&result);
     assert_true(file_exists(place_below(t.out.path, "2.difference.png").path));
     assert_file_says(place_below(t.out.path, "report.html").path, "\"frame\": \"2.png\", \"finding\": \"pixels\"");
@@ -83,7 +77,7 @@ static void reports_are_written_if_a_frame_is_unreadable(void **state)
     command_result result =
         run_octreel(NULL, "diff %s %s -o %s --junit %s", t.a.path, t.b.path, t.out.path, t.xml.path);
     assert_int_equal(result.status, 2);
-    assert_says(result.err, "1.png: the file is cut short");
+    assert_contains(result.err, "1.png: the file is cut short");
     command_release(&result);
     char *xml = file_read(t.xml.path, NULL);
     assert_xml_count(xml, "error", 1);
@@ -194,7 +188,7 @@ static void full_disk_is_an_error_and_leaves_only_whole_files(void **state)
         const command_setting full = {.file_limit = limits[i]};
         command_result result =
             run_octreel(&full, "diff %s %s -o %s --junit %s", t.a.path, t.b.path, t.out.path, t.xml.path);
-        assert_says(result.err, place_in(*state, "out").path);
+        assert_contains(result.err, place_in(*state, "out").path);
         assert_trouble(&result, "File too large");
         listing there = folder_list(t.out.path);
         for (size_t n = 0; n < there.count; n++)

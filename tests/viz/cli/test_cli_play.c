@@ -36,7 +36,7 @@ static void build_without_webassembly_says_so(void **state)
     assert_int_equal(temp_folder_count(*state), 0);
 }
 
-static char *assert_contains(const char *page, const char *part)
+static char *read_page_containing(const char *page, const char *part)
 {
     char *text = file_read(page, NULL);
     if (!strstr(text, part))
@@ -67,7 +67,7 @@ static void default_session_becomes_a_page(void **state)
     const place page = place_in(*state, "octreel.html");
     assert_done(&result);
     assert_names_address(result.out, page.path);
-    free(assert_contains(page.path, "{\"tick\":252,"));
+    free(read_page_containing(page.path, "{\"tick\":252,"));
     assert_int_equal(temp_folder_count(*state), 1);
     command_release(&result);
 }
@@ -100,7 +100,7 @@ static void default_page_name_comes_from_the_session(void **state)
     assert_non_null(strstr(result.out, "walk 50%.html: 2 ticks; "));
     assert_non_null(strstr(result.out, "/walk%2050%25.html\n"));
     command_release(&result);
-    free(assert_contains(place_in(*state, "walk 50%.html").path, "\"keys\": \"w\""));
+    free(read_page_containing(place_in(*state, "walk 50%.html").path, "\"keys\": \"w\""));
     result = play_in(*state, "'in/walk 50%.json'"); /* a page of play may be overwritten */
     assert_done(&result);
     command_release(&result);
@@ -126,7 +126,7 @@ static void page_may_have_any_name_and_replace_an_empty_file(void **state)
     assert_non_null(strstr(result.out, "open it in a browser: file:///"));
     assert_non_null(strstr(result.out, "/p.html\n"));
     command_release(&result);
-    free(assert_contains(page.path, "\"keys\": \"w\""));
+    free(read_page_containing(page.path, "\"keys\": \"w\""));
 }
 
 static void points_that_full_leaves_refuse_are_reported(void **state)
@@ -172,7 +172,7 @@ static void only_pages_of_play_are_overwritten(void **state)
         assert_trouble(&result, rows[i][1]);
         assert_int_equal(temp_folder_count(*state), 4);
     }
-    free(assert_contains(place_in(*state, "film/index.html").path, "{\"tick\":1,"));
+    free(read_page_containing(place_in(*state, "film/index.html").path, "{\"tick\":1,"));
 }
 
 static void every_and_no_frames_contradict_each_other(void **state)

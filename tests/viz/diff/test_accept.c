@@ -28,12 +28,6 @@ static command_result accept_all(const place *reference, const place *frames)
     return result;
 }
 
-static void assert_says(command_result *result, const char *part)
-{
-    if (!strstr(result->out, part))
-        fail_msg("\"%s\" does not contain \"%s\"", result->out, part);
-}
-
 /* A reference and a later state of it: 1 unchanged, 2 changed, 3 gone, 4 new. */
 typedef struct change {
     place before, after;
@@ -52,14 +46,14 @@ static void all_new_frames_become_the_reference(void **state)
 {
     const change c = make_change(state);
     command_result result = accept_all(&c.before, &c.after);
-    assert_says(&result, "changed  2.png: 5 of 384 pixels differ");
-    assert_says(&result, "removed  3.png");
-    assert_says(&result, "new      4.png: 24x16");
-    assert_says(&result, "golden: 3 before, 3 after: 1 changed, 1 new, 1 removed");
+    assert_contains(result.out, "changed  2.png: 5 of 384 pixels differ");
+    assert_contains(result.out, "removed  3.png");
+    assert_contains(result.out, "new      4.png: 24x16");
+    assert_contains(result.out, "golden: 3 before, 3 after: 1 changed, 1 new, 1 removed");
     command_release(&result);
     assert_same_folders(c.before.path, c.after.path, NULL);
     result = accept_all(&c.before, &c.after);
-    assert_says(&result, "3 before, 3 after: 0 changed, 0 new, 0 removed");
+    assert_contains(result.out, "3 before, 3 after: 0 changed, 0 new, 0 removed");
     command_release(&result);
 }
 
@@ -83,7 +77,7 @@ static void only_named_frames_are_accepted(void **state)
     const change c = make_change(state);
     command_result result = run_octreel(NULL, "accept %s %s 4.png", c.before.path, c.after.path);
     assert_done(&result);
-    assert_says(&result, "3 before, 4 after: 0 changed, 1 new, 0 removed");
+    assert_contains(result.out, "3 before, 4 after: 0 changed, 1 new, 0 removed");
     command_release(&result);
     comparison_of made = assert_compared(c.before.path, c.after.path, NULL);
     assert_int_equal(find_finding(&made, "2.png"), FOUND_PIXELS);
@@ -119,7 +113,7 @@ static void reference_with_equal_pixels_is_unchanged(void **state)
     assert_true(image_write_png(&picture, place_below(after.path, "1.png").path, texts, 1, &error));
     image_release(&picture);
     command_result result = accept_all(&before, &after);
-    assert_says(&result, "0 changed");
+    assert_contains(result.out, "0 changed");
     command_release(&result);
     comparison_of made = assert_compared(before.path, after.path, NULL);
     assert_int_equal(find_finding(&made, "1.png"), FOUND_SAME_PIXELS);
@@ -158,7 +152,7 @@ static void unreadable_reference_is_replaced(void **state)
     const change c = make_change(state);
     assert_int_equal(truncate(place_below(c.before.path, "1.png").path, 100), 0);
     command_result result = accept_all(&c.before, &c.after);
-    assert_says(&result, "changed  1.png: cannot be read");
+    assert_contains(result.out, "changed  1.png: cannot be read");
     command_release(&result);
     assert_same_folders(c.before.path, c.after.path, NULL);
 }
@@ -168,7 +162,7 @@ static void missing_reference_is_created(void **state)
     const place frames = gallery_make(*state, "new", "1.png 2.png"), folder = place_in(*state, "made/golden"),
                 one = place_below(frames.path, "2.png"), picture = place_in(*state, "one.png");
     command_result result = accept_all(&folder, &frames);
-    assert_says(&result, "0 before, 2 after");
+    assert_contains(result.out, "0 before, 2 after");
     command_release(&result);
     assert_same_folders(folder.path, frames.path, NULL);
     result = accept_all(&picture, &one);
@@ -178,7 +172,7 @@ static void missing_reference_is_created(void **state)
     comparison_release(&made);
     gallery_write(one.path, 8, 3);
     result = accept_all(&picture, &one);
-    assert_says(&result, "1 before, 1 after: 1 changed");
+    assert_contains(result.out, "1 before, 1 after: 1 changed");
     command_release(&result);
 }
 
@@ -222,7 +216,7 @@ static void accept_updates_a_baseline_line_by_line(void **state)
     command_release(&result);
     result = run_octreel(NULL, "accept %s %s 2.png" BECAUSE, digests.path, c.after.path);
     assert_done(&result);
-    assert_says(&result, "3 before, 3 after: 1 changed, 0 new, 0 removed");
+    assert_contains(result.out, "3 before, 3 after: 1 changed, 0 new, 0 removed");
     command_release(&result);
     comparison_of made = assert_compared(digests.path, c.after.path, NULL);
     assert_int_equal(find_finding(&made, "2.png"), FOUND_SAME_PIXELS);
@@ -254,7 +248,7 @@ static void recording_is_accepted_with_its_ticks(void **state)
     film(&after, "ds");
     command_result result = run_octreel(NULL, "accept %s %s frame_000001.png", before.path, after.path);
     assert_done(&result);
-    assert_says(&result, "ticks.jsonl was not changed");
+    assert_contains(result.out, "ticks.jsonl was not changed");
     command_release(&result);
     result = accept_all(&before, &after);
     command_release(&result);
@@ -273,12 +267,12 @@ static void empty_folder_becomes_a_recording(void **state)
     file_write_text(place_below(after.path, "ticks.txt").path, "mine");
     assert_int_equal(mkdir(empty.path, 0777), 0);
     command_result result = accept_all(&empty, &after);
-    assert_says(&result, "0 before, 3 after: 0 changed, 3 new, 0 removed");
+    assert_contains(result.out, "0 before, 3 after: 0 changed, 3 new, 0 removed");
     command_release(&result);
     assert_true(file_exists(place_below(empty.path, "ticks.jsonl").path));
     result = run_octreel(NULL, "accept %s %s frame_000001.png", empty.path, after.path);
     assert_done(&result);
-    assert_says(&result, "0 changed");
+    assert_contains(result.out, "0 changed");
     assert_null(strstr(result.out, "Its ticks"));
     command_release(&result);
 }
@@ -289,9 +283,9 @@ static void long_list_of_frames_is_cut(void **state)
                 after = gallery_make(*state, "new",
                                      "1.png 2.png 3.png 4.png 5.png 6.png 7.png 8.png 9.png A.png B.png C.png");
     command_result result = accept_all(&golden, &after);
-    assert_says(&result, "new      A.png");
+    assert_contains(result.out, "new      A.png");
     assert_null(strstr(result.out, "B.png"));
-    assert_says(&result, "2 more");
+    assert_contains(result.out, "2 more");
     command_release(&result);
     assert_same_folders(golden.path, after.path, NULL);
 }

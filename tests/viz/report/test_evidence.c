@@ -32,7 +32,7 @@ static void leave_and_forget(const char *a, const char *b, const char *folder)
 }
 
 /* The names in a folder, with blanks between them. */
-static void assert_contains(const char *folder, const char *names)
+static void assert_folder_has(const char *folder, const char *names)
 {
     char all[2048] = "";
     listing there = folder_list(folder);
@@ -65,9 +65,9 @@ static void each_finding_leaves_the_pictures_that_exist(void **state)
     image_release(&small);
     assert_int_equal(truncate(place_below(b.path, "4.png").path, 99), 0);
     leave_and_forget(a.path, b.path, folder.path);
-    assert_contains(folder.path, "2.actual.png 2.difference.png 2.expected.png "
-                                 "3.actual.png 3.difference.png 3.expected.png "
-                                 "4.actual.png 4.expected.png 5.expected.png 6.actual.png evidence.txt");
+    assert_folder_has(folder.path, "2.actual.png 2.difference.png 2.expected.png "
+                                   "3.actual.png 3.difference.png 3.expected.png "
+                                   "4.actual.png 4.expected.png 5.expected.png 6.actual.png evidence.txt");
     assert_same_files(place_below(folder.path, "2.expected.png").path, place_below(a.path, "2.png").path);
     assert_same_files(place_below(folder.path, "2.actual.png").path, place_below(b.path, "2.png").path);
     assert_same_files(place_below(folder.path, "4.actual.png").path, place_below(b.path, "4.png").path);
@@ -80,7 +80,7 @@ static void comparison_with_a_baseline_leaves_only_the_actual_frame(void **state
     file_write_text(digests.path, "octreel-digests 2\nbackground ffffff\naccepted 7f 2026-11-22 24x16 runs x\n"
                                   "7f 0123456789abcdef 1\n");
     leave_and_forget(digests.path, b.path, folder.path);
-    assert_contains(folder.path, "1.actual.png evidence.txt");
+    assert_folder_has(folder.path, "1.actual.png evidence.txt");
 }
 
 /* The glowing pixels of the difference are those that count. */
@@ -112,7 +112,7 @@ static void equal_frames_leave_no_pictures(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png 2.png"), folder = place_in(*state, "deep/er/out");
     leave_and_forget(a.path, a.path, folder.path);
-    assert_contains(folder.path, "evidence.txt");
+    assert_folder_has(folder.path, "evidence.txt");
 }
 
 static void different_frame_names_have_different_file_names(void **state)
@@ -145,31 +145,31 @@ static void new_evidence_replaces_old_evidence(void **state)
     const place a = gallery_make(*state, "a", "1.png 2.png"), b = gallery_make(*state, "b", "1.png");
     const place folder = place_in(*state, "out");
     leave_and_forget(a.path, b.path, folder.path);
-    assert_contains(folder.path, "2.expected.png evidence.txt");
+    assert_folder_has(folder.path, "2.expected.png evidence.txt");
     file_write_text(place_below(folder.path, "report.html.part").path, "torn");
     file_write_text(place_below(folder.path, "2.actual.png.part").path, "torn");
     file_write_text(place_below(folder.path, "notes.txt").path, "mine");
     leave_and_forget(b.path, a.path, folder.path);
-    assert_contains(folder.path, "2.actual.png evidence.txt notes.txt");
+    assert_folder_has(folder.path, "2.actual.png evidence.txt notes.txt");
     leave_and_forget(a.path, a.path, folder.path);
-    assert_contains(folder.path, "evidence.txt notes.txt");
+    assert_folder_has(folder.path, "evidence.txt notes.txt");
 }
 
 static void unrelated_folder_is_refused_and_unchanged(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), other = gallery_make(*state, "b", "1.actual.png");
     assert_refused(a.path, a.path, other.path, "contains 1.actual.png but no evidence of octreel diff");
-    assert_contains(other.path, "1.actual.png");
+    assert_folder_has(other.path, "1.actual.png");
     file_write_text(place_below(other.path, "evidence.txt").path, "octreel evid");
     assert_refused(a.path, a.path, other.path, "no evidence of octreel diff");
-    assert_contains(other.path, "1.actual.png evidence.txt");
+    assert_folder_has(other.path, "1.actual.png evidence.txt");
 }
 
 static void empty_folder_is_accepted(void **state)
 {
     const place a = gallery_make(*state, "a", "1.png"), empty = gallery_make(*state, "b", "");
     leave_and_forget(a.path, a.path, empty.path);
-    assert_contains(empty.path, "evidence.txt");
+    assert_folder_has(empty.path, "evidence.txt");
 }
 
 /* Evidence is emptied first: what is compared must not be in it. */
@@ -178,13 +178,13 @@ static void compared_pictures_are_not_removed(void **state)
     const place a = gallery_make(*state, "a", "1.png"), b = gallery_make(*state, "b", "2.png");
     const place folder = place_in(*state, "out");
     leave_and_forget(a.path, b.path, folder.path);
-    assert_contains(folder.path, "1.expected.png 2.actual.png evidence.txt");
+    assert_folder_has(folder.path, "1.expected.png 2.actual.png evidence.txt");
     const place expected = place_below(folder.path, "1.expected.png"),
                 actual = place_below(folder.path, "2.actual.png");
     assert_refused(folder.path, a.path, folder.path, "it is compared, and would be removed");
     assert_refused(a.path, folder.path, folder.path, "it is compared, and would be removed");
     assert_refused(expected.path, actual.path, folder.path, "a picture in it is compared");
-    assert_contains(folder.path, "1.expected.png 2.actual.png evidence.txt");
+    assert_folder_has(folder.path, "1.expected.png 2.actual.png evidence.txt");
 }
 
 static void error_names_a_folder_that_cannot_be_made(void **state)
