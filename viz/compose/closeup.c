@@ -44,16 +44,10 @@ static void narrow_region(view_filter *f, const octree_box *region)
     f->by_region = true;
 }
 
-/* Return the close-up's part of the view's budget: its part of the picture's pixels, at least 1. */
-static uint64_t budget_share(const view *v, double pixels)
-{
-    const double part = (double)v->budget * (pixels / v->width / v->height);
-    return v->budget && part < 1 ? 1 : (uint64_t)part;
-}
-
 bool closeup_begin(scene *s, const layer_source *in, const double place[3], double times, layer_source *close)
 {
     const camera_window w = layout_closeup(&s->view);
+    const double budget = (double)s->view.budget * (w.width * w.height / s->view.width / s->view.height);
     s->closeup = s->closeup ? s->closeup : calloc(1, sizeof *s->closeup);
     if (!s->closeup)
         return false;
@@ -68,7 +62,7 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     c->view.width = (int)w.width;
     c->view.height = (int)w.height;
     c->view.diagram = DIAGRAM_NONE;
-    c->view.budget = budget_share(&s->view, w.width * w.height);
+    c->view.budget = s->view.budget && budget < 1 ? 1 : (uint64_t)budget; /* its part of the picture's pixels */
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
     c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
     const octree_box region = visible_box(&c->camera, &c->view);
@@ -89,22 +83,16 @@ enum {
     LEFT_OUT_ID = SCALE_ID + 3
 };
 
-/* A rectangle in the picture: left, top, right, bottom, in pixels. */
-typedef struct rectangle {
-    double side[4];
-} rectangle;
-
-static void add_picture_line(scene *s, uint64_t id, double x0, double y0, double x1, double y1, unsigned role)
+/* Add a line between two pixels: x and y of its start, x and y of its end. */
+static void add_picture_line(scene *s, uint64_t id, const double ends[4], unsigned role)
 {
-    scene_add_segment(s, (scene_segment){.id = id,
-                                         .in_picture = true,
-                                         .ends = {{x0, y0}, {x1, y1}},
-                                         .style = {.layer = LAYER_CLOSEUP, .role = (uint8_t)role, .width = 1}});
+    const scene_style style = role_style(LAYER_CLOSEUP, role, STROKE_SOLID, 1);
+    scene_add_segment(s, (scene_segment){id, style, true, {{ends[0], ends[1]}, {ends[2], ends[3]}}});
 }
 
-/* Find the area of the picture that the close-up enlarges, cut at the edges of the space view. It is never too small to
- * be visible. Return false when it lies outside the space view. */
-static bool find_enlarged_area(const scene *s, rectangle *r)
+/* Find the area of the picture that the close-up enlarges, cut at the edges of the space view: left, top, right, bottom
+ * in pixels. It is always large enough to be visible. Return false when it lies outside the space view. */
+static bool find_enlarged_area(const scene *s, double sides[4])
 {
     const camera *c = &s->closeup->camera;
     const view *v = &s->closeup->view;
@@ -117,26 +105,30 @@ static bool find_enlarged_area(const scene *s, rectangle *r)
     const double half[2] = {fmax(v->width / smaller / 2, 2 * s->unit), fmax(v->height / smaller / 2, 2 * s->unit)};
     const double low[2] = {w.x, w.y}, high[2] = {w.x + w.width - 1, w.y + w.height - 1};
     for (int i = 0; i < 2; i++) {
-        r->side[i] = fmax(floor(pixel[i] - half[i]), low[i]) + 0.5;
-        r->side[i + 2] = fmin(floor(pixel[i] + half[i]), high[i]) + 0.5;
+        sides[i] = fmax(floor(pixel[i] - half[i]), low[i]) + 0.5;
+        sides[i + 2] = fmin(floor(pixel[i] + half[i]), high[i]) + 0.5;
     }
-    return r->side[0] < r->side[2] && r->side[1] < r->side[3];
+    return sides[0] < sides[2] && sides[1] < sides[3];
 }
 
-/* Outline the enlarged area, and draw lines from two of its corners to the nearest corners of the close-up. */
-static void add_enlarged_area(scene *s, const rectangle *frame)
+/* Outline the enlarged area, and draw lines from two of its corners to the nearest corners of the close-up's frame. */
+static void add_enlarged_area(scene *s, const double frame[4])
 {
-    rectangle r;
-    if (!find_enlarged_area(s, &r))
+    double area[4];
+    if (!find_enlarged_area(s, area))
         return;
-    const double *at = r.side, *to = frame->side;
-    add_picture_line(s, REGION_ID, at[0], at[1], at[2], at[1], ROLE_FAINT);
-    add_picture_line(s, REGION_ID + 1, at[0], at[3], at[2], at[3], ROLE_FAINT);
-    add_picture_line(s, REGION_ID + 2, at[0], at[1], at[0], at[3], ROLE_FAINT);
-    add_picture_line(s, REGION_ID + 3, at[2], at[1], at[2], at[3], ROLE_FAINT);
-    const bool beside = at[2] <= to[0];
-    add_picture_line(s, LEADER_ID, at[beside ? 2 : 0], at[beside ? 1 : 3], to[0], to[1], ROLE_FAINT);
-    add_picture_line(s, LEADER_ID + 1, at[2], at[3], to[beside ? 0 : 2], to[beside ? 3 : 1], ROLE_FAINT);
+    const double left = area[0], top = area[1], right = area[2], bottom = area[3];
+    const bool beside = right <= frame[0];
+    const double lines[][4] = {
+        {left, top, right, top}, /* REGION_ID */
+        {left, bottom, right, bottom},
+        {left, top, left, bottom},
+        {right, top, right, bottom},
+        {beside ? right : left, beside ? top : bottom, frame[0], frame[1]}, /* LEADER_ID */
+        {right, bottom, beside ? frame[0] : frame[2], beside ? frame[3] : frame[1]},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        add_picture_line(s, REGION_ID + i, lines[i], ROLE_FAINT);
 }
 
 static void add_frame(scene *s)
@@ -144,8 +136,7 @@ static void add_frame(scene *s)
     const scene *c = s->closeup;
     const int unit = s->unit, line = unit / 2 > 1 ? unit / 2 : 1, x = c->place[0], y = c->place[1];
     const int width = c->view.width, height = c->view.height;
-    const rectangle frame = {{x - line, y - line, x + width + line, y + height + line}};
-    add_enlarged_area(s, &frame);
+    add_enlarged_area(s, (double[]){x - line, y - line, x + width + line, y + height + line});
     scene_add_rectangle(s, BORDER_ID, (int[]){x - line, y - line}, (int[]){width + 2 * line, height + 2 * line},
                         LAYER_CLOSEUP, ROLE_FAINT);
     scene_add_rectangle(s, GROUND_ID, c->place, (int[]){width, height}, LAYER_CLOSEUP, ROLE_BACKGROUND);
@@ -189,21 +180,21 @@ static void add_scale(scene *s)
     const double pixel = camera_pixel_length(&s->camera), length = round_length(s->view.width / 3.0 * pixel);
     const double x = margin + 0.5, y = s->view.height - margin + 0.5, end = x + floor(length / pixel), rise = 3 * unit;
     char number[NUMBER_TEXT], times[NUMBER_TEXT];
-    scene_label label = {.id = SCALE_ID,
-                         .style = {.layer = LAYER_CLOSEUP, .role = ROLE_TEXT, .width = 1},
-                         .at = {margin, s->view.height - margin - s->text.height - 3 * unit}};
     if (!(length > 0) || !isfinite(end))
         return;
-    snprintf(label.text, sizeof label.text, "%s, enlarged %sx", number_text(length, 6, number),
-             number_text(s->times, 6, times));
+    scene_label label =
+        scene_make_label(SCALE_ID, role_style(LAYER_CLOSEUP, ROLE_TEXT, STROKE_SOLID, 1), "%s, enlarged %sx",
+                         number_text(length, 6, number), number_text(s->times, 6, times));
+    label.at[0] = margin;
+    label.at[1] = s->view.height - margin - s->text.height - 3 * unit;
     const int wide = (int)fmax(end - margin, (double)strlen(label.text) * s->text.width);
     const int corner[2] = {margin - unit, (int)label.at[1] - unit};
     const int size[2] = {wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit};
     drop_covered_labels(s, corner, size);
     scene_add_rectangle(s, SCALE_ID, corner, size, LAYER_CLOSEUP, ROLE_BACKGROUND);
-    add_picture_line(s, SCALE_ID, x, y, end, y, ROLE_TEXT);
-    add_picture_line(s, SCALE_ID + 1, x, y - rise, x, y + 1, ROLE_TEXT);
-    add_picture_line(s, SCALE_ID + 2, end, y - rise, end, y + 1, ROLE_TEXT);
+    add_picture_line(s, SCALE_ID, (double[]){x, y, end, y}, ROLE_TEXT);
+    add_picture_line(s, SCALE_ID + 1, (double[]){x, y - rise, x, y + 1}, ROLE_TEXT);
+    add_picture_line(s, SCALE_ID + 2, (double[]){end, y - rise, end, y + 1}, ROLE_TEXT);
     scene_add_label(s, label);
 }
 
@@ -211,10 +202,9 @@ static void add_scale(scene *s)
 static void add_left_out(scene *s)
 {
     const scene_tally *t = &s->tally;
-    scene_label label = {.id = LEFT_OUT_ID,
-                         .style = {.layer = LAYER_CLOSEUP, .role = ROLE_WARNING, .width = 1},
-                         .at = {6 * s->unit, 6 * s->unit}};
+    scene_label label = scene_make_label(LEFT_OUT_ID, role_style(LAYER_CLOSEUP, ROLE_WARNING, STROKE_SOLID, 1), "");
     char *text = label.text;
+    label.at[0] = label.at[1] = 6 * s->unit;
     if (t->thinned)
         snprintf(text, sizeof label.text, "1 in %" PRIu64 " points", t->one_in);
     else if (t->arrows.thinned)
@@ -226,9 +216,9 @@ static void add_left_out(scene *s)
         text_add_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
-static void add_closeup(scene *s, const layer_source *in, view_layer own)
+static void add_closeup(scene *s, const layer_source *in, view_layer layer)
 {
-    (void)in, (void)own;
+    (void)in, (void)layer;
     if (s->times > 0) {
         add_scale(s);
         add_left_out(s);
@@ -237,7 +227,7 @@ static void add_closeup(scene *s, const layer_source *in, view_layer own)
     }
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_closeup_element(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
         append_text(d, element->id == BORDER_ID   ? "the close-up's frame"
@@ -253,4 +243,4 @@ static void describe(description *d, const described_element *element)
                     element->id < SCALE_ID ? "a line from the enlarged area to the close-up" : "the close-up's scale");
 }
 
-const layer_type layer_CLOSEUP = {.add = add_closeup, .describe = describe};
+const layer_type layer_CLOSEUP = {.add = add_closeup, .describe = describe_closeup_element};

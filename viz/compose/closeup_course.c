@@ -2,7 +2,7 @@
 /* closeup_course.c - chooses the place and the magnification of the close-up.
  *
  * The problem: the close-up should show whatever happens in a tick, but a viewer must be able to follow it from frame
- * to frame, and it may depend only on the ticks up to the present one.
+ * to frame, and it may depend only on the ticks up to the shown one.
  *
  * The subjects of a tick are boxes: the player, or the requested node, the answers, or the changes of the tick. The
  * first pass collects subjects that appear small in the view, and a second pass all others; a subject joins the group
@@ -25,20 +25,15 @@
 /* Sizes as parts of the picture's height. */
 #define SMALL (32.0 / 720)     /* a subject that appears larger than this needs no close-up */
 #define WANTED (68.0 / 720)    /* the close-up enlarges the subject to about this size */
-#define STILL 0.4              /* in a tree alone nothing moves: up to this part of the close-up instead */
-#define SURROUNDED (8.0 / 720) /* surroundings of neighbours; less if their leaf is small */
-#define CHANGED (31.0 / 720)   /* surroundings of changes; the changes of other ticks are not known */
+#define STILL 0.4              /* in a tree alone nothing moves, so a subject may fill this part of the close-up */
+#define SURROUNDED (8.0 / 720) /* the margin around a query's neighbours; less if their leaf is small */
+#define CHANGED (31.0 / 720)   /* the margin around changes: those of later ticks are not known yet */
 #define LEAF_PART 0.5          /* of a leaf's half extent: enough to see the whole leaf in the close-up */
 #define MAX_MAGNIFICATION 1e6  /* the limit of --zoom */
 
 /* ---- Boxes -------------------------------------------------------------------------------------------------- */
 
 static const octree_box nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-
-static bool is_empty(const octree_box *box)
-{
-    return !(box->min[0] <= box->max[0]);
-}
 
 static void widen(octree_box *box, const double from[3], const double to[3])
 {
@@ -87,7 +82,7 @@ static void widen_by_movement(octree_box *box, const octree_body *mover)
     widen(box, next, next);
 }
 
-/* Return the box around everything that a tick edits, moves, splits and merges. */
+/* Return the box around all points that a tick edits or moves and all nodes that it splits or merges. */
 static octree_box changes_box(const layer_source *in)
 {
     const octree_tick *tick = in->tick;
@@ -110,7 +105,7 @@ typedef struct view_scale {
 static view_scale make_view_scale(const layer_source *in)
 {
     scene with = {.has_closeup = true};
-    double center[3]; /* any point will do: only the distance counts */
+    double center[3]; /* any position will do: only its distance from the camera matters */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
     const camera c = camera_make(in->view, layout_camera(&with, &in->world), &in->world, center, 0);
@@ -165,7 +160,8 @@ double closeup_magnification(const closeup_course *course, const layer_source *i
     return in->view->closeup && layout_closeup(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
-/* Return the half extent of a subject with some surroundings. Very near neighbours alone would show no context. */
+/* Return the half extent of a subject with a margin, so that neighbours at nearly the same place also show their leaf.
+ */
 static double half_extent_with_leaf(const layer_source *in, const octree_box *seen, const view_scale *m)
 {
     double middle[3];
@@ -249,7 +245,8 @@ static bool shows_group(const group_search *g, const double place[3])
 static void follow_queries_or_changes(closeup_course *course, const layer_source *in)
 {
     const group_search g = find_group(course, in);
-    if (is_empty(&g.group) || (course->reach > 0 && !has_queries(in) && shows_group(&g, course->place)))
+    const bool empty = !(g.group.min[0] <= g.group.max[0]);
+    if (empty || (course->reach > 0 && !has_queries(in) && shows_group(&g, course->place)))
         return;
     course->reach = g.reach;
     scene_box_middle(&g.group, course->place);
@@ -257,18 +254,13 @@ static void follow_queries_or_changes(closeup_course *course, const layer_source
         course->place[i] = fmin(fmax(course->place[i], in->world.min[i]), in->world.max[i]);
 }
 
-/* Follow the player. The reach includes half a step, so that a step does not leave the close-up. */
-static void follow_player(closeup_course *course, const layer_source *in)
-{
-    const octree_player *player = &in->session->player;
-    course->reach = fmax(player->box_size, player->step / 2);
-    memcpy(course->place, in->tick->player, sizeof course->place);
-}
-
 void closeup_follow(closeup_course *course, const layer_source *in)
 {
-    if (in->session && in->session->player.kind != OCTREE_PLAYER_NONE)
-        follow_player(course, in);
-    else if (layout_closeup(in->view).width > 0)
+    const octree_player *player = in->session ? &in->session->player : NULL;
+    if (player && player->kind != OCTREE_PLAYER_NONE) {
+        course->reach = fmax(player->box_size, player->step / 2); /* a step does not leave the close-up */
+        memcpy(course->place, in->tick->player, sizeof course->place);
+    } else if (layout_closeup(in->view).width > 0) {
         follow_queries_or_changes(course, in);
+    }
 }

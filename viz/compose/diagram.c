@@ -22,7 +22,6 @@
 #include "text.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,8 +37,8 @@
  * in lines of a diagram with text. */
 enum { WORDS_LEFT = 4, WORDS_RIGHT = 8, WORDS_ABOVE = 2, WORDS_BELOW = 2, WORDS_WIDTH = 25, WORDS_HEIGHT = 9 };
 
-#define BAR_STEPS 16       /* the steps of a bar's height; the last one fills the row */
-#define ROWS_AT_ONCE 4     /* the number of rows is a multiple of this, so that rows seldom move */
+#define BAR_STEPS 16       /* the number of heights that a bar can have; the tallest fills the row */
+#define ROWS_AT_ONCE 4     /* a game's diagram has a multiple of this number of rows, so that rows seldom move */
 #define MOST_DIGITS 999999 /* a larger number is rounded to three digits */
 
 /* Ids of panels. A node's panel has its address. Other panels have a highest bit that no address has. */
@@ -89,8 +88,8 @@ static bool arrange_tree(diagram *d)
     const int letter = s->text.width, line = s->text.line, edge = EDGE * unit;
     d->has_text =
         view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * letter && w.height >= WORDS_HEIGHT * line;
-    const int left = d->has_text ? edge + WORDS_LEFT * letter : edge,
-              right = d->has_text ? edge + WORDS_RIGHT * letter : edge;
+    const int left = edge + (d->has_text ? WORDS_LEFT * letter : 0);
+    const int right = edge + (d->has_text ? WORDS_RIGHT * letter : 0);
     const int above = d->has_text ? WORDS_ABOVE * line : edge, below = d->has_text ? WORDS_BELOW * line : edge;
     d->left = w.x + left;
     d->width = w.width - (left + right);
@@ -136,12 +135,6 @@ static void fill_centered(const diagram *d, uint64_t id, double x, double y, dou
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-static scene_style line_style(theme_role role, scene_stroke stroke, unsigned width)
-{
-    return (scene_style){
-        .layer = LAYER_DIAGRAM, .role = (uint8_t)role, .stroke = (uint8_t)stroke, .width = (uint8_t)width};
-}
-
 /* Compare a node's address and a visit in the order of a walk: each node comes before its children. */
 static int compare_in_walk_order(const void *node, const void *visit)
 {
@@ -161,7 +154,7 @@ static const octree_visit *find_visit(const octree_tick *tick, octree_address no
 }
 
 /* Return the style of the line from a node to its parent: bold if visited, dashed if pruned, as in the space view. */
-static scene_style edge_style(const diagram *d, octree_address node, theme_role role)
+static scene_style edge_style(const diagram *d, octree_address node, unsigned role)
 {
     const octree_visit *visit = find_visit(d->in->tick, node);
     const bool was_pruned = visit && visit->touch == OCTREE_TRACE_PRUNED;
@@ -169,7 +162,7 @@ static scene_style edge_style(const diagram *d, octree_address node, theme_role 
     const bool visited = visit && !was_pruned && view_shows(d->in->view, LAYER_VISITED);
     d->scene->tally.marked_visited += visited;
     d->scene->tally.marked_pruned += pruned;
-    return line_style(role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
+    return role_style(LAYER_DIAGRAM, role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
 /* Compute the width and height of a node: limited by its slot and its row; a leaf is half as large as an inner node. */
@@ -232,8 +225,7 @@ static void add_nodes(diagram *d, bool on_path)
         if (on_path)
             d->anchors[depth] = anchors[depth];
         else if (depth)
-            add_line(d, node->address, &anchors[depth - 1], &anchors[depth],
-                     edge_style(d, node->address, (theme_role)role));
+            add_line(d, node->address, &anchors[depth - 1], &anchors[depth], edge_style(d, node->address, role));
         add_node(d, node, anchors[depth].x, size, role);
     }
 }
@@ -245,7 +237,8 @@ static void add_path(const diagram *d)
     for (unsigned depth = 0; depth <= deep; depth++) {
         const anchor *at = &d->anchors[depth];
         if (depth)
-            add_line(d, d->path >> 3 * (deep - depth), at - 1, at, line_style(ROLE_PLAYER, STROKE_SOLID, 2));
+            add_line(d, d->path >> 3 * (deep - depth), at - 1, at,
+                     role_style(LAYER_DIAGRAM, ROLE_PLAYER, STROKE_SOLID, 2));
         if (depth > d->slots.deepest)
             fill_centered(d, PATH_ID | depth, at->x, row_middle(d, depth), RING * d->scene->unit, at->foot - at->head,
                           ROLE_PLAYER);
@@ -326,15 +319,12 @@ static void add_bars(diagram *d)
 
 /* ---- Text ---------------------------------------------------------------------------------------------------- */
 
-static void write_label(diagram *d, double x, double y, theme_role role, const char *format, ...)
+static void add_text(diagram *d, double x, double y, theme_role role, const char *text)
 {
-    scene_label label = {.id = d->next_label++,
-                         .at = {floor(x), floor(y)},
-                         .style = {.layer = LAYER_DIAGRAM, .role = (uint8_t)role, .width = 1}};
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(label.text, sizeof label.text, format, arguments);
-    va_end(arguments);
+    const scene_style style = role_style(LAYER_DIAGRAM, role, STROKE_SOLID, 1);
+    scene_label label = scene_make_label(d->next_label++, style, "%s", text);
+    label.at[0] = floor(x);
+    label.at[1] = floor(y);
     scene_add_label(d->scene, label);
 }
 
@@ -345,17 +335,6 @@ static double right_aligned_x(const diagram *d, const char *text)
     return d->window.x + d->window.width - EDGE * s->unit - (double)strlen(text) * s->text.width;
 }
 
-/* Write a number of nodes at the right edge. */
-static void write_count(diagram *d, double y, size_t count)
-{
-    char text[NUMBER_TEXT];
-    if (count <= MOST_DIGITS)
-        snprintf(text, sizeof text, "%zu", count);
-    else
-        number_text((double)count, 3, text);
-    write_label(d, right_aligned_x(d, text), y, ROLE_TEXT, "%s", text);
-}
-
 static void write_rows(diagram *d)
 {
     const scene *s = d->scene;
@@ -363,13 +342,17 @@ static void write_rows(diagram *d)
     const unsigned row_step =
         (unsigned)ceil(s->text.height / d->pitch); /* where rows are lower than letters, only every n-th has text */
     /* The diagram always shows Octreel's own tree; say so if the space view shows foreign nodes instead. */
-    write_label(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
-    write_label(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
+    add_text(d, left, top, ROLE_FAINT, shows_own_tree(d->in) ? "depth" : "Octreel's depth");
+    add_text(d, right_aligned_x(d, "nodes"), top, ROLE_FAINT, "nodes");
     for (unsigned depth = 0; depth <= d->slots.stats.depth; depth += row_step) {
         const double y = row_middle(d, depth) - s->text.height / 2;
-        write_label(d, left, y, ROLE_FAINT, "%u", depth);
-        if (d->slots.stats.nodes_at_depth[depth])
-            write_count(d, y, d->slots.stats.nodes_at_depth[depth]);
+        char number[NUMBER_TEXT];
+        snprintf(number, sizeof number, "%u", depth);
+        add_text(d, left, y, ROLE_FAINT, number);
+        const size_t count = d->slots.stats.nodes_at_depth[depth];
+        number_text((double)count, count <= MOST_DIGITS ? 6 : 3, number);
+        if (count)
+            add_text(d, right_aligned_x(d, number), y, ROLE_TEXT, number);
     }
 }
 
@@ -388,7 +371,7 @@ static void write_path_end(diagram *d)
     const size_t room = letters < SCENE_TEXT ? letters : SCENE_TEXT - 1;
     if (length > room)
         memcpy(text + room - 3, "...", 4);
-    write_label(d, d->window.x + EDGE * unit, foot, ROLE_PLAYER, "%s", text);
+    add_text(d, d->window.x + EDGE * unit, foot, ROLE_PLAYER, text);
 }
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
@@ -403,15 +386,15 @@ static void find_path(diagram *d)
     d->path = found ? d->end.address : 0;
 }
 
-static void add_diagram(scene *s, const layer_source *in, view_layer own)
+static void add_diagram(scene *s, const layer_source *in, view_layer layer)
 {
     diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
     d.capacity = octree_definition(in->tree).leaf_capacity;
-    if (!view_shows(&s->view, own))
+    if (!view_shows(&s->view, layer))
         return;
     /* The background covers elements of the space view that reach into the diagram. */
     scene_add_rectangle(s, GROUND_ID, (int[]){(int)d.window.x, (int)d.window.y},
-                        (int[]){(int)d.window.width, (int)d.window.height}, own, ROLE_BACKGROUND);
+                        (int[]){(int)d.window.width, (int)d.window.height}, layer, ROLE_BACKGROUND);
     if (!arrange_tree(&d))
         return;
     find_path(&d);
@@ -428,7 +411,7 @@ static void add_diagram(scene *s, const layer_source *in, view_layer own)
     diagram_slots_release(&d.slots);
 }
 
-static void add_legend(legend *l, const layer_source *in)
+static void add_diagram_legend(legend *l, const layer_source *in)
 {
     const scene_tally *tally = &l->scene->tally;
     (void)in;
@@ -452,22 +435,22 @@ static void describe_panel(description *d, uint64_t id)
     } else if (id / PATH_ID == 1) {
         append_text(d, "in the diagram, the path to the player");
     } else {
-        append_text(d, "in the diagram, ");
-        describe_node(d, id);
+        describe_node(d, "in the diagram, ", id);
     }
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_diagram_element(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL) {
         describe_panel(d, element->id);
     } else if (element->kind == SCENE_LABEL) {
         append_text(d, " of the diagram");
     } else {
-        append_text(d, "in the diagram, %sthe line from its parent to ",
-                    element->style.role == ROLE_PLAYER ? "the path to the player: " : "");
-        describe_node(d, element->id);
+        append_text(d, "in the diagram, %s", element->style.role == ROLE_PLAYER ? "the path to the player: " : "");
+        describe_node(d, "the line from its parent to ", element->id);
     }
 }
 
-const layer_type layer_DIAGRAM = {.add = add_diagram, .legend_place = 190, .legend = add_legend, .describe = describe};
+const layer_type layer_DIAGRAM = {.add = add_diagram,
+                                  .legend = {.order = 190, .add_lines = add_diagram_legend},
+                                  .describe = describe_diagram_element};

@@ -68,7 +68,7 @@ static void write_position(pen *p, const char *name, const double position[3], i
             number_text(position[i], 9, text);
         else
             snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* + 0.0: no minus zero */
-        write_row(p, axis, "%s", text);
+        write_row(p, axis, "", "%s", text);
     }
 }
 
@@ -77,39 +77,34 @@ static void write_box_rows(pen *p, const char *name, const octree_box *box)
 {
     char from[NUMBER_TEXT], to[NUMBER_TEXT], heading[SCENE_TEXT * 2];
     snprintf(heading, sizeof heading, "%*s %*s", WORLD_NUMBER, "from", WORLD_NUMBER, "to");
-    write_text(p, 0, ROLE_FAINT, name);
+    write_text(p, 0, ROLE_FAINT, "%s", name);
     write_right_aligned(p, ROLE_FAINT, heading);
     p->y += p->scene->text.line;
     for (int i = 0; i < 3; i++) {
         const char axis[2] = {(char)('x' + i), 0};
-        write_row(p, axis, "%*s %*s", WORLD_NUMBER, format_number_within(box->min[i], WORLD_NUMBER, from), WORLD_NUMBER,
-                  format_number_within(box->max[i], WORLD_NUMBER, to));
+        write_row(p, axis, "", "%*s %*s", WORLD_NUMBER, format_number_within(box->min[i], WORLD_NUMBER, from),
+                  WORLD_NUMBER, format_number_within(box->max[i], WORLD_NUMBER, to));
     }
 }
 
 /* ---- The tick ------------------------------------------------------------------------------------------------ */
 
-/* Write the statistics of a foreign index. */
-static void write_foreign_statistics(pen *p, const octree_foreign_state *foreign)
-{
-    write_row(p, "program nodes", "%zu", foreign->node_count);
-    write_row(p, "program leaves", "%zu", foreign->leaf_count);
-    write_row(p, "program depth", "%u", foreign->depth);
-}
-
 /* Write the statistics of the trees that the view shows. */
 static void write_statistics(pen *p, const layer_source *in, const octree_stats *stats)
 {
-    const octree *tree = in->tree;
-    write_row(p, "points", "%zu", stats->points);
-    if (shows_foreign_tree(in))
-        write_foreign_statistics(p, &in->tick->foreign);
+    const octree_def definition = octree_definition(in->tree);
+    write_row(p, "points", "", "%zu", stats->points);
+    if (shows_foreign_tree(in)) {
+        write_row(p, "program nodes", "", "%zu", in->tick->foreign.node_count);
+        write_row(p, "program leaves", "", "%zu", in->tick->foreign.leaf_count);
+        write_row(p, "program depth", "", "%u", in->tick->foreign.depth);
+    }
     if (!shows_own_tree(in))
         return;
-    write_row(p, "nodes", "%zu", stats->nodes);
-    write_row(p, "leaves", "%zu", stats->leaves);
-    write_row(p, "depth", "%u of max %zu", stats->depth, octree_definition(tree).max_depth);
-    write_row(p, "leaf capacity", "%zu", octree_definition(tree).leaf_capacity);
+    write_row(p, "nodes", "", "%zu", stats->nodes);
+    write_row(p, "leaves", "", "%zu", stats->leaves);
+    write_row(p, "depth", "", "%u of max %zu", stats->depth, definition.max_depth);
+    write_row(p, "leaf capacity", "", "%zu", definition.leaf_capacity);
 }
 
 /* Whether the player is moved by keys. */
@@ -164,8 +159,8 @@ static void write_answers(pen *p, const layer_source *in)
     p->name = ROLE_FAINT;
 }
 
-/* Write how many foreign answers are wrong, the query kind of the worst, and what is wrong with it. */
-static void write_wrong(pen *p, const layer_source *in)
+/* Write the number of wrong foreign answers, the query kind of the worst one, and what is wrong with it. */
+static void write_wrong_answers(pen *p, const layer_source *in)
 {
     char words[JUDGEMENT_TEXT];
     size_t judged = 0, worst;
@@ -175,21 +170,21 @@ static void write_wrong(pen *p, const layer_source *in)
     for (size_t i = 0; i < in->answer_count; i++)
         judged += in->answers[i].judgement.judged;
     p->name = ROLE_WRONG;
-    write_detailed_row(p, "wrong", octree_query_name(in->answers[worst].kind), "%zu of %zu", wrong, judged);
-    write_row(p, "", "%s", judgement_text(&in->answers[worst].judgement, words));
+    write_row(p, "wrong", octree_query_name(in->answers[worst].kind), "%zu of %zu", wrong, judged);
+    write_row(p, "", "", "%s", judgement_text(&in->answers[worst].judgement, words));
     p->name = ROLE_FAINT;
 }
 
-/* Write the number of faults in the foreign nodes, and the first fault. */
+/* Write the number of wrong foreign nodes, and what is wrong with the first one. */
 static void write_wrong_nodes(pen *p, const layer_source *in)
 {
-    char text[FOREIGN_FAULT_TEXT];
+    char text[WRONG_NODE_TEXT];
     if (!shows_foreign_tree(in) || in->tick->foreign.wrong_count == 0)
         return;
     p->name = ROLE_WRONG;
-    write_row(p, "wrong in nodes", "%zu", in->tick->foreign.wrong_count);
+    write_row(p, "wrong in nodes", "", "%zu", in->tick->foreign.wrong_count);
     p->name = ROLE_FAINT;
-    write_wrapped(p, ROLE_WARNING, foreign_fault_text(&in->tick->foreign, text));
+    write_wrapped(p, ROLE_WARNING, wrong_node_text(&in->tick->foreign, text));
 }
 
 static void write_refusals(pen *p, const octree_tick *tick)
@@ -200,10 +195,10 @@ static void write_refusals(pen *p, const octree_tick *tick)
         snprintf(why, sizeof why, "%s", octree_status_name(tick->refusals[i].why));
         for (char *c = strchr(why, '_'); c; c = strchr(c, '_'))
             *c = ' ';
-        write_detailed_row(p, i ? "" : "refused", id, "%s", why);
+        write_row(p, i ? "" : "refused", id, "%s", why);
     }
     if (tick->refusal_count > 2)
-        write_row(p, "", "and %zu more", tick->refusal_count - 2);
+        write_row(p, "", "", "and %zu more", tick->refusal_count - 2);
 }
 
 /* Write this tick's key in brackets, always at the same place, and a few keys before and after it. */
@@ -237,7 +232,7 @@ static void write_broken(pen *p, const layer_source *in)
     if (!in->broken)
         return;
     write_gap(p);
-    write_row(p, "broken", "%s", octree_address_format(in->broken_at, text));
+    write_row(p, "broken", "", "%s", octree_address_format(in->broken_at, text));
     write_wrapped(p, ROLE_WARNING, in->broken);
 }
 
@@ -251,7 +246,7 @@ static int write_title(pen *p, const char *text, size_t beside)
     if (fits)
         write_title_text(p, ROLE_TEXT, text);
     else
-        write_text(p, 0, ROLE_TEXT, text);
+        write_text(p, 0, ROLE_TEXT, "%s", text);
     return fits ? s->title.height : s->text.height;
 }
 
@@ -278,13 +273,13 @@ static void write_filter(pen *p, const view_filter *f)
 {
     char at[NUMBER_TEXT];
     if (f->slice)
-        write_row(p, "slice", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
+        write_row(p, "slice", "", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
     if (f->by_depth && f->min_depth == f->max_depth)
-        write_row(p, "depth", "%u alone", f->min_depth);
+        write_row(p, "depth", "", "%u alone", f->min_depth);
     else if (f->by_depth)
-        write_row(p, "depths", "%u to %u", f->min_depth, f->max_depth);
+        write_row(p, "depths", "", "%u to %u", f->min_depth, f->max_depth);
     if (f->leaves)
-        write_row(p, "only", "leaves");
+        write_row(p, "only", "", "leaves");
     if (f->by_region)
         write_box_rows(p, "region", &f->region);
 }
@@ -293,21 +288,21 @@ static void write_budget(pen *p, const scene_tally *tally)
 {
     const bool nodes = tally->beyond > 0, points = tally->thinned > 0;
     if (nodes && tally->deepest < 0)
-        write_row(p, "budget", "no nodes");
+        write_row(p, "budget", "", "no nodes");
     else if (nodes)
-        write_row(p, "budget", "nodes to depth %d", tally->deepest);
+        write_row(p, "budget", "", "nodes to depth %d", tally->deepest);
     if (points)
-        write_row(p, nodes ? "" : "budget", "1 point in %" PRIu64, tally->one_in);
+        write_row(p, nodes ? "" : "budget", "", "1 point in %" PRIu64, tally->one_in);
     if (tally->arrows.thinned)
-        write_row(p, "arrows", "1 in %" PRIu64, tally->arrows.one_in);
+        write_row(p, "arrows", "", "1 in %" PRIu64, tally->arrows.one_in);
 }
 
 static void write_folded_depths(pen *p, const scene_tally *tally)
 {
     if (tally->folded && tally->folded_from == tally->folded_to)
-        write_row(p, "drawn as bars", "depth %u", tally->folded_from);
+        write_row(p, "drawn as bars", "", "depth %u", tally->folded_from);
     else if (tally->folded)
-        write_row(p, "drawn as bars", "depths %u to %u", tally->folded_from, tally->folded_to);
+        write_row(p, "drawn as bars", "", "depths %u to %u", tally->folded_from, tally->folded_to);
 }
 
 /* Write a row for each kind of element that is smaller than the view's lod. */
@@ -320,7 +315,7 @@ static void write_small_counts(pen *p, const scene_tally *tally)
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (!counts[i])
             continue;
-        write_row(p, name, "%zu %s", counts[i], words[i][counts[i] != 1]);
+        write_row(p, name, "", "%zu %s", counts[i], words[i][counts[i] != 1]);
         name[0] = 0;
     }
 }
@@ -333,9 +328,10 @@ static void write_shown_counts(pen *p, const scene_tally *tally)
         return;
     write_filter(p, &v->filter);
     if (view_shows(v, LAYER_NODES))
-        write_row(p, "shown", "%zu node%s", tally->nodes, plural(tally->nodes));
+        write_row(p, "shown", "", "%zu node%s", tally->nodes, plural(tally->nodes));
     if (view_shows(v, LAYER_POINTS))
-        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "%zu point%s", tally->points, plural(tally->points));
+        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "", "%zu point%s", tally->points,
+                  plural(tally->points));
 }
 
 /* Write a row for each rule that leaves out or folds elements, and how many are shown. Without such a row there is no
@@ -355,7 +351,7 @@ static void write_view_limits(pen *p)
     write_budget(p, tally);
     p->value = ROLE_TEXT;
     if (p->scene->view.labels && tally->labels < tally->nodes)
-        write_row(p, "labels", "%zu of %zu fit", tally->labels, tally->nodes);
+        write_row(p, "labels", "", "%zu of %zu fit", tally->labels, tally->nodes);
     const int end = p->y;
     p->y = before;
     if (end != begin) {
@@ -384,7 +380,6 @@ static void cut_rows(pen *p)
               line = s->text.line; /* `last`: the lowest y at which a row may begin */
     size_t kept = 0, rows = 0;
     double at = -1, first = 0;
-    char text[SCENE_TEXT];
     if (p->y - line <= last)
         return;
     for (size_t i = 0; i < s->labels.count; i++) {
@@ -400,8 +395,8 @@ static void cut_rows(pen *p)
     s->labels.count = kept;
     p->y = (int)first < last ? (int)first : last;
     drop_rules(s, p->y);
-    snprintf(text, sizeof text, "and %zu more", rows);
-    write_line(p, ROLE_WARNING, text);
+    write_text(p, 0, ROLE_WARNING, "and %zu more", rows);
+    p->y += line;
 }
 
 /* Write the player's rows, if the session has a player. A player that is away leaves its room empty, so that the rows
@@ -414,10 +409,10 @@ static void write_player(pen *p, const layer_source *in)
     if (in->tick->has_player)
         write_position(p, "player", in->tick->player, decimals_of_player(in));
     else
-        write_row(p, "player", "away");
+        write_row(p, "player", "", "away");
     p->y = end;
     if (in->tick->swept)
-        write_row(p, "box tested", "the whole way");
+        write_row(p, "box tested", "", "the whole way");
     write_rule(p);
 }
 
@@ -434,7 +429,7 @@ static void write_tick_rows(pen *p, const layer_source *in)
         write_rule(p);
     if (tick->has_player)
         write_ids(p, "box hits", tick->hits, tick->hit_count);
-    write_wrong(p, in);
+    write_wrong_answers(p, in);
     write_wrong_nodes(p, in);
     write_answers(p, in);
     write_refusals(p, tick);
@@ -460,7 +455,7 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
     if (in->tick) {
         write_line(&p, ROLE_TEXT, title);
         write_events(&p, in);
-        write_wrong(&p, in);
+        write_wrong_answers(&p, in);
         write_wrong_nodes(&p, in);
     }
     write_view_limits(&p);
@@ -485,9 +480,9 @@ static void add_column(scene *s, const layer_source *in, const char *title)
     write_legend(&p, in);
 }
 
-static void add_panel(scene *s, const layer_source *in, view_layer own)
+static void add_panel(scene *s, const layer_source *in, view_layer layer)
 {
-    (void)own;
+    (void)layer;
     char title[SCENE_TEXT];
     if (in->tick)
         snprintf(title, sizeof title, "tick %" PRIu64, in->tick->number);
@@ -500,11 +495,11 @@ static void add_panel(scene *s, const layer_source *in, view_layer own)
         add_column(s, in, title);
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_panel_element(description *d, const described_element *element)
 {
     if (element->kind == SCENE_PANEL)
         append_text(d, element->style.role == ROLE_PANEL ? "the background of the panel"
                                                          : "a symbol or a rule in the panel");
 }
 
-const layer_type layer_TEXT = {.add = add_panel, .describe = describe};
+const layer_type layer_TEXT = {.add = add_panel, .describe = describe_panel_element};

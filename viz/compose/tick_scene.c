@@ -145,7 +145,7 @@ bool tree_scene_build(scene *s, const view *v, const octree *tree, const tree_su
                        .values = subject->values,
                        .title = subject->title,
                        .requested = subject->node};
-    double center[3]; /* the camera looks at it, as it looks at the player of a game */
+    double center[3]; /* the camera looks at this position, as it looks at the player of a game */
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &in.world, center);
     return build_scene(s, &in, center, (closeup_course){0});
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* answer_layers.c - the layers of a tick's queries: each query's region or target, and the points that it found. */
-#include "answer_layers.h"
+#include "layer_type.h"
 #include "number.h"
 #include "text.h"
 
@@ -17,20 +17,27 @@
 
 /* ---- All kinds ---------------------------------------------------------------------------------------------- */
 
-uint64_t answer_part_id(size_t place, size_t part)
+/* Return the element id of a part of an answer, such as the line to a neighbour. `place` is the answer's index in the
+ * tick. Markers have the ids of their points instead. */
+static uint64_t part_id(size_t place, size_t part)
 {
     return (uint64_t)place << 32 | (uint64_t)part;
 }
 
-void mark_answer_points(scene *s, const octree_answer *answer, view_layer own, scene_shape shape, unsigned half)
+/* Mark the points of an answer. `half` is half the size of a mark, in half units. An answer with many points gets
+ * smaller marks, so that they hide less. */
+static void mark_answer_points(scene *s, const octree_answer *answer, view_layer layer, scene_shape shape,
+                               unsigned half)
 {
     const unsigned size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
-    const scene_style style = layer_style(own, STROKE_SOLID, size);
+    const scene_style style = layer_style(layer, STROKE_SOLID, size);
     for (size_t i = 0; i < answer->count; i++)
         scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
 
-const octree_answer *append_query(description *d, const char *what, uint64_t place)
+/* Append a phrase such as "the box of the range query (answer 2 of 3)"; `what` is the noun, here "box". Return the
+ * answer at `place`. */
+static const octree_answer *append_query(description *d, const char *what, uint64_t place)
 {
     const octree_answer *answer = &d->tick->answers[place];
     append_text(d, "the %s of the %s query", what, octree_query_name(answer->kind));
@@ -39,7 +46,7 @@ const octree_answer *append_query(description *d, const char *what, uint64_t pla
     return answer;
 }
 
-void append_found_count(description *d, const octree_answer *answer)
+static void append_found_count(description *d, const octree_answer *answer)
 {
     append_text(d, ", %zu point%s found", answer->count, plural(answer->count));
 }
@@ -48,19 +55,17 @@ static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
 {
     const octree_answer *answer = append_query(d, "line", place);
     const octree_neighbor *neighbor = &answer->neighbors[rank];
-    append_text(d, " to neighbour %" PRIu64 ": ", rank + 1);
-    describe_point(d, neighbor->point.id, neighbor->point.position);
-    append_text(d, ", distance ");
-    append_number(d, neighbor->distance);
+    append_text(d, " to neighbour %" PRIu64, rank + 1);
+    describe_point(d, ": ", neighbor->point.id, neighbor->point.position);
+    append_number(d, ", distance ", neighbor->distance);
 }
 
 /* ---- Range -------------------------------------------------------------------------------------------------- */
 
-static void add_range(scene *s, const octree_answer *answer, size_t place, view_layer own)
+static void add_range(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
-    const scene_style style = layer_style(own, STROKE_DASHED, 1);
-    scene_add_box(s, (scene_box){.id = place, .box = answer->box, .style = style});
-    mark_answer_points(s, answer, own, SHAPE_FRAME, 5);
+    scene_add_outline(s, place, &answer->box, layer_style(layer, STROKE_DASHED, 1));
+    mark_answer_points(s, answer, layer, SHAPE_FRAME, 5);
 }
 
 static void write_range(pen *p, const octree_answer *answer)
@@ -71,18 +76,15 @@ static void write_range(pen *p, const octree_answer *answer)
 static void describe_range(description *d, const described_element *element)
 {
     const octree_answer *answer = append_query(d, "box", element->id);
-    append_text(d, ": ");
-    append_box(d, &element->box);
+    append_box(d, ": ", &element->box);
     append_found_count(d, answer);
 }
 
-const layer_type layer_RANGE = {.add_answer = add_range,
-                                .write_answer = write_range,
-                                .legend_place = 120,
-                                .sign = SIGN_DASHES,
-                                .text = "range query, dashed",
-                                .worth = DROP_LATE,
-                                .describe = describe_range};
+const layer_type layer_RANGE = {
+    .add_answer = add_range,
+    .write_answer = write_range,
+    .legend = {.order = 120, .sign = SIGN_DASHES, .text = "range query, dashed", .drop_order = DROP_LATE},
+    .describe = describe_range};
 
 /* ---- Radius ------------------------------------------------------------------------------------------------- */
 
@@ -102,17 +104,17 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
     point_on_circle(ball, plane, 0, from);
     for (int i = 0; i < BALL_CHORDS; i++) {
         point_on_circle(ball, plane, (i + 1) % BALL_CHORDS, to);
-        scene_add_line(s, answer_part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
+        scene_add_line(s, part_id(place, (size_t)(plane * BALL_CHORDS + i)), from, to, style);
         memcpy(from, to, sizeof from);
     }
 }
 
-static void add_ball(scene *s, const octree_answer *answer, size_t place, view_layer own)
+static void add_ball(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
-    const scene_style style = layer_style(own, STROKE_SOLID, 1);
+    const scene_style style = layer_style(layer, STROKE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, style);
-    mark_answer_points(s, answer, own, SHAPE_LOZENGE, 8);
+    mark_answer_points(s, answer, layer, SHAPE_LOZENGE, 8);
 }
 
 static void write_radius(pen *p, const octree_answer *answer)
@@ -120,26 +122,22 @@ static void write_radius(pen *p, const octree_answer *answer)
     char radius[NUMBER_TEXT], found[SCENE_TEXT];
     const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", answer->count) + DETAIL + 1;
     format_number_within(answer->radius, taken < (size_t)p->letters ? (size_t)p->letters - taken : 1, radius);
-    write_detailed_row(p, "radius", radius, "%s", found);
+    write_row(p, "radius", radius, "%s", found);
 }
 
 static void describe_radius(description *d, const described_element *element)
 {
     const octree_answer *answer = append_query(d, "ball", element->id >> 32);
-    append_text(d, ": radius ");
-    append_number(d, answer->radius);
-    append_text(d, " about ");
-    append_position(d, answer->target);
+    append_number(d, ": radius ", answer->radius);
+    append_position(d, " about ", answer->target);
     append_found_count(d, answer);
 }
 
-const layer_type layer_RADIUS = {.add_answer = add_ball,
-                                 .write_answer = write_radius,
-                                 .legend_place = 130,
-                                 .sign = SIGN_LINE,
-                                 .text = "radius query, round",
-                                 .worth = DROP_LATE,
-                                 .describe = describe_radius};
+const layer_type layer_RADIUS = {
+    .add_answer = add_ball,
+    .write_answer = write_radius,
+    .legend = {.order = 130, .sign = SIGN_LINE, .text = "radius query, round", .drop_order = DROP_LATE},
+    .describe = describe_radius};
 
 /* ---- K nearest ---------------------------------------------------------------------------------------------- */
 
@@ -160,21 +158,21 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
     double pixels[NUMBERED_RANKS][2];
     size_t numbered = 0;
     for (size_t i = 0; i < answer->count && i < NUMBERED_RANKS; i++) {
-        scene_label rank = {.id = answer_part_id(place, i), .in_world = true, .style = style};
+        scene_label rank = scene_make_label(part_id(place, i), style, " %zu", i + 1); /* room for a marker */
+        rank.in_world = true;
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
         if (!camera_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
             continue;
         numbered++;
-        snprintf(rank.text, sizeof rank.text, " %zu", i + 1); /* the blank leaves room for a marker */
         scene_add_label(s, rank);
     }
 }
 
-static void add_knearest(scene *s, const octree_answer *answer, size_t place, view_layer own)
+static void add_knearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
-    const scene_style style = layer_style(own, STROKE_SOLID, 1);
+    const scene_style style = layer_style(layer, STROKE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
-        scene_add_line(s, answer_part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
+        scene_add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
     add_ranks(s, answer, place, style);
 }
 
@@ -194,22 +192,20 @@ static void describe_knearest(description *d, const described_element *element)
         describe_neighbor(d, element->id >> 32, element->id & UINT32_MAX);
 }
 
-const layer_type layer_KNEAREST = {.add_answer = add_knearest,
-                                   .write_answer = write_knearest,
-                                   .legend_place = 140,
-                                   .sign = SIGN_LINE,
-                                   .text = "k nearest, numbered",
-                                   .worth = DROP_LATE,
-                                   .describe = describe_knearest};
+const layer_type layer_KNEAREST = {
+    .add_answer = add_knearest,
+    .write_answer = write_knearest,
+    .legend = {.order = 140, .sign = SIGN_LINE, .text = "k nearest, numbered", .drop_order = DROP_LATE},
+    .describe = describe_knearest};
 
 /* ---- Nearest ------------------------------------------------------------------------------------------------ */
 
-static void add_nearest(scene *s, const octree_answer *answer, size_t place, view_layer own)
+static void add_nearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
     for (size_t i = 0; i < answer->count; i++) {
         const octree_point *point = &answer->neighbors[i].point;
-        scene_add_line(s, place, answer->target, point->position, layer_style(own, STROKE_DASHED, 1));
-        scene_add_mark(s, point->id, point->position, SHAPE_FRAME, layer_style(own, STROKE_SOLID, 7));
+        scene_add_line(s, place, answer->target, point->position, layer_style(layer, STROKE_DASHED, 1));
+        scene_add_mark(s, point->id, point->position, SHAPE_FRAME, layer_style(layer, STROKE_SOLID, 7));
     }
 }
 
@@ -217,15 +213,15 @@ static void write_nearest(pen *p, const octree_answer *answer)
 {
     char id[SCENE_TEXT], distance[NUMBER_TEXT];
     if (answer->count == 0) {
-        write_row(p, "nearest", "none");
+        write_row(p, "nearest", "", "none");
         return;
     }
     number_text(answer->neighbors[0].distance, 6, distance);
     snprintf(id, sizeof id, "#%" PRIu64, answer->neighbors[0].point.id);
     const bool fits = DETAIL + strlen(id) + 1 + strlen(distance) + strlen(" away") <= (size_t)p->letters;
     if (!fits)
-        write_row(p, "nearest", "%s", id);
-    write_detailed_row(p, fits ? "nearest" : "", fits ? id : "", "%s away", distance);
+        write_row(p, "nearest", "", "%s", id);
+    write_row(p, fits ? "nearest" : "", fits ? id : "", "%s away", distance);
 }
 
 static void describe_nearest(description *d, const described_element *element)
@@ -233,10 +229,8 @@ static void describe_nearest(description *d, const described_element *element)
     describe_neighbor(d, element->id, 0);
 }
 
-const layer_type layer_NEAREST = {.add_answer = add_nearest,
-                                  .write_answer = write_nearest,
-                                  .legend_place = 150,
-                                  .sign = SIGN_DASHES,
-                                  .text = "nearest point, dashed",
-                                  .worth = DROP_LATE,
-                                  .describe = describe_nearest};
+const layer_type layer_NEAREST = {
+    .add_answer = add_nearest,
+    .write_answer = write_nearest,
+    .legend = {.order = 150, .sign = SIGN_DASHES, .text = "nearest point, dashed", .drop_order = DROP_LATE},
+    .describe = describe_nearest};

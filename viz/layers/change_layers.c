@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* change_layers.c - the layers of nodes that split, merged, or break an invariant of the tree. */
+/* change_layers.c - the layers of the nodes that split or merged at a tick. */
 #include "foreign_nodes.h"
 #include "layer_type.h"
 #include "octree/octree.h"
@@ -9,14 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The id of a line through a node holds the node's address and the line's axis. The shift loses no bits: only a node at
- * the greatest depth has an address of 64 bits, and such a node never splits. */
-static uint64_t line_id(octree_address node, unsigned axis)
-{
-    return node << 2 | axis;
-}
-
-/* Draw three lines through the point where a node's three planes cross: the lowest corner of its last octant. */
+/* Draw three lines through the point where a node's three planes cross: the lowest corner of its last octant. A line's
+ * id holds the node's address and the line's axis. The shift loses no bits: only a node at the greatest depth has an
+ * address of 64 bits, and such a node never splits. */
 static void add_planes(scene *s, const layer_source *in, octree_address address, scene_style style)
 {
     octree_node node;
@@ -29,23 +24,23 @@ static void add_planes(scene *s, const layer_source *in, octree_address address,
         memcpy(ends[1], last.min, sizeof ends[1]);
         ends[0][axis] = node.box.min[axis];
         ends[1][axis] = node.box.max[axis];
-        scene_add_line(s, line_id(address, axis), ends[0], ends[1], style);
+        scene_add_line(s, address << 2 | axis, ends[0], ends[1], style);
     }
 }
 
 /* Return the nodes that split or merged at this tick, whichever the layer shows. */
-static const octree_address *changed_nodes(const octree_tick *tick, view_layer layer, size_t *count)
+static const octree_address *get_changed_nodes(const octree_tick *tick, view_layer layer, size_t *count)
 {
     *count = layer == LAYER_SPLITS ? tick->split_count : tick->merge_count;
     return layer == LAYER_SPLITS ? tick->splits : tick->merges;
 }
 
-static void add_changes(scene *s, const layer_source *in, view_layer own)
+static void add_changes(scene *s, const layer_source *in, view_layer layer)
 {
-    const scene_style style = layer_style(own, own == LAYER_SPLITS ? STROKE_SOLID : STROKE_DASHED, 2);
+    const scene_style style = layer_style(layer, layer == LAYER_SPLITS ? STROKE_SOLID : STROKE_DASHED, 2);
     size_t count;
-    const octree_address *nodes = changed_nodes(in->tick, own, &count);
-    for (size_t i = 0; view_shows(&s->view, own) && i < count; i++)
+    const octree_address *nodes = get_changed_nodes(in->tick, layer, &count);
+    for (size_t i = 0; view_shows(&s->view, layer) && i < count; i++)
         add_planes(s, in, nodes[i], style);
 }
 
@@ -55,7 +50,7 @@ static void add_change_legend(legend *l, const layer_source *in)
     char last[OCTREE_ADDRESS_TEXT];
     size_t count;
     const bool split = l->next.layer == LAYER_SPLITS;
-    const octree_address *nodes = changed_nodes(in->tick, l->next.layer, &count);
+    const octree_address *nodes = get_changed_nodes(in->tick, l->next.layer, &count);
     legend_line *line = legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu node%s %s", count, plural(count),
                                    split ? "split" : "merged");
     if (count == 0)
@@ -68,9 +63,8 @@ static void add_change_legend(legend *l, const layer_source *in)
 
 static void describe_change(description *d, const described_element *element)
 {
-    append_text(d, "a plane of a node that %s at this tick, ",
-                element->style.layer == LAYER_SPLITS ? "split" : "merged");
-    describe_node(d, element->id >> 2);
+    append_text(d, "a plane of a node that %s at this tick", element->style.layer == LAYER_SPLITS ? "split" : "merged");
+    describe_node(d, ", ", element->id >> 2);
 }
 
 static bool changes_apply(const layer_source *in)
@@ -80,42 +74,10 @@ static bool changes_apply(const layer_source *in)
 
 const layer_type layer_MERGES = {.applies = changes_apply,
                                  .add = add_changes,
-                                 .legend_place = 110,
-                                 .legend = add_change_legend,
+                                 .legend = {.order = 110, .add_lines = add_change_legend},
                                  .describe = describe_change};
 
 const layer_type layer_SPLITS = {.applies = changes_apply,
                                  .add = add_changes,
-                                 .legend_place = 100,
-                                 .legend = add_change_legend,
+                                 .legend = {.order = 100, .add_lines = add_change_legend},
                                  .describe = describe_change};
-
-/* ---- Broken invariants --------------------------------------------------------------------------------------- */
-
-/* Draw the broken node crossed out, with the word "broken" beside it. */
-static void add_broken(scene *s, const layer_source *in, view_layer own)
-{
-    if (!in->broken)
-        return;
-    const scene_style style = layer_style(own, STROKE_DASHED, 2);
-    const octree_box box = octree_cell_box(&in->world, in->broken_at);
-    scene_add_box(s, (scene_box){.id = in->broken_at, .box = box, .style = style});
-    add_crossed_faces(s, &box, style);
-    scene_add_label(s, (scene_label){.id = in->broken_at,
-                                     .in_world = true,
-                                     .at = {box.max[0], box.max[1], box.max[2]},
-                                     .text = " broken",
-                                     .style = layer_style(own, STROKE_DASHED, 1)});
-}
-
-static void describe_broken(description *d, const described_element *element)
-{
-    if (element->kind == SCENE_SEGMENT)
-        append_text(d, "a line of the cross on a node with a broken invariant");
-    if (element->kind != SCENE_BOX)
-        return;
-    describe_node(d, element->id);
-    append_text(d, "; an invariant of this node is broken");
-}
-
-const layer_type layer_BROKEN = {.add = add_broken, .describe = describe_broken};

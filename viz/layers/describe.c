@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* describe.c - appends phrases to the description of an element, and asks the element's layer for its words. */
 #include "describe.h"
-#include "layer_type.h"
+#include "foreign_nodes.h"
 #include "number.h"
 #include "octree/octree.h"
 #include "text.h"
@@ -22,27 +22,25 @@ void append_text(description *d, const char *format, ...)
         d->length = ELEMENT_TEXT - 1;
 }
 
-void append_number(description *d, double value)
+void append_number(description *d, const char *before, double value)
 {
     char text[NUMBER_TEXT];
     number_print(value, text);
-    append_text(d, "%s", text);
+    append_text(d, "%s%s", before, text);
 }
 
-void append_position(description *d, const double place[3])
+void append_position(description *d, const char *before, const double position[3])
 {
-    for (int i = 0; i < 3; i++) {
-        append_text(d, i ? ", " : "(");
-        append_number(d, place[i]);
-    }
+    append_text(d, "%s", before);
+    for (int i = 0; i < 3; i++)
+        append_number(d, i ? ", " : "(", position[i]);
     append_text(d, ")");
 }
 
-void append_box(description *d, const octree_box *box)
+void append_box(description *d, const char *before, const octree_box *box)
 {
-    append_position(d, box->min);
-    append_text(d, " to ");
-    append_position(d, box->max);
+    append_position(d, before, box->min);
+    append_position(d, " to ", box->max);
 }
 
 static void find_node(description *d, octree_address address)
@@ -58,28 +56,31 @@ static void find_node(description *d, octree_address address)
     }
 }
 
-void describe_node(description *d, octree_address address)
+void describe_node(description *d, const char *before, uint64_t id)
 {
     char path[OCTREE_ADDRESS_TEXT];
     const octree_node *node = &d->subject->node;
-    find_node(d, address);
-    append_text(d, "node %s: ", octree_address_format(address, path));
+    if (is_foreign_element(id)) {
+        describe_foreign_node(d, before, id);
+        return;
+    }
+    find_node(d, id);
+    append_text(d, "%snode %s: ", before, octree_address_format(id, path));
     if (d->subject->gone)
         append_text(d, "an empty cell at depth %u (its node no longer exists)", node->depth);
     else
         append_text(d, "%s at depth %u, %zu point%s", node->leaf ? "leaf" : "inner node", node->depth, node->count,
                     plural(node->count));
-    append_text(d, ", box ");
-    append_box(d, &node->box);
+    append_box(d, ", box ", &node->box);
 }
 
-void describe_point(description *d, uint64_t id, const double position[3])
+void describe_point(description *d, const char *before, uint64_t id, const double position[3])
 {
     d->subject->has_point = true;
     d->subject->point.id = id;
     memcpy(d->subject->point.position, position, sizeof d->subject->point.position);
-    append_text(d, "point %" PRIu64 " at ", id);
-    append_position(d, position);
+    append_text(d, "%spoint %" PRIu64, before, id);
+    append_position(d, " at ", position);
 }
 
 static void describe(description *d, const described_element *element)
@@ -89,9 +90,9 @@ static void describe(description *d, const described_element *element)
     if (type->describe && !found)
         type->describe(d, element);
     else if (element->kind == SCENE_BOX)
-        describe_node(d, element->id);
+        describe_node(d, "", element->id);
     else if (element->kind == SCENE_MARKER)
-        describe_point(d, element->id, element->at);
+        describe_point(d, "", element->id, element->at);
     if (found)
         append_text(d, ", found by a %s query", layer_rows[element->style.layer].name);
 }

@@ -47,12 +47,15 @@ typedef struct described_element {
 
 /* Append formatted text. Text beyond ELEMENT_TEXT is cut off. */
 void append_text(description *d, const char *format, ...);
-void append_number(description *d, double value);
-void append_position(description *d, const double place[3]); /* "(1, 2, 3)" */
-void append_box(description *d, const octree_box *box);      /* "(0, 0, 0) to (5, 5, 5)" */
 
-/* Append a phrase about a node or point, and store the node or point in the description's subject. */
-void describe_node(description *d, octree_address address);
-void describe_point(description *d, uint64_t id, const double position[3]);
+/* Append `before`, and then a value. */
+void append_number(description *d, const char *before, double value);
+void append_position(description *d, const char *before, const double position[3]); /* "(1, 2, 3)" */
+void append_box(description *d, const char *before, const octree_box *box);         /* "(0, 0, 0) to (5, 5, 5)" */
+
+/* Append `before`, and then a phrase about a node or point. Store the node or point in the description's subject. The
+ * id of a node's element is the node's address; that of a foreign node is explained in foreign_nodes.h. */
+void describe_node(description *d, const char *before, uint64_t id);
+void describe_point(description *d, const char *before, uint64_t id, const double position[3]);
 
 #endif

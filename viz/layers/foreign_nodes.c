@@ -45,10 +45,8 @@ static unsigned clamped_depth(const octree_foreign_place *place)
 
 static void add_box(scene *s, const octree_foreign_place *place, scene_style style)
 {
-    scene_add_box(s, (scene_box){.id = foreign_element(place->node->id),
-                                 .box = place->node->box,
-                                 .style = style,
-                                 .depth = (uint8_t)clamped_depth(place)});
+    const uint64_t id = foreign_element(place->node->id);
+    scene_add_box(s, (scene_box){id, style, (uint8_t)clamped_depth(place), place->node->box});
 }
 
 static bool passes_filter(const scene *s, const octree_foreign_place *place)
@@ -59,10 +57,7 @@ static bool passes_filter(const scene *s, const octree_foreign_place *place)
 /* Whether a node is smaller than the view's lod and has an ancestor that may be shown. */
 static bool is_small(const scene *s, const octree_foreign_place *place)
 {
-    const view_filter *f = &s->view.filter;
-    return s->view.lod > 0 && place->parent != SIZE_MAX && !f->leaves &&
-           place->depth > (f->by_depth ? f->min_depth : 0) &&
-           camera_box_is_below(&s->camera, &place->node->box, s->view.lod);
+    return place->parent != SIZE_MAX && is_small_below_shown(s, &place->node->box, place->depth);
 }
 
 /* ---- All nodes ---------------------------------------------------------------------------------------------- */
@@ -97,18 +92,18 @@ void add_foreign_nodes(scene *s, const layer_source *in)
         s->tally.beyond += out;
         if (small || out)
             continue;
-        add_box(s, place, (scene_style){.layer = LAYER_NODES, .role = (uint8_t)role_of(&s->view, place), .width = 1});
+        add_box(s, place, role_style(LAYER_NODES, role_of(&s->view, place), STROKE_SOLID, 1));
         s->tally.nodes++;
     }
     if (s->tally.beyond > beyond)
         s->tally.deepest = deepest;
 }
 
-/* ---- Visits and faults --------------------------------------------------------------------------------------- */
+/* ---- Visits -------------------------------------------------------------------------------------------------- */
 
 /* Whether a layer shows a node. A node that one query pruned and another visited is in the layer of visited nodes
  * only. */
-static bool matches_layer(const octree_foreign_place *place, view_layer layer)
+static bool matches_layer(const octree_foreign_place *place, unsigned layer)
 {
     const unsigned visited = 1u << OCTREE_NODE_VISITED, pruned = 1u << OCTREE_NODE_PRUNED, hit = 1u << OCTREE_NODE_HIT;
     if (layer == LAYER_PRUNED)
@@ -116,96 +111,90 @@ static bool matches_layer(const octree_foreign_place *place, view_layer layer)
     return place->visits & (layer == LAYER_VISITED ? visited : hit);
 }
 
-void add_visited_foreign_nodes(scene *s, const layer_source *in, view_layer own)
+void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style style)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
-    const bool pruned = own == LAYER_PRUNED;
-    scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
-    for (size_t i = 0; view_shows(&s->view, own) && i < foreign->node_count; i++) {
+    for (size_t i = 0; i < foreign->node_count; i++) {
         const octree_foreign_place *place = &foreign->nodes[i];
-        if (!matches_layer(place, own) || !passes_filter(s, place))
+        if (!matches_layer(place, style.layer) || !passes_filter(s, place))
             continue;
         const bool small = is_small(s, place);
         s->tally.small_marked += small;
-        if (own != LAYER_HIT)
+        if (style.layer != LAYER_HIT)
             style.role = (uint8_t)role_of(&s->view, place);
         if (!small)
             add_box(s, place, style);
     }
 }
 
-/* Return the text that stands beside a fault's mark. */
-static const char *short_fault_text(octree_wrong_node_kind kind)
+/* ---- Wrong nodes --------------------------------------------------------------------------------------------- */
+
+/* A mark on a wrong node, or on a point that no foreign node lists. */
+typedef struct wrong_mark {
+    uint64_t id;
+    const octree_foreign_place *node; /* null: a point */
+    octree_wrong_node_kind kind;      /* of a node with several, the first */
+    double at[3];                     /* the place of the text: the point, or the node's upper corner */
+} wrong_mark;
+
+#define MOST_MARKS (2 * OCTREE_LISTED_WRONG_NODES)
+
+/* The id of a mark on a point has both bits. No other element of the layer has both. */
+#define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
+#define LOST_MARK 6 /* half the size of a mark on a point, in half units */
+
+/* Find the marks of a tick: at most OCTREE_LISTED_WRONG_NODES nodes, and as many points. Return their number. */
+static size_t find_marks(const layer_source *in, wrong_mark marks[MOST_MARKS])
+{
+    const octree_foreign_state *foreign = &in->tick->foreign;
+    size_t count = 0;
+    for (size_t i = 0; i < foreign->node_count && count < OCTREE_LISTED_WRONG_NODES; i++) {
+        const octree_foreign_place *node = &foreign->nodes[i];
+        octree_wrong_node_kind kind = 0;
+        while (node->wrong && !(node->wrong >> kind & 1))
+            kind++;
+        const double *at = node->node->box.max;
+        if (node->wrong)
+            marks[count++] = (wrong_mark){foreign_element(node->node->id), node, kind, {at[0], at[1], at[2]}};
+    }
+    for (size_t i = 0; i < foreign->listed_count; i++) {
+        octree_point point;
+        const double *at = point.position;
+        if (foreign->listed[i].kind == OCTREE_NODE_LOST_POINT &&
+            octree_game_find(in->game, foreign->listed[i].point, &point))
+            marks[count++] = (wrong_mark){LOST_ELEMENT | point.id, NULL, OCTREE_NODE_LOST_POINT, {at[0], at[1], at[2]}};
+    }
+    return count;
+}
+
+void mark_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied)
+{
+    wrong_mark marks[MOST_MARKS];
+    const size_t count = find_marks(in, marks);
+    for (size_t i = 0; i < count; i++) {
+        if (marks[i].node) {
+            add_box(s, marks[i].node, layer_style(LAYER_WRONG, STROKE_DASHED, 2));
+            continue;
+        }
+        scene_add_mark(s, marks[i].id, marks[i].at, SHAPE_CROSS, layer_style(LAYER_WRONG, STROKE_SOLID, LOST_MARK));
+        text_space_keep_mark(occupied, s, marks[i].at, LOST_MARK);
+    }
+}
+
+size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied)
 {
     static const char *const words[OCTREE_WRONG_NODE_KINDS] = {
         [OCTREE_NODE_OUTSIDE_PARENT] = "outside parent", [OCTREE_NODE_UNKNOWN_POINT] = "unknown point",
         [OCTREE_NODE_OUTSIDE_POINT] = "point outside",   [OCTREE_NODE_REPEATED_POINT] = "point twice",
         [OCTREE_NODE_LOST_POINT] = "in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
         [OCTREE_NODE_PRUNED_POINT] = "wrongly pruned"};
-    return words[kind];
-}
-
-/* An element with both bits marks a point that no foreign node lists. No other element of the layer has both. */
-#define LOST_ELEMENT (FOREIGN_ELEMENT | UINT64_C(1) << 61)
-#define LOST_MARK 6 /* half the size of such a mark, in half units */
-
-/* Return the index of the first wrong node at or after `place`; node_count when there is none, or when `marked` nodes
- * are already as many as the layer marks. */
-static size_t next_wrong_node(const octree_foreign_state *foreign, size_t place, size_t marked)
-{
-    while (place < foreign->node_count && !foreign->nodes[place].wrong)
-        place++;
-    return marked < OCTREE_LISTED_WRONG_NODES ? place : foreign->node_count;
-}
-
-static bool find_lost_point(const layer_source *in, size_t listed, octree_point *point)
-{
-    const octree_wrong_node *fault = &in->tick->foreign.listed[listed];
-    return fault->kind == OCTREE_NODE_LOST_POINT && octree_game_find(in->game, fault->point, point);
-}
-
-void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied)
-{
-    const octree_foreign_state *foreign = &in->tick->foreign;
-    octree_point point;
-    for (size_t i = next_wrong_node(foreign, 0, 0), marked = 1; i < foreign->node_count;
-         i = next_wrong_node(foreign, i + 1, marked++))
-        add_box(s, &foreign->nodes[i], layer_style(own, STROKE_DASHED, 2));
-    for (size_t i = 0; i < foreign->listed_count; i++) {
-        if (!find_lost_point(in, i, &point))
-            continue;
-        scene_add_mark(s, LOST_ELEMENT | point.id, point.position, SHAPE_CROSS,
-                       layer_style(own, STROKE_SOLID, LOST_MARK));
-        text_space_keep_mark(occupied, s, point.position, LOST_MARK);
-    }
-}
-
-/* Write a fault's text beside its mark. Return false where there is no room. */
-static bool add_fault_label(scene *s, uint64_t id, const double at[3], octree_wrong_node_kind kind, view_layer own,
-                            text_space *occupied)
-{
-    scene_label label = {.id = id, .style = layer_style(own, STROKE_SOLID, 1)};
-    snprintf(label.text, sizeof label.text, "%s", short_fault_text(kind));
-    return text_add_beside(occupied, s, label, at, LOST_MARK);
-}
-
-size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied)
-{
-    const octree_foreign_state *foreign = &in->tick->foreign;
-    octree_point point;
+    const scene_style style = layer_style(LAYER_WRONG, STROKE_SOLID, 1);
+    wrong_mark marks[MOST_MARKS];
+    const size_t count = find_marks(in, marks);
     size_t left_out = 0;
-    for (size_t i = next_wrong_node(foreign, 0, 0), marked = 1; i < foreign->node_count;
-         i = next_wrong_node(foreign, i + 1, marked++)) {
-        octree_wrong_node_kind kind = 0;
-        while (!(foreign->nodes[i].wrong >> kind & 1))
-            kind++;
-        const octree_foreign_node *node = foreign->nodes[i].node;
-        left_out += !add_fault_label(s, foreign_element(node->id), node->box.max, kind, own, occupied);
-    }
-    for (size_t i = 0; i < foreign->listed_count; i++)
-        if (find_lost_point(in, i, &point))
-            left_out +=
-                !add_fault_label(s, LOST_ELEMENT | point.id, point.position, OCTREE_NODE_LOST_POINT, own, occupied);
+    for (size_t i = 0; i < count; i++)
+        left_out += !text_add_beside(occupied, s, scene_make_label(marks[i].id, style, "%s", words[marks[i].kind]),
+                                     marks[i].at, LOST_MARK);
     return left_out;
 }
 
@@ -219,10 +208,10 @@ static const octree_foreign_place *find_foreign_node(const octree_foreign_state 
     return NULL;
 }
 
-void describe_foreign_node(description *d, uint64_t element)
+void describe_foreign_node(description *d, const char *before, uint64_t element)
 {
     const octree_foreign_place *place = find_foreign_node(&d->tick->foreign, foreign_node_of(element));
-    append_text(d, "foreign node %" PRIu64, foreign_node_of(element));
+    append_text(d, "%sforeign node %" PRIu64, before, foreign_node_of(element));
     if (!place)
         return;
     const octree_foreign_node *node = place->node;
@@ -232,40 +221,40 @@ void describe_foreign_node(description *d, uint64_t element)
         append_text(d, " of kind \"%s\"", node->kind);
     if (node->has_parent)
         append_text(d, " under node %" PRIu64, node->parent);
-    append_text(d, ", %zu point%s listed, box ", place->points, plural(place->points));
-    append_box(d, &node->box);
+    append_text(d, ", %zu point%s listed", place->points, plural(place->points));
+    append_box(d, ", box ", &node->box);
     for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
         if (place->wrong >> kind & 1)
             append_text(d, "; wrong: %s", octree_wrong_node_words((octree_wrong_node_kind)kind));
 }
 
-void describe_foreign_fault(description *d, const described_element *element)
+void describe_wrong_foreign_node(description *d, const described_element *element)
 {
-    const uint64_t id = element->id & ~LOST_ELEMENT;
-    octree_point point = {.id = id};
-    if (element->kind == SCENE_LABEL || element->kind == SCENE_PANEL)
-        append_text(d, element->kind == SCENE_PANEL ? "the background of the text about " : " on ");
+    octree_point point = {.id = element->id & ~LOST_ELEMENT};
+    const char *before = element->kind == SCENE_PANEL   ? "the background of the text about "
+                         : element->kind == SCENE_LABEL ? " on "
+                                                        : "";
     if ((element->id & LOST_ELEMENT) != LOST_ELEMENT) {
-        describe_foreign_node(d, element->id);
+        describe_foreign_node(d, before, element->id);
         return;
     }
-    octree_game_find(d->game, id, &point);
-    describe_point(d, id, point.position);
+    octree_game_find(d->game, point.id, &point);
+    describe_point(d, before, point.id, point.position);
     append_text(d, ", which is in no foreign node");
 }
 
-const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_FAULT_TEXT])
+const char *wrong_node_text(const octree_foreign_state *foreign, char text[WRONG_NODE_TEXT])
 {
-    const octree_wrong_node *fault = foreign->listed;
+    const octree_wrong_node *first = foreign->listed;
     char node[32] = "", point[32] = "";
     *text = 0;
     if (foreign->listed_count == 0)
         return text;
-    snprintf(node, sizeof node, "node %" PRIu64 ": ", fault->node);
-    snprintf(point, sizeof point, " (%" PRIu64 ")", fault->point);
-    const bool has_node = fault->kind != OCTREE_NODE_LOST_POINT;
-    const bool has_point = fault->kind != OCTREE_NODE_OUTSIDE_PARENT && fault->kind != OCTREE_NODE_UNKNOWN_NODE;
-    snprintf(text, FOREIGN_FAULT_TEXT, "%s%s%s", has_node ? node : "", octree_wrong_node_words(fault->kind),
+    snprintf(node, sizeof node, "node %" PRIu64 ": ", first->node);
+    snprintf(point, sizeof point, " (%" PRIu64 ")", first->point);
+    const bool has_node = first->kind != OCTREE_NODE_LOST_POINT;
+    const bool has_point = first->kind != OCTREE_NODE_OUTSIDE_PARENT && first->kind != OCTREE_NODE_UNKNOWN_NODE;
+    snprintf(text, WRONG_NODE_TEXT, "%s%s%s", has_node ? node : "", octree_wrong_node_words(first->kind),
              has_point ? point : "");
     return text;
 }

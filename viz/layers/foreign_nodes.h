@@ -30,24 +30,25 @@ bool shows_own_tree(const layer_source *in);
 bool shows_foreign_tree(const layer_source *in);
 
 /* Add all foreign nodes that pass the view's filter, lod and budget. The second function adds only the foreign nodes
- * that queries visited, pruned or hit, whichever the layer `own` shows. */
+ * that queries visited, pruned or hit, whichever the layer of `style` shows. */
 void add_foreign_nodes(scene *s, const layer_source *in);
-void add_visited_foreign_nodes(scene *s, const layer_source *in, view_layer own);
+void add_visited_foreign_nodes(scene *s, const layer_source *in, scene_style style);
 
-/* Mark the wrong foreign nodes and the points that no foreign node lists, in the layer `own`. The second function
- * writes beside each mark what is wrong (the first fault of a node) where there is room, and returns the number of
- * texts without room. `occupied` is the part of the picture that marks and texts already take. */
-void mark_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied);
-size_t label_foreign_faults(scene *s, const layer_source *in, view_layer own, text_space *occupied);
+/* Mark the wrong foreign nodes, and the points that no foreign node lists. The second function writes beside each mark
+ * what is wrong where there is room, and returns the number of texts without room. `occupied` is the part of the
+ * picture that marks and texts already take. */
+void mark_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied);
+size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occupied);
 
-/* Append "foreign node 5: leaf at depth 2 of kind "leaf" under node 7, 3 points listed, box ...", and its faults. */
-void describe_foreign_node(description *d, uint64_t element);
+/* Append `before`, and then a phrase such as "foreign node 5: leaf at depth 2 of kind "leaf" under node 7, 3 points
+ * listed, box ...", and what is wrong with the node. */
+void describe_foreign_node(description *d, const char *before, uint64_t element);
 
-/* Describe an element that mark_foreign_faults or label_foreign_faults added. */
-void describe_foreign_fault(description *d, const described_element *element);
+/* Describe an element that mark_wrong_foreign_nodes or label_wrong_foreign_nodes added. */
+void describe_wrong_foreign_node(description *d, const described_element *element);
 
-/* Write the tick's first fault in a foreign node to `text` and return it; empty when there is no fault. */
-#define FOREIGN_FAULT_TEXT 128
-const char *foreign_fault_text(const octree_foreign_state *foreign, char text[FOREIGN_FAULT_TEXT]);
+/* Write the first thing that is wrong with the tick's foreign nodes to `text` and return it; empty if nothing is. */
+#define WRONG_NODE_TEXT 128
+const char *wrong_node_text(const octree_foreign_state *foreign, char text[WRONG_NODE_TEXT]);
 
 #endif

@@ -26,11 +26,11 @@ static unsigned shift_of(view_layer layer)
 }
 
 /* Return the half size of a mark: at most half the leaf's size on screen, so that marks do not cover each other. */
-static uint8_t mark_width(const scene *s, const octree_box *leaf, unsigned step)
+static unsigned mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
     const double most = camera_box_pixels(&s->camera, leaf) / (2 * s->unit);
     const unsigned width = step + 1;
-    return (uint8_t)(width < most ? width : most > 0 ? most : 0);
+    return width < most ? width : most > 0 ? (unsigned)most : 0;
 }
 
 static octree_walk_order add_leaf(const octree_node *node, void *context)
@@ -50,21 +50,19 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
         const unsigned step = heat_step(amount, shift_of(w->layer));
         scene_box_middle(&node->box, middle);
         scene_add_mark(s, node->address, middle, visits ? SHAPE_SQUARE : SHAPE_DIAMOND,
-                       (scene_style){.layer = (uint8_t)w->layer,
-                                     .role = (uint8_t)theme_node_role(step),
-                                     .width = mark_width(s, &node->box, step)});
+                       role_style(w->layer, theme_node_role(step), STROKE_SOLID, mark_width(s, &node->box, step)));
     }
     return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-static void add_heat(scene *s, const layer_source *in, view_layer own)
+static void add_heat(scene *s, const layer_source *in, view_layer layer)
 {
-    heat_walk w = {s, in, own};
-    if (in->heat && view_shows(&s->view, own))
+    heat_walk w = {s, in, layer};
+    if (in->heat && view_shows(&s->view, layer))
         octree_walk(in->tree, add_leaf, &w);
 }
 
-static void add_legend(legend *l, const layer_source *in)
+static void add_heat_legend(legend *l, const layer_source *in)
 {
     const bool visits = l->next.layer == LAYER_VISIT_HEAT;
     (void)in;
@@ -72,20 +70,24 @@ static void add_legend(legend *l, const layer_source *in)
                HEAT_LAST(shift_of(l->next.layer)), visits ? "visits" : "points");
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_heat(description *d, const described_element *element)
 {
     const heat_cell heat_of_node = heat_at(d->heat, element->id);
+    const uint64_t ticks = d->tick->number + 1;
     if (element->style.layer == LAYER_VISIT_HEAT)
-        append_text(d, "visited in %" PRIu64 " of %" PRIu64 " tick%s, ", heat_of_node.visits, d->tick->number + 1,
-                    plural(d->tick->number + 1));
+        append_text(d, "visited in %" PRIu64 " of", heat_of_node.visits);
     else
-        append_text(d, "%" PRIu64 " point%s summed over %" PRIu64 " tick%s, ", heat_of_node.points,
-                    plural(heat_of_node.points), d->tick->number + 1, plural(d->tick->number + 1));
-    describe_node(d, element->id);
+        append_text(d, "%" PRIu64 " point%s summed over", heat_of_node.points, plural(heat_of_node.points));
+    append_text(d, " %" PRIu64 " tick%s", ticks, plural(ticks));
+    describe_node(d, ", ", element->id);
 }
 
-const layer_type layer_VISIT_HEAT = {
-    .applies = layer_in_games, .add = add_heat, .legend_place = 170, .legend = add_legend, .describe = describe};
+const layer_type layer_VISIT_HEAT = {.applies = layer_in_games,
+                                     .add = add_heat,
+                                     .legend = {.order = 170, .add_lines = add_heat_legend},
+                                     .describe = describe_heat};
 
-const layer_type layer_POINT_HEAT = {
-    .applies = layer_in_games, .add = add_heat, .legend_place = 180, .legend = add_legend, .describe = describe};
+const layer_type layer_POINT_HEAT = {.applies = layer_in_games,
+                                     .add = add_heat,
+                                     .legend = {.order = 180, .add_lines = add_heat_legend},
+                                     .describe = describe_heat};

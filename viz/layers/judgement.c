@@ -60,11 +60,6 @@ const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMEN
     return text;
 }
 
-const octree_point *judgement_first_point(const octree_judgement *judgement)
-{
-    return judgement->missing_count ? judgement->missing : judgement->extra_count ? judgement->extra : NULL;
-}
-
 bool judgement_is_worse(const octree_judgement *judgement, const octree_judgement *than)
 {
     if (judgement->ratio != than->ratio)

@@ -13,9 +13,6 @@
  * 17", or "right". Return `text`. */
 const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT]);
 
-/* Return the first missing point, or else the first extra point; null when there is neither. */
-const octree_point *judgement_first_point(const octree_judgement *judgement);
-
 /* Whether one answer is worse than another: first by the ratio of distances, then by the count of missing and extra
  * points. */
 bool judgement_is_worse(const octree_judgement *judgement, const octree_judgement *than);

@@ -12,7 +12,7 @@
 
 /* The input of a scene: a tick of a game, or a tree alone. */
 typedef struct layer_source {
-    const view *view; /* the requested view; under DIAGRAM_ONLY the scene's own view has fewer layers */
+    const view *view; /* the requested view; under DIAGRAM_ONLY the scene's layer view has fewer layers */
     const octree *tree;
     octree_box world;
     const octree_answer *answers;
@@ -30,7 +30,16 @@ typedef struct layer_source {
     octree_address requested; /* of a tree alone: the node that `inspect` was asked to mark, or 0 */
 } layer_source;
 
-/* Members that a layer does not need are null or 0. `own` is the layer itself, for files that define several. */
+/* A layer's lines in the legend: one line made of `sign` and `text`, or the lines that add_lines() adds. */
+typedef struct legend_entry {
+    int order; /* the legend sorts layers by it: 1 to LEGEND_LAST; 0: no lines */
+    legend_sign sign;
+    const char *text;
+    legend_drop_order drop_order;
+    void (*add_lines)(legend *l, const layer_source *in);
+} legend_entry;
+
+/* Members that a layer does not need are null or 0. `layer` is the layer itself, for files that define several. */
 typedef struct layer_type {
     /* Whether the layer can have elements in this frame or in another frame of its recording; the legend then lists it.
      * Null means always, or, for a layer of answers, that a query of its kind was asked or is asked in every tick. */
@@ -42,19 +51,13 @@ typedef struct layer_type {
 
     /* Add the layer's elements, or the elements of one answer. A hidden layer needs no check: scene_add_* drops its
      * elements. */
-    void (*add)(scene *s, const layer_source *in, view_layer own);
-    void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer own);
+    void (*add)(scene *s, const layer_source *in, view_layer layer);
+    void (*add_answer)(scene *s, const octree_answer *answer, size_t place, view_layer layer);
 
     /* Write an answer's row in the panel. */
     void (*write_answer)(pen *p, const octree_answer *answer);
 
-    /* The legend sorts layers by legend_place. A layer has one line, made of `sign` and `text`, or the lines that
-     * legend() adds. */
-    int legend_place;
-    legend_sign sign;
-    legend_drop_order worth;
-    const char *text;
-    void (*legend)(legend *l, const layer_source *in);
+    legend_entry legend;
 
     /* Describe an element. Null: the id of a box is a node address, and the id of a marker is a point id. The id of an
      * answer's marker is always a point id. */

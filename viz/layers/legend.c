@@ -3,7 +3,7 @@
  *
  * The legend stands at the bottom of the column, below rows whose number changes from tick to tick. So the room for it
  * changes too, and three rules keep it steady:
- *   - Lines are sorted by their layer's legend_place. A layer keeps its line while it can have elements in the
+ *   - Lines are sorted by legend_entry.order. A layer keeps its line while it can have elements in the
  *     recording, even in frames where it has none, so that lines do not come and go.
  *   - When there are too many lines, whole groups go (a line with its continuation lines): first those of layers
  *     without elements in this frame, then nearly self-explanatory ones, then those whose answer the panel already
@@ -13,7 +13,6 @@
 #include "legend.h"
 #include "layer_type.h"
 
-#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -55,31 +54,18 @@ static bool is_in_diagram(const scene *s, view_layer layer)
 
 static void add_layer_line(legend *l, const layer_source *in, view_layer layer)
 {
-    const layer_type *type = layer_types[layer];
+    const legend_entry *entry = &layer_types[layer]->legend;
     const scene *s = l->scene;
     const bool in_diagram = is_in_diagram(s, layer);
     if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows(&s->view, layer) || !layer_applies(in, layer)))
         return;
     l->next = (legend_line){.layer = layer,
-                            .worth = in_diagram || l->in_frame >> layer & 1 ? type->worth : DROP_FIRST,
+                            .drop_order = in_diagram || l->in_frame >> layer & 1 ? entry->drop_order : DROP_FIRST,
                             .role = (theme_role)layer_rows[layer].role};
-    if (type->legend)
-        type->legend(l, in);
+    if (entry->add_lines)
+        entry->add_lines(l, in);
     else
-        legend_add(l, type->sign, "%s", type->text);
-}
-
-static void add_layer_lines(legend *l, const layer_source *in)
-{
-    for (int last = 0, place; last < INT_MAX; last = place) {
-        int next = -1;
-        place = INT_MAX;
-        for (int i = 0; i < LAYER_ALL; i++)
-            if (layer_types[i]->legend_place > last && layer_types[i]->legend_place < place)
-                place = layer_types[next = i]->legend_place;
-        if (next >= 0)
-            add_layer_line(l, in, (view_layer)next);
-    }
+        legend_add(l, entry->sign, "%s", entry->text);
 }
 
 /* Whether a line is dropped and kept together with the line before it. */
@@ -107,7 +93,7 @@ static size_t fit_lines(legend *l, size_t room)
         return 0;
     for (legend_drop_order least = DROP_FIRST; least > DROP_LAST; least--)
         for (size_t i = 0; i < l->count && l->count > left;)
-            if (l->lines[i].worth == least)
+            if (l->lines[i].drop_order == least)
                 remove_line(l, i);
             else
                 i++;
@@ -125,7 +111,7 @@ static size_t fit_lines(legend *l, size_t room)
 #define SIGN_HEIGHT 9
 
 /* The signs that consist of rectangles: x, y, width and height of each, in dots. */
-enum { SIGN_PARTS = 8 };
+enum { SIGN_PARTS = 10 };
 static const int8_t signs[][SIGN_PARTS][4] = {
     [SIGN_LINE] = {{0, 4, SWATCH, 1}},
     [SIGN_BOLD] = {{0, 3, SWATCH, 2}},
@@ -141,6 +127,17 @@ static const int8_t signs[][SIGN_PARTS][4] = {
                    {13, 0, 2, 2},
                    {6, 6, 2, 2},
                    {13, 6, 2, 2}},
+    [SIGN_TRIANGLE] = {{9, 1, 1, 1},
+                       {8, 2, 1, 1},
+                       {10, 2, 1, 1},
+                       {7, 3, 1, 1},
+                       {11, 3, 1, 1},
+                       {6, 4, 1, 1},
+                       {12, 4, 1, 1},
+                       {5, 5, 1, 1},
+                       {13, 5, 1, 1},
+                       {4, 6, 11, 1}},
+    [SIGN_WEDGE] = {{9, 6, 1, 1}, {8, 5, 3, 1}, {7, 4, 5, 1}, {6, 3, 7, 1}, {5, 2, 9, 1}, {4, 1, 11, 1}},
     [SIGN_DOT] = {{9, 3, 2, 2}},
     [SIGN_SQUARE] = {{7, 2, 5, 5}},
     [SIGN_ARROW] = {{0, 4, SWATCH, 1}, {15, 3, 2, 3}, {13, 2, 2, 5}, {11, 1, 2, 7}},
@@ -156,40 +153,16 @@ static void fill_dots(pen *p, int x, int y, int width, int height, unsigned role
     fill_rectangle(p, x * dot, (letter - SIGN_HEIGHT * dot) / 2 + y * dot, width * dot, height * dot, role);
 }
 
-/* Draw the outline of an upright triangle (`on_side`), or a filled triangle that stands on its corner. */
-static void fill_triangle(pen *p, theme_role role, bool on_side)
-{
-    const int middle = SWATCH / 2;
-    for (int i = 0; i < 6; i++) {
-        const int y = 1 + (on_side ? i : 5 - i);
-        if (!on_side || i == 5) {
-            fill_dots(p, middle - i, y, 2 * i + 1, 1, role);
-            continue;
-        }
-        fill_dots(p, middle - i, y, 1, 1, role);
-        if (i > 0)
-            fill_dots(p, middle + i, y, 1, 1, role);
-    }
-}
-
-/* Draw four cells of a chessboard. */
-static void fill_checks(pen *p)
-{
-    for (int i = 0; i < 4; i++)
-        fill_dots(p, 5 + i % 2 * 4, i / 2 * 4, 4, 4, i % 3 ? ROLE_WORLD : ROLE_POINT);
-}
-
 static void fill_sign(pen *p, const legend_line *line)
 {
     if (line->sign == SIGN_SCALE) {
         write_scale(p, &line->scale);
     } else if (line->sign == SIGN_CHECKS) {
-        fill_checks(p);
+        for (int i = 0; i < 4; i++) /* four cells of a chessboard */
+            fill_dots(p, 5 + i % 2 * 4, i / 2 * 4, 4, 4, i % 3 ? ROLE_WORLD : ROLE_POINT);
     } else if (line->sign == SIGN_SWATCH) {
         const int side = p->scene->text.height / 2;
         fill_rectangle_in_color(p, SWATCH * side / 12 - side / 2, p->scene->text.height / 4, side, side, line->color);
-    } else if (line->sign == SIGN_TRIANGLE || line->sign == SIGN_WEDGE) {
-        fill_triangle(p, line->role, line->sign == SIGN_TRIANGLE);
     } else if (line->sign == SIGN_CROSS) {
         for (int i = -4; i <= 4; i++)
             for (int side = -1; side <= (i ? 1 : -1); side += 2)
@@ -230,7 +203,10 @@ void write_legend(pen *p, const layer_source *in)
     const int line = s->text.line, foot = s->view.height - LAYOUT_MARGIN * s->text.width;
     const int room = (foot - p->y - line / 2) / line;
     legend l = {.scene = s, .in_frame = layers_in_frame(s)};
-    add_layer_lines(&l, in);
+    for (int order = 1; order <= LEGEND_LAST; order++)
+        for (int i = 0; i < LAYER_ALL; i++)
+            if (layer_types[i]->legend.order == order)
+                add_layer_line(&l, in, (view_layer)i);
     const size_t left_out = fit_lines(&l, room > 0 ? (size_t)room : 0);
     if (l.count == 0)
         return;
@@ -239,12 +215,9 @@ void write_legend(pen *p, const layer_source *in)
     for (size_t i = 0; i < l.count; i++) {
         fill_sign(p, &l.lines[i]);
         if (*l.lines[i].text)
-            write_text(p, LEGEND_WORDS, ROLE_FAINT, l.lines[i].text);
+            write_text(p, LEGEND_WORDS, ROLE_FAINT, "%s", l.lines[i].text);
         p->y += line;
     }
-    if (left_out) {
-        char text[SCENE_TEXT];
-        snprintf(text, sizeof text, "and %zu more", left_out);
-        write_text(p, LEGEND_WORDS, ROLE_FAINT, text);
-    }
+    if (left_out)
+        write_text(p, LEGEND_WORDS, ROLE_FAINT, "and %zu more", left_out);
 }

@@ -52,7 +52,7 @@ typedef enum legend_drop_order {
 
 typedef struct legend_line {
     view_layer layer;
-    legend_drop_order worth;
+    legend_drop_order drop_order;
     legend_sign sign;
     theme_role role;
     int steps;
@@ -62,6 +62,7 @@ typedef struct legend_line {
 } legend_line;
 
 #define LEGEND_MOST_LINES 64
+#define LEGEND_LAST 200 /* the greatest legend_entry.order: layer_type.h */
 
 typedef struct legend {
     const scene *scene;

@@ -11,7 +11,6 @@
 #include "legend.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #define MOST_NUMBERS 5
@@ -30,11 +29,9 @@ typedef struct scale_numbers {
 
 static void add_number(scale_numbers *m, double part, double value)
 {
-    char text[NUMBER_TEXT];
     if (m->count < MOST_NUMBERS + 2) {
-        scale_number *it = &m->items[m->count++];
-        it->part = part;
-        snprintf(it->text, sizeof it->text, "%s", number_text(value, DIGITS, text));
+        m->items[m->count].part = part;
+        number_text(value, DIGITS, m->items[m->count++].text);
     }
 }
 

@@ -28,25 +28,24 @@ void add_node_box(scene *s, const octree_node *node, scene_style style)
     scene_add_box(s, (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth});
 }
 
-/* Whether a node at a depth has an ancestor that the filter shows. A tick that visits a node also visits its ancestors,
- * so they are in the same layer. */
-static bool has_shown_ancestor(const view_filter *f, unsigned depth)
+bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth)
 {
-    return !f->leaves && depth > (f->by_depth ? f->min_depth : 0);
+    const view_filter *f = &s->view.filter;
+    return s->view.lod > 0 && !f->leaves && depth > (f->by_depth ? f->min_depth : 0) &&
+           camera_box_is_below(&s->camera, box, s->view.lod);
 }
 
 bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node)
 {
-    const view_filter *f = &s->view.filter;
     const octree_box world = octree_definition(tree).world;
     if (octree_node_at(tree, address, node) != OCTREE_OK)
         *node = (octree_node){.address = address,
                               .depth = octree_address_depth(address),
                               .leaf = true,
                               .box = octree_cell_box(&world, address)};
-    if (!filter_shows_node(f, &world, node))
+    if (!filter_shows_node(&s->view.filter, &world, node))
         return false;
-    const bool small = has_shown_ancestor(f, node->depth) && camera_box_is_below(&s->camera, &node->box, s->view.lod);
+    const bool small = is_small_below_shown(s, &node->box, node->depth);
     s->tally.small_marked += small;
     return !small;
 }

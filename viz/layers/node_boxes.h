@@ -21,6 +21,10 @@ theme_role node_role(const view *v, node_traits node);
 /* Add a node's box, with the node's address as id. */
 void add_node_box(scene *s, const octree_node *node, scene_style style);
 
+/* Whether a node is smaller than the view's lod and has an ancestor that the filter shows. A tick that visits a node
+ * also visits its ancestors, so they are in the same layer. */
+bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth);
+
 /* Find the node at an address, or its empty cell when the tree no longer has the node. Return false when the scene must
  * not show it: the view's filter hides it, or it is smaller than the view's lod and an ancestor is shown. The second
  * case is counted in tally.small_marked. */

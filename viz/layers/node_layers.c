@@ -170,8 +170,8 @@ static void drop_level(tree_walk *w)
 static scene_box make_node_box(const tree_walk *w, const octree_node *node)
 {
     const node_traits look = {node->depth, node->count, w->capacity, node->leaf};
-    const scene_style style = {.layer = LAYER_NODES, .role = (uint8_t)node_role(&w->scene->view, look), .width = 1};
-    return (scene_box){.id = node->address, .box = node->box, .style = style, .depth = (uint8_t)node->depth};
+    const scene_style style = role_style(LAYER_NODES, node_role(&w->scene->view, look), STROKE_SOLID, 1);
+    return (scene_box){node->address, style, (uint8_t)node->depth, node->box};
 }
 
 static void add_box(tree_walk *w, const scene_box *box)
@@ -188,19 +188,15 @@ static void add_box(tree_walk *w, const scene_box *box)
         drop_level(w);
 }
 
-/* Whether a box is smaller than the view's lod. A box inside a small box is small without being measured. */
-static bool is_small(const tree_walk *w, const scene_box *box)
-{
-    const scene *s = w->scene;
-    return w->small[box->depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &box->box, s->view.lod));
-}
-
 /* Add a node's box if filter and lod allow it. `by_filter` says whether the filter shows the node. Return false if the
  * lod alone leaves it out. */
 static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
 {
+    const scene *s = w->scene;
     const unsigned depth = box->depth;
-    const bool under_drawn = w->drawn[depth], small = is_small(w, box), out = by_filter && small && under_drawn;
+    const bool under_drawn = w->drawn[depth], /* a box inside a small box is small without being measured */
+        small = w->small[depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &box->box, s->view.lod));
+    const bool out = by_filter && small && under_drawn;
     w->small[depth + 1] = small;
     w->drawn[depth + 1] = under_drawn || (by_filter && !out);
     if (by_filter && !out)
@@ -351,15 +347,14 @@ static void walk_tree(tree_walk *w, const layer_source *in)
  * another label. */
 static bool add_label(scene *s, text_space *words, const scene_box *box)
 {
-    scene_label label = {.id = box->id, .style = {.layer = LAYER_NODES, .role = ROLE_TEXT, .width = 1}};
-    char text[OCTREE_ADDRESS_TEXT];
+    char address[OCTREE_ADDRESS_TEXT];
     double middle[3], pixel[2];
     scene_box_middle(&box->box, middle);
     if (is_foreign_element(box->id))
-        snprintf(text, sizeof text, "%" PRIu64, foreign_node_of(box->id));
+        snprintf(address, sizeof address, "%" PRIu64, foreign_node_of(box->id));
     else
-        octree_address_format(box->id, text);
-    snprintf(label.text, sizeof label.text, "%s", text);
+        octree_address_format(box->id, address);
+    scene_label label = scene_make_label(box->id, role_style(LAYER_NODES, ROLE_TEXT, STROKE_SOLID, 1), "%s", address);
     const double width = (double)(strlen(label.text) + 1) * s->text.width;
     if (!camera_pixel(&s->camera, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
         !text_space_take(words, s, label.text, pixel, label.at))
@@ -393,7 +388,7 @@ static double thinned_spacing(uint64_t one_in)
 
 /* Add both layers in one walk. The more points there are, the smaller they are drawn. A game uses the session's number
  * of bodies, so that the size does not change from tick to tick. */
-static void add_nodes_and_points(scene *s, const layer_source *in, view_layer own)
+static void add_nodes_and_points(scene *s, const layer_source *in, view_layer layer)
 {
     const size_t expected = in->game ? in->session->body_count : octree_count(in->tree);
     tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
@@ -409,7 +404,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer ow
         add_foreign_nodes(s, in);
     s->tally.one_in = w.sieve + 1;
     s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * thinned_spacing(s->tally.one_in) : 0;
-    if (s->view.labels && view_shows(&s->view, own))
+    if (s->view.labels && view_shows(&s->view, layer))
         add_labels(s);
 }
 
@@ -417,14 +412,14 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer ow
 static void add_kinds_legend(legend *l, const layer_source *in)
 {
     const size_t count = shows_foreign_tree(in) ? in->tick->foreign.kind_count : 0;
-    const size_t own = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count;
+    const size_t named = count > THEME_NODE_KINDS ? THEME_NODE_KINDS - 1 : count; /* kinds with a line of their own */
     if (shows_own_tree(in))
         legend_add(l, SIGN_BOLD, "node");
-    for (size_t i = 0; i < own; i++)
+    for (size_t i = 0; i < named; i++)
         legend_add(l, SIGN_BOLD, "node: %s", in->tick->foreign.kinds[i][0] ? in->tick->foreign.kinds[i] : "no kind")
             ->role = theme_node_kind_role((unsigned)i);
-    if (count > own)
-        legend_add(l, SIGN_BOLD, "node: any other kind")->role = theme_node_kind_role((unsigned)own);
+    if (count > named)
+        legend_add(l, SIGN_BOLD, "node: any other kind")->role = theme_node_kind_role((unsigned)named);
 }
 
 /* Add the scales of occupancy. A foreign index has no leaf capacity, so its scale differs. */
@@ -441,7 +436,7 @@ static void add_occupancy_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_RAMP, "program's, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
 }
 
-static void add_legend(legend *l, const layer_source *in)
+static void add_node_legend(legend *l, const layer_source *in)
 {
     const size_t deepest = shows_foreign_tree(in) ? OCTREE_MAX_DEPTH : octree_definition(in->tree).max_depth;
     if (l->scene->view.coloring == COLORING_KIND)
@@ -454,19 +449,16 @@ static void add_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_BOLD, "node");
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_node_element(description *d, const described_element *element)
 {
-    if (element->kind == SCENE_PANEL)
-        append_text(d, "the background of the address of ");
-    else if (element->kind == SCENE_LABEL)
-        append_text(d, " on ");
-    if (is_foreign_element(element->id))
-        describe_foreign_node(d, element->id);
-    else
-        describe_node(d, element->id);
+    const char *before = element->kind == SCENE_PANEL   ? "the background of the address of "
+                         : element->kind == SCENE_LABEL ? " on "
+                                                        : "";
+    describe_node(d, before, element->id);
 }
 
-const layer_type layer_NODES = {
-    .add = add_nodes_and_points, .legend_place = 50, .legend = add_legend, .describe = describe};
+const layer_type layer_NODES = {.add = add_nodes_and_points,
+                                .legend = {.order = 50, .add_lines = add_node_legend},
+                                .describe = describe_node_element};
 
-const layer_type layer_POINTS = {.legend_place = 30, .legend = add_point_legend, .worth = DROP_EARLY};
+const layer_type layer_POINTS = {.legend = {.order = 30, .add_lines = add_point_legend, .drop_order = DROP_EARLY}};

@@ -24,32 +24,45 @@ pen pen_in_corner(scene *s)
     return p;
 }
 
-static void add_text(pen *p, int x, theme_role role, int size, size_t room, const char *text)
+/* Cut a text to `room` letters. A text that is cut ends in two dots. */
+static void cut_text(char *text, size_t room)
 {
-    scene_label label = {.id = p->next_id++,
-                         .at = {p->left + x, p->y},
-                         .style = {.layer = LAYER_TEXT, .role = (uint8_t)role, .width = (uint8_t)size}};
-    const int fits = (int)(room < SCENE_TEXT ? room : SCENE_TEXT - 1);
-    snprintf(label.text, SCENE_TEXT, "%.*s", fits, text);
-    if (strlen(text) > (size_t)fits && fits > 2)
-        memcpy(label.text + fits - 2, "..", 2);
+    if (strlen(text) <= room)
+        return;
+    text[room] = 0;
+    if (room > 2)
+        memcpy(text + room - 2, "..", 2);
+}
+
+/* Write a label's text, cut to `room` letters, x pixels to the right of the pen. */
+static void add_text(pen *p, int x, theme_role role, unsigned size, size_t room, const char *text)
+{
+    scene_label label = scene_make_label(p->next_id++, role_style(LAYER_TEXT, role, STROKE_SOLID, size), "%s", text);
+    label.at[0] = p->left + x;
+    label.at[1] = p->y;
+    cut_text(label.text, room);
     scene_add_label(p->scene, label);
 }
 
-void write_text(pen *p, int at, theme_role role, const char *text)
+void write_text(pen *p, int at, theme_role role, const char *format, ...)
 {
+    char text[SCENE_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
     add_text(p, at * p->scene->text.width, role, 1, at < p->letters ? (size_t)(p->letters - at) : 1, text);
 }
 
 void write_text_at(pen *p, int x, theme_role role, const char *text)
 {
-    add_text(p, x, role, 1, SCENE_TEXT - 1, text);
+    add_text(p, x, role, 1, SCENE_TEXT, text);
 }
 
 void write_right_aligned(pen *p, theme_role role, const char *text)
 {
     const int length = (int)strlen(text);
-    write_text(p, length < p->letters ? p->letters - length : 0, role, text);
+    write_text(p, length < p->letters ? p->letters - length : 0, role, "%s", text);
 }
 
 void write_title_text(pen *p, theme_role role, const char *text)
@@ -59,49 +72,28 @@ void write_title_text(pen *p, theme_role role, const char *text)
 
 void write_line(pen *p, theme_role role, const char *text)
 {
-    write_text(p, 0, role, text);
+    write_text(p, 0, role, "%s", text);
     p->y += p->scene->text.line;
 }
 
-/* Write a row's value at the right and move to the next line. The value is cut if it does not fit behind the first
- * `taken` letters. */
-static void write_row_value(pen *p, size_t taken, char *value)
+void write_row(pen *p, const char *name, const char *detail, const char *format, ...)
 {
-    const size_t room = (size_t)p->letters > taken + 1 ? (size_t)p->letters - taken - 1 : 0;
-    if (strlen(value) > room && room > 2)
-        memcpy(value + room - 2, "..", 3);
+    char value[SCENE_TEXT], between[SCENE_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(value, sizeof value, format, arguments);
+    va_end(arguments);
+    snprintf(between, sizeof between, "%s", detail);
+    const int room = p->letters - DETAIL - 1 - (int)strlen(value);
+    cut_text(between, room > 0 ? (size_t)room : 0);
+    const int taken = *between ? DETAIL + (int)strlen(between) : (int)strlen(name);
+    if (p->letters - taken - 1 > 2) /* a shorter rest would say nothing: the value covers the name instead */
+        cut_text(value, (size_t)(p->letters - taken - 1));
+    write_text(p, 0, p->name, "%s", name);
+    if (*between)
+        write_text(p, DETAIL, ROLE_FAINT, "%s", between);
     write_right_aligned(p, p->value, value);
     p->y += p->scene->text.line;
-}
-
-void write_row(pen *p, const char *name, const char *format, ...)
-{
-    char value[SCENE_TEXT];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(value, sizeof value, format, arguments);
-    va_end(arguments);
-    write_text(p, 0, p->name, name);
-    write_row_value(p, strlen(name), value);
-}
-
-void write_detailed_row(pen *p, const char *name, const char *detail, const char *format, ...)
-{
-    char value[SCENE_TEXT];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(value, sizeof value, format, arguments);
-    va_end(arguments);
-    const int room = p->letters - DETAIL - (int)strlen(value) - 1;
-    const int fits = room < 0 ? 0 : room < (int)strlen(detail) ? room : (int)strlen(detail);
-    char cut[SCENE_TEXT];
-    snprintf(cut, sizeof cut, "%.*s", fits, detail);
-    if (detail[fits] && fits > 2)
-        memcpy(cut + fits - 2, "..", 2);
-    write_text(p, 0, p->name, name);
-    if (*cut)
-        write_text(p, DETAIL, ROLE_FAINT, cut);
-    write_row_value(p, *cut ? DETAIL + strlen(cut) : strlen(name), value);
 }
 
 void write_gap(pen *p)
@@ -141,7 +133,7 @@ void write_ids(pen *p, const char *name, const octree_point *points, size_t coun
         strcpy(more, rest);
     }
     strcat(text, more);
-    write_detailed_row(p, name, text, "%s", found);
+    write_row(p, name, text, "%s", found);
 }
 
 void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role)
@@ -155,12 +147,11 @@ void write_wrapped(pen *p, theme_role role, const char *text)
     const size_t most = (size_t)p->letters;
     while (*text) {
         char line[SCENE_TEXT];
-        size_t length = strlen(text);
-        for (size_t i = length > most ? most : 0; i > 0; i--)
-            if (text[i] == ' ') {
-                length = i;
-                break;
-            }
+        const size_t left = strlen(text);
+        size_t length = left > most ? most : left;
+        while (left > most && length > 0 && text[length] != ' ')
+            length--;
+        length = length > 0 ? length : left; /* a word longer than the line is cut */
         snprintf(line, sizeof line, "%.*s", (int)length, text);
         write_line(p, role, line);
         text += length + (text[length] == ' ');
@@ -169,11 +160,6 @@ void write_wrapped(pen *p, theme_role role, const char *text)
 
 void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color)
 {
-    scene_add_panel(p->scene, (scene_panel){.id = p->next_id++,
-                                            .x = p->left + x,
-                                            .y = p->y + y,
-                                            .width = width,
-                                            .height = height,
-                                            .color = color,
-                                            .style = {.layer = LAYER_TEXT, .role = ROLE_OWN}});
+    const scene_style style = role_style(LAYER_TEXT, ROLE_OWN, STROKE_SOLID, 0);
+    scene_add_panel(p->scene, (scene_panel){p->next_id++, style, color, p->left + x, p->y + y, width, height});
 }

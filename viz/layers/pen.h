@@ -26,7 +26,7 @@ pen pen_in_corner(scene *s);
 
 /* Write a text that begins at letter `at` of the line, or that ends at the end of the line. A text that does not fit is
  * cut and ends in two dots. */
-void write_text(pen *p, int at, theme_role role, const char *text);
+void write_text(pen *p, int at, theme_role role, const char *format, ...);
 void write_right_aligned(pen *p, theme_role role, const char *text);
 
 /* Write in title letters, which are twice as wide and twice as high. */
@@ -35,10 +35,9 @@ void write_title_text(pen *p, theme_role role, const char *text);
 /* Write a line of text and move to the next line. */
 void write_line(pen *p, theme_role role, const char *text);
 
-/* Write a row: a name at the left and a formatted value at the right. The second function also writes a detail between
- * them, which is cut where the value needs the room. */
-void write_row(pen *p, const char *name, const char *format, ...);
-void write_detailed_row(pen *p, const char *name, const char *detail, const char *format, ...);
+/* Write a row: a name at the left, a formatted value at the right, and between them a detail, which may be empty. The
+ * detail is cut where the value needs the room. */
+void write_row(pen *p, const char *name, const char *detail, const char *format, ...);
 
 /* Move down by half a line. write_rule also draws a thin line in the middle of the gap if there is a column. */
 void write_gap(pen *p);
@@ -55,11 +54,11 @@ const char *format_number_within(double value, size_t letters, char text[NUMBER_
 /* Write a text x pixels to the right of the pen. */
 void write_text_at(pen *p, int x, theme_role role, const char *text);
 
-/* Fill a rectangle, given in pixels from the pen, in the colour of a role or in a colour of its own. */
+/* Fill a rectangle, given in pixels from the pen, in the colour of a role or in any other colour. */
 void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role);
 void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color);
 
-/* Write a text in lines that fit the column, broken at blanks. */
+/* Write a text in lines that fit the column, broken at spaces. */
 void write_wrapped(pen *p, theme_role role, const char *text);
 
 #endif

@@ -5,39 +5,35 @@
 
 #include <string.h>
 
-static bool applies(const layer_source *in)
+static bool session_has_player(const layer_source *in)
 {
     return in->game && in->session->player.kind != OCTREE_PLAYER_NONE;
 }
 
 /* Draw the player, and a line straight down to the world's floor that shows where the player is in space. */
-static void add_player(scene *s, const layer_source *in, view_layer own)
+static void add_player(scene *s, const layer_source *in, view_layer layer)
 {
     const double *at = in->tick->player;
     if (!in->tick->has_player)
         return;
     scene_add_line(s, 0, at, (double[]){at[0], at[1], in->world.min[2]},
-                   (scene_style){.layer = (uint8_t)own, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1});
-    scene_add_mark(s, in->session->player.id, at, SHAPE_DIAMOND, layer_style(own, STROKE_SOLID, 4));
+                   role_style(layer, ROLE_FAINT, STROKE_DASHED, 1));
+    scene_add_mark(s, in->session->player.id, at, SHAPE_DIAMOND, layer_style(layer, STROKE_SOLID, 4));
 }
 
 static void describe_player(description *d, const described_element *element)
 {
-    if (element->kind == SCENE_SEGMENT) {
+    if (element->kind == SCENE_SEGMENT)
         append_text(d, "the line from the player down to the world's floor");
-        return;
-    }
-    append_text(d, "the player, ");
-    describe_point(d, element->id, element->at);
+    else
+        describe_point(d, "the player, ", element->id, element->at);
 }
 
-const layer_type layer_PLAYER = {.applies = applies,
-                                 .add = add_player,
-                                 .legend_place = 10,
-                                 .sign = SIGN_SQUARE,
-                                 .text = "player and its box",
-                                 .worth = DROP_EARLY,
-                                 .describe = describe_player};
+const layer_type layer_PLAYER = {
+    .applies = session_has_player,
+    .add = add_player,
+    .legend = {.order = 10, .sign = SIGN_SQUARE, .text = "player and its box", .drop_order = DROP_EARLY},
+    .describe = describe_player};
 
 /* ---- The collision box -------------------------------------------------------------------------------------- */
 
@@ -64,20 +60,14 @@ static void add_path_line(scene *s, uint64_t id, const double from[3], const dou
         scene_add_line(s, id, from, to, style);
 }
 
-static void get_corner(const octree_box *box, unsigned corner, double position[3])
-{
-    for (unsigned i = 0; i < 3; i++)
-        position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
-}
-
 /* Draw the paths that the swept collision test used: of each corner of the player's box, and of each hit that moved. */
 static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, scene_style style)
 {
     const octree_box start = box_around(tick->from, box_size), end = box_around(tick->attempt, box_size);
     double from[3], to[3];
     for (unsigned corner = 0; corner < CORNERS; corner++) {
-        get_corner(&start, corner, from);
-        get_corner(&end, corner, to);
+        scene_box_corner(&start, corner, from);
+        scene_box_corner(&end, corner, to);
         add_path_line(s, CROSS_LINES + corner, from, to, style);
     }
     for (size_t i = 0; i < tick->hit_count; i++)
@@ -86,54 +76,53 @@ static void add_swept_paths(scene *s, const octree_tick *tick, double box_size, 
 
 /* Draw the box that was tested, crossed out, and a cross on each hit. A box that is small on screen is hard to
  * recognize, so it also gets a large cross of fixed size. */
-static void add_collision(scene *s, const layer_source *in, view_layer own)
+static void add_hit_box(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;
     const double size = in->session->player.box_size;
     const octree_box box = box_around(tick->attempt, size);
-    scene_add_box(s, (scene_box){.id = COLLISION_ID, .box = box, .style = layer_style(own, STROKE_SOLID, 2)});
-    add_crossed_faces(s, &box, layer_style(own, STROKE_SOLID, 1));
+    scene_add_outline(s, COLLISION_ID, &box, layer_style(layer, STROKE_SOLID, 2));
+    add_crossed_faces(s, &box, layer_style(layer, STROKE_SOLID, 1));
     if (tick->swept)
-        add_swept_paths(s, tick, size, layer_style(own, STROKE_DASHED, 1));
-    scene_add_mark(s, in->session->player.id, tick->attempt, SHAPE_CROSS, layer_style(own, STROKE_SOLID, 28));
+        add_swept_paths(s, tick, size, layer_style(layer, STROKE_DASHED, 1));
+    scene_add_mark(s, in->session->player.id, tick->attempt, SHAPE_CROSS, layer_style(layer, STROKE_SOLID, 28));
     for (size_t i = 0; i < tick->hit_count; i++)
-        scene_add_mark(s, tick->hits[i].id, tick->hits[i].position, SHAPE_CROSS, layer_style(own, STROKE_SOLID, 6));
+        scene_add_mark(s, tick->hits[i].id, tick->hits[i].position, SHAPE_CROSS, layer_style(layer, STROKE_SOLID, 6));
 }
 
-static void add_box(scene *s, const layer_source *in, view_layer own)
+static void add_collision_box(scene *s, const layer_source *in, view_layer layer)
 {
-    const octree_tick *tick = in->tick;
-    if (tick->has_player)
-        scene_add_box(s, (scene_box){.id = in->session->player.id,
-                                     .box = box_around(tick->player, in->session->player.box_size),
-                                     .style = {.layer = (uint8_t)own, .role = ROLE_PLAYER, .width = 1}});
-    if (tick->hit_count)
-        add_collision(s, in, own);
+    const octree_box box = box_around(in->tick->player, in->session->player.box_size);
+    if (in->tick->has_player)
+        scene_add_outline(s, in->session->player.id, &box, role_style(layer, ROLE_PLAYER, STROKE_SOLID, 1));
+    if (in->tick->hit_count)
+        add_hit_box(s, in, layer);
 }
 
-static void add_box_legend(legend *l, const layer_source *in)
+static void add_collision_legend(legend *l, const layer_source *in)
 {
     legend_add(l, SIGN_CROSS, "collision, crossed");
     if (in->session->player.sweep)
         legend_add(l, SIGN_DASHES, "way to a hit, dashed");
 }
 
-static void describe_box(description *d, const described_element *element)
+static void describe_collision_box(description *d, const described_element *element)
 {
     if (element->kind == SCENE_BOX) {
-        append_text(d, element->id == COLLISION_ID ? "the collision box that hit something, "
-                                                   : "the player's collision box, ");
-        append_box(d, &element->box);
+        const bool hit = element->id == COLLISION_ID;
+        append_box(d, hit ? "the collision box that hit something, " : "the player's collision box, ", &element->box);
     } else if (element->kind == SCENE_SEGMENT) {
         append_text(d, element->id < CROSS_LINES ? "a line of the cross on the collision box"
                                                  : "a line of the path that the collision test swept");
     } else if (element->id == octree_game_session(d->game)->player.id) { /* the player never hits itself */
         append_text(d, "the cross on the collision box");
     } else {
-        describe_point(d, element->id, element->at);
+        describe_point(d, "", element->id, element->at);
         append_text(d, ", in the player's collision box");
     }
 }
 
-const layer_type layer_BOX = {
-    .applies = applies, .add = add_box, .legend_place = 20, .legend = add_box_legend, .describe = describe_box};
+const layer_type layer_BOX = {.applies = session_has_player,
+                              .add = add_collision_box,
+                              .legend = {.order = 20, .add_lines = add_collision_legend},
+                              .describe = describe_collision_box};

@@ -33,52 +33,42 @@ unsigned kind_of_class(unsigned class)
 
 /* How the points of one leaf are painted. */
 typedef struct painting {
-    const view *view;
+    view_point_color by; /* the meaning of the colour: POINTS_BY_LEAF stands for the file's colours or the height */
+    const point_scale *scale;
     const point_values *values;
     theme_color plain; /* the colour of points with a missing value */
 } painting;
 
-static theme_color color_of_value(const painting *p, uint64_t id)
+/* Return the axis of a colour by x, y, z or height. */
+static int axis_of(view_point_color by)
 {
-    const point_scale *scale = &p->view->point_scale.of;
-    const point_value value = point_values_get(p->values, id);
-    switch (p->view->point_color) {
-    case POINTS_BY_CLASS:
-        return value.has[POINT_CLASS] ? theme_kind(kind_of_class(value.class)) : p->plain;
-    case POINTS_BY_INTENSITY:
-        if (!value.has[POINT_INTENSITY])
-            return p->plain;
-        return theme_ramp(fraction_between((double)value.intensity, scale->intensities[0], scale->intensities[1]));
-    default:
-        return value.has[POINT_COLOR] ? (theme_color){value.color[0], value.color[1], value.color[2]} : p->plain;
-    }
-}
-
-static theme_color color_on_axis(const painting *p, const scene_marker *m, int axis)
-{
-    const point_scale *scale = &p->view->point_scale.of;
-    return theme_ramp(fraction_between(m->at[axis], scale->low[axis], scale->high[axis]));
+    return by == POINTS_BY_X ? 0 : by == POINTS_BY_Y ? 1 : 2;
 }
 
 static theme_color color_of_marker(const painting *p, const scene_marker *m)
 {
-    const point_scale *scale = &p->view->point_scale.of;
-    switch (p->view->point_color) {
+    const point_scale *scale = p->scale;
+    const int axis = axis_of(p->by);
+    point_value value;
+    switch (p->by) {
     case POINTS_BY_FILE:
+        value = point_values_get(p->values, m->id);
+        return value.has[POINT_COLOR] ? (theme_color){value.color[0], value.color[1], value.color[2]} : p->plain;
     case POINTS_BY_CLASS:
+        value = point_values_get(p->values, m->id);
+        return value.has[POINT_CLASS] ? theme_kind(kind_of_class(value.class)) : p->plain;
     case POINTS_BY_INTENSITY:
-        return color_of_value(p, m->id);
-    case POINTS_BY_X:
-        return color_on_axis(p, m, 0);
-    case POINTS_BY_Y:
-        return color_on_axis(p, m, 1);
-    case POINTS_BY_HEIGHT:
-    case POINTS_BY_Z:
-        return color_on_axis(p, m, 2);
-    case POINTS_BY_LEAF:
-        return point_values_kinds(p->values) >> POINT_COLOR & 1 ? color_of_value(p, m->id) : color_on_axis(p, m, 2);
+        value = point_values_get(p->values, m->id);
+        if (!value.has[POINT_INTENSITY])
+            return p->plain;
+        return theme_ramp(fraction_between((double)value.intensity, scale->intensities[0], scale->intensities[1]));
     case POINTS_BY_ID:
         return theme_ramp(fraction_between((double)m->id, scale->ids[0], scale->ids[1]));
+    case POINTS_BY_X:
+    case POINTS_BY_Y:
+    case POINTS_BY_Z:
+    case POINTS_BY_HEIGHT:
+        return theme_ramp(fraction_between(m->at[axis], scale->low[axis], scale->high[axis]));
     default:
         return p->plain;
     }
@@ -87,40 +77,37 @@ static theme_color color_of_marker(const painting *p, const scene_marker *m)
 void color_points(const view *v, const point_values *values, const octree_node *leaf, scene_marker *markers,
                   size_t count)
 {
+    const bool by_leaf = v->point_color == POINTS_BY_LEAF, colored = point_values_kinds(values) >> POINT_COLOR & 1;
     const theme_role role = v->point_color == POINTS_BY_DEPTH ? theme_node_role(leaf->depth) : ROLE_POINT;
-    const painting p = {v, values, theme_color_at(theme_index(role, 0))};
-    const int light = v->point_color == POINTS_BY_LEAF && is_dark_cell(leaf) ? DARK : 256;
+    const int light = by_leaf && is_dark_cell(leaf) ? DARK : 256;
+    const painting p = {.by = !by_leaf  ? v->point_color
+                              : colored ? POINTS_BY_FILE
+                                        : POINTS_BY_HEIGHT,
+                        .scale = &v->point_scale.of,
+                        .values = values,
+                        .plain = theme_color_at(theme_index(role, 0))};
     for (size_t i = 0; i < count; i++)
         markers[i].color = theme_fade(color_of_marker(&p, &markers[i]), light);
 }
 
 /* ---- The legend --------------------------------------------------------------------------------------------- */
 
-/* Return the class kinds of all points: bit i for kind i. */
-static unsigned class_kinds_in(const point_values *values)
-{
-    unsigned kinds = 0;
-    for (size_t row = 0; values && row < values->count; row++)
-        if (values->rows[row].has[POINT_CLASS])
-            kinds |= 1u << kind_of_class(values->rows[row].class);
-    return kinds;
-}
-
+/* Add a line for each kind of class that a point has. */
 static void add_class_legend(legend *l, const point_values *values)
 {
-    const unsigned kinds = class_kinds_in(values);
+    unsigned kinds = 0; /* bit i: kind i */
+    for (size_t row = 0; row < values->count; row++)
+        if (values->rows[row].has[POINT_CLASS])
+            kinds |= 1u << kind_of_class(values->rows[row].class);
     for (unsigned kind = 0; kind < THEME_KINDS; kind++)
         if (kinds >> kind & 1)
             legend_add(l, SIGN_SWATCH, "%s", class_kind_names[kind])->color = theme_kind(kind);
 }
 
-static legend_scale scale_of(const point_scale *s, view_point_color color)
+static legend_scale scale_of(const point_scale *s, view_point_color by)
 {
-    switch (color) {
-    case POINTS_BY_X:
-        return (legend_scale){s->low[0], s->high[0], .pointed = true};
-    case POINTS_BY_Y:
-        return (legend_scale){s->low[1], s->high[1], .pointed = true};
+    const int axis = axis_of(by);
+    switch (by) {
     case POINTS_BY_ID:
         return (legend_scale){s->ids[0], s->ids[1], .pointed = false};
     case POINTS_BY_INTENSITY:
@@ -128,7 +115,7 @@ static legend_scale scale_of(const point_scale *s, view_point_color color)
     case POINTS_BY_DENSITY:
         return (legend_scale){1, THEME_MOST_DENSITY, .doubling = true};
     default:
-        return (legend_scale){s->low[2], s->high[2], .pointed = true};
+        return (legend_scale){s->low[axis], s->high[axis], .pointed = true};
     }
 }
 

@@ -38,14 +38,10 @@ unsigned velocity_ticks(const octree_game *game)
     return ticks;
 }
 
-static double lesser(double a, double b)
+static double clamp(double value, double low, double high)
 {
-    return a < b ? a : b;
-}
-
-static double greater(double a, double b)
-{
-    return a > b ? a : b;
+    value = value > low ? value : low;
+    return value < high ? value : high;
 }
 
 /* Compute a body's position after some ticks, or the position where it meets the world's bounds earlier. */
@@ -56,21 +52,12 @@ static void extrapolate(const octree_body *body, const octree_box *world, double
         const double bound = body->velocity[i] > 0 ? world->max[i] : world->min[i];
         const double room = body->velocity[i] != 0 ? (bound - body->position[i]) / body->velocity[i] : ticks;
         stops = room < ticks ? i : stops;
-        ticks = lesser(ticks, room);
+        ticks = room < ticks ? room : ticks;
     }
     for (int i = 0; i < 3; i++)
-        end[i] = lesser(greater(body->position[i] + body->velocity[i] * ticks, world->min[i]), world->max[i]);
+        end[i] = clamp(body->position[i] + body->velocity[i] * ticks, world->min[i], world->max[i]);
     if (stops >= 0)
         end[stops] = body->velocity[stops] > 0 ? world->max[stops] : world->min[stops];
-}
-
-/* Whether the view's filter shows a point: by its position and by its leaf. */
-static bool is_body_shown(const scene *s, const octree *tree, const octree_box *world, const double position[3])
-{
-    const view_filter *f = &s->view.filter;
-    octree_node leaf;
-    return !filter_is_on(f) || (filter_shows_point(f, position) && octree_locate(tree, position, &leaf) == OCTREE_OK &&
-                                filter_shows_points_of(f, world, &leaf));
 }
 
 /* Whether an arrow appears shorter than the view's lod. */
@@ -84,36 +71,40 @@ static bool is_small(const scene *s, double ends[2][3])
 /* The facts that all arrows of a tick share. */
 typedef struct arrow_context {
     const scene *scene;
-    const octree *tree;
-    const octree_box *world;
-    double ticks;
+    const layer_source *in;
+    double ticks; /* the movement of this many ticks is the length of an arrow */
 } arrow_context;
+
+/* Whether the view's filter shows a body: by its position and by its leaf. */
+static bool is_body_shown(const arrow_context *a, const octree_body *body)
+{
+    const view_filter *f = &a->scene->view.filter;
+    octree_node leaf;
+    return !filter_is_on(f) ||
+           (filter_shows_point(f, body->position) && octree_locate(a->in->tree, body->position, &leaf) == OCTREE_OK &&
+            filter_shows_points_of(f, &a->in->world, &leaf));
+}
 
 /* Compute the end of a body's arrow. Return false if the arrow has no length. */
 static bool find_arrow_end(const arrow_context *a, const octree_body *body, double end[3])
 {
-    extrapolate(body, a->world, a->ticks, end);
+    extrapolate(body, &a->in->world, a->ticks, end);
     return memcmp(body->position, end, sizeof body->position) != 0;
 }
 
-/* Whether a body's arrow has a length. Most bodies need no exact end: they stay within the bounds, and move far enough
- * that rounding cannot hide it. */
-static bool has_arrow_length(const arrow_context *a, const octree_body *body)
+/* Whether a body's arrow has a length, and the view shows the body. Most bodies need no exact end: they stay within the
+ * bounds, and move far enough that rounding cannot hide it. */
+static bool has_arrow(const arrow_context *a, const octree_body *body)
 {
+    const octree_box *world = &a->in->world;
     bool within = true, far = false;
     double end[3];
     for (int i = 0; i < 3; i++) {
         const double at = body->position[i], way = body->velocity[i] * a->ticks;
-        within &= (at + way > a->world->min[i]) & (at + way < a->world->max[i]);
+        within &= (at + way > world->min[i]) & (at + way < world->max[i]);
         far |= fabs(way) > fabs(at) * 1e-9;
     }
-    return (within && far) || find_arrow_end(a, body, end);
-}
-
-/* Whether a body has an arrow: the arrow has a length, and the view shows the body. */
-static bool has_arrow(const arrow_context *a, const octree_body *body)
-{
-    return has_arrow_length(a, body) && is_body_shown(a->scene, a->tree, a->world, body->position);
+    return ((within && far) || find_arrow_end(a, body, end)) && is_body_shown(a, body);
 }
 
 /* The number of sieves: a sieve has 0 to 64 low bits set. */
@@ -155,20 +146,18 @@ static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick
     return sieve;
 }
 
-static void add_velocities(scene *s, const layer_source *in, view_layer own)
+static void add_velocities(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;
-    const arrow_context a = {s, octree_game_tree(in->game), &octree_game_session(in->game)->tree.world,
-                             velocity_ticks(in->game)};
-    if (!view_shows(&s->view, own) || tick->mover_count == 0)
+    const arrow_context a = {s, in, velocity_ticks(in->game)};
+    if (!view_shows(&s->view, layer) || tick->mover_count == 0)
         return;
     const uint64_t points = s->tally.one_in - 1; /* the sieve of the scene's points: a dropped point has no arrow */
     const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
         scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
-        if (sieve_drops(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) ||
-            !is_body_shown(s, a.tree, a.world, body->position))
+        if (sieve_drops(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) || !is_body_shown(&a, body))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);
         if (is_small(s, arrow.ends))
@@ -178,30 +167,30 @@ static void add_velocities(scene *s, const layer_source *in, view_layer own)
     }
 }
 
-static bool applies(const layer_source *in)
+static bool has_movers(const layer_source *in)
 {
     return in->game && (in->tick->mover_count > 0 || octree_game_fastest(in->game) > 0);
 }
 
-static void add_legend(legend *l, const layer_source *in)
+static void add_velocity_legend(legend *l, const layer_source *in)
 {
     const unsigned ticks = velocity_ticks(in->game);
     legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural(ticks));
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_arrow(description *d, const described_element *element)
 {
     for (size_t i = 0; i < d->tick->mover_count; i++) {
         const octree_body *body = &d->tick->movers[i];
         if (body->id != element->id)
             continue;
-        append_text(d, "the velocity of ");
-        describe_point(d, body->id, body->position);
-        append_text(d, ": ");
-        append_position(d, body->velocity);
+        describe_point(d, "the velocity of ", body->id, body->position);
+        append_position(d, ": ", body->velocity);
         append_text(d, " per tick, drawn for %u tick%s", velocity_ticks(d->game), plural(velocity_ticks(d->game)));
     }
 }
 
-const layer_type layer_VELOCITIES = {
-    .applies = applies, .add = add_velocities, .legend_place = 40, .legend = add_legend, .describe = describe};
+const layer_type layer_VELOCITIES = {.applies = has_movers,
+                                     .add = add_velocities,
+                                     .legend = {.order = 40, .add_lines = add_velocity_legend},
+                                     .describe = describe_arrow};

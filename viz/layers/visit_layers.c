@@ -9,56 +9,44 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool is_pruned(const octree_visit *visit)
+/* Return the address of the i-th node that queries reached, if it belongs to a layer: a leaf with a hit, a pruned node,
+ * or a visited node. Return 0 if it does not. */
+static octree_address find_visited_node(const octree_tick *tick, view_layer layer, size_t i)
 {
-    return visit->touch == OCTREE_TRACE_PRUNED;
+    if (layer == LAYER_HIT)
+        return tick->hit_leaves[i];
+    const bool pruned = tick->visits[i].touch == OCTREE_TRACE_PRUNED;
+    return pruned == (layer == LAYER_PRUNED) ? tick->visits[i].node : 0;
 }
 
-/* Add the visited or pruned nodes of Octreel's tree. A node keeps the colour that it has in the layer of nodes; visited
+/* Add the nodes of a layer. Visited and pruned nodes keep the colour that they have in the layer of nodes; visited
  * nodes are bold, pruned nodes dashed. */
-static void add_own_visits(scene *s, const layer_source *in, view_layer own)
+static void add_visits(scene *s, const layer_source *in, view_layer layer)
 {
-    const bool pruned = own == LAYER_PRUNED;
-    scene_style style = layer_style(own, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
+    const octree_tick *tick = in->tick;
+    const size_t count = layer == LAYER_HIT ? tick->hit_leaf_count : tick->visit_count;
     const size_t capacity = octree_definition(in->tree).leaf_capacity;
+    const bool pruned = layer == LAYER_PRUNED;
+    scene_style style = layer_style(layer, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
     octree_node node;
-    for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->visit_count; i++) {
-        const octree_visit *visit = &in->tick->visits[i];
-        if (is_pruned(visit) != pruned || !find_shown_node(s, in->tree, visit->node, &node))
+    if (!view_shows(&s->view, layer))
+        return;
+    for (size_t i = 0; shows_own_tree(in) && i < count; i++) {
+        const octree_address address = find_visited_node(tick, layer, i);
+        if (!address || !find_shown_node(s, in->tree, address, &node))
             continue;
-        style.role = (uint8_t)node_role(&s->view, (node_traits){node.depth, node.count, capacity, node.leaf});
+        if (layer != LAYER_HIT)
+            style.role = (uint8_t)node_role(&s->view, (node_traits){node.depth, node.count, capacity, node.leaf});
         add_node_box(s, &node, style);
     }
-}
-
-static void add_visits(scene *s, const layer_source *in, view_layer own)
-{
-    if (shows_own_tree(in))
-        add_own_visits(s, in, own);
     if (shows_foreign_tree(in))
-        add_visited_foreign_nodes(s, in, own);
-}
-
-static void add_own_hit_leaves(scene *s, const layer_source *in, view_layer own)
-{
-    octree_node node;
-    for (size_t i = 0; view_shows(&s->view, own) && i < in->tick->hit_leaf_count; i++)
-        if (find_shown_node(s, in->tree, in->tick->hit_leaves[i], &node))
-            add_node_box(s, &node, layer_style(own, STROKE_SOLID, 2));
-}
-
-static void add_hit_leaves(scene *s, const layer_source *in, view_layer own)
-{
-    if (shows_own_tree(in))
-        add_own_hit_leaves(s, in, own);
-    if (shows_foreign_tree(in))
-        add_visited_foreign_nodes(s, in, own);
+        add_visited_foreign_nodes(s, in, style);
 }
 
 /* Return the number of nodes with this kind of visit, in the trees that the view shows. */
-static size_t count_shown_visits(const layer_source *in, size_t own, octree_node_visit visit)
+static size_t count_shown_visits(const layer_source *in, size_t octreel, octree_node_visit visit)
 {
-    return (shows_own_tree(in) ? own : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
+    return (shows_own_tree(in) ? octreel : 0) + (shows_foreign_tree(in) ? in->tick->foreign.visits[visit] : 0);
 }
 
 static void add_pruned_legend(legend *l, const layer_source *in)
@@ -88,18 +76,10 @@ static void add_hit_legend(legend *l, const layer_source *in)
     legend_add(l, SIGN_FRAME, "%zu %s hit", leaves, leaves == 1 ? "leaf" : "leaves");
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_visit(description *d, const described_element *element)
 {
     const uint8_t layer = element->style.layer;
-    if (is_foreign_element(element->id)) {
-        describe_foreign_node(d, element->id);
-        append_text(d, "; a query %s",
-                    layer == LAYER_PRUNED    ? "pruned it"
-                    : layer == LAYER_VISITED ? "visited it"
-                                             : "hit it");
-        return;
-    }
-    describe_node(d, element->id);
+    describe_node(d, "", element->id);
     append_text(d, layer == LAYER_PRUNED    ? "; this tick's queries pruned it"
                    : layer == LAYER_VISITED ? "; this tick's queries visited it"
                                             : "; it holds points that this tick's queries found");
@@ -107,18 +87,15 @@ static void describe(description *d, const described_element *element)
 
 const layer_type layer_PRUNED = {.applies = layer_in_games,
                                  .add = add_visits,
-                                 .legend_place = 80,
-                                 .legend = add_pruned_legend,
-                                 .describe = describe};
+                                 .legend = {.order = 80, .add_lines = add_pruned_legend},
+                                 .describe = describe_visit};
 
 const layer_type layer_VISITED = {.applies = layer_in_games,
                                   .add = add_visits,
-                                  .legend_place = 70,
-                                  .legend = add_visited_legend,
-                                  .describe = describe};
+                                  .legend = {.order = 70, .add_lines = add_visited_legend},
+                                  .describe = describe_visit};
 
 const layer_type layer_HIT = {.applies = layer_in_games,
-                              .add = add_hit_leaves,
-                              .legend_place = 90,
-                              .legend = add_hit_legend,
-                              .describe = describe};
+                              .add = add_visits,
+                              .legend = {.order = 90, .add_lines = add_hit_legend},
+                              .describe = describe_visit};

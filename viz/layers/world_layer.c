@@ -65,12 +65,6 @@ static double number_step(const axes *a, int axis)
     return step > 0 && largest / step < 1e8 ? step : 0; /* otherwise neighbouring numbers could print the same digits */
 }
 
-static void get_corner(const axes *a, unsigned corner, double at[3])
-{
-    for (int i = 0; i < 3; i++)
-        at[i] = corner >> i & 1 ? a->box->max[i] : a->box->min[i];
-}
-
 /* ---- Choosing edges ------------------------------------------------------------------------------------------ */
 
 /* Whether no corner of the box lies beyond a line through a pixel; `out` is the line's normal. */
@@ -156,13 +150,12 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
     scene *s = a->scene;
     double ends[2][3];
     const double length = TICK_LENGTH * longest_side(s);
-    get_corner(a, e->corner, ends[0]);
+    scene_box_corner(a->box, e->corner, ends[0]);
     for (int i = 0; i < 3; i++)
         ends[1][i] = ends[0][i] + (e->corner >> i & 1 ? length : -length);
     ends[0][e->axis] = ends[1][e->axis] = at;
-    scene_label number = {.id = id, .style = axis_style};
     char text[NUMBER_TEXT];
-    snprintf(number.text, sizeof number.text, "%s", number_text(at, DIGITS, text));
+    scene_label number = scene_make_label(id, axis_style, "%s", number_text(at, DIGITS, text));
     scene_add_line(s, id, ends[0], ends[1], axis_style);
     number.style.stroke = STROKE_CUT;
     if (place_number(a, e, ends, &number))
@@ -200,10 +193,10 @@ static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
  * world's. */
 static void add_axis(axes *a, const axis_edge *e, bool drawn)
 {
-    scene_label letter = {.id = (uint64_t)e->axis, .style = axis_style, .text = {(char)('x' + e->axis), 0}};
+    scene_label letter = scene_make_label((uint64_t)e->axis, axis_style, "%c", "xyz"[e->axis]);
     double ends[2][3];
-    get_corner(a, e->corner, ends[0]);
-    get_corner(a, e->corner | 1u << e->axis, ends[1]);
+    scene_box_corner(a->box, e->corner, ends[0]);
+    scene_box_corner(a->box, e->corner | 1u << e->axis, ends[1]);
     if (drawn)
         scene_add_line(a->scene, (uint64_t)e->axis, ends[0], ends[1], axis_style);
     if (is_end_on(a, e))
@@ -225,7 +218,7 @@ static void add_axes(scene *s, const octree_box *world)
     axis_edge edges[3];
     for (unsigned i = 0; i < 8; i++) {
         double at[3];
-        get_corner(&a, i, at);
+        scene_box_corner(a.box, i, at);
         a.whole &= camera_pixel(&s->camera, at, a.corners[i]);
     }
     for (int axis = 0; axis < 3; axis++) {
@@ -240,33 +233,28 @@ static void add_axes(scene *s, const octree_box *world)
 
 enum { WORLD_ID, SLICE_ID, REGION_ID, WORLD_IDS };
 
-static void add_box(scene *s, uint64_t id, const octree_box *box, scene_style style)
-{
-    scene_add_box(s, (scene_box){.id = id, .box = *box, .style = style});
-}
-
-static void add_world(scene *s, const layer_source *in, view_layer own)
+static void add_world(scene *s, const layer_source *in, view_layer layer)
 {
     const view_filter *f = &s->view.filter;
-    const scene_style dashed = {.layer = (uint8_t)own, .role = ROLE_FAINT, .stroke = STROKE_DASHED, .width = 1};
+    const scene_style dashed = role_style(layer, ROLE_FAINT, STROKE_DASHED, 1);
     octree_box plane = in->world;
-    add_box(s, WORLD_ID, &in->world, layer_style(own, STROKE_SOLID, 1));
+    scene_add_outline(s, WORLD_ID, &in->world, layer_style(layer, STROKE_SOLID, 1));
     if (f->slice) {
         plane.min[f->slice - 'x'] = plane.max[f->slice - 'x'] = f->slice_at;
-        add_box(s, SLICE_ID, &plane, dashed);
+        scene_add_outline(s, SLICE_ID, &plane, dashed);
     }
     if (f->by_region)
-        add_box(s, REGION_ID, &f->region, dashed);
+        scene_add_outline(s, REGION_ID, &f->region, dashed);
     add_axes(s, &in->world);
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_world_element(description *d, const described_element *element)
 {
     static const char *const boxes[WORLD_IDS] = {"the world", "the slice that the view shows",
                                                  "the region that the view shows"};
     if (element->kind == SCENE_BOX) {
-        append_text(d, "%s, box ", boxes[element->id]);
-        append_box(d, &element->box);
+        append_text(d, "%s", boxes[element->id]);
+        append_box(d, ", box ", &element->box);
     } else if (element->kind == SCENE_SEGMENT && element->id < 3) {
         append_text(d, "the %c axis", "xyz"[element->id]);
     } else if (element->kind == SCENE_SEGMENT) {
@@ -276,4 +264,4 @@ static void describe(description *d, const described_element *element)
     }
 }
 
-const layer_type layer_WORLD = {.add = add_world, .describe = describe};
+const layer_type layer_WORLD = {.add = add_world, .describe = describe_world_element};

@@ -26,13 +26,7 @@ static uint64_t ring_id(size_t place)
 
 #define LEFT_OUT_ID UINT64_MAX /* the id of the label "and 3 more wrong" */
 
-/* The id of the line to an extra point of an answer. */
-static uint64_t line_id(size_t place, size_t extra)
-{
-    return (uint64_t)place << 32 | (uint64_t)extra;
-}
-
-static bool applies(const layer_source *in)
+static bool has_judged_tick(const layer_source *in)
 {
     return in->tick && (in->tick->judged || shows_foreign_tree(in));
 }
@@ -49,10 +43,12 @@ static bool is_in_session(const octree_session *session)
  * its region. */
 static void find_ring_position(const octree_answer *answer, double place[3])
 {
-    const octree_point *point = judgement_first_point(&answer->judgement);
+    const octree_judgement *judgement = &answer->judgement;
     octree_box bound;
-    if (point)
-        memcpy(place, point->position, sizeof point->position);
+    if (judgement->missing_count)
+        memcpy(place, judgement->missing[0].position, sizeof judgement->missing[0].position);
+    else if (judgement->extra_count)
+        memcpy(place, judgement->extra[0].position, sizeof judgement->extra[0].position);
     else if (octree_query_about(answer->kind)->members & OCTREE_QUERY_HAS_TARGET ||
              !octree_answer_bound(answer, &bound))
         memcpy(place, answer->target, sizeof answer->target);
@@ -77,7 +73,7 @@ static void mark_wrong_answer(scene *s, const octree_answer *answer, size_t plac
     double at[3];
     missed.role = ROLE_MISSED;
     for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < judgement->extra_count; i++)
-        scene_add_line(s, line_id(place, i), answer->target, judgement->extra[i].position,
+        scene_add_line(s, (uint64_t)place << 32 | (uint64_t)i, answer->target, judgement->extra[i].position,
                        layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
     mark_points(s, judgement->missing, judgement->missing_count, SHAPE_TRIANGLE, missed, occupied);
     mark_points(s, judgement->extra, judgement->extra_count, SHAPE_WEDGE, extra, occupied);
@@ -91,8 +87,8 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
 {
     char words[JUDGEMENT_TEXT];
     double at[3];
-    scene_label label = {.id = place, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
-    snprintf(label.text, sizeof label.text, "%s", judgement_text(&answer->judgement, words));
+    const scene_label label = scene_make_label(place, layer_style(LAYER_WRONG, STROKE_SOLID, 1), "%s",
+                                               judgement_text(&answer->judgement, words));
     find_ring_position(answer, at);
     return text_add_beside(occupied, s, label, at, RING);
 }
@@ -101,8 +97,8 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
 static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
     const camera_window w = layout_space(s);
-    scene_label label = {.id = LEFT_OUT_ID, .style = layer_style(LAYER_WRONG, STROKE_SOLID, 1)};
-    snprintf(label.text, sizeof label.text, "and %zu more wrong", count);
+    scene_label label =
+        scene_make_label(LEFT_OUT_ID, layer_style(LAYER_WRONG, STROKE_SOLID, 1), "and %zu more wrong", count);
     const double half = (double)strlen(label.text) * s->text.width / 2;
     const double middle[2] = {w.x + w.width - half - s->text.width, w.y + s->text.height};
     if (count > 0 && text_space_take(occupied, s, label.text, middle, label.at))
@@ -110,8 +106,9 @@ static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 }
 
 /* Marks come first, so that texts do not cover them. Texts of answers get room before texts of nodes. */
-static void add_wrong_answers(scene *s, const layer_source *in, view_layer own)
+static void add_wrong_answers(scene *s, const layer_source *in, view_layer layer)
 {
+    (void)layer;
     size_t worst, left_out = 0;
     const bool few = judgement_count_wrong(in->answers, in->answer_count, &worst) <= FEW_RINGS;
     text_space occupied = {.count = 0};
@@ -119,16 +116,16 @@ static void add_wrong_answers(scene *s, const layer_source *in, view_layer own)
         if (in->answers[i].judgement.wrong)
             mark_wrong_answer(s, &in->answers[i], i, few || i == worst ? RING : RING / 2, &occupied);
     if (shows_foreign_tree(in))
-        mark_foreign_faults(s, in, own, &occupied);
+        mark_wrong_foreign_nodes(s, in, &occupied);
     for (size_t i = 0; i < in->answer_count; i++)
         if (in->answers[i].judgement.wrong && (few || i == worst))
             left_out += !add_answer_label(s, &in->answers[i], i, &occupied);
     if (shows_foreign_tree(in))
-        left_out += label_foreign_faults(s, in, own, &occupied);
+        left_out += label_wrong_foreign_nodes(s, in, &occupied);
     add_left_out_count(s, left_out, &occupied);
 }
 
-static void add_legend(legend *l, const layer_source *in)
+static void add_wrong_legend(legend *l, const layer_source *in)
 {
     if (in->tick->judged) {
         legend_add(l, SIGN_RING, "wrong answer");
@@ -172,16 +169,16 @@ static void append_wrong_answer(description *d, uint64_t place)
     append_text(d, ", which is wrong: %s", judgement_text(&tick->answers[place].judgement, words));
 }
 
-static void describe(description *d, const described_element *element)
+static void describe_mark(description *d, const described_element *element)
 {
     if (is_foreign_element(element->id)) {
-        describe_foreign_fault(d, element);
+        describe_wrong_foreign_node(d, element);
     } else if (element->kind == SCENE_MARKER && element->shape == SHAPE_RING) {
         append_text(d, "the ring around ");
         append_wrong_answer(d, UINT64_MAX - element->id);
     } else if (element->kind == SCENE_MARKER) {
         const bool missed = element->shape == SHAPE_TRIANGLE;
-        describe_point(d, element->id, element->at);
+        describe_point(d, "", element->id, element->at);
         append_text(d, missed ? ", missing from " : ", extra in ");
         append_wrong_answer(d, find_answer(d->tick, element->id, missed));
     } else if (element->kind == SCENE_SEGMENT) {
@@ -196,9 +193,8 @@ static void describe(description *d, const described_element *element)
     }
 }
 
-const layer_type layer_WRONG = {.applies = applies,
+const layer_type layer_WRONG = {.applies = has_judged_tick,
                                 .in_session = is_in_session,
                                 .add = add_wrong_answers,
-                                .legend_place = 5,
-                                .legend = add_legend,
-                                .describe = describe};
+                                .legend = {.order = 5, .add_lines = add_wrong_legend},
+                                .describe = describe_mark};

@@ -82,10 +82,15 @@ static inline bool view_shows(const view *v, view_layer layer)
                                     : v->layers >> layer & 1;
 }
 
-/* The style of an element in its layer's own colour. */
+/* Returns the style of an element in the colour of a role, or in its layer's own colour. */
+static inline scene_style role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
+{
+    return (scene_style){(uint8_t)layer, (uint8_t)role, (uint8_t)stroke, (uint8_t)width};
+}
+
 static inline scene_style layer_style(view_layer layer, scene_stroke stroke, unsigned width)
 {
-    return (scene_style){(uint8_t)layer, layer_rows[layer].role, (uint8_t)stroke, (uint8_t)width};
+    return role_style(layer, layer_rows[layer].role, stroke, width);
 }
 
 #endif

@@ -6,6 +6,8 @@
 #include "layer.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -79,6 +81,21 @@ void scene_add_marker(scene *s, scene_marker marker)
 {
     if (is_accepted(s, marker.style, all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
+}
+
+scene_label scene_make_label(uint64_t id, scene_style style, const char *format, ...)
+{
+    scene_label label = {.id = id, .style = style};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(label.text, sizeof label.text, format, arguments);
+    va_end(arguments);
+    return label;
+}
+
+void scene_add_outline(scene *s, uint64_t id, const octree_box *box, scene_style style)
+{
+    scene_add_box(s, (scene_box){.id = id, .box = *box, .style = style});
 }
 
 void scene_add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style)

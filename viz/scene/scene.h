@@ -170,7 +170,11 @@ void scene_add_marker(scene *s, scene_marker marker);
 void scene_add_label(scene *s, scene_label label);
 void scene_add_panel(scene *s, scene_panel panel);
 
-/* Append a segment in the world, a marker, the markers of points, and a rectangle of the picture. */
+/* Returns a label with a formatted text at no place yet. A text that does not fit is cut. */
+scene_label scene_make_label(uint64_t id, scene_style style, const char *format, ...);
+
+/* Append a box, a segment in the world, a marker, the markers of points, or a rectangle of the picture. */
+void scene_add_outline(scene *s, uint64_t id, const octree_box *box, scene_style style);
 void scene_add_line(scene *s, uint64_t id, const double from[3], const double to[3], scene_style style);
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style);
@@ -185,6 +189,13 @@ static inline void scene_box_middle(const octree_box *box, double middle[3])
 {
     for (int i = 0; i < 3; i++)
         middle[i] = box->min[i] / 2 + box->max[i] / 2;
+}
+
+/* The position of a corner of a box: bit i of its number is set at the upper end of axis i. */
+static inline void scene_box_corner(const octree_box *box, unsigned corner, double position[3])
+{
+    for (unsigned i = 0; i < 3; i++)
+        position[i] = corner >> i & 1 ? box->max[i] : box->min[i];
 }
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */

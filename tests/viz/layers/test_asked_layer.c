@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* test_asked_layer.c - tests that the node that inspect is asked for is marked in the space view and named in the
+/* test_asked_layer.c - tests that the node that `inspect --node` names is marked in the space view and named in the
  * legend. */
 #include "scenes.h"
 

@@ -197,9 +197,8 @@ static void faults_of_foreign_nodes_are_marked_and_described(void **state)
     assert_int_equal(count_markers_at(&shown, LAYER_WRONG, LOST | 8, session.bodies[7].position), 1);
     assert_true(says("outside parent") && says("wrongly pruned") && says("in no node"));
     assert_true(says("wrong in nodes"));
-    char text[FOREIGN_FAULT_TEXT];
-    assert_string_equal(foreign_fault_text(&octree_game_tick(game)->foreign, text),
-                        "node 4: its box leaves its parent's");
+    char text[WRONG_NODE_TEXT];
+    assert_string_equal(wrong_node_text(&octree_game_tick(game)->foreign, text), "node 4: its box leaves its parent's");
 }
 
 /* Return the description of the element with this layer, kind and id. */
@@ -232,8 +231,10 @@ static void foreign_nodes_are_described(void **state)
     assert_string_equal(told(LAYER_WRONG, SCENE_BOX, foreign_element(FOREIGN_LOW)),
                         "foreign node 4: leaf at depth 2 of kind \"leaf\" under node 2, 2 points listed, "
                         "box (-900, -700, -800) to (100, 400, -200); wrong: its box leaves its parent's");
-    assert_non_null(strstr(told(LAYER_PRUNED, SCENE_BOX, foreign_element(FOREIGN_RIGHT)), "; a query pruned it"));
-    assert_non_null(strstr(told(LAYER_VISITED, SCENE_BOX, foreign_element(FOREIGN_ROOT)), "; a query visited it"));
+    assert_non_null(
+        strstr(told(LAYER_PRUNED, SCENE_BOX, foreign_element(FOREIGN_RIGHT)), "; this tick's queries pruned it"));
+    assert_non_null(
+        strstr(told(LAYER_VISITED, SCENE_BOX, foreign_element(FOREIGN_ROOT)), "; this tick's queries visited it"));
     assert_non_null(
         strstr(told(LAYER_NODES, SCENE_LABEL, foreign_element(FOREIGN_RIGHT)), "text \"3\" on foreign node 3"));
     assert_string_equal(told(LAYER_WRONG, SCENE_MARKER, LOST | 8),

@@ -227,15 +227,15 @@ static void legend_lists_the_elements_of_the_diagram(void **state)
     octree_destroy(large);
 }
 
-/* Each layer has its own legend_place: of two layers with the same place the second would be missing. */
+/* No two layers have the same order in the legend, and each layer with an order has a text. */
 static void every_listed_layer_has_a_place_and_text(void **state)
 {
     (void)state;
     for (int i = 0; i <= LAYER_COUNT; i++) {
         const layer_type *type = layer_types[i];
-        assert_int_equal(type->legend_place > 0, type->text || type->legend);
-        for (int j = 0; type->legend_place && j < i; j++)
-            assert_int_not_equal(type->legend_place, layer_types[j]->legend_place);
+        assert_int_equal(type->legend.order > 0, type->legend.text || type->legend.add_lines);
+        for (int j = 0; type->legend.order && j < i; j++)
+            assert_int_not_equal(type->legend.order, layer_types[j]->legend.order);
     }
 }
 

@@ -6,7 +6,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* The choices of a view, its layers with their colours, and the kinds of queries with what they read, as JSON. True. */
+/* Write the choices of a view, its layers with their colours, and the query kinds with their members, as JSON. Returns
+ * true. */
 bool choices_write(FILE *out);
 
 #endif

@@ -31,7 +31,7 @@ _Static_assert(sizeof(value) == 16 && offsetof(entry, next) == 16 && offsetof(en
                    offsetof(json_error_t, position) == 8 && offsetof(json_error_t, text) == 92,
                "json_values.js writes these structures");
 
-/* ---- Given by the page -------------------------------------------------------------------------------------- */
+/* ---- Functions of the page -------------------------------------------------------------------------------------- */
 
 #define FROM_PAGE(name) __attribute__((import_module("page"), import_name(name)))
 

@@ -2,8 +2,9 @@
 /* memory.c - sbrk() that keeps the end of the used memory in that memory itself.
  *
  * The page goes back to an earlier state by copying the memory back, but WebAssembly's memory never shrinks.
- * wasi-libc's sbrk() takes the memory's size for the end of the used part, so each return to an earlier state would
- * leak all that was allocated since. Here the end goes back with the rest, and the memory behind it is used again. */
+ * wasi-libc's sbrk() assumes that all memory up to its size is used, so each return to an earlier state would leak
+ * all memory that was allocated since. Here the end of the used memory is restored with the rest, and the memory behind
+ * it is used again. */
 #include <stddef.h>
 #include <stdint.h>
 #include <unistd.h>
@@ -17,7 +18,7 @@ static size_t memory_size(void)
     return (size_t)__builtin_wasm_memory_size(0) * MEMORY_PAGE;
 }
 
-/* The count of bytes from address 0 that hold the module's state. At first that is the whole memory, since newer
+/* The number of bytes from address 0 that hold the module's state. At first that is the whole memory, since newer
  * versions of wasi-libc use the part behind the static data without calling sbrk(). */
 size_t web_used(void)
 {

@@ -30,9 +30,9 @@
 typedef struct web {
     session_file session;
     playback playback;
-    bool open, drawn; /* the playback is open; its current tick is drawn */
-    bool scaled;      /* the point scale was fitted, not given in the view */
-    unsigned counted; /* layers whose sums over all ticks are collected */
+    bool open, drawn;       /* the playback is open; its current tick is drawn */
+    bool has_fitted_scale;  /* the point scale was fitted, not given in the view */
+    unsigned summed_layers; /* layers whose sums over all ticks are collected */
     char *room, *text;
     size_t room_size, text_size;
     uint32_t *rgba; /* the picture: bytes R, G, B, A for each pixel */
@@ -64,18 +64,24 @@ size_t web_text_size(void)
     return page.text ? page.text_size : strlen(page.error.text);
 }
 
-static bool fails(void)
+static void clear_text(void)
 {
     free(page.text);
     page.text = NULL;
+}
+
+/* Let web_text() return the error. Returns false. */
+static bool fail(void)
+{
+    clear_text();
     return false;
 }
 
-/* Let web_text() be what `write` prints. */
+/* Let web_text() return the text that `write` prints. False if it cannot be written, with the error in web_text(). */
 static bool set_text(bool (*write)(FILE *out))
 {
     text_stream s;
-    fails();
+    clear_text();
     const bool written = text_stream_begin(&s) && write(s.stream);
     if (text_stream_end(&s, &page.text) && written) {
         page.text_size = s.size;
@@ -83,7 +89,7 @@ static bool set_text(bool (*write)(FILE *out))
     }
     if (written)
         error_no_memory(&page.error);
-    return fails();
+    return fail();
 }
 
 /* ---- The session -------------------------------------------------------------------------------------------- */
@@ -95,7 +101,7 @@ static void close_all(void)
     session_release(&page.session);
     free(page.rgba);
     page.rgba = NULL;
-    page.open = page.drawn = page.scaled = false;
+    page.open = page.drawn = page.has_fitted_scale = false;
 }
 
 /* Open a session and play its tick 0. The room holds the session's text of `session` bytes and then a recording.json of
@@ -107,28 +113,28 @@ bool web_open(size_t session, size_t recording)
     close_all();
     if (!recording_parse("the view", page.room + session, recording, &v, &every, &page.error) ||
         !session_parse("the session", "", page.room, session, &page.session, &page.error))
-        return fails();
+        return fail();
     free(page.room);
     page.room = NULL;
     page.room_size = 0;
-    page.counted = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
+    page.summed_layers = v.layers & VIEW_HEAT_LAYERS ? VIEW_HEAT_LAYERS : 0;
     page.open = playback_open(&page.playback, &page.session.session, &page.session.values, &v, &page.error);
     if (!page.open)
         close_all();
-    return page.open || fails();
+    return page.open || fail();
 }
 
-/* Play the next tick, with this key or with 0 as the session has it. */
+/* Play the next tick with a key; with 0 the tick has the session's own key, edits and queries. */
 bool web_step(int key)
 {
     const octree_input input = {.key = (char)key};
     playback *p = &page.playback;
     const unsigned layers = p->view.layers;
     page.drawn = false;
-    p->view.layers |= page.counted;
+    p->view.layers |= page.summed_layers;
     const bool done = key ? playback_play(p, &input, &page.error) : playback_advance(p, &page.error);
     p->view.layers = layers;
-    return done || fails();
+    return done || fail();
 }
 
 double web_tick(void)
@@ -136,7 +142,7 @@ double web_tick(void)
     return (double)octree_game_tick(page.playback.game)->number;
 }
 
-/* Count of ticks after tick 0. */
+/* The number of ticks after tick 0. */
 double web_length(void)
 {
     return (double)octree_session_length(&page.session.session);
@@ -174,16 +180,16 @@ static bool fit_to_start(view *v)
     return fitted;
 }
 
-/* Fit a view. A point scale that was fitted before is kept while the filter and the colouring stay the same: dragging
- * changes the view at every frame. */
-static bool fit(view *v)
+/* Fit a view. Fitting a point scale is slow, and dragging changes the view at every frame: a scale that was fitted
+ * before is kept while the filter and the colouring stay the same. */
+static bool fit_view(view *v)
 {
     const view *now = &page.playback.view;
     const bool scales = view_paints_points(v) && !v->point_scale.given;
-    if (scales && page.scaled && v->point_color == now->point_color &&
+    if (scales && page.has_fitted_scale && v->point_color == now->point_color &&
         memcmp(&v->filter, &now->filter, sizeof v->filter) == 0)
         v->point_scale = now->point_scale;
-    page.scaled = scales;
+    page.has_fitted_scale = scales;
     if (scales && !v->point_scale.given && web_tick() > 0)
         return fit_to_start(v);
     return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
@@ -194,8 +200,8 @@ bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
     uint64_t every;
-    if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit(&v))
-        return fails();
+    if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit_view(&v))
+        return fail();
     if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now) ||
         view_is_rgb(&v) != view_is_rgb(now)) {
         picture_close(&page.playback.picture);
@@ -210,7 +216,7 @@ bool web_view(size_t recording)
 /* Whether the view shows sums over all ticks that were not collected; then the session must be opened again with it. */
 bool web_lacks_sums(void)
 {
-    return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.counted;
+    return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.summed_layers;
 }
 
 static bool open_picture(void)
@@ -231,7 +237,8 @@ static uint32_t rgba_word(image_color color)
     return word;
 }
 
-/* Write whole words, from a table if the pixels are indices: this takes a good part of a frame's time. */
+/* Convert the pixels of a frame to RGBA. Much of a frame's time is spent here, so pixels are written as whole words,
+ * and indices are looked up in a table. */
 static void color_pixels(const image *frame)
 {
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
@@ -251,7 +258,7 @@ static void color_pixels(const image *frame)
 const uint32_t *web_draw(void)
 {
     playback *p = &page.playback;
-    fails();
+    clear_text();
     if (!open_picture() || !playback_scene(p, &page.error) || !picture_draw(&p->picture, &p->scene, &page.error))
         return NULL;
     color_pixels(&p->picture.frame);
@@ -282,26 +289,21 @@ bool web_digest(void)
     return set_text(write_digest);
 }
 
-/* A camera's center, the pixel that shows it, and the length of a pixel there. */
+/* Write a camera's center, the pixel that shows it, and the length of a pixel there. */
 static void write_center(json_writer *w, const camera *c, const int origin[2])
 {
     json_member_vector(w, "center", c->center);
-    json_member_begin_array(w, "middle");
-    json_write_number(w, c->middle[0] + origin[0]);
-    json_write_number(w, c->middle[1] + origin[1]);
-    json_write_end_array(w);
+    json_write_key(w, "middle");
+    json_write_numbers(w, (double[]){c->middle[0] + origin[0], c->middle[1] + origin[1]}, 2);
     json_member_number(w, "pixel", camera_pixel_length(c));
 }
 
 static void write_closeup(json_writer *w, const scene *closeup)
 {
+    const view *v = &closeup->view;
     json_member_begin_object(w, "closeup");
-    json_member_begin_array(w, "window");
-    json_write_number(w, closeup->place[0]);
-    json_write_number(w, closeup->place[1]);
-    json_write_number(w, closeup->view.width);
-    json_write_number(w, closeup->view.height);
-    json_write_end_array(w);
+    json_write_key(w, "window");
+    json_write_numbers(w, (double[]){closeup->place[0], closeup->place[1], v->width, v->height}, 4);
     write_center(w, &closeup->camera, closeup->place);
     json_write_end_object(w);
 }
@@ -373,7 +375,7 @@ bool web_pick(int x, int y, int radius)
     picked.y = y;
     picked.radius = radius;
     if ((!page.drawn && !web_draw()) || x < 0 || y < 0 || x >= web_width() || y >= web_height())
-        return fails();
+        return fail();
     return set_text(write_pick);
 }
 
@@ -383,11 +385,14 @@ bool web_ask(size_t size)
 {
     session_file asked;
     if (!session_parse("the query", "", page.room, size, &asked, &page.error))
-        return fails();
+        return fail();
     const octree_status status = octree_game_ask(page.playback.game, asked.session.queries, asked.session.query_count);
     session_release(&asked);
     page.drawn = false;
-    return status == OCTREE_OK || (error_set(&page.error, "%s", octree_status_text(status)), fails());
+    if (status == OCTREE_OK)
+        return true;
+    error_set(&page.error, "%s", octree_status_text(status));
+    return fail();
 }
 
 typedef struct point_search {
@@ -431,8 +436,10 @@ bool web_keys(double last, size_t count)
     octree_session *s = &page.session.session;
     const size_t known = s->keys ? strlen(s->keys) : 0, before = (size_t)last;
     char *keys = malloc(before + count + 1);
-    if (!keys)
-        return error_no_memory(&page.error), fails();
+    if (!keys) {
+        error_no_memory(&page.error);
+        return fail();
+    }
     memset(keys, '.', before);
     if (known > 0)
         memcpy(keys, s->keys, known < before ? known : before);
