@@ -418,7 +418,7 @@ static void add_diagram_legend(legend *l, const layer_source *in)
     if (tally->drawn)
         legend_add(l, SIGN_NODES, "inner node, leaf")->role = ROLE_NODE_PLAIN;
     if (tally->path)
-        legend_add(l, SIGN_LINE, "way from the root")->role = ROLE_PLAYER;
+        legend_add(l, SIGN_LINE, "path from the root")->role = ROLE_PLAYER;
     if (tally->folded)
         legend_add(l, SIGN_BARS, "bars: many nodes, log2")->role = ROLE_NODE_PLAIN;
     if (filter_is_on(&l->scene->view.filter))

@@ -95,9 +95,9 @@ static void write_statistics(pen *p, const layer_source *in, const octree_stats 
     const octree_def definition = octree_definition(in->tree);
     write_row(p, "points", "", "%zu", stats->points);
     if (shows_foreign_tree(in)) {
-        write_row(p, "program nodes", "", "%zu", in->tick->foreign.node_count);
-        write_row(p, "program leaves", "", "%zu", in->tick->foreign.leaf_count);
-        write_row(p, "program depth", "", "%u", in->tick->foreign.depth);
+        write_row(p, "foreign nodes", "", "%zu", in->tick->foreign.node_count);
+        write_row(p, "foreign leaves", "", "%zu", in->tick->foreign.leaf_count);
+        write_row(p, "foreign depth", "", "%u", in->tick->foreign.depth);
     }
     if (!shows_own_tree(in))
         return;
@@ -182,7 +182,7 @@ static void write_wrong_nodes(pen *p, const layer_source *in)
     if (!shows_foreign_tree(in) || in->tick->foreign.wrong_count == 0)
         return;
     p->name = ROLE_WRONG;
-    write_row(p, "wrong in nodes", "", "%zu", in->tick->foreign.wrong_count);
+    write_row(p, "wrong nodes", "", "%zu", in->tick->foreign.wrong_count);
     p->name = ROLE_FAINT;
     write_wrapped(p, ROLE_WARNING, wrong_node_text(&in->tick->foreign, text));
 }
@@ -309,7 +309,7 @@ static void write_folded_depths(pen *p, const scene_tally *tally)
 static void write_small_counts(pen *p, const scene_tally *tally)
 {
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
-    static const char *const words[][2] = {{"node", "nodes"}, {"node met", "nodes met"}, {"arrow", "arrows"}};
+    static const char *const words[][2] = {{"node", "nodes"}, {"marked node", "marked nodes"}, {"arrow", "arrows"}};
     char lod[NUMBER_TEXT], name[SCENE_TEXT];
     snprintf(name, sizeof name, "under %s px", number_text(p->scene->view.lod, 3, lod));
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
@@ -412,7 +412,7 @@ static void write_player(pen *p, const layer_source *in)
         write_row(p, "player", "", "away");
     p->y = end;
     if (in->tick->swept)
-        write_row(p, "box tested", "", "the whole way");
+        write_row(p, "box tested", "", "the whole path");
     write_rule(p);
 }
 

@@ -24,9 +24,9 @@ static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])
 static void print_point_counts(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])
 {
     if (judgement->missing_count && judgement->extra_count)
-        snprintf(text, JUDGEMENT_TEXT, "%zu missed, %zu extra", judgement->missing_count, judgement->extra_count);
+        snprintf(text, JUDGEMENT_TEXT, "%zu missing, %zu extra", judgement->missing_count, judgement->extra_count);
     else if (judgement->missing_count)
-        snprintf(text, JUDGEMENT_TEXT, "%zu missed", judgement->missing_count);
+        snprintf(text, JUDGEMENT_TEXT, "%zu missing", judgement->missing_count);
     else
         snprintf(text, JUDGEMENT_TEXT, "%zu extra", judgement->extra_count);
 }
@@ -38,13 +38,13 @@ const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMEN
         snprintf(text, JUDGEMENT_TEXT, "no point has id %" PRIu64, judgement->wrong_id);
         break;
     case OCTREE_WRONG_DUPLICATE:
-        snprintf(text, JUDGEMENT_TEXT, "%" PRIu64 " is named twice", judgement->wrong_id);
+        snprintf(text, JUDGEMENT_TEXT, "%" PRIu64 " is listed twice", judgement->wrong_id);
         break;
     case OCTREE_WRONG_SKIPPED:
         snprintf(text, JUDGEMENT_TEXT, "%" PRIu64 " is left out", judgement->wrong_id);
         break;
     case OCTREE_WRONG_COUNT:
-        snprintf(text, JUDGEMENT_TEXT, "%zu named, not %zu", judgement->given_count, judgement->expected);
+        snprintf(text, JUDGEMENT_TEXT, "%zu points, not %zu", judgement->given_count, judgement->expected);
         break;
     case OCTREE_WRONG_FARTHER:
         print_ratio(judgement->ratio, text);

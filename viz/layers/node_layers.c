@@ -433,7 +433,7 @@ static void add_occupancy_legend(legend *l, const layer_source *in)
     if ((shows_own_tree(in) && !v->filter.leaves) || diagram)
         legend_add(l, SIGN_BOLD, "inner node")->role = ROLE_WORLD;
     if (shows_foreign_tree(in))
-        legend_add(l, SIGN_RAMP, "program's, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
+        legend_add(l, SIGN_RAMP, "foreign, 0-%u+ points", THEME_MOST_POINTS)->steps = THEME_NODE_DEPTHS;
 }
 
 static void add_node_legend(legend *l, const layer_source *in)

@@ -103,7 +103,7 @@ static void add_collision_legend(legend *l, const layer_source *in)
 {
     legend_add(l, SIGN_CROSS, "collision, crossed");
     if (in->session->player.sweep)
-        legend_add(l, SIGN_DASHES, "way to a hit, dashed");
+        legend_add(l, SIGN_DASHES, "path to a hit, dashed");
 }
 
 static void describe_collision_box(description *d, const described_element *element)

@@ -129,8 +129,8 @@ static void add_wrong_legend(legend *l, const layer_source *in)
 {
     if (in->tick->judged) {
         legend_add(l, SIGN_RING, "wrong answer");
-        legend_add(l, SIGN_TRIANGLE, "missed by it")->role = ROLE_MISSED;
-        legend_add(l, SIGN_WEDGE, "wrongly in it");
+        legend_add(l, SIGN_TRIANGLE, "missing point")->role = ROLE_MISSED;
+        legend_add(l, SIGN_WEDGE, "extra point");
     }
     if (shows_foreign_tree(in))
         legend_add(l, SIGN_DASHES, "wrong node");

@@ -64,8 +64,8 @@ static void panel_shows_a_swept_test(void **state)
         scene s = {0};
         build_tick(&s, &v, game);
         assert_inside_column(&s);
-        assert_int_equal(find_text(&s, "the whole way") != NULL, sweep);
-        assert_int_equal(find_text(&s, "way to a hit, dashed") != NULL, sweep);
+        assert_int_equal(find_text(&s, "the whole path") != NULL, sweep);
+        assert_int_equal(find_text(&s, "path to a hit, dashed") != NULL, sweep);
         octree_game_destroy(game);
         scene_release(&s);
     }

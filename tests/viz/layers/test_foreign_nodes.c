@@ -67,7 +67,7 @@ static void view_chooses_between_own_and_foreign_nodes(void **state)
         assert_int_equal(BOXES_OF(LAYER_NODES) - own_boxes(LAYER_NODES), rows[i].foreign);
         assert_int_equal(shown.tally.nodes, BOXES_OF(LAYER_NODES));
         assert_int_equal(count_layer(&shown, LAYER_POINTS).markers, 8);
-        assert_int_equal(says("program nodes"), rows[i].foreign > 0);
+        assert_int_equal(says("foreign nodes"), rows[i].foreign > 0);
     }
 }
 
@@ -128,12 +128,12 @@ static void foreign_nodes_are_coloured_by_kind_and_by_occupancy(void **state)
                      theme_node_role(theme_step(8, 1)));
     assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
                      theme_node_role(theme_step(2, 1)));
-    assert_true(says("program's, 0-256+ points"));
+    assert_true(says("foreign, 0-256+ points"));
     v.tree = TREE_BOTH;
     show(&v, 0);
     char own[SCENE_TEXT];
     snprintf(own, sizeof own, "leaves, 0-%zu+ points", octree_definition(octree_game_tree(game)).leaf_capacity);
-    assert_true(says(own) && says("program's, 0-256+ points"));
+    assert_true(says(own) && says("foreign, 0-256+ points"));
 }
 
 static void kinds_beyond_the_colours_share_the_last_colour(void **state)
@@ -196,7 +196,7 @@ static void faults_of_foreign_nodes_are_marked_and_described(void **state)
     find_only_box(&shown, LAYER_WRONG, foreign_element(FOREIGN_HIGH));
     assert_int_equal(count_markers_at(&shown, LAYER_WRONG, LOST | 8, session.bodies[7].position), 1);
     assert_true(says("outside parent") && says("wrongly pruned") && says("in no node"));
-    assert_true(says("wrong in nodes"));
+    assert_true(says("wrong nodes"));
     char text[WRONG_NODE_TEXT];
     assert_string_equal(wrong_node_text(&octree_game_tick(game)->foreign, text), "node 4: its box leaves its parent's");
 }

@@ -17,8 +17,8 @@ static const struct legend_row {
     const char *text;
 } legend_rows[] = {
     {LAYER_WRONG, ROLE_WRONG, false, "wrong answer"},
-    {LAYER_WRONG, ROLE_MISSED, false, "missed by it"},
-    {LAYER_WRONG, ROLE_WRONG, false, "wrongly in it"},
+    {LAYER_WRONG, ROLE_MISSED, false, "missing point"},
+    {LAYER_WRONG, ROLE_WRONG, false, "extra point"},
     {LAYER_PLAYER, ROLE_PLAYER, false, "player and its box"},
     {LAYER_BOX, ROLE_COLLISION, false, "collision, crossed"},
     {LAYER_POINTS, ROLE_POINT, true, "point"},
@@ -219,7 +219,7 @@ static void legend_lists_the_elements_of_the_diagram(void **state)
         assert_true(has_label_with(&s, "inner node, leaf") && has_label_with(&s, "nodes, depth 0-9+"));
         assert_int_equal(has_label_with(&s, "node filtered out"), (i & 2) != 0);
         assert_int_equal(has_label_with(&s, "bars: many nodes, log2"), (i & 4) != 0);
-        assert_int_equal(has_label_with(&s, "way from the root"), (i & 8) != 0);
+        assert_int_equal(has_label_with(&s, "path from the root"), (i & 8) != 0);
         scene_release(&s);
     }
     brute_free(&all);

@@ -93,7 +93,7 @@ static void check_visits(const scene *s, const recount *met, const octree *tree)
         assert_int_equal(found.boxes, due.boxes[layer]);
         assert_int_equal(found.segments + found.markers + found.labels + found.panels, 0);
     }
-    snprintf(text, sizeof text, "%zu node%s met", due.small, due.small == 1 ? "" : "s");
+    snprintf(text, sizeof text, "%zu marked node%s", due.small, due.small == 1 ? "" : "s");
     assert_int_equal(s->tally.small_marked, due.small);
     assert_int_equal(says(s, text), due.small > 0);
 }

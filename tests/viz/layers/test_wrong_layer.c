@@ -127,7 +127,7 @@ static void missing_and_extra_points_of_a_ball_are_marked(void **state)
     assert_int_equal(count_layer(&s, LAYER_WRONG).segments, 0);
     assert_int_equal(count_markers_at(&s, LAYER_WRONG, 1, bodies[0].position), 1);
     assert_int_equal(count_markers_at(&s, LAYER_WRONG, 4, bodies[3].position), 1);
-    assert_true(has_words(&s, LAYER_TEXT, "1 missed, 1 extra"));
+    assert_true(has_words(&s, LAYER_TEXT, "1 missing, 1 extra"));
     scene_release(&s);
 }
 
@@ -145,7 +145,7 @@ static void answer_with_an_unknown_id_is_ringed_at_its_target(void **state)
     scene s = scene_of(queries, 2, CAMERA_TOP);
     assert_int_equal(count_markers_at(&s, LAYER_WRONG, UINT64_MAX, queries[0].target), 1);
     assert_int_equal(count_markers_at(&s, LAYER_WRONG, UINT64_MAX - 1, (double[]){-8.5, -8.5, -8.5}), 1);
-    assert_true(has_words(&s, LAYER_WRONG, "1 is named twice") && has_words(&s, LAYER_WRONG, "no point has id 9"));
+    assert_true(has_words(&s, LAYER_WRONG, "1 is listed twice") && has_words(&s, LAYER_WRONG, "no point has id 9"));
     scene_release(&s);
 }
 
