@@ -154,7 +154,7 @@ async function check()
 {
     await settle();
     checks++;
-    const told = byId("told").textContent;
+    const told = byId("status").textContent;
     if (/undefined|is not (a function|defined|iterable)|unreachable|out of|RangeError|detached/.test(told))
         find(`told: ${told}`);
     if (!interaction.isLive)

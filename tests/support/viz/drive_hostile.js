@@ -35,7 +35,7 @@ async function sayPage({name, text, more = ""})
     const {interaction} = page.viewer();
     await interaction.pressed;
     say(`${name}: after a key`, `tick ${page.document.body.dataset.tick} of ${page.viewer().last}` +
-                                `${interaction.isLive ? ", played" : ""}: ${byId("told").textContent}`);
+                                `${interaction.isLive ? ", played" : ""}: ${byId("status").textContent}`);
     say(`${name}: keys`, [...byId("help").querySelectorAll("kbd")].some(({textContent}) => textContent === "w"));
 }
 

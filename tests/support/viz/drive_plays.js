@@ -29,7 +29,7 @@ async function sayAnswers()
     const {answers} = JSON.parse(player().engine.facts());
     say("answer", JSON.stringify(answers.at(-1).radius.ids));
     interaction.ask({range: {min: [1, 1, 1], max: [0, 0, 0]}});
-    say("refused", byId("told").textContent);
+    say("refused", byId("status").textContent);
     interaction.ask();
     player().engine.draw();
     say("asked nothing", player().engine.digest() === digest);
@@ -38,7 +38,7 @@ async function sayAnswers()
 /* Report the buttons and the text of the bar. */
 function sayBar(when)
 {
-    const [back, taken] = ["live-end", "taken"].map(id => byId(id).hidden ? "" : byId(id).textContent);
+    const [back, taken] = ["live-end", "branch"].map(id => byId(id).hidden ? "" : byId(id).textContent);
     say(`bar ${when}`, `${back}; ${taken}`);
 }
 
@@ -118,7 +118,7 @@ async function sayDropped(name, text, more = {})
 {
     const before = player(), file = new File([text], name);
     await interaction.open(Object.defineProperties(file, more));
-    say(`dropped ${name.includes("\n") ? "marked" : name}`, `${player() === before} ${byId("told").textContent}`);
+    say(`dropped ${name.includes("\n") ? "marked" : name}`, `${player() === before} ${byId("status").textContent}`);
 }
 
 /* A page without frames: its first picture without any input, and then inputs that leave it. */

@@ -196,8 +196,8 @@ function sayHelp()
     at("help").close();
 }
 
-/* Tick findings by keys and buttons, and report the text that would be saved as accept.txt. */
-async function sayTicks()
+/* Select findings by keys and buttons, and report the text that would be saved as accept.txt. */
+async function saySelection()
 {
     let saved = Promise.resolve("nothing");
     URL.createObjectURL = blob => {
@@ -205,21 +205,21 @@ async function sayTicks()
         return "#saved";
     };
     const boxes = [...at("list").querySelectorAll("input")];
-    say("tickable", boxes.slice(0, 6).map(box => !box.disabled).join(" "));
-    say("ticked before", `${textOf("ticked")} ${at("save").disabled} ${textOf("accept-how")}`);
+    say("selectable", boxes.slice(0, 6).map(box => !box.disabled).join(" "));
+    say("selected before", `${textOf("selected")} ${at("save").disabled} ${textOf("accept-how")}`);
     press("x");
     boxes[2].click();
-    say("ticked", textOf("ticked"));
+    say("selected", textOf("selected"));
     say("accept how", textOf("accept-how"));
     HTMLAnchorElement.prototype.click = function() { say("saved as", this.download); };
     at("save").click();
     say("saved", (await saved).trim().replaceAll("\n", " "));
     press("x");
-    say("ticked no more", textOf("ticked"));
-    at("tick-all").click();
-    say("ticked all", textOf("ticked"));
-    at("tick-all").click();
-    say("ticked none", textOf("ticked"));
+    say("selected no more", textOf("selected"));
+    at("select-all").click();
+    say("selected all", textOf("selected"));
+    at("select-all").click();
+    say("selected none", textOf("selected"));
 }
 
 /* Report the number of bars, and the frame that a click at their end shows. */
@@ -256,7 +256,7 @@ async function drive()
     sayZoom();
     sayMarks();
     await sayAddress();
-    await sayTicks();
+    await saySelection();
     sayHelp();
     say("loaded", performance.getEntriesByType("resource").filter(({name}) => !name.startsWith("data:")).length);
 }

@@ -5,7 +5,7 @@
 
 const PICK_RADIUS_ASKED = 2, TURNS = 3, MOST_KEYS = 12;
 
-const play = ({session, view}) => interaction.take(session, view, new Recording(view, []));
+const play = ({session, view}) => interaction.play(session, view, new Recording(view, []));
 
 async function sayPlayed({name, session, view, ticks, clicks})
 {

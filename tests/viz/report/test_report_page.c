@@ -130,7 +130,7 @@ static void page_shows_the_verdict_and_raises_no_error(void **state)
     assert_said_part(state, "about",
                      "55 of 57 frames, 1 cannot be read, 1 the same by its bytes \xc2\xb7 compared exactly");
     assert_said_part(state, "about", "new & <b> against ");
-    assert_said(state, "headline", "Tick 0 is the first that differs: " HEADLINE);
+    assert_said(state, "headline", "Tick 0 is the first frame that differs: " HEADLINE);
     assert_said_part(state, "title", "trouble: ");
 }
 
@@ -144,7 +144,7 @@ static void cause_is_the_headline_of_the_picture(void **state)
     assert_said(state, "details 5", "none");
     assert_said_part(state, "facts 0",
                      "pixels; 7 of 384, 1.8\xe2\x80\xaf%; worst; 0.8435 YIQ at 0, 3; channels; by up to 1 of "
-                     "255; within; 0, 3 to 6, 3; size; 24 \xc3\x97 16; files; ");
+                     "255; area; 0, 3 to 6, 3; size; 24 \xc3\x97 16; files; ");
 }
 
 /* The way to look that was asked for comes back with the pictures it needs. */
@@ -175,7 +175,7 @@ static void page_counts_the_frames_it_leaves_out(void **state)
     assert_said(state, "listed", "50");
     assert_said(state, "place", "1 of 50");
     assert_said(state, "left out",
-                "6 more findings: this page has the first 50. The pictures of all are files beside it.");
+                "6 more findings: this page shows the first 50. The pictures of all findings are files beside it.");
 }
 
 static void keys_choose_the_display_mode(void **state)
@@ -253,21 +253,21 @@ static void question_mark_lists_the_keys(void **state)
 }
 
 /* What cannot be read cannot be accepted. */
-static void ticked_findings_are_saved_for_accept(void **state)
+static void selected_findings_are_saved_for_accept(void **state)
 {
     const driven *d = *state;
     char how[512];
-    assert_said(state, "tickable", "true true true true false true");
-    assert_said(state, "ticked before", "0 ticked, 0 frames true ");
-    assert_said(state, "ticked", "2 ticked, 2 frames");
+    assert_said(state, "selectable", "true true true true false true");
+    assert_said(state, "selected before", "0 selected, 0 frames true ");
+    assert_said(state, "selected", "2 selected, 2 frames");
     snprintf(how, sizeof how, "octreel accept %s/golden '%s/new & <b>' --from accept.txt",
              ((temp_folder *)d->folder)->name, ((temp_folder *)d->folder)->name);
     assert_said(state, "accept how", how);
     assert_said(state, "saved as", "accept.txt");
     assert_said(state, "saved", "frame_000000.png frame_000002.png");
-    assert_said(state, "ticked no more", "1 ticked, 1 frame");
-    assert_said(state, "ticked all", "49 ticked, 49 frames");
-    assert_said(state, "ticked none", "0 ticked, 0 frames");
+    assert_said(state, "selected no more", "1 selected, 1 frame");
+    assert_said(state, "selected all", "49 selected, 49 frames");
+    assert_said(state, "selected none", "0 selected, 0 frames");
 }
 
 static void page_loads_no_other_file(void **state)
@@ -336,7 +336,7 @@ static void file_names_are_neither_changed_nor_cut(void **state)
     write_page(a.path, b.path, folder.path, NULL, NULL);
     char *said = browser_drive(d->folder, place_below(folder.path, "report.html").path, script.path);
     assert_reported_value(said, "cut", "0");
-    assert_reported_value(said, "headline", "shown.png is the first that differs");
+    assert_reported_value(said, "headline", "shown.png is the first frame that differs");
     free(said);
 }
 
@@ -363,7 +363,7 @@ static void frames_with_one_cause_are_one_entry(void **state)
     assert_true(explain(&made.a, &made.b, &made.result, 10, &made.why, &error));
     write_page_of(&made, folder.path, false, NULL);
     assert_false(file_exists(place_below(folder.path, "2.actual.png").path));
-    assert_opens_with(state, folder, "<dt>alike</dt><dd data-fact=\"alike\">3 frames: 1.png to 3.png</dd>");
+    assert_opens_with(state, folder, "<dt>same in</dt><dd data-fact=\"same in\">3 frames: 1.png to 3.png</dd>");
     assert_opens_with(state, folder, "<b>+2</b><small>7 pixels</small></button></li></ol>");
     assert_opens_with(state, folder, "\"frames\": [\"1.png\", \"2.png\", \"3.png\"]");
 }
@@ -406,7 +406,7 @@ int main(void)
         cmocka_unit_test(bars_show_the_size_of_the_difference_per_frame),
         cmocka_unit_test(address_contains_the_frame_and_restores_it),
         cmocka_unit_test(question_mark_lists_the_keys),
-        cmocka_unit_test(ticked_findings_are_saved_for_accept),
+        cmocka_unit_test(selected_findings_are_saved_for_accept),
         cmocka_unit_test(frames_with_one_cause_are_one_entry),
         cmocka_unit_test(page_loads_no_other_file),
         cmocka_unit_test(page_of_no_difference_says_so),

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* accept.js - the ticks of frames to accept, and accept.txt, which lists them for octreel accept --from: one name on
- * each line. */
+/* accept.js - the selection of frames to accept, and accept.txt, which lists them for octreel accept --from: one name
+ * on each line. */
 "use strict";
 
 /* A text as one word of a shell. */
 const shellWord = text => /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 
-class Ticks {
+class Selection {
     constructor(findings)
     {
         this.findings = findings;
-        this.ticked = new Set();
+        this.selected = new Set();
         this.boxes = findings.frames.map((finding, i) => this.makeBox(finding, i));
-        document.getElementById("tick-all").addEventListener("click", () => this.toggleAll());
+        document.getElementById("select-all").addEventListener("click", () => this.toggleAll());
         document.getElementById("save").addEventListener("click", () => this.save());
         document.getElementById("copy").addEventListener("click", () => this.copy());
         this.show();
@@ -38,19 +38,19 @@ class Ticks {
     {
         if (!this.isAcceptable(i))
             return;
-        this.ticked[on ? "add" : "delete"](i);
+        this.selected[on ? "add" : "delete"](i);
         this.show();
     }
 
     toggle(i)
     {
-        this.set(i, !this.ticked.has(i));
+        this.set(i, !this.selected.has(i));
     }
 
     toggleAll()
     {
         const all = this.boxes.map((_, i) => i).filter(i => this.isAcceptable(i));
-        this.ticked = new Set(this.ticked.size < all.length ? all : []);
+        this.selected = new Set(this.selected.size < all.length ? all : []);
         this.show();
     }
 
@@ -58,9 +58,9 @@ class Ticks {
     {
         const names = this.names().length, {compared, reference} = this.findings.whole;
         const reason = reference.kind === "baseline" ? " --reason \"...\"" : "";
-        this.boxes.forEach((box, i) => box.checked = this.ticked.has(i));
-        document.getElementById("ticked").textContent =
-            `${grouped(this.ticked.size)} ticked, ${grouped(names)} ${names === 1 ? "frame" : "frames"}`;
+        this.boxes.forEach((box, i) => box.checked = this.selected.has(i));
+        document.getElementById("selected").textContent =
+            `${grouped(this.selected.size)} selected, ${grouped(names)} ${names === 1 ? "frame" : "frames"}`;
         document.getElementById("accept-how").textContent = names === 0 ? "" :
             `octreel accept ${shellWord(reference.path)} ${shellWord(compared.path)} --from accept.txt${reason}`;
         for (const id of ["save", "copy"])
@@ -69,7 +69,7 @@ class Ticks {
 
     names()
     {
-        return [...this.ticked].sort((a, b) => a - b).flatMap(i => this.findings.frames[i].frames);
+        return [...this.selected].sort((a, b) => a - b).flatMap(i => this.findings.frames[i].frames);
     }
 
     text()

@@ -30,15 +30,15 @@ class Curve {
         captions[0].textContent = shortName({frame: whole.ends[0]});
         captions[2].textContent = shortName({frame: whole.ends[1]});
         this.canvas.setAttribute("aria-label", `Pixels that differ in ${this.pixels.length} frames, at most ` +
-            `${grouped(this.most)}; the first that differs is ${shortName(frames[0])}`);
+            `${grouped(this.most)}; the first frame that differs is ${shortName(frames[0])}`);
     }
 
     /* The finding in the page whose frame is nearest to x on the canvas. */
     nearest(x)
     {
         const place = Math.floor(x / this.canvas.clientWidth * this.pixels.length);
-        const far = i => this.entries[i] === null ? Infinity : Math.abs(i - place);
-        return this.entries[this.entries.reduce((best, _, i) => far(i) < far(best) ? i : best, 0)] ?? 0;
+        const distance = i => this.entries[i] === null ? Infinity : Math.abs(i - place);
+        return this.entries[this.entries.reduce((best, _, i) => distance(i) < distance(best) ? i : best, 0)] ?? 0;
     }
 
     show(entry)

@@ -42,13 +42,13 @@ function tallyOf(finding)
     return finding.counted?.pixels > 0 ? finding.counted : finding.unlike ?? {pixels: 0};
 }
 
-/* A finding's name: its frames differ alike, and the first one's pictures are shown. */
+/* A finding's name. Its frames have the same difference; the page shows the pictures of the first one. */
 function titleOf(finding)
 {
     return finding.frames.length > 1 ? finding.frames_words : shortName(finding);
 }
 
-/* A recording's frame_000041.png is known by its tick. */
+/* "tick 41" for frame_000041.png of a recording; other files keep their names. */
 function shortName(finding)
 {
     const tick = /^frame_(\d+)\.png$/.exec(finding.frame);
@@ -76,7 +76,7 @@ function headlineOf(finding)
 function headlineOfAll(whole, [first])
 {
     const name = shortName(first);
-    return [`${name === first.frame ? name : capital(name)} is the first that differs`,
+    return [`${name === first.frame ? name : capital(name)} is the first frame that differs`,
             ...whole.headline ? [whole.headline] : []].join(": ");
 }
 
@@ -110,7 +110,7 @@ function sizesOf({reference_size: expected, frame_size: actual})
         sizes.map(([name, size]) => [name, sides(size)]);
 }
 
-/* Rounded up as in all reports, so that the shown number works as a tolerance. */
+/* Round up as all reports do, so that the shown number works as a tolerance. */
 function shownDelta(delta)
 {
     return (Math.ceil(delta * 1e4) / 1e4).toFixed(4);
@@ -121,13 +121,13 @@ function factsOf(finding)
 {
     const tally = tallyOf(finding), facts = [], forgiven = forgivenIn(finding);
     if (finding.frames.length > 1)
-        facts.push(["alike", `${grouped(finding.frames.length)} frames: ${finding.frames_words}`]);
+        facts.push(["same in", `${grouped(finding.frames.length)} frames: ${finding.frames_words}`]);
     if (tally.pixels > 0) {
         facts.push(["pixels", `${grouped(tally.pixels)} of ${grouped(finding.frame_size[0] * finding.frame_size[1])}, ` +
                               share(tally.pixels, finding.frame_size)]);
         facts.push(["worst", `${shownDelta(tally.worst_delta)} YIQ at ${pair(tally.worst_at)}`]);
         facts.push(["channels", `by up to ${tally.largest_channel} of ${finding.channel_range}`]);
-        facts.push(["within", `${pair(tally.min)} to ${pair(tally.max)}`]);
+        facts.push(["area", `${pair(tally.min)} to ${pair(tally.max)}`]);
     }
     if (forgiven.length > 0)
         facts.push(["forgiven", forgiven.join(", ")]);

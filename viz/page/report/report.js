@@ -37,10 +37,10 @@ class Report {
         this.stage = new Stage(byId("stage"));
         this.stage.onchange = () => this.showStage();
         this.curve = new Curve(byId("curve"), findings, frame => this.goTo(frame));
-        this.ticks = new Ticks(findings);
+        this.selection = new Selection(findings);
     }
 
-    /* ---- Where to ------------------------------------------------------------------------------------------- */
+    /* ---- Going to a frame ------------------------------------------------------------------------------------------- */
 
     goTo(frame)
     {
@@ -186,7 +186,7 @@ const KEYS = [
     [["+", "="], "+", "zoom in", report => report.stage.seen && report.stage.zoomBy(ZOOM_STEP)],
     [["-"], "-", "zoom out", report => report.stage.seen && report.stage.zoomBy(1 / ZOOM_STEP)],
     [["0"], "0", "the whole picture", report => report.stage.seen && report.stage.zoomTo(0)],
-    [["x"], "x", "tick or untick the frame for accepting", report => report.ticks.toggle(report.frame)],
+    [["x"], "x", "select or deselect the frame for acceptance", report => report.selection.toggle(report.frame)],
     [["m"], "m", "show or hide the marks of the worst pixel and of all differences",
      report => report.stage.toggleMarks()],
     [["?"], "?", "show these keys", () => byId("help").showModal()],
@@ -198,7 +198,7 @@ function actionOf(key)
 }
 
 /* Whether the focused control handles the key itself. */
-function isTaken(event)
+function isHandled(event)
 {
     const control = event.target.closest?.("button, a, input");
     return event.ctrlKey || event.altKey || event.metaKey || byId("help").open ||
@@ -219,7 +219,7 @@ function listen(report)
 {
     document.addEventListener("keydown", event => {
         const action = actionOf(event.key);
-        if (!action || isTaken(event))
+        if (!action || isHandled(event))
             return;
         event.preventDefault();
         action(report);
@@ -265,7 +265,7 @@ function fillList(findings, boxes, goTo)
     const {left_out: leftOut} = findings.whole, kept = findings.frames.length;
     byId("left-out").hidden = leftOut === 0;
     byId("left-out").textContent = `${grouped(leftOut)} more ${leftOut === 1 ? "finding" : "findings"}: ` +
-        `this page has the first ${kept}. The pictures of all are files beside it.`;
+        `this page shows the first ${kept}. The pictures of all findings are files beside it.`;
 }
 
 function fillControls(look)
@@ -305,7 +305,7 @@ function openReport()
     }
     byId("report").hidden = false;
     const report = new Report(findings);
-    fillList(findings, report.ticks.boxes, frame => report.goTo(frame));
+    fillList(findings, report.selection.boxes, frame => report.goTo(frame));
     listen(report);
     report.readAddress();
 }

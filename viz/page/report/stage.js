@@ -46,7 +46,7 @@ class Stage {
         const images = new Map(await Promise.all(Object.entries(addresses).map(async ([name, address]) =>
             [name, await this.load(name, address)])));
         if (this.wanted !== wanted)
-            return; /* another frame was asked for meanwhile */
+            return; /* another frame was requested meanwhile */
         this.images = images;
         this.place = place;
         this.zoom = null;

@@ -254,12 +254,12 @@ class States {
             this.bytes += block.length;
     }
 
-    /* Save a state. `isTaken`: the user's keys are part of it. */
-    keep(engine, isTaken)
+    /* Save a state. `isBranched`: the user's keys are part of it. */
+    keep(engine, isBranched)
     {
         const bytes = engine.used(), last = this.list.at(-1);
         const blocks = last ? this.changedBlocks(bytes, last) : this.copiedBlocks(bytes);
-        this.list.push({tick: engine.tick, isTaken, size: bytes.length, blocks});
+        this.list.push({tick: engine.tick, isBranched, size: bytes.length, blocks});
         if (this.bytes <= MOST_STATE_BYTES || this.list.length < 3)
             return;
         const gone = new Set(this.list.filter((state, i) => i % 2 === 1));

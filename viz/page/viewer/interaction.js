@@ -38,8 +38,8 @@ class Interaction {
         this.stage = byId("stage");
         this.busy = false;
         this.recorded = viewer.recording;
-        this.plays = hasModule();
-        if (this.plays)
+        this.canPlay = hasModule();
+        if (this.canPlay)
             this.listen();
     }
 
@@ -50,7 +50,7 @@ class Interaction {
 
     showStatus(text)
     {
-        byId("told").textContent = text;
+        byId("status").textContent = text;
     }
 
     /* ---- Begin and end ------------------------------------------------------------------------------------------ */
@@ -71,12 +71,12 @@ class Interaction {
         this.session ??= byId("session").textContent.trim();
         if (!this.session)
             throw new Error("the session is too large to be in the page; drop its session.json here");
-        await this.take(this.session, this.recorded.about, this.recorded);
+        await this.play(this.session, this.recorded.about, this.recorded);
         return true;
     }
 
     /* Play a session from now on. While a large one is read, the progress bar shows no value. */
-    async take(session, view, recording)
+    async play(session, view, recording)
     {
         const bar = byId("ahead");
         if (session.length > LARGE) {
@@ -100,7 +100,7 @@ class Interaction {
         });
         this.viewer.follow(recording);
         this.showView();
-        this.showTaken();
+        this.showBranch();
         byId("view").hidden = byId("asking").hidden = false;
         byId("live-start").hidden = true;
         byId("hint").hidden = recording.hasFrames; /* no frames: it started by itself */
@@ -186,7 +186,7 @@ class Interaction {
         this.player.stop();
         this.live.hide();
         this.live = this.starting = undefined;
-        for (const hidden of ["view", "asking", "live-end", "save", "taken", "picked", "ahead"])
+        for (const hidden of ["view", "asking", "live-end", "save", "branch", "picked", "ahead"])
             byId(hidden).hidden = true;
         byId("live-start").hidden = byId("hint").hidden = false;
         this.showStatus("");
@@ -235,7 +235,7 @@ class Interaction {
         if (!this.isLive || player !== this.player)
             return;
         if (key === "q") {
-            this.showStatus(player.isTaken ? "The game has ended. Save the session, or go back." : "");
+            this.showStatus(player.isBranched ? "The game has ended. Save the session, or go back." : "");
             return;
         }
         try {
@@ -248,27 +248,27 @@ class Interaction {
             ? viewer.recording.cut(viewer.tick + 1) : viewer.recording;
         recording.append(player.engine.facts());
         viewer.follow(recording);
-        this.showTaken();
+        this.showBranch();
         this.playAhead();
         viewer.goTo(recording.length - 1);
     }
 
-    showTaken()
+    showBranch()
     {
-        const {isTaken, taken, keys, given} = this.player;
-        const without = taken < given - 1 ? "; the session's own later ticks are left out" : "";
-        byId("taken").hidden = byId("save").hidden = !isTaken;
-        byId("taken").textContent = `Played on from tick ${grouped(taken)}${without}: ${keys.slice(-24)}`;
-        this.showWayBack();
+        const {isBranched, branch, keys, given} = this.player;
+        const without = branch < given - 1 ? "; the session's own later ticks are left out" : "";
+        byId("branch").hidden = byId("save").hidden = !isBranched;
+        byId("branch").textContent = `Played on from tick ${grouped(branch)}${without}: ${keys.slice(-24)}`;
+        this.showBackButton();
     }
 
     /* Show the button that goes back. Without recorded frames it appears only after the view or the keys were changed.
      * */
-    showWayBack()
+    showBackButton()
     {
         const {hasFrames} = this.recorded, button = byId("live-end");
         button.textContent = hasFrames ? "Back to the recording" : "Back to the session";
-        button.hidden = !hasFrames && !this.player.isTaken && byId("view-options").hidden;
+        button.hidden = !hasFrames && !this.player.isBranched && byId("view-options").hidden;
     }
 
     save()
@@ -279,7 +279,7 @@ class Interaction {
         const link = element("a", "", {href: URL.createObjectURL(blob), download: "session.json"});
         link.click();
         setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-        this.showStatus("To make frames of it, run octreel record session.json.");
+        this.showStatus("To record its frames, run octreel record session.json.");
     }
 
     async open(file)
@@ -287,7 +287,7 @@ class Interaction {
         try {
             this.module ??= await compileModule();
             const text = await readSession(file);
-            await this.take(text, plainView(this.recorded.about), new Recording(this.recorded.about, []));
+            await this.play(text, plainView(this.recorded.about), new Recording(this.recorded.about, []));
             this.starting = Promise.resolve(true);
             this.viewer.goTo(0);
         } catch (error) {
@@ -323,7 +323,7 @@ class Interaction {
         this.controls.show(view);
         byId("view-options").hidden = options === "";
         byId("view-options").querySelector("code").textContent = options;
-        this.showWayBack();
+        this.showBackButton();
     }
 
     showPick({pixel, color, elements}, place)

@@ -56,7 +56,7 @@ class Viewer {
             }, GROWTH_DELAY);
     }
 
-    /* ---- Where to ------------------------------------------------------------------------------------------- */
+    /* ---- Going to a tick ------------------------------------------------------------------------------------------- */
 
     goTo(tick)
     {
@@ -125,7 +125,7 @@ class Viewer {
         this.playing = true;
         this.due = performance.now();
         this.showPlaying();
-        this.beat();
+        this.playDueFrame();
     }
 
     pause()
@@ -136,7 +136,7 @@ class Viewer {
     }
 
     /* Waits for a frame that is still being decoded, so that playing skips none. */
-    beat()
+    playDueFrame()
     {
         const now = performance.now();
         if (now >= this.due && !this.stage.busy && !this.interaction.busy) {
@@ -144,7 +144,7 @@ class Viewer {
             this.playNext();
         }
         if (this.playing)
-            this.timer = setTimeout(() => this.beat(), Math.max(this.due - now, SHORTEST_WAIT));
+            this.timer = setTimeout(() => this.playDueFrame(), Math.max(this.due - now, SHORTEST_WAIT));
     }
 
     playNext()
@@ -186,7 +186,7 @@ class Viewer {
             return;
         }
         if (!this.recording.hasFrames) {
-            this.drawOrSay();
+            this.drawOrExplain();
             return;
         }
         const filmed = this.recording.filmed[this.tick], caption = byId("caption");
@@ -200,11 +200,11 @@ class Viewer {
 
     /* A recording without frames: start drawing, or say what is missing. Interaction shows an error that occurs on the
      * way. */
-    async drawOrSay()
+    async drawOrExplain()
     {
         const caption = byId("caption");
-        caption.textContent = this.interaction.plays ? NO_FRAMES : moduleText() ? NO_BROWSER : NO_MODULE;
-        caption.hidden = this.interaction.plays && await this.interaction.start();
+        caption.textContent = this.interaction.canPlay ? NO_FRAMES : moduleText() ? NO_BROWSER : NO_MODULE;
+        caption.hidden = this.interaction.canPlay && await this.interaction.start();
     }
 
     prepareFrames()
@@ -302,7 +302,7 @@ function actionOf(key)
 }
 
 /* Whether the focused control handles the key itself. */
-function isTaken(event)
+function isHandled(event)
 {
     const control = event.target.closest?.("button, select, a, input, dialog");
     if (event.ctrlKey || event.altKey || event.metaKey || byId("help").open)
@@ -316,7 +316,7 @@ function listenToKeys(viewer)
 {
     document.addEventListener("keydown", event => {
         const action = actionOf(event.shiftKey && event.key.length > 1 ? `Shift+${event.key}` : event.key);
-        if (!action || isTaken(event))
+        if (!action || isHandled(event))
             return;
         event.preventDefault();
         action(viewer);

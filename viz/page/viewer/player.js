@@ -7,9 +7,9 @@
 const SLICE = 12;         /* ms of playing before control returns to the browser */
 const MOST_AHEAD = 64 << 20; /* bytes of a state; larger sessions have no scout, which needs as much again */
 
-const MOST_TICKS = 100000; /* played at most: a session may have a billion */
+const MAX_TICKS = 100000; /* played at most: a session may have a billion */
 
-const rest = () => new Promise(done => setTimeout(done));
+const nextTask = () => new Promise(done => setTimeout(done));
 
 class Player {
     /* `known`: ticks whose facts the recording has. `played(tick, engine)` is called for each tick that is played
@@ -17,15 +17,15 @@ class Player {
     constructor(module, session, view, known, played)
     {
         this.module = module;
-        this.most = Math.max(MOST_TICKS, known);
+        this.maxTicks = Math.max(MAX_TICKS, known);
         this.played = played;
         this.states = new States();
-        this.keys = ""; /* the user's, played after tick `taken` */
+        this.keys = ""; /* the user's, played after tick `branch` */
         this.run = 0;   /* number of the current run in the background; a new run ends the old one */
         this.engine = new Engine(module);
         this.engine.open(session, view);
-        this.given = this.length; /* ticks of the session itself */
-        this.taken = this.given - 1;
+        this.given = this.length; /* the ticks of the session itself */
+        this.branch = this.given - 1;
         this.states.keep(this.engine, false);
         this.playsAhead = this.engine.used().length <= MOST_AHEAD;
         this.scout = null; /* the engine that plays ahead, made after the first picture */
@@ -34,15 +34,15 @@ class Player {
     /* Count of ticks that can be shown. */
     get length()
     {
-        return this.isTaken ? this.taken + 1 + this.keys.length : Math.min(this.engine.length, this.most);
+        return this.isBranched ? this.branch + 1 + this.keys.length : Math.min(this.engine.length, this.maxTicks);
     }
 
     get isCut()
     {
-        return !this.isTaken && this.engine.length > this.most;
+        return !this.isBranched && this.engine.length > this.maxTicks;
     }
 
-    get isTaken()
+    get isBranched()
     {
         return this.keys.length > 0;
     }
@@ -50,7 +50,7 @@ class Player {
     /* Play an engine's next tick. */
     step(engine)
     {
-        engine.step(engine.tick >= this.taken ? this.keys[engine.tick - this.taken] : "");
+        engine.step(engine.tick >= this.branch ? this.keys[engine.tick - this.branch] : "");
     }
 
     /* Play ahead in the background to the last tick, and save states on the way. */
@@ -58,8 +58,8 @@ class Player {
     {
         const run = ++this.run;
         let since = 0;
-        await rest();
-        const scout = run === this.run ? this.scout ?? this.sendScout() : null;
+        await nextTask();
+        const scout = run === this.run ? this.scout ?? this.makeScout() : null;
         while (scout && run === this.run && scout.tick + 1 < this.length) {
             const start = performance.now();
             let now = start;
@@ -70,17 +70,17 @@ class Player {
             }
             since += now - start;
             if (since >= this.states.interval) {
-                this.states.keep(scout, this.isTaken);
+                this.states.keep(scout, this.isBranched);
                 since = 0;
             }
             progress(scout.tick, this.length - 1);
-            await rest();
+            await nextTask();
         }
         if (run === this.run)
             progress(this.length - 1, this.length - 1);
     }
 
-    sendScout()
+    makeScout()
     {
         if (this.playsAhead) {
             this.scout = new Engine(this.module);
@@ -106,7 +106,7 @@ class Player {
             this.step(engine);
             if (performance.now() - start < SLICE)
                 continue;
-            await rest();
+            await nextTask();
             start = performance.now();
             if (going !== this.going)
                 return false;
@@ -125,25 +125,25 @@ class Player {
     restore(engine, state)
     {
         engine.restore(state);
-        if (this.isTaken)
-            engine.setKeys(this.taken, this.keys);
+        if (this.isBranched)
+            engine.setKeys(this.branch, this.keys);
     }
 
     /* Play a key after the shown tick; later ticks are dropped. */
     press(key)
     {
         const {engine, scout} = this;
-        if (!this.isTaken || engine.tick < this.taken) {
-            this.taken = engine.tick;
+        if (!this.isBranched || engine.tick < this.branch) {
+            this.branch = engine.tick;
             this.keys = "";
         }
-        this.keys = this.keys.slice(0, engine.tick - this.taken) + key;
+        this.keys = this.keys.slice(0, engine.tick - this.branch) + key;
         this.going = {};
-        engine.setKeys(this.taken, this.keys);
+        engine.setKeys(this.branch, this.keys);
         if (scout?.tick > engine.tick)
             this.rewind(state => state.tick > engine.tick);
         else
-            scout?.setKeys(this.taken, this.keys);
+            scout?.setKeys(this.branch, this.keys);
         this.step(engine);
     }
 
