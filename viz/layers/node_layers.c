@@ -309,32 +309,31 @@ static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
     return true;
 }
 
-/* Walk the tree with the store and the sieve of the last tick. Return false when the walk must be repeated without the
+/* Finish a walk with the store and the sieve of the last tick. Return false when the walk must be repeated without the
  * store: memory ran out, or a looser sieve would do. */
-static bool walk_with_kept_tree(tree_walk *w, const octree *tree)
+static bool end_kept_tree(tree_walk *w)
 {
-    octree_walk(tree, add_node, w);
     close_kept_subtree(w);
     if (w->kept)
         kept_tree_end(w->kept);
     return !w->keeping_failed && (!w->kept || w->sieve == 0 || w->looser_count > w->scene->view.budget);
 }
 
-static void walk_tree(tree_walk *w, const layer_source *in)
+static void walk_tree(tree_walk *w, const octree *tree, kept_tree *kept)
 {
     scene *s = w->scene;
     const tree_walk initial = *w;
-    const scene scene_before = *s;
-    kept_tree *kept = get_kept_tree(w, in);
-    if (!begin_kept_tree(w, in->tree, kept)) {
-        octree_walk(in->tree, add_node, w);
-    } else if (!walk_with_kept_tree(w, in->tree)) {
+    const size_t boxes = s->boxes.count, markers = s->markers.count;
+    const scene_tally tally = s->tally;
+    const bool stores = begin_kept_tree(w, tree, kept);
+    octree_walk(tree, add_node, w);
+    if (stores && !end_kept_tree(w)) {
         stop_keeping(w);
         *w = initial;
-        s->boxes.count = scene_before.boxes.count;
-        s->markers.count = scene_before.markers.count;
-        s->tally = scene_before.tally;
-        octree_walk(in->tree, add_node, w);
+        s->boxes.count = boxes;
+        s->markers.count = markers;
+        s->tally = tally;
+        octree_walk(tree, add_node, w);
     }
     if (kept)
         kept->sieve = w->sieve;
@@ -398,7 +397,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     w.filter = s->view.filter;
     if (!shows_own_tree(in))
         w.filter.by_depth = false; /* the view's depths are depths of the foreign tree */
-    walk_tree(&w, in);
+    walk_tree(&w, in->tree, get_kept_tree(&w, in));
     s->tally.deepest = w.deepest;
     if (shows_foreign_tree(in))
         add_foreign_nodes(s, in);

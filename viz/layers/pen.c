@@ -119,21 +119,18 @@ const char *format_number_within(double value, size_t letters, char text[NUMBER_
 
 void write_ids(pen *p, const char *name, const octree_point *points, size_t count)
 {
-    char text[SCENE_TEXT] = "", more[SCENE_TEXT] = "", longer[SCENE_TEXT * 2], found[SCENE_TEXT];
-    const size_t taken = (size_t)snprintf(found, sizeof found, "%zu found", count) + DETAIL + 1;
-    size_t shown = 0;
-    for (; shown < count && shown < PEN_MOST_IDS; shown++) {
-        char rest[SCENE_TEXT] = "";
-        if (shown + 1 < count)
-            snprintf(rest, sizeof rest, " +%zu", count - shown - 1);
-        snprintf(longer, sizeof longer, "%s%s#%" PRIu64, text, shown ? " " : "", points[shown].id);
-        if (taken + strlen(longer) + strlen(rest) > (size_t)p->letters)
-            break;
-        strcpy(text, longer);
-        strcpy(more, rest);
-    }
-    strcat(text, more);
-    write_row(p, name, text, "%s", found);
+    char text[SCENE_TEXT * 2];
+    const int room = p->letters - DETAIL - 1 - snprintf(NULL, 0, "%zu found", count);
+    size_t shown = count < PEN_MOST_IDS ? count : PEN_MOST_IDS;
+    do {
+        size_t used = 0;
+        text[0] = 0;
+        for (size_t i = 0; i < shown; i++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s#%" PRIu64, i ? " " : "", points[i].id);
+        if (shown && shown < count)
+            snprintf(text + used, sizeof text - used, " +%zu", count - shown);
+    } while (shown-- > 0 && (int)strlen(text) > room);
+    write_row(p, name, text, "%zu found", count);
 }
 
 void fill_rectangle(pen *p, int x, int y, int width, int height, unsigned role)

@@ -69,13 +69,12 @@ static void mark_wrong_answer(scene *s, const octree_answer *answer, size_t plac
     const octree_judgement *judgement = &answer->judgement;
     const unsigned size = judgement->missing_count + judgement->extra_count <= FEW_MARKS ? MARK : MARK / 2;
     const scene_style extra = layer_style(LAYER_WRONG, STROKE_SOLID, size);
-    scene_style missed = extra;
+    const scene_style missing = role_style(LAYER_WRONG, ROLE_MISSED, STROKE_SOLID, size);
     double at[3];
-    missed.role = ROLE_MISSED;
     for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < judgement->extra_count; i++)
         scene_add_line(s, (uint64_t)place << 32 | (uint64_t)i, answer->target, judgement->extra[i].position,
                        layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
-    mark_points(s, judgement->missing, judgement->missing_count, SHAPE_TRIANGLE, missed, occupied);
+    mark_points(s, judgement->missing, judgement->missing_count, SHAPE_TRIANGLE, missing, occupied);
     mark_points(s, judgement->extra, judgement->extra_count, SHAPE_WEDGE, extra, occupied);
     find_ring_position(answer, at);
     scene_add_mark(s, ring_id(place), at, SHAPE_RING, layer_style(LAYER_WRONG, STROKE_SOLID, ring));
@@ -145,13 +144,13 @@ static bool has_point(const octree_point *points, size_t count, uint64_t id)
 }
 
 /* Return the index of the first answer from which a point is missing, or in which it is extra; answer_count if none. */
-static size_t find_answer(const octree_tick *tick, uint64_t id, bool missed)
+static size_t find_answer(const octree_tick *tick, uint64_t id, bool missing)
 {
     size_t i = 0;
     for (; i < tick->answer_count; i++) {
         const octree_judgement *judgement = &tick->answers[i].judgement;
-        if (missed ? has_point(judgement->missing, judgement->missing_count, id)
-                   : has_point(judgement->extra, judgement->extra_count, id))
+        if (missing ? has_point(judgement->missing, judgement->missing_count, id)
+                    : has_point(judgement->extra, judgement->extra_count, id))
             break;
     }
     return i;
@@ -177,10 +176,10 @@ static void describe_mark(description *d, const described_element *element)
         append_text(d, "the ring around ");
         append_wrong_answer(d, UINT64_MAX - element->id);
     } else if (element->kind == SCENE_MARKER) {
-        const bool missed = element->shape == SHAPE_TRIANGLE;
+        const bool missing = element->shape == SHAPE_TRIANGLE;
         describe_point(d, "", element->id, element->at);
-        append_text(d, missed ? ", missing from " : ", extra in ");
-        append_wrong_answer(d, find_answer(d->tick, element->id, missed));
+        append_text(d, missing ? ", missing from " : ", extra in ");
+        append_wrong_answer(d, find_answer(d->tick, element->id, missing));
     } else if (element->kind == SCENE_SEGMENT) {
         append_text(d, "the line to an extra point of ");
         append_wrong_answer(d, element->id >> 32);

@@ -40,7 +40,7 @@
     X(PLAYER, "player", "the player", "the player, and a line down to the floor", ROLE_PLAYER, false, true)            \
     X(BOX, "box", "the collision box", "the player's collision box, and what is in it", ROLE_COLLISION, false, true)   \
     X(SHAPES, "shapes", "shapes", "what the session shows in addition to its points", ROLE_SHAPE, false, true)         \
-    X(WRONG, "wrong", "wrong answers", "wrong answers of a program, circled, points missed or extra, wrong nodes",     \
+    X(WRONG, "wrong", "wrong answers", "wrong answers of a foreign index, its wrong nodes, missing and extra points",  \
       ROLE_WRONG, false, true)                                                                                         \
     X(BROKEN, "broken", "the broken node", "where the validator finds an invariant broken", ROLE_WARNING, false, true) \
     X(TEXT, "text", "text", "the panel, the legend and all letters", ROLE_TEXT, false, true)                           \

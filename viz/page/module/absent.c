@@ -4,16 +4,7 @@
 #include "cloud.h"
 #include "file.h"
 
-#include <errno.h>
 #include <stdio.h>
-
-FILE *fopen(const char *path, const char *mode)
-{
-    (void)path;
-    (void)mode;
-    errno = ENOENT;
-    return NULL;
-}
 
 static const char no_files[] = "cannot be opened: a page cannot read files";
 
