@@ -83,13 +83,6 @@ enum {
     LEFT_OUT_ID = SCALE_ID + 3
 };
 
-/* Add a line between two pixels: x and y of its start, x and y of its end. */
-static void add_picture_line(scene *s, uint64_t id, const double ends[4], unsigned role)
-{
-    const scene_style style = role_style(LAYER_CLOSEUP, role, STROKE_SOLID, 1);
-    scene_add_segment(s, (scene_segment){id, style, true, {{ends[0], ends[1]}, {ends[2], ends[3]}}});
-}
-
 /* Find the area of the picture that the close-up enlarges, cut at the edges of the space view: left, top, right, bottom
  * in pixels. It is always large enough to be visible. Return false when it lies outside the space view. */
 static bool find_enlarged_area(const scene *s, double sides[4])
@@ -119,16 +112,17 @@ static void add_enlarged_area(scene *s, const double frame[4])
         return;
     const double left = area[0], top = area[1], right = area[2], bottom = area[3];
     const bool beside = right <= frame[0];
-    const double lines[][4] = {
-        {left, top, right, top}, /* REGION_ID */
-        {left, bottom, right, bottom},
-        {left, top, left, bottom},
-        {right, top, right, bottom},
-        {beside ? right : left, beside ? top : bottom, frame[0], frame[1]}, /* LEADER_ID */
-        {right, bottom, beside ? frame[0] : frame[2], beside ? frame[3] : frame[1]},
+    const double lines[][2][2] = {
+        {{left, top}, {right, top}}, /* REGION_ID */
+        {{left, bottom}, {right, bottom}},
+        {{left, top}, {left, bottom}},
+        {{right, top}, {right, bottom}},
+        {{beside ? right : left, beside ? top : bottom}, {frame[0], frame[1]}}, /* LEADER_ID */
+        {{right, bottom}, {beside ? frame[0] : frame[2], beside ? frame[3] : frame[1]}},
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
-        add_picture_line(s, REGION_ID + i, lines[i], ROLE_FAINT);
+        scene_add_picture_line(s, REGION_ID + i, lines[i][0], lines[i][1],
+                               role_style(LAYER_CLOSEUP, ROLE_FAINT, STROKE_SOLID, 1));
 }
 
 static void add_frame(scene *s)
@@ -192,9 +186,9 @@ static void add_scale(scene *s)
     const int size[2] = {wide + 2 * unit, s->view.height - margin + 2 * unit - (int)label.at[1] + unit};
     drop_covered_labels(s, corner, size);
     scene_add_rectangle(s, SCALE_ID, corner, size, LAYER_CLOSEUP, ROLE_BACKGROUND);
-    add_picture_line(s, SCALE_ID, (double[]){x, y, end, y}, ROLE_TEXT);
-    add_picture_line(s, SCALE_ID + 1, (double[]){x, y - rise, x, y + 1}, ROLE_TEXT);
-    add_picture_line(s, SCALE_ID + 2, (double[]){end, y - rise, end, y + 1}, ROLE_TEXT);
+    const double lines[][2][2] = {{{x, y}, {end, y}}, {{x, y - rise}, {x, y + 1}}, {{end, y - rise}, {end, y + 1}}};
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
+        scene_add_picture_line(s, SCALE_ID + i, lines[i][0], lines[i][1], label.style);
     scene_add_label(s, label);
 }
 

@@ -145,18 +145,13 @@ static int compare_in_walk_order(const void *node, const void *visit)
     return p != q ? (p < q ? -1 : 1) : (depth_a > depth_b) - (depth_a < depth_b);
 }
 
-/* Return the tick's visit of a node, or null. */
-static const octree_visit *find_visit(const octree_tick *tick, octree_address node)
-{
-    return tick && tick->visit_count
-               ? bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, compare_in_walk_order)
-               : NULL;
-}
-
 /* Return the style of the line from a node to its parent: bold if visited, dashed if pruned, as in the space view. */
 static scene_style edge_style(const diagram *d, octree_address node, unsigned role)
 {
-    const octree_visit *visit = find_visit(d->in->tick, node);
+    const octree_tick *tick = d->in->tick;
+    const octree_visit *visit = NULL;
+    if (tick && tick->visit_count)
+        visit = bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, compare_in_walk_order);
     const bool was_pruned = visit && visit->touch == OCTREE_TRACE_PRUNED;
     const bool pruned = was_pruned && view_shows(d->in->view, LAYER_PRUNED);
     const bool visited = visit && !was_pruned && view_shows(d->in->view, LAYER_VISITED);
@@ -185,10 +180,7 @@ static unsigned role_of(const diagram *d, const diagram_node *node)
 /* Add the line from the bottom of a node to the top of its child. */
 static void add_line(const diagram *d, octree_address child, const anchor *from, const anchor *to, scene_style style)
 {
-    scene_add_segment(d->scene, (scene_segment){.id = child,
-                                                .in_picture = true,
-                                                .ends = {{from->x, from->foot, 0}, {to->x, to->head, 0}},
-                                                .style = style});
+    scene_add_picture_line(d->scene, child, (double[]){from->x, from->foot}, (double[]){to->x, to->head}, style);
 }
 
 /* Draw a ring around a node on the path, with a dark ring between the two. */
@@ -200,14 +192,6 @@ static void add_ring(const diagram *d, unsigned depth, double x, const double si
         fill_centered(d, PATH_ID | (dark ? 32 : 0) | depth, x, y, size[0] + more, size[1] + more,
                       dark ? ROLE_BACKGROUND : ROLE_PLAYER);
     }
-}
-
-static void add_node(diagram *d, const diagram_node *node, double x, const double size[2], unsigned role)
-{
-    if (is_on_path(d, node->address, node->depth))
-        add_ring(d, node->depth, x, size);
-    fill_centered(d, node->address, x, row_middle(d, node->depth), size[0], size[1], role);
-    d->scene->tally.drawn++;
 }
 
 /* Draw the unfolded nodes and their lines. `on_path` selects the nodes on the path, which come last. */
@@ -226,7 +210,10 @@ static void add_nodes(diagram *d, bool on_path)
             d->anchors[depth] = anchors[depth];
         else if (depth)
             add_line(d, node->address, &anchors[depth - 1], &anchors[depth], edge_style(d, node->address, role));
-        add_node(d, node, anchors[depth].x, size, role);
+        if (on_path)
+            add_ring(d, depth, anchors[depth].x, size);
+        fill_centered(d, node->address, anchors[depth].x, row_middle(d, depth), size[0], size[1], role);
+        d->scene->tally.drawn++;
     }
 }
 

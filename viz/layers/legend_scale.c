@@ -96,13 +96,6 @@ static scale_numbers choose_numbers(const pen *p, const legend_scale *scale, int
     return m;
 }
 
-/* Return the height of the bar at a distance from its nearer end, in pixels. */
-static int bar_height(const legend_scale *scale, int from_end, int high, int dot)
-{
-    const int pointed = (2 * (from_end / dot) + 1) * dot;
-    return scale->pointed && pointed < high ? pointed : high;
-}
-
 void write_scale(pen *p, const legend_scale *scale)
 {
     const lettering *text = &p->scene->text;
@@ -110,7 +103,8 @@ void write_scale(pen *p, const legend_scale *scale)
               dot = text->height < 24 ? 1 : text->height / 12;
     const scale_numbers m = choose_numbers(p, scale, width);
     for (int x = 0; x < width; x += dot) {
-        const int left = width - dot - x, tall = bar_height(scale, x < left ? x : left > 0 ? left : 0, high, dot);
+        const int left = width - dot - x, from_end = x < left ? x : left > 0 ? left : 0;
+        const int pointed = (2 * (from_end / dot) + 1) * dot, tall = scale->pointed && pointed < high ? pointed : high;
         fill_rectangle_in_color(p, x, text->height / 4 + (high - tall) / 2, dot, tall,
                                 theme_ramp((x + 0.5 * dot) / width));
     }

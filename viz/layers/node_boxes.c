@@ -3,18 +3,13 @@
 #include "node_boxes.h"
 #include "octree/octree.h"
 
-static theme_role occupancy_role(node_traits node)
-{
-    if (node.capacity == 0)
-        return theme_node_role(theme_step(node.points, 1));
-    return node.leaf ? theme_node_role(theme_part_step(node.points, node.capacity)) : ROLE_WORLD;
-}
-
 theme_role node_role(const view *v, node_traits node)
 {
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
-        return occupancy_role(node);
+        if (node.capacity == 0)
+            return theme_node_role(theme_step(node.points, 1));
+        return node.leaf ? theme_node_role(theme_part_step(node.points, node.capacity)) : ROLE_WORLD;
     case COLORING_PLAIN:
     case COLORING_KIND:
         return ROLE_NODE_PLAIN;

@@ -119,18 +119,13 @@ static unsigned count_passed_sieves(uint64_t id)
     return passed;
 }
 
-/* Return the largest number of arrows in the scene: at least one, so that there is something to see. */
-static size_t max_arrows(const view *v)
-{
-    return v->budget ? (size_t)ceil((double)v->budget / BOXES_PER_ARROW) : SIZE_MAX;
-}
-
-/* Return the first sieve, from `sieve` on, that keeps at most max_arrows() arrows. Store in the tally how many it
- * leaves out. */
+/* Return the first sieve, from `sieve` on, that keeps few enough arrows: one per BOXES_PER_ARROW boxes of the budget,
+ * but at least one, so that there is something to see. Store in the tally how many arrows it leaves out. */
 static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick *tick, uint64_t sieve)
 {
     /* [i]: at first the arrows for which sieve i is the finest that keeps them, then all arrows that sieve i keeps */
     size_t passing[SIEVES] = {0}, all = 0;
+    const size_t most = s->view.budget ? (size_t)ceil((double)s->view.budget / BOXES_PER_ARROW) : SIZE_MAX;
     for (size_t i = 0; i < tick->mover_count; i++)
         if (has_arrow(a, &tick->movers[i]))
             passing[count_passed_sieves(tick->movers[i].id)]++;
@@ -139,7 +134,7 @@ static uint64_t choose_sieve(scene *s, const arrow_context *a, const octree_tick
     unsigned bits = 0;
     while (sieve >> bits & 1)
         bits++;
-    for (; bits < SIEVES - 1 && passing[bits] > max_arrows(&s->view); bits++)
+    for (; bits < SIEVES - 1 && passing[bits] > most; bits++)
         sieve = finer_sieve(sieve);
     s->tally.arrows.thinned = all - passing[bits];
     s->tally.arrows.one_in = sieve + 1;

@@ -104,6 +104,11 @@ void scene_add_line(scene *s, uint64_t id, const double from[3], const double to
         s, (scene_segment){.id = id, .ends = {{from[0], from[1], from[2]}, {to[0], to[1], to[2]}}, .style = style});
 }
 
+void scene_add_picture_line(scene *s, uint64_t id, const double from[2], const double to[2], scene_style style)
+{
+    scene_add_segment(s, (scene_segment){id, style, true, {{from[0], from[1]}, {to[0], to[1]}}});
+}
+
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style)
 {
     scene_add_marker(s, (scene_marker){.id = id, .at = {at[0], at[1], at[2]}, .style = style, .shape = (uint8_t)shape});

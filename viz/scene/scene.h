@@ -179,6 +179,9 @@ void scene_add_line(scene *s, uint64_t id, const double from[3], const double to
 void scene_add_mark(scene *s, uint64_t id, const double at[3], scene_shape shape, scene_style style);
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style);
 
+/* Append a segment in the picture: x and y of its ends in pixels. */
+void scene_add_picture_line(scene *s, uint64_t id, const double from[2], const double to[2], scene_style style);
+
 /* Append copies of markers that a scene with the same view had, without testing them again. */
 void scene_add_markers(scene *s, const scene_marker *markers, size_t count);
 
