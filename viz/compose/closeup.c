@@ -35,11 +35,9 @@ static octree_box visible_box(const camera *c, const view *v)
 
 static void narrow_region(view_filter *f, const octree_box *region)
 {
-    const octree_box before = f->region;
-    f->region = *region;
-    for (int i = 0; f->by_region && i < 3; i++) {
-        f->region.min[i] = fmax(before.min[i], region->min[i]);
-        f->region.max[i] = fmin(before.max[i], region->max[i]);
+    for (int i = 0; i < 3; i++) {
+        f->region.min[i] = f->by_region ? fmax(f->region.min[i], region->min[i]) : region->min[i];
+        f->region.max[i] = f->by_region ? fmin(f->region.max[i], region->max[i]) : region->max[i];
     }
     f->by_region = true;
 }

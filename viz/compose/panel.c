@@ -67,7 +67,7 @@ static void write_position(pen *p, const char *name, const double position[3], i
         if (decimals > MOST_DECIMALS || !(fabs(position[i]) < 1e9))
             number_text(position[i], 9, text);
         else
-            snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* + 0.0: no minus zero */
+            snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* + 0.0 turns -0 into 0 */
         write_row(p, axis, "", "%s", text);
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* describe.c - appends phrases to the description of an element, and asks the element's layer for its words. */
+/* describe.c - appends phrases to the description of an element, and lets the element's layer describe it. */
 #include "describe.h"
 #include "foreign_nodes.h"
 #include "number.h"

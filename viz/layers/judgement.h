@@ -9,7 +9,7 @@
 
 #define JUDGEMENT_TEXT 64
 
-/* Write the first fault of an answer to `text`, such as "2.26 times as far", "1 missing, 2 extra" or "no point has id
+/* Write what is wrong with an answer to `text`, such as "2.26 times as far", "1 missing, 2 extra" or "no point has id
  * 17", or "right". Return `text`. */
 const char *judgement_text(const octree_judgement *judgement, char text[JUDGEMENT_TEXT]);
 

@@ -54,7 +54,7 @@ static scale_numbers number_round_steps(const legend_scale *scale, int count)
     scale_numbers m = {.count = 0};
     const double extent = scale->high - scale->low, step = number_round_up(extent / count);
     const double first = step > 0 ? ceil(scale->low / step) : 0, last = step > 0 ? floor(scale->high / step) : -1;
-    for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* + 0.0: no minus zero */
+    for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* + 0.0 turns -0 into 0 */
         add_number(&m, (i * step - scale->low) / extent, i * step + 0.0);
     return m;
 }

@@ -14,10 +14,10 @@
 #define UPRIGHT_SPACE 2   /* the least distance between numbers on an upright axis, in lines */
 #define MOST_TICKS 10     /* the largest number of intervals between numbers on an axis */
 #define TICK_LENGTH 0.012 /* the length of a tick mark, as a part of the box's longest side */
-#define END_ON_RATIO 0.1  /* an axis shorter than this part of its length from the side is seen end on */
+#define END_ON_RATIO 0.1  /* an axis shorter in the picture than this part of side_length() is seen end on */
 #define DIGITS 9          /* significant digits of a number */
 #define FIRST_ID 1000     /* the id of the first tick mark of the x axis */
-#define OUTLINE 1e-3      /* a corner at most this many pixels outside an edge's line may still lie behind it */
+#define OUTLINE 1e-3      /* for rounding: a corner at most this many pixels beyond an edge's line counts as on it */
 #define LOWEST 16         /* choose_edge: the weight of being low, against 1 for being at the left; level axes only */
 #define ROOM 40           /* choose_edge: the weight of room for a number at an end */
 
@@ -169,7 +169,7 @@ static void add_ticks(axes *a, const axis_edge *e)
     if (step == 0 || is_end_on(a, e) || !isfinite(longest_side(a->scene)))
         return;
     const double first = ceil(a->box->min[axis] / step), last = floor(a->box->max[axis] / step);
-    for (double i = first; i <= last; i++) /* + 0.0: no minus zero */
+    for (double i = first; i <= last; i++) /* + 0.0 turns -0 into 0 */
         add_tick(a, e, i * step + 0.0, (uint64_t)(axis + 1) * FIRST_ID + (uint64_t)(i - first));
 }
 
