@@ -2,6 +2,7 @@
 /* file.c - writes files whole or not at all, locks, copies and compares them. */
 #include "file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <limits.h>
 #include <unistd.h>
@@ -65,6 +66,43 @@ bool folder_has(const char *folder, const char *name)
     const int length = snprintf(path, sizeof path, "%s%s%s", folder, slash_after(folder), name);
     struct stat status;
     return length >= 0 && (size_t)length < sizeof path && stat(path, &status) == 0;
+}
+
+static int is_listed(const struct dirent *entry)
+{
+    return strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+/* The array and the bytes of all names are one block. */
+char **folder_names(const char *folder, octreel_error *error)
+{
+    struct dirent **entries = NULL;
+    const int count = scandir(folder, &entries, is_listed, by_name);
+    size_t size = 0;
+    for (int i = 0; i < count; i++)
+        size += strlen(entries[i]->d_name) + 1;
+    char **names = count < 0 ? NULL : malloc(((size_t)count + 1) * sizeof *names + size);
+    const int reason = errno;
+    char *at = names ? (char *)(names + count + 1) : NULL;
+    for (int i = 0; i < count; i++) {
+        if (names) {
+            names[i] = at;
+            at = stpcpy(at, entries[i]->d_name) + 1;
+        }
+        free(entries[i]);
+    }
+    free(entries);
+    if (names)
+        names[count] = NULL;
+    else
+        error_set(error, "%s: the folder cannot be read: %s", folder, strerror(reason));
+    errno = reason;
+    return names;
 }
 
 /* ---- Locks -------------------------------------------------------------------------------------------------- */

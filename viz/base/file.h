@@ -27,6 +27,11 @@ bool file_has_ending(const char *name, const char *endings);
 /* Whether the folder contains a file or folder of this name. "" is the current folder. */
 bool folder_has(const char *folder, const char *name);
 
+/* Returns the names in a folder, without "." and "..", in the order of strcmp(), with a null behind the last. The
+ * caller frees the array, which holds the names, too. Returns null with an error if the folder cannot be read or memory
+ * runs out; errno is then the reason. Files may be removed while the list is walked. */
+char **folder_names(const char *folder, octreel_error *error);
+
 /* Lock an open file until it is closed. False: another open file, of this process or another, holds the lock. On a file
  * system without locks this always succeeds. file_is_locked() returns whether a file is locked. */
 bool file_lock(int file);

@@ -16,7 +16,6 @@
 #include "recording_file.h"
 #include "text.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
@@ -26,21 +25,21 @@
 /* Frames written during the acceptance would be missed. A chunk of a recording has its own log of ticks. */
 bool accept_check_ended(const diff_side *side, octreel_error *error)
 {
-    DIR *entries = side->kind == DIFF_RECORDING ? opendir(side->path) : NULL;
+    octreel_error ignored;
+    char **names = side->kind == DIFF_RECORDING ? folder_names(side->path, &ignored) : NULL;
     bool ok = true;
-    for (struct dirent *entry; entries && ok && (entry = readdir(entries));) {
-        const char *name = entry->d_name, *end = strrchr(name, '.');
-        if (strncmp(name, "ticks", 5) != 0 || !end || strcmp(end, ".jsonl") != 0)
+    for (size_t i = 0; ok && names && names[i]; i++) {
+        const char *end = strrchr(names[i], '.');
+        if (strncmp(names[i], "ticks", 5) != 0 || !end || strcmp(end, ".jsonl") != 0)
             continue;
-        char *path = path_join(side->path, name);
+        char *path = path_join(side->path, names[i]);
         ok = path ? !file_is_locked(path) ||
                         error_set(error, "%s: is still being recorded; accept it when the recording has ended",
                                   side->path)
                   : error_no_memory(error);
         free(path);
     }
-    if (entries)
-        closedir(entries);
+    free(names);
     return ok;
 }
 

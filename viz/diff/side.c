@@ -7,9 +7,7 @@
 #include "frame_file.h"
 #include "recording_file.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -64,11 +62,6 @@ size_t diff_stem_length(const char *name)
     return length > 4 && strcasecmp(name + length - 4, ".png") == 0 ? length - 4 : length;
 }
 
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
-}
-
 static bool is_frame_name(const diff_side *side, const char *name)
 {
     uint64_t tick;
@@ -89,21 +82,14 @@ static bool is_without_frames(const diff_side *side)
 
 static bool read_folder(diff_side *side, octreel_error *error)
 {
-    DIR *entries = opendir(side->path);
-    if (!entries)
-        return error_set(error, "%s: cannot read the folder: %s", side->path, strerror(errno));
+    char **names = folder_names(side->path, error);
+    bool ok = names;
     side->kind = folder_has(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     side->no_frames = is_without_frames(side);
-    bool ok = true;
-    errno = 0;
-    for (struct dirent *entry; ok && !side->no_frames && (entry = readdir(entries)); errno = 0)
-        if (is_frame_name(side, entry->d_name))
-            ok = diff_side_add_frame(side, entry->d_name, (frame_digest){0}, error);
-    if (ok && errno)
-        ok = error_set(error, "%s: cannot read the folder: %s", side->path, strerror(errno));
-    closedir(entries);
-    if (side->count > 0)
-        qsort(side->frames, side->count, sizeof *side->frames, by_name);
+    for (size_t i = 0; ok && !side->no_frames && names[i]; i++)
+        if (is_frame_name(side, names[i]))
+            ok = diff_side_add_frame(side, names[i], (frame_digest){0}, error);
+    free(names);
     return ok;
 }
 

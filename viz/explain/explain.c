@@ -81,8 +81,8 @@ static bool handle_tick(void *context, const octree_game *const games[2], bool d
     const wanted_pair *wanted = find_wanted(w, tick);
     if (!wanted || !wanted->pair->difference.unlike.pixels)
         return true;
-    cause_tick *reported =
-        &w->e->cause.ticks[w->e->cause.count - 1]; /* this tick, since is_wanted() returns true for it */
+    /* is_wanted() returned true for this tick, so it is the last in the list. */
+    cause_tick *reported = &w->e->cause.ticks[w->e->cause.count - 1];
     return tracer_trace(&w->e->tracer, w->e->sides, games, wanted->pair, w->options, &reported->trace, error);
 }
 

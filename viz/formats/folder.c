@@ -2,10 +2,8 @@
 /* folder.c - the names of the files of a recording, and functions that create, check and clean its folder. */
 #include "folder.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,15 +81,12 @@ static bool report_held_files(const char *folder, const char *first, octreel_err
 
 static bool check_empty(const char *folder, octreel_error *error)
 {
-    char first[NAME_MAX + 1] = ""; /* first by name, so that the message is the same on every file system */
-    DIR *entries = opendir(folder);
-    if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
-    for (struct dirent *entry; (entry = readdir(entries));)
-        if (folder_is_name(entry->d_name) && (!*first || strcmp(entry->d_name, first) < 0))
-            snprintf(first, sizeof first, "%s", entry->d_name);
-    closedir(entries);
-    return !*first || report_held_files(folder, first, error);
+    char **names = folder_names(folder, error);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++)
+        ok = !folder_is_name(names[i]) || report_held_files(folder, names[i], error);
+    free(names);
+    return ok;
 }
 
 bool folder_prepare(const char *folder, octreel_error *error)
@@ -160,13 +155,11 @@ bool folder_remove(const char *folder, const char *name, octreel_error *error)
 bool folder_sweep(const char *folder, octreel_error *error)
 {
     uint64_t first, last;
-    DIR *entries = opendir(folder);
-    if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
-    bool ok = true;
-    for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (folder_is_unfinished(entry->d_name) || chunk_parse_name(entry->d_name, &first, &last))
-            ok = folder_remove(folder, entry->d_name, error);
-    closedir(entries);
+    char **names = folder_names(folder, error);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++)
+        if (folder_is_unfinished(names[i]) || chunk_parse_name(names[i], &first, &last))
+            ok = folder_remove(folder, names[i], error);
+    free(names);
     return ok;
 }

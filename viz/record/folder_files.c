@@ -9,7 +9,6 @@
 #include "recording_file.h"
 #include "text.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <jansson.h>
 #include <limits.h>
@@ -236,15 +235,6 @@ static bool check_known(const char *folder, const char *past, uint64_t session_d
                      view ? "session.json" : "recording.json");
 }
 
-/* The alphabetically first name of some files; "": none yet. */
-typedef char first_name[NAME_MAX + 1];
-
-static void keep_first(first_name first, const char *name)
-{
-    if (!*first || strcmp(name, first) < 0)
-        snprintf(first, sizeof(first_name), "%s", name);
-}
-
 /* Check the session digest in the first frame, which stands for all frames. Accepted are frames without a digest, such
  * as torn frames and frames saved by another program, and digest 0: a program that was killed while it recorded itself
  * did not know its session yet. */
@@ -261,24 +251,22 @@ static bool check_session(const char *folder, const char *frame, uint64_t sessio
 
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error)
 {
-    first_name past = "", frame = "";
-    DIR *entries = opendir(folder);
-    if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
-    bool ok = true;
-    for (struct dirent *entry; ok && (entry = readdir(entries));) {
-        const char *name = entry->d_name;
-        if (!is_past_start(folder, name))
+    const char *past = NULL, *frame = ""; /* the first names of files past the start, and of frames */
+    char **names = folder_names(folder, error);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++) {
+        if (!is_past_start(folder, names[i]))
             continue;
-        keep_first(past, name);
-        if (strncmp(name, "frame_", 6) != 0)
+        past = past ? past : names[i];
+        if (strncmp(names[i], "frame_", 6) != 0)
             continue;
-        keep_first(frame, name);
-        if (!frame_is_name(name, ticks, every))
+        frame = *frame ? frame : names[i];
+        if (!frame_is_name(names[i], ticks, every))
             ok = error_set(error, "%s/%s: not a frame of this recording; remove it, or choose another folder", folder,
-                           name);
+                           names[i]);
     }
-    closedir(entries);
-    return ok && (!*past || (check_known(folder, past, session_digest, error) &&
-                             check_session(folder, frame, session_digest, error)));
+    ok = ok && (!past || (check_known(folder, past, session_digest, error) &&
+                          check_session(folder, frame, session_digest, error)));
+    free(names);
+    return ok;
 }

@@ -16,7 +16,6 @@
 #include "recording_file.h"
 #include "ticks_write.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -77,13 +76,11 @@ static int compare_chunks(const void *a, const void *b)
 
 static bool find_chunks(joining *j, octreel_error *error)
 {
-    DIR *entries = opendir(j->options->folder);
-    if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", j->options->folder, strerror(errno));
-    bool ok = true;
-    for (struct dirent *entry; ok && (entry = readdir(entries));)
-        ok = add_entry(j, entry->d_name, error);
-    closedir(entries);
+    char **names = folder_names(j->options->folder, error);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++)
+        ok = add_entry(j, names[i], error);
+    free(names);
     if (ok && j->count > 1)
         qsort(j->chunks, j->count, sizeof *j->chunks, compare_chunks);
     return ok;

@@ -14,7 +14,6 @@
 #include "frame_file.h"
 #include "tick_log.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <jansson.h>
@@ -105,12 +104,12 @@ static bool check_entry(const char *folder, const char *name, bool *past, octree
 bool replacement_check(const char *folder, octreel_error *error)
 {
     bool ok = true, past = false;
-    DIR *entries = opendir(folder);
-    if (!entries)
-        return errno == ENOENT || error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
-    for (struct dirent *entry; ok && (entry = readdir(entries));)
-        ok = check_entry(folder, entry->d_name, &past, error);
-    closedir(entries);
+    char **names = folder_names(folder, error);
+    if (!names)
+        return errno == ENOENT;
+    for (size_t i = 0; ok && names[i]; i++)
+        ok = check_entry(folder, names[i], &past, error);
+    free(names);
     return ok && (!past || is_recording(folder) || has_recording_aside(folder) ||
                   error_set(error,
                             "%s: cannot replace its files: recording.json is missing or belongs to another "
@@ -143,13 +142,13 @@ static bool move_or_remove(const char *from, const char *to, const char *name)
 /* Move or remove all files of a recording except its mark. */
 static bool move_or_remove_rest(const char *from, const char *to)
 {
-    DIR *entries = opendir(from);
-    bool ok = entries;
-    for (struct dirent *entry; ok && (entry = readdir(entries));)
-        if (is_recording_file(entry->d_name) && strcmp(entry->d_name, mark) != 0)
-            ok = move_or_remove(from, to, entry->d_name);
-    if (entries)
-        closedir(entries);
+    octreel_error ignored;
+    char **names = folder_names(from, &ignored);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++)
+        if (is_recording_file(names[i]) && strcmp(names[i], mark) != 0)
+            ok = move_or_remove(from, to, names[i]);
+    free(names);
     return ok;
 }
 

@@ -11,10 +11,8 @@
 #include "image_digest.h"
 #include "png_read.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
-#include <limits.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -239,26 +237,21 @@ static bool is_extra_frame(const verifying *v, const char *name)
 /* Report the first extra frame by name. */
 static bool check_extra_frames(verifying *v, octreel_error *error)
 {
-    DIR *entries = opendir(v->folder);
-    char first[NAME_MAX + 1] = "";
-    uint64_t count = 0;
-    if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", v->folder, strerror(errno));
-    for (struct dirent *entry; (entry = readdir(entries));) {
-        if (!is_extra_frame(v, entry->d_name))
-            continue;
-        if (count++ == 0 || strcmp(entry->d_name, first) < 0)
-            snprintf(first, sizeof first, "%s", entry->d_name);
+    char **names = folder_names(v->folder, error), *first = NULL;
+    const bool ok = names;
+    uint64_t count = 0, tick;
+    for (size_t i = 0; ok && names[i]; i++)
+        if (is_extra_frame(v, names[i]) && count++ == 0)
+            first = names[i];
+    if (count > 0) {
+        const bool has_tick = frame_parse_name(first, &tick);
+        verify_finding *finding =
+            add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is no frame of this recording%s",
+                        make_printable(first), count > 1 ? ", nor are others beside it" : "");
+        finding->has_tick = has_tick;
     }
-    closedir(entries);
-    if (count == 0)
-        return true;
-    uint64_t tick;
-    const bool has_tick = frame_parse_name(first, &tick);
-    verify_finding *finding = add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is no frame of this recording%s",
-                                          make_printable(first), count > 1 ? ", nor are others beside it" : "");
-    finding->has_tick = has_tick;
-    return true;
+    free(names);
+    return ok;
 }
 
 /* ---- The recording ------------------------------------------------------------------------------------------ */

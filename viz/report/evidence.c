@@ -8,8 +8,6 @@
 #include "png_read.h"
 #include "png_write.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -119,8 +117,6 @@ static bool has_marker(const char *folder)
 /* Other files in a folder of evidence stay; a folder without the marker must be empty. */
 static bool clear_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
-    if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
-        return true;
     if (marked)
         return !evidence_is_name(name) || folder_remove(folder, name, error);
     return strcmp(name, MARKER ".part") == 0 ||
@@ -131,13 +127,11 @@ static bool clear_entry(const char *folder, const char *name, bool marked, octre
 static bool clear_folder(const char *folder, octreel_error *error)
 {
     const bool marked = has_marker(folder);
-    DIR *entries = opendir(folder);
-    if (!entries)
-        return error_set(error, "%s: the folder cannot be read: %s", folder, strerror(errno));
-    bool ok = true;
-    for (struct dirent *entry; ok && (entry = readdir(entries));)
-        ok = clear_entry(folder, entry->d_name, marked, error);
-    closedir(entries);
+    char **names = folder_names(folder, error);
+    bool ok = names;
+    for (size_t i = 0; ok && names[i]; i++)
+        ok = clear_entry(folder, names[i], marked, error);
+    free(names);
     return ok;
 }
 
