@@ -135,9 +135,8 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
 }
 
 /* Whether there is a known difference that the frame of a tick can show. */
-static bool differs_at(const explanation *e, uint64_t tick)
+static bool differs_at(const explanation *e, const cause_tick *details, uint64_t tick)
 {
-    const cause_tick *details = cause_find_tick(&e->cause, tick);
     return (details && details->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
            cause_facts_show(&e->cause.session, tick);
 }
@@ -158,9 +157,8 @@ static void print_same_tick(FILE *out, const explanation *e, const cause_facts *
     cause_print_facts(out, session, true);
 }
 
-static void print_tick(FILE *out, const explanation *e, uint64_t tick)
+static void print_tick(FILE *out, const explanation *e, const cause_tick *details, uint64_t tick)
 {
-    const cause_tick *details = cause_find_tick(&e->cause, tick);
     const bool facts = details && details->facts.count > 0;
     cause_facts view = cause_facts_shown(&e->cause.view, tick), session = cause_facts_shown(&e->cause.session, tick);
     fprintf(out, "tick %" PRIu64 ": ", tick);
@@ -189,16 +187,6 @@ static void print_origins(FILE *out, const pair_look *l)
                 a->tick);
 }
 
-/* Print the elements that are drawn where the frames differ. */
-static void print_trace(FILE *out, const explanation *e, uint64_t tick)
-{
-    const cause_tick *details = cause_find_tick(&e->cause, tick);
-    if (details && details->trace.count) {
-        fputs("; ", out);
-        trace_print(out, &details->trace);
-    }
-}
-
 /* Whether a faulty frame may still show the right picture: it only lacks its text chunks. Then the difference between
  * the ticks is printed as well. */
 static bool may_be_right(const pair_look *l)
@@ -211,22 +199,26 @@ static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, 
 {
     const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawn(e, l);
     const uint64_t tick = diff_pair_tick(pair);
-    const bool prints_tick = e->recordings && both && !drawn && (!faulty || (may_be_right(l) && differs_at(e, tick)));
+    const cause_tick *details = cause_find_tick(&e->cause, tick); /* null outside of recordings */
+    const bool prints_tick =
+        e->recordings && both && !drawn && (!faulty || (may_be_right(l) && differs_at(e, details, tick)));
     const bool prints_missing = e->recordings && !both;
     print_faults(out, pair, l);
     fputs(faulty && (prints_tick || prints_missing) ? "; " : "", out);
     if (drawn)
         pair_print_rendering(out, e);
     else if (prints_tick)
-        print_tick(out, e, tick);
+        print_tick(out, e, details, tick);
     else if (prints_missing)
         print_missing(out, &e->sides[pair->a ? 1 : 0], tick);
     else if (both_have_texts(l) && !faulty)
         print_origins(out, l);
     if (e->recordings && l->same_scene && !faulty && !drawn && !same_renderer(e))
         print_renderers(out, e);
-    if (e->recordings)
-        print_trace(out, e, tick);
+    if (details && details->trace.count) {
+        fputs("; ", out);
+        trace_print(out, &details->trace);
+    }
 }
 
 bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_look *l, pair_cause *cause,
