@@ -31,14 +31,14 @@ static inline void *array_reserve(void *items, size_t count, size_t *room, size_
 static inline bool array_grow(void *array, size_t count, size_t *room, size_t item_size)
 {
     void *items;
-    memcpy(&items, array, sizeof items); /* a copy, since void ** is not compatible with the pointer's type */
+    memcpy(&items, array, sizeof items); /* a copy: the pointer's type may differ from void * */
     items = array_reserve(items, count, room, item_size);
     if (items || count == 0)
         memcpy(array, &items, sizeof items);
     return items || count == 0;
 }
 
-/* An array whose items it owns, and the same with array_grow(): room for `more` items.
+/* A type for an array that owns its items. ARRAY_GROW() makes room for `more` items with array_grow().
  *   ARRAY(int) list = {0};
  *   if (ARRAY_GROW(&list, 1))
  *       list.items[list.count++] = 7;
@@ -51,8 +51,8 @@ static inline bool array_grow(void *array, size_t count, size_t *room, size_t it
 #define ARRAY_GROW(array, more)                                                                                        \
     array_grow(&(array)->items, (array)->count + (more), &(array)->room, sizeof *(array)->items)
 
-/* The order, for qsort() and bsearch(), of items that begin with a uint64_t. */
-static inline int by_uint64(const void *a, const void *b)
+/* Compare two items by the uint64_t with which they begin; for qsort() and bsearch(). */
+static inline int compare_uint64(const void *a, const void *b)
 {
     const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
     return (x > y) - (x < y);

@@ -14,11 +14,10 @@
 #include <strings.h>
 #include <time.h>
 
-/* ---- Names -------------------------------------------------------------------------------------------------- */
+/* ---- Paths -------------------------------------------------------------------------------------------------- */
 
-/* The separator between a folder and a name. Without it an empty folder leaves the name alone, which is then found in
- * the current folder; "" and a slash would be the root of the file system. */
-static const char *slash_after(const char *folder)
+/* The separator between a folder and a name: none if the folder is "", because "/name" would lie in the root folder. */
+static const char *separator_after(const char *folder)
 {
     return *folder ? "/" : "";
 }
@@ -28,11 +27,11 @@ char *path_join(const char *folder, const char *name)
     const size_t size = strlen(folder) + strlen(name) + 2;
     char *path = malloc(size);
     if (path)
-        snprintf(path, size, "%s%s%s", folder, slash_after(folder), name);
+        snprintf(path, size, "%s%s%s", folder, separator_after(folder), name);
     return path;
 }
 
-char *path_folder(const char *path)
+char *path_parent_folder(const char *path)
 {
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/')
@@ -60,10 +59,10 @@ bool file_has_ending(const char *name, const char *endings)
 
 /* Uses a buffer on the stack, because with malloc() it would report "missing" when memory runs out. The system refuses
  * paths of PATH_MAX bytes and more, so a longer path exists nowhere. */
-bool folder_has(const char *folder, const char *name)
+bool folder_contains(const char *folder, const char *name)
 {
     char path[PATH_MAX];
-    const int length = snprintf(path, sizeof path, "%s%s%s", folder, slash_after(folder), name);
+    const int length = snprintf(path, sizeof path, "%s%s%s", folder, separator_after(folder), name);
     struct stat status;
     return length >= 0 && (size_t)length < sizeof path && stat(path, &status) == 0;
 }
@@ -123,7 +122,7 @@ bool file_is_locked(const char *path)
 
 int file_lock_parent_folder(const char *path)
 {
-    char *parent = path_folder(path);
+    char *parent = path_parent_folder(path);
     const int folder = parent ? open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     while (folder >= 0 && flock(folder, LOCK_EX) != 0 && errno == EINTR)
         continue;
@@ -133,22 +132,22 @@ int file_lock_parent_folder(const char *path)
 
 /* ---- Standard input and output ------------------------------------------------------------------------------ */
 
-bool file_is_standard(const char *path)
+bool file_is_standard_stream(const char *path)
 {
     return strcmp(path, "-") == 0;
 }
 
-const char *file_title(const char *path)
+const char *file_display_name(const char *path)
 {
-    return file_is_standard(path) ? FILE_STANDARD_INPUT : path;
+    return file_is_standard_stream(path) ? FILE_STANDARD_INPUT : path;
 }
 
-const char *file_output_title(const char *path)
+const char *file_output_display_name(const char *path)
 {
-    return file_is_standard(path) ? "standard output" : path;
+    return file_is_standard_stream(path) ? "standard output" : path;
 }
 
-/* ---- Written whole or not at all ---------------------------------------------------------------------------- */
+/* ---- Atomic writing ----------------------------------------------------------------------------------------- */
 
 #define PART ".part"
 
@@ -159,13 +158,13 @@ static bool is_special_file(const char *path)
 }
 
 /* How a file is written. */
-typedef enum writing {
+typedef enum write_mode {
     WRITE_OUTPUT,    /* into an existing pipe or device directly, else like WRITE_REPLACING */
     WRITE_REPLACING, /* into a new ".part" file; an existing one is removed first, since it could be a pipe or a link */
     WRITE_UNIQUE     /* into a ".part" file that must not exist yet */
-} writing;
+} write_mode;
 
-static FILE *open_stream(const char *name, bool is_part, writing how)
+static FILE *open_stream(const char *name, bool is_part, write_mode how)
 {
     if (!is_part)
         return fopen(name, "wb");
@@ -175,10 +174,10 @@ static FILE *open_stream(const char *name, bool is_part, writing how)
 }
 
 /* Opens "<path><ending>". On failure, errno holds the reason. */
-static bool open_writer(file_writer *file, const char *path, const char *ending, writing how, octreel_error *error)
+static bool open_writer(file_writer *file, const char *path, const char *ending, write_mode how, octreel_error *error)
 {
     *file = (file_writer){.path = path};
-    if (file_is_standard(path)) {
+    if (file_is_standard_stream(path)) {
         file->stream = stdout;
         return true;
     }
@@ -237,7 +236,7 @@ static bool is_written_directly(const file_writer *file)
 static bool report_write_error(file_writer *file, int reason, octreel_error *error)
 {
     error_set(error, "%s: cannot be written: %s", file->path, strerror(reason));
-    return file_writer_abandon(file);
+    return file_writer_discard(file);
 }
 
 bool file_writer_finish(file_writer *file, octreel_error *error)
@@ -254,7 +253,7 @@ bool file_writer_finish(file_writer *file, octreel_error *error)
     return ok || report_write_error(file, reason, error);
 }
 
-bool file_writer_place(file_writer *file, octreel_error *error)
+bool file_writer_rename(file_writer *file, octreel_error *error)
 {
     if (file->temp && !is_written_directly(file) && rename(file->temp, file->path) != 0)
         return report_write_error(file, errno, error);
@@ -265,10 +264,10 @@ bool file_writer_place(file_writer *file, octreel_error *error)
 
 bool file_writer_close(file_writer *file, octreel_error *error)
 {
-    return file_writer_finish(file, error) && file_writer_place(file, error);
+    return file_writer_finish(file, error) && file_writer_rename(file, error);
 }
 
-bool file_writer_abandon(file_writer *file)
+bool file_writer_discard(file_writer *file)
 {
     if (!file->temp)
         return false;
@@ -293,44 +292,44 @@ static bool copy_stream(FILE *in, const char *from, FILE *out, octreel_error *er
 
 typedef bool writer_opener(file_writer *file, const char *path, octreel_error *error);
 
-static bool copy_unplaced(file_writer *file, writer_opener *open_file, bool lasting, const char *from, const char *to,
-                          octreel_error *error)
+static bool copy_to_temporary(file_writer *file, writer_opener *open_file, bool lasting, const char *from,
+                              const char *to, octreel_error *error)
 {
     char reason[FILE_REASON];
     FILE *in = file_open(from, NULL, reason);
     if (!in)
-        return error_set(error, "%s: %s", file_title(from), reason);
+        return error_set(error, "%s: %s", file_display_name(from), reason);
     bool ok = open_file(file, to, error);
     file->lasting = lasting;
     if (ok)
-        ok = copy_stream(in, from, file->stream, error) ? file_writer_finish(file, error) : file_writer_abandon(file);
+        ok = copy_stream(in, from, file->stream, error) ? file_writer_finish(file, error) : file_writer_discard(file);
     fclose(in);
     return ok;
 }
 
-static bool copy_and_place(writer_opener *open_file, bool lasting, const char *from, const char *to,
-                           octreel_error *error)
+static bool copy_and_rename(writer_opener *open_file, bool lasting, const char *from, const char *to,
+                            octreel_error *error)
 {
     file_writer file;
-    return copy_unplaced(&file, open_file, lasting, from, to, error) && file_writer_place(&file, error);
+    return copy_to_temporary(&file, open_file, lasting, from, to, error) && file_writer_rename(&file, error);
 }
 
 bool file_copy_to(const char *from, const char *to, octreel_error *error)
 {
-    return copy_and_place(file_writer_open_replacing, false, from, to, error);
+    return copy_and_rename(file_writer_open_replacing, false, from, to, error);
 }
 
 bool file_copy_prepare(file_writer *file, const char *from, const char *to, octreel_error *error)
 {
-    return copy_unplaced(file, file_writer_open_replacing, true, from, to, error);
+    return copy_to_temporary(file, file_writer_open_replacing, true, from, to, error);
 }
 
 bool file_copy_unique(const char *from, const char *to, octreel_error *error)
 {
-    return copy_and_place(file_writer_open_unique, true, from, to, error);
+    return copy_and_rename(file_writer_open_unique, true, from, to, error);
 }
 
-/* ---- Compared ----------------------------------------------------------------------------------------------- */
+/* ---- Comparison --------------------------------------------------------------------------------------------- */
 
 static bool have_same_content(FILE *a, FILE *b)
 {
@@ -347,7 +346,7 @@ static bool have_same_content(FILE *a, FILE *b)
 bool have_same_bytes(const char *a, const char *b)
 {
     struct stat of_a, of_b;
-    if (file_is_standard(a) || file_is_standard(b))
+    if (file_is_standard_stream(a) || file_is_standard_stream(b))
         return false;
     if (stat(a, &of_a) != 0 || stat(b, &of_b) != 0 || !S_ISREG(of_a.st_mode) || !S_ISREG(of_b.st_mode) ||
         of_a.st_size != of_b.st_size)
@@ -377,7 +376,7 @@ bool is_same_file(const struct stat *a, const struct stat *b)
 
 bool stat_parent(const char *path, struct stat *status)
 {
-    char *parent = path_folder(path);
+    char *parent = path_parent_folder(path);
     const bool is = parent && stat(parent, status) == 0;
     free(parent);
     return is;
@@ -396,7 +395,7 @@ static bool is_same_new_path(const char *a, const char *b)
 static bool is_same_path(const char *a, const char *b)
 {
     struct stat files[2];
-    if (file_is_standard(a) || file_is_standard(b))
+    if (file_is_standard_stream(a) || file_is_standard_stream(b))
         return false;
     const bool exists[2] = {stat(a, &files[0]) == 0, stat(b, &files[1]) == 0};
     if (exists[0] && exists[1])
@@ -416,7 +415,7 @@ bool check_outputs_differ(const output_file *outputs, size_t count, octreel_erro
         for (size_t j = 0; j < i; j++)
             if (!outputs[i].path || !outputs[j].path)
                 continue;
-            else if (file_is_standard(outputs[i].path) && file_is_standard(outputs[j].path))
+            else if (file_is_standard_stream(outputs[i].path) && file_is_standard_stream(outputs[j].path))
                 return error_set(error, "%s and %s cannot both be standard output", outputs[j].option,
                                  outputs[i].option);
             else if (is_same_path(outputs[i].path, outputs[j].path))

@@ -10,13 +10,13 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-/* Returns "folder/name", or the name alone where the folder is "", which is the current folder. The caller frees it.
- * Returns null when out of memory. */
+/* Returns "folder/name", or only the name if the folder is "", the current folder. The caller frees it. Returns null
+ * when out of memory. */
 char *path_join(const char *folder, const char *name);
 
 /* Returns the folder in which a path lies: "a" for "a/b" and "a/b/", "." for "b". The caller frees it. Returns null
  * when out of memory. */
-char *path_folder(const char *path);
+char *path_parent_folder(const char *path);
 
 /* Returns the part of a path after its last slash. */
 const char *path_base_name(const char *path);
@@ -25,7 +25,7 @@ const char *path_base_name(const char *path);
 bool file_has_ending(const char *name, const char *endings);
 
 /* Whether the folder contains a file or folder of this name. "" is the current folder. */
-bool folder_has(const char *folder, const char *name);
+bool folder_contains(const char *folder, const char *name);
 
 /* Returns the names in a folder, without "." and "..", in the order of strcmp(), with a null behind the last. The
  * caller frees the array, which holds the names, too. Returns null with an error if the folder cannot be read or memory
@@ -42,14 +42,14 @@ bool file_is_locked(const char *path);
  * Returns -1 if there is no folder or its file system has no locks. */
 int file_lock_parent_folder(const char *path);
 
-/* True for "-". In all functions below it stands for standard input when reading and for standard output when writing.
- * A file of that name is ./- */
-bool file_is_standard(const char *path);
+/* True for "-". In all functions below "-" is standard input when reading and standard output when writing; a file
+ * named "-" is written as "./-". */
+bool file_is_standard_stream(const char *path);
 
 /* The name of a file in messages: its path, or "standard input" or "standard output" for "-". */
 #define FILE_STANDARD_INPUT "standard input"
-const char *file_title(const char *path);
-const char *file_output_title(const char *path);
+const char *file_display_name(const char *path);
+const char *file_output_display_name(const char *path);
 
 #define FILE_REASON 160
 
@@ -63,10 +63,10 @@ typedef void file_progress(uint64_t done, uint64_t total, void *context);
 
 /* Read a whole file into *bytes, which the caller frees and which has room for one more byte. `progress` may be null.
  * Standard input is not kept: a second read of it fails. On failure *bytes is null. */
-bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
-                       octreel_error *error);
+bool file_read_with_progress(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
+                             octreel_error *error);
 
-/* The same without progress. */
+/* Read a whole file without reporting progress. */
 bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error);
 
 /* A file that is written as "<path>.part" and then renamed, so that the path never holds a part of it. Standard output
@@ -81,46 +81,46 @@ typedef struct file_writer {
 /* An existing path that is no regular file, such as a pipe or a device, is written directly. */
 bool file_writer_open(file_writer *file, const char *path, octreel_error *error);
 
-/* The same for a folder that somebody else may have prepared: a pipe, device or link at the path is replaced and never
- * written to. A pipe would block, and the others lead out of the folder. */
+/* For a folder whose contents others may have prepared: a pipe, device or link at the path is replaced and never
+ * written to. Writing to a pipe would block; a link or device would lead out of the folder. */
 bool file_writer_open_replacing(file_writer *file, const char *path, octreel_error *error);
 
-/* The same with a temporary file of a unique name, so that several processes can write the same path. */
+/* The same with a unique name for the temporary file, so that several processes can write the same path. */
 bool file_writer_open_unique(file_writer *file, const char *path, octreel_error *error);
 bool file_writer_close(file_writer *file, octreel_error *error);
 
 /* file_writer_close() in two steps, for several files that change together: finish() writes everything to the temporary
- * file, and place() only renames it. */
+ * file, rename() only renames it. */
 bool file_writer_finish(file_writer *file, octreel_error *error);
-bool file_writer_place(file_writer *file, octreel_error *error);
+bool file_writer_rename(file_writer *file, octreel_error *error);
 
 /* Remove the temporary file and leave the path unchanged. Always returns false, so that a caller can return it. */
-bool file_writer_abandon(file_writer *file);
+bool file_writer_discard(file_writer *file);
 
-/* Copy a regular file block by block to "<to>.part" and rename it. Replaces whatever was there. */
+/* Copy a regular file to "<to>.part" and rename it. Replaces an existing file. */
 bool file_copy_to(const char *from, const char *to, octreel_error *error);
 
-/* Copy a file and sync it, up to file_writer_finish(): file_writer_place() is left to do. `to` must outlive the writer.
- */
+/* Copy a file to a temporary file and sync it; file_writer_rename() completes the copy. `to` must outlive the writer.
+ * */
 bool file_copy_prepare(file_writer *file, const char *from, const char *to, octreel_error *error);
 
-/* Copy a file and sync it, with a temporary file of a unique name. */
+/* Copy a file and sync it, with a unique name for the temporary file. */
 bool file_copy_unique(const char *from, const char *to, octreel_error *error);
 
 /* An output file of a command line. It must not overwrite an input or another output. */
 typedef struct output_file {
     const char *option; /* the option as typed, such as "-o" */
-    const char *path;   /* null: the output was not asked for */
+    const char *path;   /* null: the option was not given */
 } output_file;
 
-/* False, with an error, if the output is the input file: the same device and inode, whatever the paths look like. "-"
- * and paths that are no regular files, such as pipes, may be both. */
+/* Returns false, with an error, if the output is the input file: the same device and inode, even if the paths differ.
+ * "-" and files that are not regular, such as pipes, may be both input and output. */
 bool check_output_is_not_input(const output_file *output, const char *input, octreel_error *error);
 
-/* False, with an error, if two outputs are the same file, which may not exist yet, or if two are "-". */
+/* Returns false, with an error, if two outputs are the same file, which may not exist yet, or if both are "-". */
 bool check_outputs_differ(const output_file *outputs, size_t count, octreel_error *error);
 
-/* True if both are regular files with the same bytes. "-" never is. have_same_file() compares the files of one name in
+/* True if both are regular files with the same bytes; false for "-". have_same_file() compares the files of one name in
  * two folders; false with errno ENOMEM if memory runs out. */
 bool have_same_bytes(const char *a, const char *b);
 bool have_same_file(const char *folder_a, const char *folder_b, const char *name);

@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Standard input can be read only once, so what file_open() has read of it is kept here. */
+/* Standard input can be read only once: file_open() keeps its bytes here. */
 static struct {
     bool read;
-    char *bytes; /* null: not read yet, or handed over to the caller that read it */
+    char *bytes; /* null: not read yet, or given to the caller */
     size_t size;
 } standard;
 
-/* ---- Read --------------------------------------------------------------------------------------------------- */
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
 static bool set_reason(char reason[FILE_REASON], const char *what)
 {
@@ -23,7 +23,7 @@ static bool set_reason(char reason[FILE_REASON], const char *what)
 }
 
 /* Opening a pipe would wait for its other end; a device may never end. */
-static FILE *open_regular(const char *path, uint64_t *size, char reason[FILE_REASON])
+static FILE *open_regular_file(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
     struct stat status;
     FILE *stream = NULL;
@@ -83,7 +83,8 @@ static bool read_stream(reading *r, char reason[FILE_REASON])
 }
 
 /* The size is known if standard input is redirected from a regular file. */
-static bool read_standard(file_progress *progress, void *context, char **bytes, size_t *size, char reason[FILE_REASON])
+static bool read_standard_input(file_progress *progress, void *context, char **bytes, size_t *size,
+                                char reason[FILE_REASON])
 {
     struct stat status;
     const bool regular = fstat(fileno(stdin), &status) == 0 && S_ISREG(status.st_mode);
@@ -103,9 +104,9 @@ static bool read_standard(file_progress *progress, void *context, char **bytes, 
 FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
 {
     uint64_t ignored;
-    if (!file_is_standard(path))
-        return open_regular(path, size ? size : &ignored, reason);
-    if (!standard.bytes && !read_standard(NULL, NULL, &standard.bytes, &standard.size, reason))
+    if (!file_is_standard_stream(path))
+        return open_regular_file(path, size ? size : &ignored, reason);
+    if (!standard.bytes && !read_standard_input(NULL, NULL, &standard.bytes, &standard.size, reason))
         return NULL;
     *(size ? size : &ignored) = standard.size;
     FILE *stream = standard.size > 0 ? fmemopen(standard.bytes, standard.size, "rb") : NULL;
@@ -116,8 +117,8 @@ FILE *file_open(const char *path, uint64_t *size, char reason[FILE_REASON])
     return stream;
 }
 
-/* Copies the kept bytes. Inputs that were opened with file_open() first are small. */
-static bool copy_standard(char **bytes, size_t *size, char reason[FILE_REASON])
+/* Copies the stored bytes. Inputs that file_open() opened first are small. */
+static bool copy_stored_input(char **bytes, size_t *size, char reason[FILE_REASON])
 {
     *size = standard.size;
     *bytes = malloc(standard.size + 1);
@@ -129,29 +130,29 @@ static bool copy_standard(char **bytes, size_t *size, char reason[FILE_REASON])
     return true;
 }
 
-bool file_read_watched(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
-                       octreel_error *error)
+bool file_read_with_progress(const char *path, file_progress *progress, void *context, char **bytes, size_t *size,
+                             octreel_error *error)
 {
     reading r = {.progress = progress, .context = context};
     char reason[FILE_REASON];
     bool read;
     *bytes = NULL;
     *size = 0;
-    if (file_is_standard(path)) {
-        read =
-            standard.bytes ? copy_standard(bytes, size, reason) : read_standard(progress, context, bytes, size, reason);
+    if (file_is_standard_stream(path)) {
+        read = standard.bytes ? copy_stored_input(bytes, size, reason)
+                              : read_standard_input(progress, context, bytes, size, reason);
     } else {
-        r.stream = open_regular(path, &r.total, reason);
+        r.stream = open_regular_file(path, &r.total, reason);
         read = r.stream && read_stream(&r, reason);
         if (r.stream)
             fclose(r.stream);
         *bytes = read ? r.bytes : NULL;
         *size = read ? r.size : 0;
     }
-    return read || error_set(error, "%s: %s", file_title(path), reason);
+    return read || error_set(error, "%s: %s", file_display_name(path), reason);
 }
 
 bool file_read_whole(const char *path, char **bytes, size_t *size, octreel_error *error)
 {
-    return file_read_watched(path, NULL, NULL, bytes, size, error);
+    return file_read_with_progress(path, NULL, NULL, bytes, size, error);
 }

@@ -14,15 +14,15 @@
 
 enum { SMALLEST_TABLE = 32 };
 
-static void fill_slot(hash_map *map, const hash_map_keys *keys, const void *items, size_t place)
+static void fill_slot(hash_map *map, const hash_map_item_type *type, const void *items, size_t index)
 {
-    size_t slot = (size_t)keys->hash((const char *)items + place * keys->item_size) & (map->size - 1);
+    size_t slot = (size_t)type->hash((const char *)items + index * type->item_size) & (map->size - 1);
     while (map->table[slot])
         slot = (slot + 1) & (map->size - 1);
-    map->table[slot] = (uint32_t)(place + 1);
+    map->table[slot] = (uint32_t)(index + 1);
 }
 
-bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *items, size_t count)
+bool hash_map_reserve(hash_map *map, const hash_map_item_type *type, const void *items, size_t count)
 {
     size_t size = map->size ? map->size : SMALLEST_TABLE;
     if (2 * count <= map->size)
@@ -36,15 +36,15 @@ bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *item
     map->table = table;
     map->size = size;
     for (size_t i = 0; i < map->count; i++)
-        fill_slot(map, keys, items, i);
+        fill_slot(map, type, items, i);
     return true;
 }
 
-bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items)
+bool hash_map_add(hash_map *map, const hash_map_item_type *type, const void *items)
 {
-    if (!hash_map_reserve(map, keys, items, map->count + 1))
+    if (!hash_map_reserve(map, type, items, map->count + 1))
         return false;
-    fill_slot(map, keys, items, map->count++);
+    fill_slot(map, type, items, map->count++);
     return true;
 }
 

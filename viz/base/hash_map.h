@@ -3,7 +3,7 @@
  * indices of the items, which stay in the caller's array. Items cannot be removed singly.
  *
  * With `struct cell { uint64_t node; ... } *cells`:
- *   static const hash_map_keys by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_same_id};
+ *   static const hash_map_item_type by_node = {sizeof(struct cell), hash_map_hash_id, hash_map_ids_equal};
  *   uint32_t place = hash_map_find(&map, &by_node, cells, &node);
  *   if (place == HASH_MAP_NONE) { ... append it to cells ...; hash_map_add(&map, &by_node, cells); }
  */
@@ -16,7 +16,7 @@
 
 #define HASH_MAP_NONE UINT32_MAX
 
-/* A zeroed one is empty. */
+/* A zeroed hash_map is empty. */
 typedef struct hash_map {
     size_t count;    /* the map holds the first `count` items of the array */
     size_t size;     /* slots of the table: a power of two, or 0 */
@@ -24,11 +24,11 @@ typedef struct hash_map {
 } hash_map;
 
 /* Describes the items. A pointer to an item is also a pointer to its key. */
-typedef struct hash_map_keys {
+typedef struct hash_map_item_type {
     size_t item_size;
     uint64_t (*hash)(const void *key); /* the low bits select the slot */
     bool (*same)(const void *a, const void *b);
-} hash_map_keys;
+} hash_map_item_type;
 
 /* Hash and comparison for keys of 64 bits. */
 static inline uint64_t hash_map_hash_id(const void *key)
@@ -37,21 +37,22 @@ static inline uint64_t hash_map_hash_id(const void *key)
     return mixed ^ mixed >> 32;
 }
 
-static inline bool hash_map_same_id(const void *a, const void *b)
+static inline bool hash_map_ids_equal(const void *a, const void *b)
 {
     return *(const uint64_t *)a == *(const uint64_t *)b;
 }
 
-/* Returns the index of the item with this key, or HASH_MAP_NONE. Inline: constant `keys` then cost no indirect calls.
+/* Returns the index of the item with this key, or HASH_MAP_NONE. Inline: a constant `type` then cost no indirect calls.
  */
-static inline uint32_t hash_map_find(const hash_map *map, const hash_map_keys *keys, const void *items, const void *key)
+static inline uint32_t hash_map_find(const hash_map *map, const hash_map_item_type *type, const void *items,
+                                     const void *key)
 {
     if (map->size == 0)
         return HASH_MAP_NONE;
-    size_t slot = (size_t)keys->hash(key) & (map->size - 1);
+    size_t slot = (size_t)type->hash(key) & (map->size - 1);
     for (; map->table[slot]; slot = (slot + 1) & (map->size - 1)) {
         const size_t place = map->table[slot] - 1;
-        if (keys->same((const char *)items + place * keys->item_size, key))
+        if (type->same((const char *)items + place * type->item_size, key))
             return (uint32_t)place;
     }
     return HASH_MAP_NONE;
@@ -59,10 +60,10 @@ static inline uint32_t hash_map_find(const hash_map *map, const hash_map_keys *k
 
 /* Add the item at index map->count, whose key must not be in the map yet. False: out of memory, the map is unchanged.
  */
-bool hash_map_add(hash_map *map, const hash_map_keys *keys, const void *items);
+bool hash_map_add(hash_map *map, const hash_map_item_type *type, const void *items);
 
 /* Make room for `count` items. False: out of memory, the map is unchanged. */
-bool hash_map_reserve(hash_map *map, const hash_map_keys *keys, const void *items, size_t count);
+bool hash_map_reserve(hash_map *map, const hash_map_item_type *type, const void *items, size_t count);
 
 /* Remove all items, but keep the memory. */
 void hash_map_clear(hash_map *map);

@@ -19,7 +19,7 @@
 
 enum { LONGEST = 40, SHORTEST_BEGINNING = 3 };
 
-/* Words of other programs, such as odiff, ffmpeg and make, and the names they have here. */
+/* Words of other programs, such as odiff, ffmpeg and make, and their names in this one. */
 static const char *const synonyms[][2] = {
     {"force", "replace"},       {"overwrite", "replace"},   {"clobber", "replace"}, {"continue", "resume"},
     {"film", "record"},         {"run", "record"},          {"play", "record"},     {"render", "record"},
@@ -31,23 +31,23 @@ static const char *const synonyms[][2] = {
     {"palette", "color-by"},    {"antialiasing", "aa"},     {"frames", "ticks"},    {"bounds", "world"},
 };
 
-hint hint_for(const char *word, size_t length)
+hint hint_create(const char *word, size_t length)
 {
     return (hint){.word = word, .length = length};
 }
 
-static size_t smaller(size_t a, size_t b)
+static size_t minimum(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
 
-static int lower(char c)
+static int lower_case(char c)
 {
     return tolower((unsigned char)c);
 }
 
 /* Returns the optimal string alignment distance, without regard to case; LONGEST if a word is too long. */
-static size_t find_distance(const char *a, size_t a_length, const char *b, size_t b_length)
+static size_t find_edit_distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     size_t rows[3][LONGEST + 1];
     if (a_length >= LONGEST || b_length >= LONGEST)
@@ -59,10 +59,11 @@ static size_t find_distance(const char *a, size_t a_length, const char *b, size_
                 now[j] = i + j;
                 continue;
             }
-            const bool same = lower(a[i - 1]) == lower(b[j - 1]);
-            now[j] = smaller(smaller(last[j], now[j - 1]) + 1, last[j - 1] + !same);
-            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
-                now[j] = smaller(now[j], before[j - 2] + 1);
+            const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
+            now[j] = minimum(minimum(last[j], now[j - 1]) + 1, last[j - 1] + !same);
+            if (i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
+                lower_case(a[i - 2]) == lower_case(b[j - 1]))
+                now[j] = minimum(now[j], before[j - 2] + 1);
         }
     }
     return rows[a_length % 3][b_length];
@@ -78,25 +79,25 @@ static bool is_synonym(const hint *h, const char *name)
 }
 
 /* A third of the letters may be wrong, and one letter of a word shorter than three. */
-static bool is_near(const hint *h, const char *name, size_t length, size_t distance)
+static bool is_near_enough(const hint *h, const char *name, size_t length, size_t distance)
 {
     const size_t allowed = h->length / 3;
     const bool begins = h->length >= SHORTEST_BEGINNING && strncasecmp(name, h->word, h->length) == 0;
-    return begins || (distance < smaller(h->length, length) && distance <= (allowed ? allowed : 1));
+    return begins || (distance < minimum(h->length, length) && distance <= (allowed ? allowed : 1));
 }
 
-void hint_offer(hint *h, const char *name)
+void hint_add_candidate(hint *h, const char *name)
 {
     const size_t length = strlen(name);
     const bool means = is_synonym(h, name);
-    const size_t distance = means ? 0 : find_distance(h->word, h->length, name, length);
-    if ((h->name && distance >= h->distance) || !(means || is_near(h, name, length, distance)))
+    const size_t distance = means ? 0 : find_edit_distance(h->word, h->length, name, length);
+    if ((h->name && distance >= h->distance) || !(means || is_near_enough(h, name, length, distance)))
         return;
     h->name = name;
     h->distance = distance;
 }
 
-const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT])
+const char *hint_format(const hint *h, const char *before, char text[HINT_TEXT])
 {
     if (h->name)
         snprintf(text, HINT_TEXT, ", did you mean %s%s? ", before, h->name);
@@ -109,7 +110,7 @@ const char *hint_text(const hint *h, const char *before, char text[HINT_TEXT])
 
 #define PROGRAM "octreel"
 
-enum { LONGEST_CALL = 200 }; /* a longer name is shown as "octreel": nobody would type it again */
+enum { LONGEST_CALL = 200 }; /* longer names are printed as "octreel" */
 
 static char program[9 * LONGEST_CALL + 8] = PROGRAM;
 
@@ -120,7 +121,7 @@ void hint_set_program(const char *called)
     FILE *out = fmemopen(program, sizeof program, "w");
     if (!out)
         return;
-    hint_write_word(out, called);
+    hint_write_shell_word(out, called);
     fclose(out);
 }
 
@@ -153,7 +154,7 @@ void hint_write_commands(FILE *out, const char *text)
     }
 }
 
-void hint_write_word(FILE *out, const char *text)
+void hint_write_shell_word(FILE *out, const char *text)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,-";
     if (*text && *text != '-' && strspn(text, plain) == strlen(text)) {

@@ -7,7 +7,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-/* ---- Places ------------------------------------------------------------------------------------------------- */
+/* ---- Places in an object ------------------------------------------------------------------------------------ */
 
 /* Returns the length written. The recursion is as deep as the reading code nests places, whatever the input. */
 static size_t format_place(const json_place *place, char *text, size_t size)
@@ -37,21 +37,21 @@ static void skip_blanks(const char **at, const char *limit)
         ++*at;
 }
 
-static json_malloc_t allocate_unwatched;
+static json_malloc_t original_malloc;
 static _Thread_local bool allocation_failed;
 
-static void *allocate_watched(size_t size)
+static void *allocate_and_note_failure(size_t size)
 {
-    void *memory = allocate_unwatched(size);
+    void *memory = original_malloc(size);
     allocation_failed |= !memory;
     return memory;
 }
 
-void json_watch_memory(void)
+void json_detect_failed_allocations(void)
 {
     json_free_t release;
-    json_get_alloc_funcs(&allocate_unwatched, &release);
-    json_set_alloc_funcs(allocate_watched, release);
+    json_get_alloc_funcs(&original_malloc, &release);
+    json_set_alloc_funcs(allocate_and_note_failure, release);
 }
 
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error)
@@ -84,13 +84,13 @@ static const char *find_child(const char *at, const char *limit, const json_plac
         return NULL;
     for (size_t i = 0; at < limit && *at != ']' && *at != '}'; i++) {
         bool found = i == place->index;
-        at++; /* the bracket or comma */
+        at++; /* skip the bracket or comma */
         skip_blanks(&at, limit);
         if (place->member) {
             json_t *name = read_value_at(&at, limit);
             found = name && strcmp(json_string_value(name), place->member) == 0;
             json_decref(name);
-            at += at < limit; /* the colon */
+            at += at < limit; /* skip the colon */
             skip_blanks(&at, limit);
         }
         if (found)
@@ -114,7 +114,7 @@ static size_t count_lines(const char *from, const char *to)
     return lines;
 }
 
-size_t json_line(const json_reader *r, const json_place *at)
+size_t json_find_line(const json_reader *r, const json_place *at)
 {
     const char *found = find_place(r, at);
     for (; !found; found = find_place(r, at))
@@ -124,28 +124,28 @@ size_t json_line(const json_reader *r, const json_place *at)
 
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-const char *json_name_end(const char *name)
+const char *json_shorten_name(const char *name)
 {
     enum { LONGEST_NAME = 160 };
     const size_t length = strlen(name);
     return length > LONGEST_NAME ? name + (length - LONGEST_NAME) : name;
 }
 
-static bool fail(json_reader *r, size_t line, const json_place *at, const char *format, va_list arguments)
+static bool fail_at_line(json_reader *r, size_t line, const json_place *at, const char *format, va_list arguments)
 {
     char where[96], reason[260], printable[sizeof where + sizeof reason];
     vsnprintf(reason, sizeof reason, format, arguments);
     json_place_format(at, where, sizeof where);
     snprintf(printable, sizeof printable, "%s%s%s", where, *where ? ": " : "", reason);
     make_printable(printable); /* quoted parts of the file could contain terminal escape sequences */
-    return error_set(r->error, "%s:%zu: %s", json_name_end(r->name), line, printable);
+    return error_set(r->error, "%s:%zu: %s", json_shorten_name(r->name), line, printable);
 }
 
 bool json_fail(json_reader *r, const json_place *at, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    fail(r, json_line(r, at), at, format, arguments);
+    fail_at_line(r, json_find_line(r, at), at, format, arguments);
     va_end(arguments);
     return false;
 }
@@ -154,13 +154,13 @@ bool json_fail_line(json_reader *r, size_t line, const json_place *at, const cha
 {
     va_list arguments;
     va_start(arguments, format);
-    fail(r, line, at, format, arguments);
+    fail_at_line(r, line, at, format, arguments);
     va_end(arguments);
     return false;
 }
 
-/* Name a value in a few words. */
-static void describe(const json_t *value, char *text, size_t size)
+/* Describe a value in a few words for an error. */
+static void describe_value(const json_t *value, char *text, size_t size)
 {
     static const char *const types[] = {
         [JSON_OBJECT] = "an object", [JSON_TRUE] = "true", [JSON_FALSE] = "false", [JSON_NULL] = "null"};
@@ -183,17 +183,18 @@ static void describe(const json_t *value, char *text, size_t size)
     }
 }
 
-bool json_expected(json_reader *r, const json_t *value, const json_place *at, const char *what)
+bool json_fail_expected(json_reader *r, const json_t *value, const json_place *at, const char *what)
 {
     char found[64];
-    describe(value, found, sizeof found);
+    describe_value(value, found, sizeof found);
     return json_fail(r, at, "expected %s, found %s", what, found);
 }
 
 /* ---- Objects ------------------------------------------------------------------------------------------------ */
 
-/* Passes on jansson's message, without its own settings and without a list as a possible text. */
-static bool fail_as_jansson(json_reader *r, const json_error_t *parsed)
+/* Reports jansson's message, but replaces its words for array and NUL: only objects are allowed here, and no option
+ * allows NUL. */
+static bool fail_with_jansson_error(json_reader *r, const json_error_t *parsed)
 {
     static const char *const words[][2] = {
         {"'[' or '{' expected", "'{' expected"},
@@ -209,17 +210,17 @@ static bool fail_as_jansson(json_reader *r, const json_error_t *parsed)
     return json_fail_line(r, r->line + (parsed->line > 1 ? (size_t)parsed->line - 1 : 0), NULL, "%s%s", ours, rest);
 }
 
-static void move_to(json_reader *r, const char *at)
+static void advance_to(json_reader *r, const char *at)
 {
     r->line += count_lines(r->at, at);
     r->at = at;
 }
 
-bool json_next_object(json_reader *r)
+bool json_skip_to_object(json_reader *r)
 {
     const char *at = r->at;
     skip_blanks(&at, r->limit);
-    move_to(r, at);
+    advance_to(r, at);
     return at < r->limit;
 }
 
@@ -231,10 +232,10 @@ bool json_read_object(json_reader *r, bool alone, json_object_reader *read)
     if (!object && parsed.line < 1)
         return json_fail_line(r, r->line, NULL, "out of memory");
     if (!object)
-        return fail_as_jansson(r, &parsed);
-    const bool done = json_is_object(object) ? read(r, object) : json_expected(r, object, NULL, "an object");
+        return fail_with_jansson_error(r, &parsed);
+    const bool done = json_is_object(object) ? read(r, object) : json_fail_expected(r, object, NULL, "an object");
     json_decref(object);
     if (!alone)
-        move_to(r, r->at + parsed.position);
+        advance_to(r, r->at + parsed.position);
     return done;
 }

@@ -21,12 +21,13 @@ typedef struct json_place {
 /* Write a place as "points[3].velocity", cut to `size`; "" for the null place. Returns `text`. */
 const char *json_place_format(const json_place *place, char *text, size_t size);
 
-/* Calls jansson's json_loadb(). Out of memory always gives null and error->line -1; see json_watch_memory(). */
+/* Call jansson's json_loadb(). When memory runs out, returns null with error->line -1; see
+ * json_detect_failed_allocations(). */
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *error);
 
 /* Make json_parse() notice every failed allocation of jansson. Call it once, before any thread starts. Without it,
  * jansson 2.14 silently drops a letter of a long string if one allocation fails and the next one succeeds. */
-void json_watch_memory(void);
+void json_detect_failed_allocations(void);
 
 /* Reads a text object by object. */
 typedef struct json_reader {
@@ -38,8 +39,8 @@ typedef struct json_reader {
     octreel_error *error;
 } json_reader;
 
-/* Skip whitespace up to the next object. False: end of the text. */
-bool json_next_object(json_reader *r);
+/* Skip whitespace before the next object. False: end of the text. */
+bool json_skip_to_object(json_reader *r);
 
 /* Read the current object with `read` and move past it. All numbers are read as doubles, so -0 keeps its sign and
  * integers are exact up to 2^53. `alone`: nothing may follow the object. */
@@ -52,19 +53,19 @@ bool json_read_object(json_reader *r, bool alone, json_object_reader *read);
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
 /* Returns the end of a file name, short enough to leave room for a reason in an error. */
-const char *json_name_end(const char *name);
+const char *json_shorten_name(const char *name);
 
 /* Returns the line where a place begins, or the line of the nearest containing place if it is missing. Cost: O(size).
  */
-size_t json_line(const json_reader *r, const json_place *at);
+size_t json_find_line(const json_reader *r, const json_place *at);
 
 /* Write an error about a place with a printf format. Always returns false. */
 bool json_fail(json_reader *r, const json_place *at, const char *format, ...);
 
-/* The same with a given line. Always returns false. */
+/* Write an error with a given line number. Always returns false. */
 bool json_fail_line(json_reader *r, size_t line, const json_place *at, const char *format, ...);
 
 /* Write the error "expected WHAT, found VALUE". Always returns false. */
-bool json_expected(json_reader *r, const json_t *value, const json_place *at, const char *what);
+bool json_fail_expected(json_reader *r, const json_t *value, const json_place *at, const char *what);
 
 #endif

@@ -19,7 +19,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Where an object ends ----------------------------------------------------------------------------------- */
+/* ---- Finding the end of an object --------------------------------------------------------------------------- */
 
 static bool is_blank(char c)
 {
@@ -27,12 +27,12 @@ static bool is_blank(char c)
 }
 
 /* True if an opening bracket is allowed here: at the start, after a colon, or as an element of a list. */
-static bool may_open_bracket(const json_scan *s)
+static bool can_open_bracket(const json_scan *s)
 {
     return s->depth == 0 || s->before == ':' || s->before == '[' || (s->before == ',' && s->open[s->depth - 1] == '[');
 }
 
-/* Scans a character of a string. True: it is a control character, which JSON strings cannot contain. */
+/* Scans a character inside a string. True: a control character, which JSON strings cannot contain. */
 static bool scan_string(json_scan *s, char c)
 {
     if (s->escaped)
@@ -54,7 +54,7 @@ static bool scan_character(json_scan *s, char c)
     if (is_blank(c))
         return false;
     if (c == '{' || c == '[') {
-        if (!may_open_bracket(s) || s->depth == JSON_DEEPEST)
+        if (!can_open_bracket(s) || s->depth == JSON_DEEPEST)
             return true;
         s->open[s->depth++] = c;
     } else if (c == '}' || c == ']') {
@@ -82,7 +82,7 @@ static json_stream_state report_broken(json_reader *r, const char *format, const
 
 /* Moves the current object to the start of the buffer and makes room for a block. Shrinks the buffer after a huge
  * object. */
-static bool make_room(json_stream *s)
+static bool make_room_for_block(json_stream *s)
 {
     if (s->begin > 0)
         memmove(s->bytes, s->bytes + s->begin, s->size - s->begin);
@@ -98,7 +98,7 @@ static bool make_room(json_stream *s)
 }
 
 /* Waits until there is something to read. False: keep_going() stops the wait. */
-static bool wait_for_more(const json_stream *s)
+static bool wait_for_input(const json_stream *s)
 {
     enum { POLL_MILLISECONDS = 50 };
     struct pollfd watched = {.fd = s->file, .events = POLLIN};
@@ -109,14 +109,15 @@ static bool wait_for_more(const json_stream *s)
     return true;
 }
 
-/* Reads what is available. Returns JSON_STREAM_OBJECT if scanning can go on; s->ended is then set at the end. */
+/* Reads the available bytes, or sets s->ended at the end of the stream. Returns JSON_STREAM_OBJECT if scanning can
+ * continue. */
 static json_stream_state read_more(json_stream *s, json_reader *r)
 {
     ssize_t got;
-    if (!make_room(s))
+    if (!make_room_for_block(s))
         return report_broken(r, no_room, "");
     do {
-        if (!wait_for_more(s))
+        if (!wait_for_input(s))
             return JSON_STREAM_STOPPED;
         got = read(s->file, s->bytes + s->size, BLOCK);
     } while (got < 0 && (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK));
@@ -138,11 +139,11 @@ static void skip_blanks(json_stream *s, json_reader *r)
     for (; s->begin < s->size && is_blank(s->bytes[s->begin]); s->begin++)
         r->line += s->bytes[s->begin] == '\n';
     if (s->begin < s->size)
-        s->mark = 3; /* the text has begun */
+        s->mark = 3; /* a byte order mark can only stand at the start */
 }
 
 /* Continues the scan. True: the end of the object is found, or the object is too large for jansson. */
-static bool find_end(json_stream *s)
+static bool find_object_end(json_stream *s)
 {
     for (; s->begin + s->scanned < s->size; s->scanned++)
         if (scan_character(&s->scan, s->bytes[s->begin + s->scanned])) {
@@ -152,18 +153,18 @@ static bool find_end(json_stream *s)
     return s->scanned > INT_MAX;
 }
 
-json_stream_state json_stream_next(json_stream *s, json_reader *r)
+json_stream_state json_stream_read_object(json_stream *s, json_reader *r)
 {
     if (s->scanned > 0) /* the reader has moved past the previous object and counted its lines */
         s->begin = (size_t)(r->at - s->bytes);
     s->scanned = 0;
     s->scan = (json_scan){0};
-    if (!s->bytes && !make_room(s))
+    if (!s->bytes && !make_room_for_block(s))
         return report_broken(r, no_room, "");
     for (;;) {
         if (s->scanned == 0)
             skip_blanks(s, r);
-        const bool found = find_end(s);
+        const bool found = find_object_end(s);
         r->at = s->bytes + s->begin;
         r->limit = r->at + s->scanned;
         if (found || (s->ended && s->scan.bare))

@@ -11,7 +11,7 @@
 /* The state of the search for the end of an object. */
 typedef struct json_scan {
     unsigned depth;
-    bool quoted, escaped, bare; /* inside a string; after a backslash in it; inside text that is no object */
+    bool quoted, escaped, bare; /* inside a string; after a backslash in a string; inside text that is not an object */
     char before;                /* the last character outside of strings that is not whitespace */
     char open[JSON_DEEPEST];    /* the bracket at each depth */
 } json_scan;
@@ -31,14 +31,14 @@ typedef struct json_stream {
 
 typedef enum json_stream_state {
     JSON_STREAM_OBJECT,  /* a whole object is ready for json_read_object() */
-    JSON_STREAM_END,     /* the text ended after the last */
+    JSON_STREAM_END,     /* the text ended after the last object */
     JSON_STREAM_STOPPED, /* keep_going() returned false */
     JSON_STREAM_BROKEN,  /* r->error: a read failed, or the text ends inside an object */
 } json_stream_state;
 
-/* Wait for the next object and point the reader at it. The reader's line must start as 1. Text that cannot begin an
- * object is handed over too, up to the character that proves it, so that json_read_object() reports the error. */
-json_stream_state json_stream_next(json_stream *s, json_reader *r);
+/* Wait for the next object and point the reader at it. The reader's line must start as 1. Broken text is returned like
+ * an object, up to its first invalid character; json_read_object() then reports the error. */
+json_stream_state json_stream_read_object(json_stream *s, json_reader *r);
 
 /* Free the bytes. The file stays open. */
 void json_stream_release(json_stream *s);

@@ -24,17 +24,17 @@ static bool is_member(const json_member *table, const char *name)
     return table->name;
 }
 
-/* Reports an unknown member: the line is that of the member, the place that of its object. */
-static bool fail_unknown(json_reader *r, const json_place *at, const json_member *table, const char *name)
+/* Reports an unknown member: with the member's line and the object's place. */
+static bool fail_unknown_member(json_reader *r, const json_place *at, const json_member *table, const char *name)
 {
     char known[200] = "", text[HINT_TEXT];
-    hint h = hint_for(name, strlen(name));
+    hint h = hint_create(name, strlen(name));
     for (size_t length = 0; table->name && length < sizeof known; table++) {
         length += (size_t)snprintf(known + length, sizeof known - length, "%s%s", length ? ", " : "", table->name);
-        hint_offer(&h, table->name);
+        hint_add_candidate(&h, table->name);
     }
-    return json_fail_line(r, json_line(r, &(json_place){at, name, 0}), at, "unknown member \"%.40s\"%sknown: %s", name,
-                          hint_text(&h, "", text), known);
+    return json_fail_line(r, json_find_line(r, &(json_place){at, name, 0}), at, "unknown member \"%.40s\"%sknown: %s",
+                          name, hint_format(&h, "", text), known);
 }
 
 static bool read_member(json_reader *r, json_t *object, const json_place *at, const json_member *row, void *into)
@@ -54,7 +54,7 @@ static bool read_member(json_reader *r, json_t *object, const json_place *at, co
 }
 
 /* Returns the row after the version, or the first row if the table has no version. */
-static const json_member *after_version(const json_member *table)
+static const json_member *find_row_after_version(const json_member *table)
 {
     const json_member *row = table;
     while (row->name && row->codec != &json_version)
@@ -67,20 +67,21 @@ bool json_read_members(json_reader *r, json_t *object, const json_place *at, con
 {
     const char *name;
     json_t *value;
-    const json_member *row = table, *rest = after_version(table);
+    const json_member *row = table, *rest = find_row_after_version(table);
     if (!json_is_object(object))
-        return json_expected(r, object, at, "an object");
+        return json_fail_expected(r, object, at, "an object");
     for (; row < rest; row++)
         if (!read_member(r, object, at, row, into))
             return false;
-    json_object_foreach(object, name, value) if (!is_member(table, name)) return fail_unknown(r, at, table, name);
+    json_object_foreach(object, name, value) if (!is_member(table, name)) return fail_unknown_member(r, at, table,
+                                                                                                     name);
     for (; row->name; row++)
         if (!read_member(r, object, at, row, into))
             return false;
     return true;
 }
 
-bool json_has_bits(const void *bytes, size_t size)
+bool json_has_nonzero_byte(const void *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)
         if (((const unsigned char *)bytes)[i])
@@ -92,7 +93,7 @@ static bool is_set(const json_member *row, const void *structure)
 {
     const char *from = structure;
     return (!row->given || *(const bool *)(from + row->given)) && (!row->is_set || row->is_set(structure)) &&
-           (row->nonzero_size == 0 || json_has_bits(from + row->nonzero, row->nonzero_size));
+           (row->nonzero_size == 0 || json_has_nonzero_byte(from + row->nonzero, row->nonzero_size));
 }
 
 void json_write_members(json_writer *w, const json_member *table, const void *from)
@@ -102,7 +103,7 @@ void json_write_members(json_writer *w, const json_member *table, const void *fr
         if (!table->codec->write || !(set || table->nullable))
             continue;
         if (table->line)
-            json_write_newline(w);
+            json_start_new_line(w);
         json_write_key(w, table->name);
         w->row = table;
         if (set)
@@ -135,7 +136,7 @@ bool json_read_elements(json_reader *r, json_t *list, const json_place *at, cons
                         void *into)
 {
     if (!json_is_array(list))
-        return json_expected(r, list, at, expected);
+        return json_fail_expected(r, list, at, expected);
     const size_t count = json_array_size(list);
     for (size_t i = 0; i < count; i++)
         if (!read(r, json_array_get(list, i), &(json_place){at, NULL, i}, into))
@@ -143,9 +144,9 @@ bool json_read_elements(json_reader *r, json_t *list, const json_place *at, cons
     return true;
 }
 
-json_counted json_counted_at(const void *from)
+json_counted_array json_get_counted_array(const void *from)
 {
-    json_counted list;
+    json_counted_array list;
     memcpy(&list, from, sizeof list);
     return list;
 }
@@ -153,7 +154,7 @@ json_counted json_counted_at(const void *from)
 static void write_structures(json_writer *w, const void *from)
 {
     const json_member *row = w->row;
-    const json_counted list = json_counted_at(from);
+    const json_counted_array list = json_get_counted_array(from);
     json_write_begin_array(w);
     for (size_t i = 0; i < list.count; i++)
         json_write_object(w, row->members, (const char *)list.items + i * row->size);
@@ -220,7 +221,7 @@ bool json_read_choice(json_reader *r, json_t *value, const json_place *at, void 
         return true;
     }
     snprintf(what, sizeof what, "one of %s", json_list_names(names, known, sizeof known));
-    return json_expected(r, value, at, what);
+    return json_fail_expected(r, value, at, what);
 }
 
 static void write_choice(json_writer *w, const void *from)
@@ -235,7 +236,7 @@ static bool read_set_name(json_reader *r, json_t *value, const json_place *at, v
     const int found = json_find_name(r->row->names, json_string_value(value));
     if (found >= 0)
         *(unsigned *)into |= 1U << found;
-    return found >= 0 || json_expected(r, value, at, r->row->advice);
+    return found >= 0 || json_fail_expected(r, value, at, r->row->advice);
 }
 
 static bool read_set(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -256,7 +257,7 @@ static void write_set(json_writer *w, const void *from)
 
 const json_codec json_set = {read_set, write_set};
 
-/* ---- Texts and switches ------------------------------------------------------------------------------------- */
+/* ---- Texts and booleans ------------------------------------------------------------------------------------- */
 
 static bool read_constant(json_reader *r, json_t *value, const json_place *at, void *into)
 {
@@ -264,7 +265,7 @@ static bool read_constant(json_reader *r, json_t *value, const json_place *at, v
     char what[80];
     (void)into;
     snprintf(what, sizeof what, "\"%s\"", (const char *)r->row->about);
-    return (text && strcmp(text, r->row->about) == 0) || json_expected(r, value, at, what);
+    return (text && strcmp(text, r->row->about) == 0) || json_fail_expected(r, value, at, what);
 }
 
 static void write_constant(json_writer *w, const void *from)
@@ -280,7 +281,7 @@ static bool read_label(json_reader *r, json_t *value, const json_place *at, void
     const char *text = json_string_value(value), *what = r->row->about;
     const size_t length = text ? strlen(text) : 0, most = r->row->size - 1;
     if (!text)
-        return json_expected(r, value, at, "a text");
+        return json_fail_expected(r, value, at, "a text");
     for (size_t i = 0; i < length; i++)
         if (text[i] < ' ' || text[i] > '~')
             return json_fail(r, at, "%s must be printable ASCII, and byte %zu is not", what, i + 1);
@@ -305,7 +306,7 @@ void json_write_text(json_writer *w, const void *from)
 static bool read_bool(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(bool *)into = json_is_true(value);
-    return json_is_boolean(value) || json_expected(r, value, at, "true or false");
+    return json_is_boolean(value) || json_fail_expected(r, value, at, "true or false");
 }
 
 static void write_bool(json_writer *w, const void *from)
@@ -317,7 +318,8 @@ const json_codec json_bool = {read_bool, write_bool};
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------ */
 
-bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, double min, double max, uint64_t *into)
+bool json_read_whole_number(json_reader *r, const json_t *value, const json_place *at, double min, double max,
+                            uint64_t *into)
 {
     char what[80];
     const double number = json_real_value(value);
@@ -326,7 +328,7 @@ bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, 
         return true;
     }
     snprintf(what, sizeof what, "a whole number from %.0f to %.0f", min, max);
-    return json_expected(r, value, at, what);
+    return json_fail_expected(r, value, at, what);
 }
 
 static bool read_version(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -334,7 +336,7 @@ static bool read_version(json_reader *r, json_t *value, const json_place *at, vo
     const uint64_t own = (uint64_t)r->row->max;
     uint64_t version = 0;
     (void)into;
-    if (!json_read_whole(r, value, at, 1, JSON_LARGEST_WHOLE, &version))
+    if (!json_read_whole_number(r, value, at, 1, JSON_LARGEST_WHOLE, &version))
         return false;
     if (version > own)
         return json_fail(r, at,
@@ -354,59 +356,59 @@ static void write_version(json_writer *w, const void *from)
 
 const json_codec json_version = {read_version, write_version};
 
-/* Whether a codec's whole number has 64 bits; else it has 32. */
-static bool is_wide(const json_codec *codec)
+/* True if a codec's whole number has 64 bits; otherwise it has 32. */
+static bool is_64_bit(const json_codec *codec)
 {
     return codec == &json_uint64 || (codec == &json_size && sizeof(size_t) == sizeof(uint64_t));
 }
 
-static bool read_whole(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_whole_number(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const json_member *row = r->row;
     uint64_t number = 0;
-    if (!json_read_whole(r, value, at, row->min, row->max, &number))
+    if (!json_read_whole_number(r, value, at, row->min, row->max, &number))
         return false;
-    if (is_wide(row->codec))
+    if (is_64_bit(row->codec))
         memcpy(into, &number, sizeof number);
     else
         memcpy(into, &(uint32_t){(uint32_t)number}, sizeof(uint32_t));
     return true;
 }
 
-/* Writes at most row->max, so that the value can be read again. A row that is only written has max 0. */
-static void write_whole(json_writer *w, const void *from)
+/* Writes at most row->max, so that the value can be read again. Rows that are never read have max 0: no limit. */
+static void write_whole_number(json_writer *w, const void *from)
 {
     const uint64_t max = (uint64_t)w->row->max;
     uint64_t number;
     uint32_t narrow;
     memcpy(&narrow, from, sizeof narrow);
     number = narrow;
-    if (is_wide(w->row->codec))
+    if (is_64_bit(w->row->codec))
         memcpy(&number, from, sizeof number);
     json_write_integer(w, max == 0 || number < max ? number : max);
 }
 
-const json_codec json_uint64 = {read_whole, write_whole};
-const json_codec json_size = {read_whole, write_whole};
-const json_codec json_int = {read_whole, write_whole};
+const json_codec json_uint64 = {read_whole_number, write_whole_number};
+const json_codec json_size = {read_whole_number, write_whole_number};
+const json_codec json_int = {read_whole_number, write_whole_number};
 
 static bool read_int_element(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     uint64_t number = 0;
-    if (!json_read_whole(r, value, at, r->row->min, r->row->max, &number))
+    if (!json_read_whole_number(r, value, at, r->row->min, r->row->max, &number))
         return false;
     ((int *)into)[at->index] = (int)number;
     return true;
 }
 
-static bool read_ints(json_reader *r, json_t *list, const json_place *at, void *into)
+static bool read_int_array(json_reader *r, json_t *list, const json_place *at, void *into)
 {
     return json_array_size(list) == r->row->size
                ? json_read_elements(r, list, at, r->row->about, read_int_element, into)
-               : json_expected(r, list, at, r->row->about);
+               : json_fail_expected(r, list, at, r->row->about);
 }
 
-static void write_ints(json_writer *w, const void *from)
+static void write_int_array(json_writer *w, const void *from)
 {
     json_write_begin_array(w);
     for (size_t i = 0; i < w->row->size; i++)
@@ -414,23 +416,23 @@ static void write_ints(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-const json_codec json_ints = {read_ints, write_ints};
+const json_codec json_ints = {read_int_array, write_int_array};
 
 bool json_read_id(json_reader *r, const json_t *list, const json_place *at, size_t i, uint64_t *id)
 {
-    return json_read_whole(r, json_array_get(list, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, id);
+    return json_read_whole_number(r, json_array_get(list, i), &(json_place){at, NULL, i}, 0, JSON_LARGEST_WHOLE, id);
 }
 
-static bool read_ids(json_reader *r, json_t *list, const json_place *at, void *into)
+static bool read_id_array(json_reader *r, json_t *list, const json_place *at, void *into)
 {
     const size_t count = json_array_size(list);
-    json_counted found = json_counted_at(into);
+    json_counted_array found = json_get_counted_array(into);
     if (!json_is_array(list))
-        return json_expected(r, list, at, "a list of ids");
+        return json_fail_expected(r, list, at, "a list of ids");
     uint64_t *ids = found.items ? (uint64_t *)found.items : malloc((count > 0 ? count : 1) * sizeof *ids);
     if (!ids)
         return json_fail(r, at, "out of memory for %zu ids", count);
-    found = (json_counted){ids, count};
+    found = (json_counted_array){ids, count};
     memcpy(into, &found, sizeof found);
     for (size_t i = 0; i < count; i++)
         if (!json_read_id(r, list, at, i, &ids[i]))
@@ -438,18 +440,18 @@ static bool read_ids(json_reader *r, json_t *list, const json_place *at, void *i
     return true;
 }
 
-static void write_ids(json_writer *w, const void *from)
+static void write_id_array(json_writer *w, const void *from)
 {
-    const json_counted list = json_counted_at(from);
+    const json_counted_array list = json_get_counted_array(from);
     json_write_begin_array(w);
     for (size_t i = 0; i < list.count; i++)
         json_write_integer(w, ((const uint64_t *)list.items)[i]);
     json_write_end_array(w);
 }
 
-const json_codec json_ids = {read_ids, write_ids};
+const json_codec json_ids = {read_id_array, write_id_array};
 
-/* With row->max above row->min, these are the limits of the number. */
+/* row->min and row->max are the limits of the number if max is above min. */
 static bool read_number(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     const json_member *row = r->row;
@@ -458,14 +460,14 @@ static bool read_number(json_reader *r, json_t *value, const json_place *at, voi
     if (row->min < row->max)
         snprintf(what, sizeof what, "a number from %g to %g", row->min, row->max);
     return (json_is_real(value) && (row->min == row->max || (number >= row->min && number <= row->max))) ||
-           json_expected(r, value, at, what);
+           json_fail_expected(r, value, at, what);
 }
 
-static bool read_positive(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_nonnegative(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(double *)into = json_real_value(value);
     return (json_is_real(value) && *(double *)into >= 0) ||
-           json_expected(r, value, at, "a number that is not negative");
+           json_fail_expected(r, value, at, "a number that is not negative");
 }
 
 static void write_number(json_writer *w, const void *from)
@@ -474,7 +476,7 @@ static void write_number(json_writer *w, const void *from)
 }
 
 const json_codec json_number = {read_number, write_number};
-const json_codec json_positive = {read_positive, write_number};
+const json_codec json_nonnegative = {read_nonnegative, write_number};
 
 /* ---- Vectors ------------------------------------------------------------------------------------------------ */
 
@@ -485,19 +487,19 @@ bool json_read_numbers(json_reader *r, const json_t *list, const json_place *at,
         const json_t *value = json_array_get(list, i);
         *into = json_real_value(value);
         if (!json_is_real(value))
-            return json_expected(r, value, &(json_place){at, NULL, i}, "a number");
+            return json_fail_expected(r, value, &(json_place){at, NULL, i}, "a number");
     }
     return true;
 }
 
-static bool read_numbers(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_number_array(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     if (json_array_size(value) != r->row->size)
-        return json_expected(r, value, at, r->row->about);
+        return json_fail_expected(r, value, at, r->row->about);
     return json_read_numbers(r, value, at, 0, r->row->size, into);
 }
 
-static void write_numbers(json_writer *w, const void *from)
+static void write_number_array(json_writer *w, const void *from)
 {
     json_write_numbers(w, from, w->row->size);
 }
@@ -505,7 +507,7 @@ static void write_numbers(json_writer *w, const void *from)
 bool json_read_vector(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     if (json_array_size(value) != 3)
-        return json_expected(r, value, at, "three numbers [x, y, z]");
+        return json_fail_expected(r, value, at, "three numbers [x, y, z]");
     return json_read_numbers(r, value, at, 0, 3, into);
 }
 
@@ -514,7 +516,7 @@ static void write_vector(json_writer *w, const void *from)
     json_write_numbers(w, from, 3);
 }
 
-const json_codec json_numbers = {read_numbers, write_numbers};
+const json_codec json_numbers = {read_number_array, write_number_array};
 const json_codec json_vector = {json_read_vector, write_vector};
 
 static const json_member corners[] = {

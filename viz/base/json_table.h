@@ -7,7 +7,7 @@
 #include "json_read.h"
 #include "json_write.h"
 
-/* Read a value into `into`. False, with an error. r->row is the row of its member. */
+/* Read a value into `into`. Returns false, with an error, if it is invalid. r->row is the member's table row. */
 typedef bool json_read_value(json_reader *r, json_t *value, const json_place *at, void *into);
 
 /* Write the value of one member. w->row is the table row that describes the member. */
@@ -18,7 +18,7 @@ typedef struct json_codec {
     json_write_value *write; /* null: the member is read but never written */
 } json_codec;
 
-/* Returns the n-th name of a list; null: n is beyond the last. */
+/* Returns the n-th name of a list; null after the last. */
 typedef const char *json_name(int n);
 
 /* Define `names` as a json_name from a function that names the values of an enumeration. */
@@ -32,13 +32,13 @@ typedef const char *json_name(int n);
 typedef struct json_member {
     const char *name; /* null ends a table */
     const json_codec *codec;
-    size_t offset; /* of the value in the structure */
+    size_t offset; /* offset of the value in the structure */
 
     /* The member is written if all of these conditions hold. */
     size_t given;                          /* offset of a bool that is true; reading sets it; 0: no condition */
-    size_t nonzero, nonzero_size;          /* bytes of the structure that are not all 0; see JSON_IF() */
+    size_t nonzero, nonzero_size;          /* offset and size of bytes that are not all 0; see JSON_IF() */
     bool (*is_set)(const void *structure); /* returns true; null: no condition */
-    bool nullable;                         /* otherwise null is written; reading accepts null, too */
+    bool nullable;                         /* if a condition fails, null is written; null is accepted when reading */
     bool line;                             /* written on a line of its own */
 
     bool required; /* reading fails without the member */
@@ -48,11 +48,11 @@ typedef struct json_member {
     /* Parameters of the codec. */
     double min, max;                   /* limits of numbers */
     size_t size;                       /* count of numbers, or bytes of a label or of a structure in a list */
-    json_name *names;                  /* of a choice or a set */
-    const struct json_member *members; /* of an object, or of each object in a list */
+    json_name *names;                  /* the names of a choice or a set */
+    const struct json_member *members; /* the members of an object, or of each object in a list */
     const void *about;                 /* the text of a constant; a noun for a list or label in errors; other data */
-    const char *advice; /* of a version: what to do with an older file; null: record it again. Of a set: a noun for its
-                           elements in errors */
+    const char *advice; /* for a version: what to do with an older file (null: record it again); for a set: a noun for
+                           its elements in errors */
 } json_member;
 
 /* The member is written only if a field of the structure is not zero. */
@@ -68,7 +68,8 @@ typedef struct json_member {
 /* Read the members of an object, in the order of the table. An unknown member is an error. */
 bool json_read_members(json_reader *r, json_t *object, const json_place *at, const json_member *table, void *into);
 
-/* Write the members of a begun object, in the order of the table; or a whole object. */
+/* json_write_members() writes the members of a begun object in the order of the table, json_write_object() a whole
+ * object. */
 void json_write_members(json_writer *w, const json_member *table, const void *from);
 void json_write_object(json_writer *w, const json_member *table, const void *from);
 
@@ -83,15 +84,15 @@ int json_read_kind(json_reader *r, json_t *object, const json_place *at, json_na
 /* Returns the index of a name, or -1 if it is unknown or null. */
 int json_find_name(json_name *names, const char *name);
 
-/* An array member of a structure, followed by a member that is its count. */
-typedef struct json_counted {
+/* An array in a structure: a pointer member followed by a count member. */
+typedef struct json_counted_array {
     const void *items;
     size_t count;
-} json_counted;
-json_counted json_counted_at(const void *from);
+} json_counted_array;
+json_counted_array json_get_counted_array(const void *from);
 
-/* Whether any byte is not zero. */
-bool json_has_bits(const void *bytes, size_t size);
+/* True if any byte is not zero. */
+bool json_has_nonzero_byte(const void *bytes, size_t size);
 
 /* ---- Values ------------------------------------------------------------------------------------------------- */
 
@@ -99,7 +100,8 @@ bool json_has_bits(const void *bytes, size_t size);
 const char *json_list_names(json_name *names, char *text, size_t size);
 
 /* Read a whole number from min to max. */
-bool json_read_whole(json_reader *r, const json_t *value, const json_place *at, double min, double max, uint64_t *into);
+bool json_read_whole_number(json_reader *r, const json_t *value, const json_place *at, double min, double max,
+                            uint64_t *into);
 
 /* Read element `i` of an array as an id. */
 bool json_read_id(json_reader *r, const json_t *list, const json_place *at, size_t i, uint64_t *id);
@@ -114,22 +116,22 @@ json_write_value json_write_text;
 
 extern const json_codec json_uint64, json_size, json_int; /* whole numbers from row->min to row->max; an int is never
                                                              negative */
-extern const json_codec json_ints;                        /* row->size such ints */
-extern const json_codec json_ids;        /* json_counted of uint64_t; reading fills the array, or allocates it if it is
-                                            null */
-extern const json_codec json_number;     /* double; from row->min to row->max if these differ */
-extern const json_codec json_positive;   /* double of at least 0 */
-extern const json_codec json_numbers;    /* row->size doubles */
-extern const json_codec json_vector;     /* double[3] */
-extern const json_codec json_box;        /* octree_box with min at most max */
-extern const json_codec json_constant;   /* the text row->about and no other */
-extern const json_codec json_label;      /* char[row->size]: printable ASCII with its final zero */
-extern const json_codec json_version;    /* the format version of a file, row->max, and no other; row->about names the
-                                            file in errors: "recording" */
+extern const json_codec json_ints;                        /* array of row->size ints with the same limits */
+extern const json_codec json_ids; /* json_counted_array of uint64_t; reading fills the array, or allocates it if it is
+                                     null */
+extern const json_codec json_number;      /* double; from row->min to row->max if these differ */
+extern const json_codec json_nonnegative; /* double of at least 0 */
+extern const json_codec json_numbers;     /* row->size doubles */
+extern const json_codec json_vector;      /* double[3] */
+extern const json_codec json_box;         /* octree_box with min at most max */
+extern const json_codec json_constant;    /* exactly the text row->about */
+extern const json_codec json_label;       /* char[row->size]: printable ASCII with its final zero */
+extern const json_codec
+    json_version; /* exactly the format version row->max; row->about names the file in errors: "recording" */
 extern const json_codec json_bool;       /* bool */
 extern const json_codec json_choice;     /* enumeration: index into row->names */
 extern const json_codec json_set;        /* unsigned: bit 1 << index into row->names */
 extern const json_codec json_structure;  /* a structure of row->members */
-extern const json_codec json_structures; /* json_counted of structures of row->size bytes; only written */
+extern const json_codec json_structures; /* json_counted_array of structures of row->size bytes; only written */
 
 #endif

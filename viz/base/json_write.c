@@ -116,8 +116,8 @@ static void write_escape(FILE *out, unsigned char c)
         fprintf(out, "\\u%04x", (unsigned)c);
 }
 
-/* Returns the number of characters from here on that need no escape. */
-static size_t count_plain(const unsigned char *at)
+/* Returns the number of characters at `at` that need no escape. */
+static size_t count_unescaped(const unsigned char *at)
 {
     size_t count = 0;
     while (at[count] >= ' ' && at[count] < 0x80 && at[count] != '"' && at[count] != '\\')
@@ -130,7 +130,7 @@ static void write_quoted(FILE *out, const char *text)
     const unsigned char *at = (const unsigned char *)text;
     putc_unlocked('"', out);
     while (*at) {
-        const size_t plain = count_plain(at);
+        const size_t plain = count_unescaped(at);
         fwrite(at, 1, plain, out);
         at += plain;
         if (*at < 0x80) {
@@ -209,39 +209,39 @@ void json_write_numbers(json_writer *writer, const double *values, size_t count)
     json_write_end_array(writer);
 }
 
-/* ---- Layout ------------------------------------------------------------------------------------------------- */
+/* ---- Members and lines -------------------------------------------------------------------------------------- */
 
-void json_member_integer(json_writer *writer, const char *key, uint64_t value)
+void json_write_integer_member(json_writer *writer, const char *key, uint64_t value)
 {
     json_write_key(writer, key);
     json_write_integer(writer, value);
 }
 
-void json_member_number(json_writer *writer, const char *key, double value)
+void json_write_number_member(json_writer *writer, const char *key, double value)
 {
     json_write_key(writer, key);
     json_write_number(writer, value);
 }
 
-void json_member_bool(json_writer *writer, const char *key, bool value)
+void json_write_bool_member(json_writer *writer, const char *key, bool value)
 {
     json_write_key(writer, key);
     json_write_bool(writer, value);
 }
 
-void json_member_begin_object(json_writer *writer, const char *key)
+void json_begin_object_member(json_writer *writer, const char *key)
 {
     json_write_key(writer, key);
     json_write_begin_object(writer);
 }
 
-void json_member_begin_array(json_writer *writer, const char *key)
+void json_begin_array_member(json_writer *writer, const char *key)
 {
     json_write_key(writer, key);
     json_write_begin_array(writer);
 }
 
-void json_member_text(json_writer *writer, const char *key, const char *text)
+void json_write_text_member(json_writer *writer, const char *key, const char *text)
 {
     json_write_key(writer, key);
     if (text)
@@ -250,22 +250,22 @@ void json_member_text(json_writer *writer, const char *key, const char *text)
         json_write_null(writer);
 }
 
-void json_member_vector(json_writer *writer, const char *key, const double vector[3])
+void json_write_vector_member(json_writer *writer, const char *key, const double vector[3])
 {
     json_write_key(writer, key);
     json_write_numbers(writer, vector, 3);
 }
 
-void json_member_box(json_writer *writer, const char *key, const octree_box *box)
+void json_write_box_member(json_writer *writer, const char *key, const octree_box *box)
 {
     json_write_key(writer, key);
     json_write_begin_object(writer);
-    json_member_vector(writer, "min", box->min);
-    json_member_vector(writer, "max", box->max);
+    json_write_vector_member(writer, "min", box->min);
+    json_write_vector_member(writer, "max", box->max);
     json_write_end_object(writer);
 }
 
-void json_write_newline(json_writer *writer)
+void json_start_new_line(json_writer *writer)
 {
     writer->newline = true;
 }

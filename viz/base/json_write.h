@@ -2,7 +2,7 @@
 /* json_write.h - writes JSON to a stream, value by value. Commas are written automatically.
  *
  * Numbers are the shortest text that reads back to the same double, whatever the locale. Everything is on one line,
- * except where json_write_newline() is called. Errors stay with the stream: check ferror() or fclose() at the end. To
+ * except where json_start_new_line() is called. Errors stay with the stream: check ferror() or fclose() at the end. To
  * write into memory, use open_memstream().
  */
 #ifndef BASE_JSON_WRITE_H
@@ -41,22 +41,23 @@ void json_write_integer(json_writer *writer, uint64_t value);
 void json_write_bool(json_writer *writer, bool value);
 void json_write_null(json_writer *writer);
 
-/* Write several numbers, faster than one by one; the second function writes them as an array. */
+/* Write several numbers, faster than one by one: as elements of a begun array, or as a whole array. */
 void json_write_elements(json_writer *writer, const double *values, size_t count);
 void json_write_numbers(json_writer *writer, const double *values, size_t count);
 
-/* A member of an object: its key and its value. A vector is three numbers, a box an object of its corners. */
-void json_member_integer(json_writer *writer, const char *key, uint64_t value);
-void json_member_number(json_writer *writer, const char *key, double value);
-void json_member_bool(json_writer *writer, const char *key, bool value);
-void json_member_text(json_writer *writer, const char *key, const char *text);
-void json_member_vector(json_writer *writer, const char *key, const double vector[3]);
-void json_member_box(json_writer *writer, const char *key, const octree_box *box);
-void json_member_begin_object(json_writer *writer, const char *key);
-void json_member_begin_array(json_writer *writer, const char *key);
+/* Write a member of an object: its key and value. A vector is an array of three numbers, a box an object with two
+ * corners. */
+void json_write_integer_member(json_writer *writer, const char *key, uint64_t value);
+void json_write_number_member(json_writer *writer, const char *key, double value);
+void json_write_bool_member(json_writer *writer, const char *key, bool value);
+void json_write_text_member(json_writer *writer, const char *key, const char *text);
+void json_write_vector_member(json_writer *writer, const char *key, const double vector[3]);
+void json_write_box_member(json_writer *writer, const char *key, const octree_box *box);
+void json_begin_object_member(json_writer *writer, const char *key);
+void json_begin_array_member(json_writer *writer, const char *key);
 
-/* Begin a new line before the next value, key or end. */
-void json_write_newline(json_writer *writer);
+/* Write a line end before the next value, key or end. */
+void json_start_new_line(json_writer *writer);
 
 /* End the line after a complete value. The next value starts a new text. */
 void json_write_end_line(json_writer *writer);

@@ -26,7 +26,7 @@ typedef struct decimal {
 
 enum {
     MOST_DIGITS = 19,         /* any number of 19 digits fits 64 bits */
-    LARGEST_EXACT_POWER = 22, /* of ten, as a double */
+    LARGEST_EXACT_POWER = 22, /* largest power of ten that is exact as a double */
 };
 
 static const char *scan_digits(const char *at, const char *limit, decimal *d)
@@ -129,7 +129,7 @@ bool numbers_parse(const char *text, double *values, size_t count)
     return true;
 }
 
-bool whole_parse(const char **text, uint64_t max, uint64_t *value)
+bool whole_number_parse(const char **text, uint64_t max, uint64_t *value)
 {
     char *end;
     if (!is_digit(**text))

@@ -26,9 +26,9 @@ bool number_parse_nonfinite(const char *begin, const char *limit, const char **e
 bool numbers_parse(const char *text, double *values, size_t count);
 
 /* Read a decimal whole number at *text and move *text past it. False: a sign, no digits, or more than `max`. */
-bool whole_parse(const char **text, uint64_t max, uint64_t *value);
+bool whole_number_parse(const char **text, uint64_t max, uint64_t *value);
 
-/* The digits of a macro that is a number, as a string literal. */
+/* The value of a numeric macro as a string literal. */
 #define NUMBER_DIGITS(macro) NUMBER_DIGITS_OF(macro)
 #define NUMBER_DIGITS_OF(number) #number
 
@@ -43,10 +43,10 @@ size_t number_print(double value, char text[NUMBER_TEXT]);
 double number_from_float(float value);
 
 /* Write a double with at most `digits` significant digits. Returns `text`. */
-const char *number_text(double value, int digits, char text[NUMBER_TEXT]);
+const char *number_format(double value, int digits, char text[NUMBER_TEXT]);
 
 /* Returns the smallest number of the form 1, 2 or 5 times a power of ten that is at least `limit`; 0 if it underflows
  * or overflows. */
-double number_round_up(double limit);
+double number_round_up_to_1_2_5(double limit);
 
 #endif

@@ -17,11 +17,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- By integers -------------------------------------------------------------------------------------------- */
+/* ---- Printing with integers --------------------------------------------------------------------------------- */
 
 enum {
-    FEWEST_DIGITS = 15, /* any number of 15 digits survives a double */
-    HALF_BITS = 30,     /* half of the fraction: times 10^9 it still fits 64 bits */
+    FEWEST_DIGITS = 15, /* any decimal number of 15 digits can be stored in a double and read back */
+    HALF_BITS = 30,     /* half of the fraction's bits: half times 10^9 still fits 64 bits */
     FRACTION_BITS = 2 * HALF_BITS,
     MOST_AT_ONCE = 9,
 };
@@ -38,7 +38,7 @@ static const uint64_t powers[] = {1,           10,           100,           1000
                                   100000,      1000000,      10000000,      100000000,      1000000000,
                                   10000000000, 100000000000, 1000000000000, 10000000000000, 100000000000000};
 
-/* A number in this range, exactly: its digits so far, as one integer, and the remaining fraction. */
+/* A number in this range, stored exactly: its digits so far as one integer, and the remaining fraction. */
 typedef struct expansion {
     uint64_t digits;
     int count;          /* significant digits so far; negative: zeros still to skip */
@@ -48,7 +48,7 @@ typedef struct expansion {
     bool even;          /* the last bit is 0: a tie reads back as this double */
 } expansion;
 
-static expansion expand(double magnitude)
+static expansion begin_expansion(double magnitude)
 {
     uint64_t bits;
     memcpy(&bits, &magnitude, sizeof bits);
@@ -78,7 +78,7 @@ static void append_digits(expansion *x, int count)
     x->places += count;
 }
 
-/* True if the digits round up. Ties go to the even digit, as in printf. */
+/* True if the remaining fraction rounds the digits up. Ties round to the even digit, as in printf. */
 static bool rounds_up(const expansion *x)
 {
     return x->rest > FRACTION_ONE / 2 || (x->rest == FRACTION_ONE / 2 && x->digits % 2 != 0);
@@ -86,21 +86,21 @@ static bool rounds_up(const expansion *x)
 
 /* True if the rounded digits read back to the same double: the error is at most half of its last bit. Just below a
  * power of two the spacing of doubles is halved, but powers of two in this range have at most 14 digits. */
-static bool reads_back(const expansion *x)
+static bool has_enough_digits(const expansion *x)
 {
     const uint64_t off = rounds_up(x) ? FRACTION_ONE - x->rest : x->rest;
     return off < x->half_last || (off == x->half_last && x->even);
 }
 
-/* Returns the fewest digits, at least 15, that read back, without zeros at the end. */
-static expansion find_shortest(double magnitude)
+/* Returns the fewest digits, at least 15, that read back to the same double, without trailing zeros. */
+static expansion find_shortest_digits(double magnitude)
 {
-    expansion x = expand(magnitude);
+    expansion x = begin_expansion(magnitude);
     while (x.count < FEWEST_DIGITS) {
         const int left = FEWEST_DIGITS - x.count;
         append_digits(&x, left < MOST_AT_ONCE ? left : MOST_AT_ONCE);
     }
-    while (x.count < DBL_DECIMAL_DIG && !reads_back(&x))
+    while (x.count < DBL_DECIMAL_DIG && !has_enough_digits(&x))
         append_digits(&x, 1);
     x.digits += rounds_up(&x);
     for (; x.places > 0 && x.digits % 10 == 0; x.places--)
@@ -123,7 +123,7 @@ static char *write_digits(char *end, uint64_t *digits, int count)
     return end;
 }
 
-/* Prints like %g without an exponent. Returns 0 if the number is outside of the range above. */
+/* Prints like %g without an exponent. Returns 0 if the number is outside SMALLEST_PLAIN to LARGEST_PLAIN. */
 static size_t print_exactly(double value, char text[NUMBER_TEXT])
 {
     expansion x = {.digits = 0};
@@ -131,7 +131,7 @@ static size_t print_exactly(double value, char text[NUMBER_TEXT])
     if (value != 0 && !(magnitude >= SMALLEST_PLAIN && magnitude < LARGEST_PLAIN))
         return 0;
     if (value != 0)
-        x = find_shortest(magnitude);
+        x = find_shortest_digits(magnitude);
     char room[NUMBER_TEXT], *const end = room + sizeof room, *at = end;
     if (x.places > 0) {
         at = write_digits(at, &x.digits, x.places);
@@ -148,10 +148,10 @@ static size_t print_exactly(double value, char text[NUMBER_TEXT])
     return size;
 }
 
-/* ---- By printf ---------------------------------------------------------------------------------------------- */
+/* ---- Printing with printf ----------------------------------------------------------------------------------- */
 
 /* Replaces the locale's decimal point, which may be several bytes, by '.'. Returns the new length. */
-static size_t restore_point(char *text)
+static size_t replace_locale_point(char *text)
 {
     char *point = text + strspn(text, "-0123456789");
     size_t foreign = strcspn(point, "+-0123456789e");
@@ -170,20 +170,20 @@ size_t number_print(double value, char text[NUMBER_TEXT])
     for (int digits = FEWEST_DIGITS; digits < DBL_DECIMAL_DIG; digits++) {
         snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
         if (strtod(text, NULL) == value)
-            return restore_point(text);
+            return replace_locale_point(text);
     }
     snprintf(text, NUMBER_TEXT, "%.*g", DBL_DECIMAL_DIG, value);
-    return restore_point(text);
+    return replace_locale_point(text);
 }
 
-const char *number_text(double value, int digits, char text[NUMBER_TEXT])
+const char *number_format(double value, int digits, char text[NUMBER_TEXT])
 {
     snprintf(text, NUMBER_TEXT, "%.*g", digits, value);
-    restore_point(text);
+    replace_locale_point(text);
     return text;
 }
 
-double number_round_up(double limit)
+double number_round_up_to_1_2_5(double limit)
 {
     double power = 1;
     while (power > limit)
@@ -203,7 +203,7 @@ double number_from_float(float value)
         char text[NUMBER_TEXT];
         const char *end;
         double shorter;
-        number_text((double)value, digits, text);
+        number_format((double)value, digits, text);
         if (number_parse(text, text + strlen(text), &end, &shorter) && fabs(shorter) <= FLT_MAX &&
             (float)shorter == value)
             return shorter;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Into memory --------------------------------------------------------------------------------------------- */
+/* ---- Printing into memory ------------------------------------------------------------------------------------ */
 
 bool text_stream_begin(text_stream *s)
 {
@@ -27,7 +27,7 @@ bool text_stream_end(text_stream *s, char **text)
     return ok;
 }
 
-/* ---- Made fit to be shown ------------------------------------------------------------------------------------ */
+/* ---- Printable text ------------------------------------------------------------------------------------------ */
 
 /* Valid non-ASCII UTF-8 (table 3-7 of the Unicode standard): for each range of first bytes, the range of the second
  * byte and the length. */
@@ -66,12 +66,12 @@ char *make_printable(char *text)
     return text;
 }
 
-const char *plural(uint64_t count)
+const char *plural_ending(uint64_t count)
 {
     return count == 1 ? "" : "s";
 }
 
-const char *plural_verb(uint64_t count)
+const char *verb_ending(uint64_t count)
 {
     return count == 1 ? "s" : "";
 }
@@ -82,9 +82,9 @@ void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char
         fprintf(out, "  ... and %" PRIu64 " more%s%s\n", count - shown, *how ? "; " : "", how);
 }
 
-/* ---- Into other languages ------------------------------------------------------------------------------------ */
+/* ---- Escaping ------------------------------------------------------------------------------------------------ */
 
-static const char *character_reference(char c, char room[ESCAPE_ROOM])
+static const char *write_character_reference(char c, char room[ESCAPE_ROOM])
 {
     snprintf(room, ESCAPE_ROOM, "&#%d;", c);
     return room;
@@ -100,7 +100,7 @@ const char *escape_nothing(const char *text, const char *at, char room[ESCAPE_RO
 const char *escape_xml(const char *text, const char *at, char room[ESCAPE_ROOM])
 {
     (void)text;
-    return strchr("<>&\"'\n\t", *at) ? character_reference(*at, room) : NULL;
+    return strchr("<>&\"'\n\t", *at) ? write_character_reference(*at, room) : NULL;
 }
 
 const char *escape_xml_text(const char *text, const char *at, char room[ESCAPE_ROOM])
@@ -120,7 +120,7 @@ const char *escape_markdown(const char *text, const char *at, char room[ESCAPE_R
         return NULL;
     if (*at == '\n' || *at == '\t')
         return " ";
-    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? character_reference(*at, room) : NULL;
+    return strchr("\\`*_{}[]<>#+!|~&@$\"'", *at) ? write_character_reference(*at, room) : NULL;
 }
 
 bool utf8_is_unprintable(const unsigned char *at)
@@ -141,7 +141,7 @@ bool utf8_is_unprintable(const unsigned char *at)
 }
 
 /* Returns the number of bytes read. */
-static size_t write_beyond_ascii(FILE *out, const unsigned char *at)
+static size_t write_non_ascii(FILE *out, const unsigned char *at)
 {
     const size_t length = utf8_sequence_length(at);
     if (length == 0 || utf8_is_unprintable(at))
@@ -157,7 +157,7 @@ void write_escaped(FILE *out, const char *text, escape *how)
     for (const char *at = text; *at;) {
         const unsigned char c = (unsigned char)*at;
         if (c >= 0x80) {
-            at += write_beyond_ascii(out, (const unsigned char *)at);
+            at += write_non_ascii(out, (const unsigned char *)at);
             continue;
         }
         const char *written = how(text, at++, room);
@@ -170,7 +170,7 @@ void write_escaped(FILE *out, const char *text, escape *how)
     }
 }
 
-char *text_next_line(char **at)
+char *text_cut_line(char **at)
 {
     char *line = *at, *end = line + strcspn(line, "\n");
     if (!*line)
@@ -189,7 +189,7 @@ enum { GROUPS = 4096 };
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /* Encodes up to three bytes as four digits. Missing bytes count as zero and end in '='. */
-static void encode_group(const unsigned char *from, size_t count, char *to)
+static void encode_base64_group(const unsigned char *from, size_t count, char *to)
 {
     const unsigned bits =
         (unsigned)from[0] << 16 | (count > 1 ? (unsigned)from[1] << 8 : 0) | (count > 2 ? from[2] : 0);
@@ -197,14 +197,14 @@ static void encode_group(const unsigned char *from, size_t count, char *to)
         to[i] = i <= count ? digits[bits >> (18 - 6 * i) & 63] : '=';
 }
 
-void base64_copy(FILE *in, FILE *out)
+void base64_encode(FILE *in, FILE *out)
 {
     unsigned char bytes[3 * GROUPS];
     char text[4 * GROUPS];
     for (size_t size; (size = fread(bytes, 1, sizeof bytes, in)) > 0;) {
         size_t length = 0;
         for (size_t at = 0; at < size; at += 3, length += 4)
-            encode_group(bytes + at, size - at, text + length);
+            encode_base64_group(bytes + at, size - at, text + length);
         fwrite(text, 1, length, out);
     }
 }

@@ -33,14 +33,14 @@ size_t utf8_sequence_length(const unsigned char *at);
  * of writing, a line separator, U+FFFE or U+FFFF. */
 bool utf8_is_unprintable(const unsigned char *at);
 
-/* Replace every character that is not printable ASCII, and every invalid byte, by a question mark. Returns `text`. */
+/* Replace every character except printable ASCII, and every invalid byte, by a question mark. Returns `text`. */
 char *make_printable(char *text);
 
-/* The ending of a noun after a count, "" for 1 and else "s"; and of its verb, "s" for 1 and else "". */
-const char *plural(uint64_t count);
-const char *plural_verb(uint64_t count);
+/* Return the ending of a noun after a count ("" for 1, otherwise "s"), and of its verb ("s" for 1, otherwise ""). */
+const char *plural_ending(uint64_t count);
+const char *verb_ending(uint64_t count);
 
-/* Printed lists end after LIST_LINES lines. This prints the number of the items beyond `shown` and how to see them. */
+/* Printed lists end after LIST_LINES lines. Print the number of items beyond `shown` and how to list them. */
 #define LIST_LINES 10
 void print_remaining_count(FILE *out, uint64_t count, uint64_t shown, const char *how);
 
@@ -58,11 +58,11 @@ escape escape_markdown; /* inside a line, a cell of a table, or an element of HT
  * characters that must not be printed, and invalid bytes become U+FFFD. */
 void write_escaped(FILE *out, const char *text, escape *how);
 
-/* Cut the next line off a text: end it with a zero, without its line end, and move *at behind it. Returns null at the
- * end of the text. */
-char *text_next_line(char **at);
+/* Return the next line of a text, with its line end replaced by a zero, and move *at behind it. Returns null at the
+ * end. */
+char *text_cut_line(char **at);
 
-/* Write the rest of `in` as base64 (RFC 4648), for data URLs. Errors stay with the streams. */
-void base64_copy(FILE *in, FILE *out);
+/* Write the rest of `in` as base64 (RFC 4648), for data URLs. The caller checks both streams for errors. */
+void base64_encode(FILE *in, FILE *out);
 
 #endif

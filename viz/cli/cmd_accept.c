@@ -88,7 +88,7 @@ static int run(int argc, char **argv)
         return print_error("refusing to update references because CI is set; run accept locally and commit the result");
     if (a.date && !a.reason)
         return print_error("--date needs --reason TEXT");
-    if (a.from && file_is_standard(a.from) && file_is_standard(argv[optind + 1]))
+    if (a.from && file_is_standard_stream(a.from) && file_is_standard_stream(argv[optind + 1]))
         return print_error("\"-\" is given twice, but standard input can be read only once");
     return accept_listed(&a, argv + optind, argc - optind);
 }

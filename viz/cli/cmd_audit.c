@@ -32,7 +32,7 @@ static bool read_limits(const command_option *option, const char *text, void *in
 static bool is_page(const char *path)
 {
     const char *dot = strrchr(path, '.');
-    return file_is_standard(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
+    return file_is_standard_stream(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
 }
 
 /* A name without the ending of a file names a folder, as for the options of other commands. */
@@ -94,13 +94,13 @@ static bool write_file(const char *path, printer *print, const audit_verdict *ve
         return true;
     if (!file_writer_open(&file, path, error))
         return false;
-    from = path_folder(path);
+    from = path_parent_folder(path);
     const bool made = from && print(file.stream, verdict, from);
     free(from);
     if (made)
         return file_writer_close(&file, error);
     error_set(error, "%s: out of memory", path);
-    return file_writer_abandon(&file);
+    return file_writer_discard(&file);
 }
 
 static void print_verdict(const arguments *a, const audit_verdict *verdict)
@@ -119,7 +119,7 @@ static bool write_audit(const arguments *a, const char *path, audit_report *repo
     const bool done =
         check_files(path, a->outputs, error) && audit_read(path, &a->limits, progress_show, &p, report, error);
     progress_end(&p);
-    const audit_verdict verdict = {file_title(path), file_kind_of(path) == KIND_RECORDING, report};
+    const audit_verdict verdict = {file_display_name(path), file_kind_of(path) == KIND_RECORDING, report};
     if (!done || (a->folder && !folder_make(a->folder, error)) ||
         !write_file(a->outputs[HTML].path, audit_print_page, &verdict, error) ||
         !write_file(a->outputs[JUNIT].path, print_junit, &verdict, error))

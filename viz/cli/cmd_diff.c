@@ -46,7 +46,7 @@ static bool read_rectangle(const command_option *option, const char *text, void 
     uint64_t values[4] = {0};
     bool ok = true;
     for (int i = 0; ok && i < 4; i++, at++)
-        ok = whole_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
+        ok = whole_number_parse(&at, INT32_MAX, &values[i]) && *at == (i < 3 ? ',' : 0);
     if (!ok || values[2] == 0 || values[3] == 0)
         return refuse("--%s takes left, top, width and height in pixels, such as 10,20,300,40, each at most %d and the "
                       "last two at least 1, not \"%s\"",
@@ -63,11 +63,11 @@ static bool refuse_layer(const command_option *option, const char *bad)
 {
     char meant[HINT_TEXT];
     const size_t length = strcspn(bad, ",");
-    hint h = hint_for(bad, length);
+    hint h = hint_create(bad, length);
     for (int i = 0; view_layer_at(i); i++)
-        hint_offer(&h, view_layer_at(i));
+        hint_add_candidate(&h, view_layer_at(i));
     return refuse("--%s: unknown layer \"%.*s\"%s%s record --help lists them", option->name, (int)length, bad,
-                  hint_text(&h, "", meant), hint_program_name());
+                  hint_format(&h, "", meant), hint_program_name());
 }
 
 static bool read_layers(const command_option *option, const char *text, void *into)
@@ -217,7 +217,8 @@ static bool check_files(const arguments *a, const diff_side sides[2], octreel_er
     const output_file outputs[OUTPUTS] = {{"-o", page}, a->outputs[JUNIT], a->outputs[MARKDOWN]};
     bool ok = check_outputs_differ(outputs, OUTPUTS, error);
     for (size_t i = 0; ok && i < OUTPUTS; i++)
-        ok = diff_side_check_output(&sides[0], &outputs[i], error) && diff_side_check_output(&sides[1], &outputs[i], error);
+        ok = diff_side_check_output(&sides[0], &outputs[i], error) &&
+             diff_side_check_output(&sides[1], &outputs[i], error);
     free(page);
     return ok;
 }

@@ -130,7 +130,7 @@ static bool draw_picture(const report *r, octreel_error *error)
     film_summary drawn = {0};
     char left_out[FILM_LEFT_OUT];
     const arguments *a = r->a;
-    const char *picture = file_output_title(a->outputs[PICTURE].path);
+    const char *picture = file_output_display_name(a->outputs[PICTURE].path);
     const tree_subject about = {.title = r->name,
                                 .node = a->node ? r->node.address : 0,
                                 .answers = r->answers.answers,
@@ -152,7 +152,8 @@ static bool draw_picture(const report *r, octreel_error *error)
     if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* the text layer prints this in the picture */
         note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
-        note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural(drawn.left_out), picture);
+        note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural_ending(drawn.left_out),
+             picture);
     return true;
 }
 
@@ -160,7 +161,7 @@ static bool draw_picture(const report *r, octreel_error *error)
 static FILE *print_wrote(const char *path, FILE *out)
 {
     fputs("wrote ", out);
-    write_escaped(out, file_output_title(path), escape_nothing);
+    write_escaped(out, file_output_display_name(path), escape_nothing);
     fputs(": ", out);
     return out;
 }
@@ -239,7 +240,7 @@ static bool build_tree(const arguments *a, inspection *made, octreel_error *erro
         progress_end(&r.bar);
         r.bar = progress_start("points inserted");
         ok = inspect_build(&points, &def, progress_show, &r.bar, made, &why) ||
-             error_set(error, "%s: %s", file_title(a->cloud), why.text);
+             error_set(error, "%s: %s", file_display_name(a->cloud), why.text);
         memcpy(left_out, points.note, sizeof left_out);
         cloud_release(&points);
     }
@@ -255,7 +256,7 @@ static int inspect(const arguments *a)
     octreel_error error;
     if (!build_tree(a, &made, &error))
         return print_error("%s", error.text);
-    report r = {.a = a, .name = path_base_name(file_title(a->cloud)), .made = &made};
+    report r = {.a = a, .name = path_base_name(file_display_name(a->cloud)), .made = &made};
     const bool ok = make_report(&r, &error);
     inspect_release(&made);
     return ok ? EXIT_DONE : print_error("%s", error.text);

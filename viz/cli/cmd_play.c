@@ -39,7 +39,7 @@ static const command_option options[] = {
 /* The default name of the page: "walk.html" for "sessions/walk.json". */
 static void make_page_name(const char *session, char name[NAME_MAX + 1])
 {
-    const char *base = session && !file_is_standard(session) ? path_base_name(session) : "octreel",
+    const char *base = session && !file_is_standard_stream(session) ? path_base_name(session) : "octreel",
                *dot = strrchr(base, '.');
     const size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     snprintf(name, NAME_MAX + 1, "%.*s.html", (int)length, base);
@@ -58,7 +58,7 @@ static bool check_page(const arguments *a)
 {
     const output_file output = {"-o", a->page};
     octreel_error error;
-    if (file_is_standard(a->page))
+    if (file_is_standard_stream(a->page))
         return true;
     if (a->session && !check_output_is_not_input(&output, a->session, &error))
         return refuse("%s", error.text);
@@ -81,7 +81,7 @@ static void print_page_address(const char *page, uint64_t ticks)
 {
     char current[PATH_MAX];
     write_escaped(stdout, page, escape_nothing);
-    printf(": %" PRIu64 " tick%s; open it in a browser: ", ticks, plural(ticks));
+    printf(": %" PRIu64 " tick%s; open it in a browser: ", ticks, plural_ending(ticks));
     fputs("file://", stdout);
     if (*page != '/' && getcwd(current, sizeof current)) {
         print_url_path(stdout, current);
@@ -109,7 +109,7 @@ static bool write_file(const arguments *a, const octree_session *session, film_s
     if (!file_writer_open(&file, a->page, error))
         return false;
     return write_page(a, session, file.stream, summary, error) ? file_writer_close(&file, error)
-                                                               : file_writer_abandon(&file);
+                                                               : file_writer_discard(&file);
 }
 
 static int make_page(arguments *a, const octree_session *session)
@@ -125,7 +125,7 @@ static int make_page(arguments *a, const octree_session *session)
         film_report_start(stderr, &summary.start, session);
     if (!ok)
         print_error("%s", error.text);
-    else if (!file_is_standard(a->page) && !is_quiet())
+    else if (!file_is_standard_stream(a->page) && !is_quiet())
         print_page_address(a->page, summary.ticks);
     unblock_stop_signals();
     return ok ? EXIT_DONE : EXIT_TROUBLE;

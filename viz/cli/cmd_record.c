@@ -30,9 +30,9 @@ static bool read_ticks(const command_option *option, const char *text, void *int
     const char *at = text;
     film->first = 0;
     film->last = UINT64_MAX;
-    const bool begins = whole_parse(&at, UINT64_MAX - 1, &film->first), open = *at == ':';
+    const bool begins = whole_number_parse(&at, UINT64_MAX - 1, &film->first), open = *at == ':';
     at += open;
-    const bool ends = open && whole_parse(&at, UINT64_MAX, &film->last);
+    const bool ends = open && whole_number_parse(&at, UINT64_MAX, &film->last);
     if (open && (begins || ends) && *at == 0 && film->first < film->last)
         return true;
     return refuse_value(option, "a range of ticks such as 100:200 (ticks 100 to 199), 100: or :200", text);
@@ -126,13 +126,13 @@ static int report_stream_end(const arguments *a, film_stream_end how, const film
     else if (how == FILM_STREAM_STOPPED && ticks == 0)
         print_error("stopped before the first tick was filmed; nothing was written");
     else if (how == FILM_STREAM_STOPPED)
-        print_error("stopped after %" PRIu64 " tick%s; %s is a complete recording of these ticks", ticks, plural(ticks),
-                    a->film.folder);
+        print_error("stopped after %" PRIu64 " tick%s; %s is a complete recording of these ticks", ticks,
+                    plural_ending(ticks), a->film.folder);
     else if (ticks == 0)
         print_error("%s", error->text);
     else
         print_error("%s; %s holds the part before the error: %" PRIu64 " tick%s", error->text, a->film.folder, ticks,
-                    plural(ticks));
+                    plural_ending(ticks));
     return how == FILM_STREAM_WHOLE ? EXIT_DONE : EXIT_TROUBLE;
 }
 
@@ -164,9 +164,9 @@ static int film_standard_input(arguments *a)
 /* Returns the name of the session in the folder; null: there is none. */
 static const char *find_stored_session(const char *folder)
 {
-    return folder_has(folder, "session.json")        ? "session.json"
-           : folder_has(folder, "session.json.live") ? "session.json.live"
-                                                     : NULL;
+    return folder_contains(folder, "session.json")        ? "session.json"
+           : folder_contains(folder, "session.json.live") ? "session.json.live"
+                                                          : NULL;
 }
 
 /* With --resume, the recording supplies the options that the command line leaves out. If the command line has none, the
@@ -176,7 +176,7 @@ static bool complete_film_options(arguments *a)
     octreel_error error;
     uint64_t every = 1;
     const char *folder = a->film.folder;
-    const bool has_view = folder_has(folder, "recording.json");
+    const bool has_view = folder_contains(folder, "recording.json");
     const bool has_options = a->session || a->keys || a->every || a->no_frames || find_first_view_option(&a->view);
     if (a->film.resume && !has_options && (!has_view || !find_stored_session(folder)))
         return refuse(
@@ -255,7 +255,7 @@ static int run(int argc, char **argv)
     if (a.no_frames && a.every)
         return print_error("--no-frames and --every contradict each other: leave out one of them");
     a.session = argv[optind];
-    const bool stream = a.session && file_is_standard(a.session);
+    const bool stream = a.session && file_is_standard_stream(a.session);
     if (stream && explain_stream_conflict(&a))
         return print_error("%s", explain_stream_conflict(&a));
     if (!check_renderer(&a.film.renderer) || !complete_film_options(&a))

@@ -117,13 +117,13 @@ static int refuse_option(const command *c, const struct option *all, bool missin
         return print_error("--%s takes no value", known.name);
     const char *name = typed + 2;
     const size_t length = strcspn(name, "=");
-    hint h = hint_for(name, length);
+    hint h = hint_create(name, length);
     if (report_ambiguous(c, all, name, length))
         return EXIT_TROUBLE;
     for (const struct option *o = all; o->name; o++)
-        hint_offer(&h, o->name);
+        hint_add_candidate(&h, o->name);
     return print_error("%s: unknown option --%.*s%s%s %s --help lists all options", c->name, (int)length, name,
-                       hint_text(&h, "--", meant), hint_program_name(), c->name);
+                       hint_format(&h, "--", meant), hint_program_name(), c->name);
 }
 
 /* True for a value that looks like an option: the value of the option before it was probably forgotten. */
@@ -191,7 +191,7 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
 /* Reports a file of a recording where the folder is expected, and names the folder. False: not such a file. */
 static bool refuse_recording_part(const command *c, const char *path, file_kind kind)
 {
-    char *folder = path_folder(path);
+    char *folder = path_parent_folder(path);
     const bool found = folder && file_kind_of(folder) == KIND_RECORDING;
     if (found)
         print_error("%s is %s, but %s takes %s: use %s", path, file_kind_rows[kind].name, c->name, c->takes, folder);
@@ -210,7 +210,7 @@ static bool check_standard_input(const command *c, file_kinds taken)
 
 static bool check_input(const command *c, const char *path, file_kinds taken)
 {
-    if (file_is_standard(path))
+    if (file_is_standard_stream(path))
         return check_standard_input(c, taken);
     const file_kind kind = file_kind_of(path);
     const file_kind_row *row = &file_kind_rows[kind];
@@ -227,7 +227,7 @@ static bool check_input(const command *c, const char *path, file_kinds taken)
 
 static bool check_inputs(const command *c, char **paths, int count)
 {
-    if (count > 1 && c->inputs[1] && file_is_standard(paths[0]) && file_is_standard(paths[1]))
+    if (count > 1 && c->inputs[1] && file_is_standard_stream(paths[0]) && file_is_standard_stream(paths[1]))
         return refuse("\"-\" is given twice, but standard input can be read only once");
     for (int i = 0; i < count && i < 2; i++)
         if (c->inputs[i] && !check_input(c, paths[i], c->inputs[i]))

@@ -75,13 +75,13 @@ static int report_unknown_word(const char *word, bool help)
 {
     static const char *const other_words[] = {"help", "--help", "--version"};
     char meant[HINT_TEXT];
-    hint h = hint_for(word, strlen(word));
+    hint h = hint_create(word, strlen(word));
     for (size_t i = 0; command_at(i); i++)
-        hint_offer(&h, command_at(i)->name);
+        hint_add_candidate(&h, command_at(i)->name);
     for (size_t i = 0; help && help_topic_at(i); i++)
-        hint_offer(&h, help_topic_at(i)->name);
+        hint_add_candidate(&h, help_topic_at(i)->name);
     for (size_t i = 0; !help && i < sizeof other_words / sizeof other_words[0]; i++)
-        hint_offer(&h, other_words[i]);
+        hint_add_candidate(&h, other_words[i]);
     const file_kind kind = help ? KIND_UNKNOWN : file_kind_of(word);
     if (file_kind_rows[kind].command)
         return print_error("unknown command \"%s\": it is %s; %s %s %s", word, file_kind_rows[kind].name,
@@ -90,7 +90,7 @@ static int report_unknown_word(const char *word, bool help)
         return print_error("expected a command before the option \"%s\"; %s help lists all commands", word,
                            hint_program_name());
     return print_error("unknown %s \"%s\"%s%s help lists all %s", help ? "help topic" : "command", word,
-                       hint_text(&h, "", meant), hint_program_name(), help ? "topics" : "commands");
+                       hint_format(&h, "", meant), hint_program_name(), help ? "topics" : "commands");
 }
 
 /* Prints the help of a command or topic, or its manual for man(1). */
@@ -112,12 +112,12 @@ static int print_help(const char *name, bool manual)
 static int print_completions(const char *shell)
 {
     char known[64], meant[HINT_TEXT];
-    hint h = hint_for(shell, strlen(shell));
+    hint h = hint_create(shell, strlen(shell));
     for (int i = 0; completion_shell(i); i++)
-        hint_offer(&h, completion_shell(i));
+        hint_add_candidate(&h, completion_shell(i));
     if (completion_write(stdout, shell))
         return EXIT_DONE;
-    return print_error("no completions for the shell \"%s\"%ssupported: %s", shell, hint_text(&h, "", meant),
+    return print_error("no completions for the shell \"%s\"%ssupported: %s", shell, hint_format(&h, "", meant),
                        json_list_names(completion_shell, known, sizeof known));
 }
 
@@ -161,7 +161,7 @@ int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);
     draw_context_set_report(report_context_fallback);
-    json_watch_memory();
+    json_detect_failed_allocations();
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && !ferror(stdout))
         return status;

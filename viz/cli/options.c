@@ -85,7 +85,7 @@ bool check_names_not_empty(const char *command, char *const *names, int count)
 bool read_count(const char *name, const char *text, uint64_t min, uint64_t max, uint64_t *value)
 {
     const char *at = text;
-    if (whole_parse(&at, max, value) && *at == 0 && *value >= min)
+    if (whole_number_parse(&at, max, value) && *at == 0 && *value >= min)
         return true;
     return refuse("%s takes a whole number from %" PRIu64 " to %" PRIu64 ", not \"%s\"", name, min, max, text);
 }
@@ -116,15 +116,15 @@ bool read_flag(const command_option *option, const char *text, void *into)
 bool read_choice(const command_option *option, const char *text, void *into)
 {
     char known[64], meant[HINT_TEXT];
-    hint h = hint_for(text, strlen(text));
+    hint h = hint_create(text, strlen(text));
     const int found = json_find_name(option->names, text);
     if (found >= 0) {
         *(int *)into = found;
         return true;
     }
     for (int i = 0; option->names(i); i++)
-        hint_offer(&h, option->names(i));
-    return refuse("--%s: unknown value \"%s\"%schoose from %s", option->name, text, hint_text(&h, "", meant),
+        hint_add_candidate(&h, option->names(i));
+    return refuse("--%s: unknown value \"%s\"%schoose from %s", option->name, text, hint_format(&h, "", meant),
                   json_list_names(option->names, known, sizeof known));
 }
 
@@ -161,7 +161,7 @@ bool fits_output_option(command_option_reader *reader, const char *path)
 bool read_folder(const command_option *option, const char *text, void *into)
 {
     const name_kind kind = name_kind_of(text);
-    if (file_is_standard(text))
+    if (file_is_standard_stream(text))
         return refuse("%s needs a folder, but \"-\" is standard output; for a folder named -, write ./-",
                       option_as_typed(option).text);
     if (!read_name(option, text, into) || kind == NAME_OPEN || is_folder(text))
@@ -176,14 +176,14 @@ bool read_folder(const command_option *option, const char *text, void *into)
 static bool read_file_name(const command_option *option, const char *text, void *into)
 {
     return read_name(option, text, into) &&
-           (file_is_standard(text) || !is_folder(text) ||
+           (file_is_standard_stream(text) || !is_folder(text) ||
             refuse("%s needs a file, but \"%s\" is a folder", option_as_typed(option).text, text));
 }
 
 bool read_picture(const command_option *option, const char *text, void *into)
 {
     const name_kind kind = name_kind_of(text);
-    if (file_is_standard(text) && isatty(STDOUT_FILENO))
+    if (file_is_standard_stream(text) && isatty(STDOUT_FILENO))
         return refuse("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
                       option_as_typed(option).text);
     return read_file_name(option, text, into) &&
@@ -236,7 +236,7 @@ static size_t count_standard_outputs(const output_file *outputs, size_t count)
 {
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
-        found += outputs[i].path && file_is_standard(outputs[i].path);
+        found += outputs[i].path && file_is_standard_stream(outputs[i].path);
     return found;
 }
 

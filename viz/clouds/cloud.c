@@ -92,9 +92,9 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
     char *bytes;
     size_t size;
     *out = (cloud){0};
-    if (!file_read_watched(path, watch ? watch->read : NULL, watch ? watch->context : NULL, &bytes, &size, error))
+    if (!file_read_with_progress(path, watch ? watch->read : NULL, watch ? watch->context : NULL, &bytes, &size, error))
         return false;
-    const bool done = parse(&(cloud_file){.name = file_title(path),
+    const bool done = parse(&(cloud_file){.name = file_display_name(path),
                                           .bytes = (const unsigned char *)bytes,
                                           .size = size,
                                           .out = out,

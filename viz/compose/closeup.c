@@ -176,7 +176,7 @@ static void add_scale(scene *s)
         return;
     scene_label label =
         scene_make_label(SCALE_ID, role_style(LAYER_CLOSEUP, ROLE_TEXT, STROKE_SOLID, 1), "%s, enlarged %sx",
-                         number_text(length, 6, number), number_text(s->times, 6, times));
+                         number_format(length, 6, number), number_format(s->times, 6, times));
     label.at[0] = margin;
     label.at[1] = s->view.height - margin - s->text.height - 3 * unit;
     const int wide = (int)fmax(end - margin, (double)strlen(label.text) * s->text.width);

@@ -337,7 +337,7 @@ static void write_rows(diagram *d)
         snprintf(number, sizeof number, "%u", depth);
         add_text(d, left, y, ROLE_FAINT, number);
         const size_t count = d->slots.stats.nodes_at_depth[depth];
-        number_text((double)count, count <= MOST_DIGITS ? 6 : 3, number);
+        number_format((double)count, count <= MOST_DIGITS ? 6 : 3, number);
         if (count)
             add_text(d, right_aligned_x(d, number), y, ROLE_TEXT, number);
     }
@@ -354,7 +354,7 @@ static void write_path_end(diagram *d)
     char address[OCTREE_ADDRESS_TEXT], text[SCENE_TEXT * 2];
     const size_t length =
         (size_t)snprintf(text, sizeof text, "%s of %zu point%s: %s", end->leaf ? "leaf" : "node", end->count,
-                         plural(end->count), octree_address_format(end->address, address));
+                         plural_ending(end->count), octree_address_format(end->address, address));
     const size_t room = letters < SCENE_TEXT ? letters : SCENE_TEXT - 1;
     if (length > room)
         memcpy(text + room - 3, "...", 4);

@@ -33,7 +33,7 @@
 static int decimals_of(double value)
 {
     char text[NUMBER_TEXT];
-    const char *point = strchr(number_text(value, MOST_DECIMALS, text), '.');
+    const char *point = strchr(number_format(value, MOST_DECIMALS, text), '.');
     return strchr(text, 'e') ? MOST_DECIMALS + 1 : point ? (int)strlen(point + 1) : 0;
 }
 
@@ -65,7 +65,7 @@ static void write_position(pen *p, const char *name, const double position[3], i
         char axis[NUMBER_TEXT], text[NUMBER_TEXT];
         snprintf(axis, sizeof axis, "%-7s%c", i ? "" : name, "xyz"[i]);
         if (decimals > MOST_DECIMALS || !(fabs(position[i]) < 1e9))
-            number_text(position[i], 9, text);
+            number_format(position[i], 9, text);
         else
             snprintf(text, sizeof text, "%.*f", decimals, position[i] + 0.0); /* + 0.0 turns -0 into 0 */
         write_row(p, axis, "", "%s", text);
@@ -273,7 +273,7 @@ static void write_filter(pen *p, const view_filter *f)
 {
     char at[NUMBER_TEXT];
     if (f->slice)
-        write_row(p, "slice", "", "%c = %s", f->slice, number_text(f->slice_at, 9, at));
+        write_row(p, "slice", "", "%c = %s", f->slice, number_format(f->slice_at, 9, at));
     if (f->by_depth && f->min_depth == f->max_depth)
         write_row(p, "depth", "", "%u alone", f->min_depth);
     else if (f->by_depth)
@@ -311,7 +311,7 @@ static void write_small_counts(pen *p, const scene_tally *tally)
     const size_t counts[] = {tally->small, tally->small_marked, tally->arrows.small};
     static const char *const words[][2] = {{"node", "nodes"}, {"marked node", "marked nodes"}, {"arrow", "arrows"}};
     char lod[NUMBER_TEXT], name[SCENE_TEXT];
-    snprintf(name, sizeof name, "under %s px", number_text(p->scene->view.lod, 3, lod));
+    snprintf(name, sizeof name, "under %s px", number_format(p->scene->view.lod, 3, lod));
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         if (!counts[i])
             continue;
@@ -328,10 +328,10 @@ static void write_shown_counts(pen *p, const scene_tally *tally)
         return;
     write_filter(p, &v->filter);
     if (view_shows(v, LAYER_NODES))
-        write_row(p, "shown", "", "%zu node%s", tally->nodes, plural(tally->nodes));
+        write_row(p, "shown", "", "%zu node%s", tally->nodes, plural_ending(tally->nodes));
     if (view_shows(v, LAYER_POINTS))
         write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "", "%zu point%s", tally->points,
-                  plural(tally->points));
+                  plural_ending(tally->points));
 }
 
 /* Write a row for each rule that leaves out or folds elements, and how many are shown. Without such a row there is no

@@ -198,17 +198,17 @@ static void print_changes(const accepting *a)
 
 static void write_frames_json(const accepting *a, json_writer *w)
 {
-    json_member_integer(w, "before", a->reference.count);
-    json_member_integer(w, "after", a->reference.count + a->counts[ADDED] - a->counts[REMOVED]);
+    json_write_integer_member(w, "before", a->reference.count);
+    json_write_integer_member(w, "after", a->reference.count + a->counts[ADDED] - a->counts[REMOVED]);
     for (action what = CHANGED; what <= REMOVED; what++)
-        json_member_integer(w, action_words[what], a->counts[what]);
-    json_member_begin_array(w, "frames");
+        json_write_integer_member(w, action_words[what], a->counts[what]);
+    json_begin_array_member(w, "frames");
     for (size_t i = 0; i < a->result.count; i++) {
         if (a->actions[i] == KEPT)
             continue;
         json_write_begin_object(w);
-        json_member_text(w, "name", diff_pair_name(&a->result.pairs[i]));
-        json_member_text(w, "action", action_words[a->actions[i]]);
+        json_write_text_member(w, "name", diff_pair_name(&a->result.pairs[i]));
+        json_write_text_member(w, "action", action_words[a->actions[i]]);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -218,9 +218,9 @@ static void write_changes_json(const accepting *a)
 {
     json_writer writer = {.out = a->out}, *w = &writer;
     json_write_begin_object(w);
-    json_member_text(w, "reference", a->reference.path);
+    json_write_text_member(w, "reference", a->reference.path);
     if (a->result.by_ticks)
-        json_member_text(w, "ticks", a->result.verdict == DIFF_SAME ? "same" : "new");
+        json_write_text_member(w, "ticks", a->result.verdict == DIFF_SAME ? "same" : "new");
     else
         write_frames_json(a, w);
     json_write_end_object(w);

@@ -36,7 +36,7 @@ static bool write_file(const diff_side *now, octreel_error *error)
     if (!file_writer_open_replacing(&file, now->path, error))
         return false;
     file.lasting = true;
-    return baseline_write(file.stream, now, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+    return baseline_write(file.stream, now, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
 }
 
 bool accept_digests(accepting *a, octreel_error *error)

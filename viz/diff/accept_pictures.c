@@ -36,7 +36,7 @@ static bool prepare_copy(file_set *set, const char *from, char *path, octreel_er
 static bool rename_copies(file_set *set, octreel_error *error)
 {
     for (size_t i = 0; i < set->count; i++)
-        if (!file_writer_place(&set->files[i].copy, error))
+        if (!file_writer_rename(&set->files[i].copy, error))
             return false;
     return true;
 }
@@ -45,7 +45,7 @@ static bool rename_copies(file_set *set, octreel_error *error)
 static void release_set(file_set *set)
 {
     for (size_t i = 0; i < set->count; i++) {
-        file_writer_abandon(&set->files[i].copy);
+        file_writer_discard(&set->files[i].copy);
         free(set->files[i].path);
     }
     free(set->files);

@@ -81,12 +81,12 @@ static bool check_lines(const char *folder, uint64_t ticks, octreel_error *error
         return false;
     return lines == ticks ||
            refuse_damaged(folder, error, "its ticks.jsonl has %" PRIu64 " line%s for %" PRIu64 " tick%s", lines,
-                          plural(lines), ticks, plural(ticks));
+                          plural_ending(lines), ticks, plural_ending(ticks));
 }
 
 static bool check_file(const char *folder, const char *name, octreel_error *error)
 {
-    return folder_has(folder, name) || refuse_damaged(folder, error, "%s is missing", name);
+    return folder_contains(folder, name) || refuse_damaged(folder, error, "%s is missing", name);
 }
 
 static bool check_frames(const char *folder, const octree_session *session, uint64_t every, octreel_error *error)

@@ -266,7 +266,7 @@ bool baseline_parse(diff_side *side, char *text, size_t size, octreel_error *err
     side->kind = DIFF_BASELINE;
     if (memchr(text, 0, size))
         return error_set(error, "%s: contains a zero byte, so it is not a text file", side->path);
-    for (char *line; (line = text_next_line(&text));)
+    for (char *line; (line = text_cut_line(&text));)
         if (!read_line(side, line, ++number, error))
             return false;
     if (number < 2)

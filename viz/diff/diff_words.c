@@ -48,10 +48,10 @@ static void print_pixels(FILE *out, const diff_pair *pair)
     const image_difference *d = &pair->difference;
     const uint64_t all = (uint64_t)pair->about[0].width * (uint64_t)pair->about[0].height;
     if (d->counted.pixels != d->unlike.pixels)
-        fprintf(out, "%" PRIu64 " pixel%s count%s; ", d->counted.pixels, plural(d->counted.pixels),
-                plural_verb(d->counted.pixels));
-    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s differ%s", d->unlike.pixels, all, plural(all),
-            plural_verb(d->unlike.pixels));
+        fprintf(out, "%" PRIu64 " pixel%s count%s; ", d->counted.pixels, plural_ending(d->counted.pixels),
+                verb_ending(d->counted.pixels));
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s differ%s", d->unlike.pixels, all, plural_ending(all),
+            verb_ending(d->unlike.pixels));
     print_forgiven(out, d);
     print_worst(out, d);
 }
@@ -131,7 +131,7 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
     }
     if (different)
         fprintf(out, "%zu of ", different);
-    fprintf(out, "%zu frame%s", result->count, plural(result->count));
+    fprintf(out, "%zu frame%s", result->count, plural_ending(result->count));
     if (found[FOUND_UNREADABLE])
         fprintf(out, ", %zu cannot be read", found[FOUND_UNREADABLE]);
     if (found[FOUND_SAME_BYTES])
@@ -186,7 +186,7 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
     const size_t other_spaces = diff_count_color_spaces(result);
     bool first = true;
     if (t->max_pixels)
-        print_item(out, &first, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural(t->max_pixels));
+        print_item(out, &first, "up to %" PRIu64 " pixel%s a frame", t->max_pixels, plural_ending(t->max_pixels));
     if (t->max_delta > 0)
         print_item(out, &first, "colours within %g " IMAGE_DELTA_UNIT, t->max_delta);
     if (t->antialias)
@@ -205,5 +205,5 @@ void diff_print_tolerance(FILE *out, const diff_result *result)
                 options->background.b);
     if (other_spaces)
         fprintf(out, "; gamma and colour profiles, which differ in %zu frame%s, are ignored", other_spaces,
-                plural(other_spaces));
+                plural_ending(other_spaces));
 }

@@ -24,14 +24,14 @@ bool frame_list_read(frame_list *list, const char *path, octreel_error *error)
         return false;
     list->text[size] = 0;
     if (strlen(list->text) < size)
-        return error_set(error, "%s: contains a zero byte, so it is not a text file", file_title(path));
+        return error_set(error, "%s: contains a zero byte, so it is not a text file", file_display_name(path));
     char *at = list->text;
-    for (char *line; (line = text_next_line(&at));) {
+    for (char *line; (line = text_cut_line(&at));) {
         number++;
         if (*line && !frame_list_add(list, line, number, error))
             return false;
     }
-    return list->count > before || error_set(error, "%s: contains no name of a frame", file_title(path));
+    return list->count > before || error_set(error, "%s: contains no name of a frame", file_display_name(path));
 }
 
 void frame_list_release(frame_list *list)

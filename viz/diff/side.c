@@ -28,7 +28,7 @@ const char *diff_kind_name(diff_kind kind)
 /* The part of a path after the last slash; "stdin" for standard input. */
 static const char *base_name(const char *path)
 {
-    return file_is_standard(path) ? "stdin" : path_base_name(path);
+    return file_is_standard_stream(path) ? "stdin" : path_base_name(path);
 }
 
 bool diff_side_add_frame(diff_side *side, const char *name, frame_digest digest, octreel_error *error)
@@ -84,7 +84,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
 {
     char **names = folder_names(side->path, error);
     bool ok = names;
-    side->kind = folder_has(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
+    side->kind = folder_contains(side->path, "recording.json") ? DIFF_RECORDING : DIFF_FOLDER;
     side->no_frames = is_without_frames(side);
     for (size_t i = 0; ok && !side->no_frames && names[i]; i++)
         if (is_frame_name(side, names[i]))
@@ -102,7 +102,7 @@ static bool read_file(diff_side *side, octreel_error *error)
     case KIND_BASELINE:
         return baseline_read(side, error);
     default:
-        if (!file_is_standard(side->source) && access(side->path, R_OK) != 0)
+        if (!file_is_standard_stream(side->source) && access(side->path, R_OK) != 0)
             return error_set(error, "%s: %s", side->path, strerror(errno));
         return error_set(error, "%s: not a PNG file, a folder, or a baseline", side->path);
     }
@@ -112,8 +112,8 @@ bool diff_side_open(diff_side *side, const char *path, octreel_error *error)
 {
     struct stat status;
     bool ok;
-    *side = (diff_side){.path = file_title(path), .source = path};
-    if (file_is_standard(path))
+    *side = (diff_side){.path = file_display_name(path), .source = path};
+    if (file_is_standard_stream(path))
         ok = read_file(side, error);
     else if (stat(path, &status) != 0)
         ok = error_set(error, "%s: %s", path, strerror(errno));

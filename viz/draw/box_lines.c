@@ -60,7 +60,7 @@ static bool same_key(const void *a, const void *b)
     return p->u == q->u && p->v == q->v && p->kind == q->kind;
 }
 
-static const hash_map_keys by_key = {sizeof(line), hash_key, same_key};
+static const hash_map_item_type by_key = {sizeof(line), hash_key, same_key};
 
 static uint32_t add_line(box_lines *kept, const line_key *key)
 {

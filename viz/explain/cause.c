@@ -210,5 +210,5 @@ void cause_release(cause *c)
 
 const cause_tick *cause_find_tick(const cause *c, uint64_t tick)
 {
-    return c->count ? bsearch(&tick, c->ticks, c->count, sizeof *c->ticks, by_uint64) : NULL;
+    return c->count ? bsearch(&tick, c->ticks, c->count, sizeof *c->ticks, compare_uint64) : NULL;
 }

@@ -55,7 +55,7 @@ bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const
 void cause_origins_sort(cause_origins *o)
 {
     if (o->count)
-        qsort(o->listed, o->count, sizeof *o->listed, by_uint64);
+        qsort(o->listed, o->count, sizeof *o->listed, compare_uint64);
 }
 
 void cause_origins_release(cause_origins *o)

@@ -18,7 +18,7 @@ static uint64_t *list_ids(const octree_session *session, size_t *count)
         if (session->edits[i].kind == OCTREE_EDIT_INSERT)
             ids[(*count)++] = session->edits[i].body.id;
     if (ids)
-        qsort(ids, *count, sizeof *ids, by_uint64);
+        qsort(ids, *count, sizeof *ids, compare_uint64);
     return ids;
 }
 

@@ -217,7 +217,7 @@ static void print_verb(FILE *out, const cause_row *p, const cause_group *group, 
         fputc(')', out);
         return;
     }
-    fprintf(out, "%s%s ", p->noun, plural(group->found));
+    fprintf(out, "%s%s ", p->noun, plural_ending(group->found));
     print_subjects(out, group, brief);
     fprintf(out, " %s", p->verbs[group->change]);
     if (brief || group->found > 1 || fact->id == CAUSE_NO_ID)
@@ -324,7 +324,7 @@ static void print_extent(FILE *out, const cause *c)
         fprintf(out, "every tick from %" PRIu64 " differs", c->differing.first);
     else
         fprintf(out, "%" PRIu64 " of %" PRIu64 " ticks differ%s, the first is %" PRIu64, c->differing.count,
-                c->compared, plural_verb(c->differing.count), c->differing.first);
+                c->compared, verb_ending(c->differing.count), c->differing.first);
 }
 
 /* Print the consequence of another point, key, edit or query: the facts of the first differing tick. */
@@ -361,7 +361,7 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
             fputs("other wrong answers", out);
         else
             fprintf(out, "%" PRIu64 " %s wrong answer%s", span->count, i == WRONG_MORE ? "more" : "fewer",
-                    plural(span->count));
+                    plural_ending(span->count));
         if (i == WRONG_OTHER && span->count > 1)
             fprintf(out, " in %" PRIu64 " ticks", span->count);
         fprintf(out, span->first == span->last ? " at tick %" PRIu64 : " from tick %" PRIu64 " on", span->first);

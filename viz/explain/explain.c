@@ -62,7 +62,7 @@ typedef struct watching {
 
 static const wanted_pair *find_wanted(const watching *w, uint64_t tick)
 {
-    return w->count ? bsearch(&tick, w->pairs, w->count, sizeof *w->pairs, by_uint64) : NULL;
+    return w->count ? bsearch(&tick, w->pairs, w->count, sizeof *w->pairs, compare_uint64) : NULL;
 }
 
 /* Whether a pair of this tick is explained. */
@@ -108,7 +108,7 @@ static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
     for (size_t i = 0; i < result->count && w->count < most; i++)
         if (explain_has_difference(&result->pairs[i]))
             w->pairs[w->count++] = (wanted_pair){diff_pair_tick(&result->pairs[i]), &result->pairs[i]};
-    qsort(w->pairs, w->count, sizeof *w->pairs, by_uint64);
+    qsort(w->pairs, w->count, sizeof *w->pairs, compare_uint64);
     return true;
 }
 
@@ -173,7 +173,8 @@ static bool make_headline(explanation *e, const diff_result *result, octreel_err
 /* Whether only one side has the file, or the two files have different bytes. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
-    return (folder_has(a->path, name) || folder_has(b->path, name)) && !have_same_file(a->path, b->path, name);
+    return (folder_contains(a->path, name) || folder_contains(b->path, name)) &&
+           !have_same_file(a->path, b->path, name);
 }
 
 static bool any_to_explain(const diff_side *a, const diff_side *b, const diff_result *result)

@@ -131,7 +131,7 @@ static uint64_t hash_part(const void *part)
     return hash_map_hash_id(&key);
 }
 
-static const hash_map_keys by_part = {sizeof(trace_part), hash_part, same_part};
+static const hash_map_item_type by_part = {sizeof(trace_part), hash_part, same_part};
 
 static bool count_part(tracing *t, const trace_part *part)
 {
@@ -272,7 +272,7 @@ void trace_print(FILE *out, const trace *t)
     const size_t most = t->count < TRACE_PRINTED ? t->count : TRACE_PRINTED;
     uint64_t printed = 0;
     char text[TRACE_TEXT];
-    fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural(t->pixels));
+    fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural_ending(t->pixels));
     for (int is_text = 0; is_text < 2; is_text++) /* text changes with everything else, so it comes last */
         for (size_t i = 0; i < most; i++) {
             if ((t->parts[i].layer == LAYER_TEXT) != is_text)

@@ -83,15 +83,15 @@ file_kind file_kind_read(const char *path)
 static file_kind find_folder_kind(const char *path)
 {
     for (size_t i = 0; recording_files[i]; i++)
-        if (folder_has(path, recording_files[i]))
+        if (folder_contains(path, recording_files[i]))
             return KIND_RECORDING;
-    return folder_has(path, "session.json.live") ? KIND_RECORDING : KIND_FOLDER;
+    return folder_contains(path, "session.json.live") ? KIND_RECORDING : KIND_FOLDER;
 }
 
 file_kind file_kind_of(const char *path)
 {
     struct stat status;
-    if (file_is_standard(path))
+    if (file_is_standard_stream(path))
         return KIND_UNKNOWN;
     if (stat(path, &status) != 0)
         return errno == ENOENT || errno == ENOTDIR ? KIND_MISSING : KIND_UNKNOWN;

@@ -70,7 +70,7 @@ bool folder_is_name(const char *name)
 
 static bool report_held_files(const char *folder, const char *first, octreel_error *error)
 {
-    if (folder_has(folder, "recording.json") || folder_has(folder, FOLDER_ASIDE))
+    if (folder_contains(folder, "recording.json") || folder_contains(folder, FOLDER_ASIDE))
         return error_set(error,
                          "%s: already holds a recording: complete it (--resume), replace it (--replace), "
                          "or choose another folder (-o)",

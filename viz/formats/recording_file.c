@@ -53,7 +53,7 @@ void recording_write(FILE *out, const view *v, uint64_t every)
     list_members(members);
     json_write_begin_object(w);
     json_write_members(w, members, &written);
-    json_write_newline(w);
+    json_start_new_line(w);
     json_write_end_object(w);
     json_write_end_line(w);
 }
@@ -69,7 +69,7 @@ bool recording_parse(const char *name, const char *text, size_t size, view *v, u
 {
     recorded found = {.view = view_default(), .every = 1};
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &found, .error = error};
-    json_next_object(&r);
+    json_skip_to_object(&r);
     const bool done = json_read_object(&r, true, read_object);
     *v = found.view;
     *every = found.every;

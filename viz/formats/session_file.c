@@ -26,14 +26,14 @@ static const struct {
     [BODIES] = {offsetof(octree_session, bodies), sizeof(octree_body)},
 };
 
-static json_counted get_list(const octree_session *session, int list)
+static json_counted_array get_list(const octree_session *session, int list)
 {
-    return json_counted_at((const char *)session + rows[list].at);
+    return json_get_counted_array((const char *)session + rows[list].at);
 }
 
 static void set_list(octree_session *session, int list, const void *items, size_t count)
 {
-    const json_counted value = {items, count};
+    const json_counted_array value = {items, count};
     memcpy((char *)session + rows[list].at, &value, sizeof value);
 }
 
@@ -43,7 +43,7 @@ static void set_lists(octree_session *session, const session_list lists[SESSION_
         set_list(session, i, lists[i].items, lists[i].count);
 }
 
-static const void *get_item(const json_counted *list, int kind, size_t index)
+static const void *get_item(const json_counted_array *list, int kind, size_t index)
 {
     return (const char *)list->items + index * rows[kind].size;
 }
@@ -128,7 +128,7 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     *out = (session_file){.session = *from};
     out->session.keys = NULL;
     for (int i = 0; i <= BODIES; i++) {
-        json_counted list = get_list(from, i);
+        json_counted_array list = get_list(from, i);
         whole = duplicate_items(&list.items, list.count, rows[i].size) && whole;
         set_list(&out->session, i, list.items, list.items ? list.count : 0);
     }
@@ -201,11 +201,11 @@ static bool read_stream(json_reader *r)
         r->at += 3;
     if (!session_check_text(r))
         return false;
-    if (!json_next_object(r))
+    if (!json_skip_to_object(r))
         return json_fail_line(r, r->line, NULL, "holds no session");
     if (!json_read_object(r, false, session_read_header))
         return false;
-    while (json_next_object(r))
+    while (json_skip_to_object(r))
         if (!json_read_object(r, false, session_read_tick))
             return false;
     return true;
@@ -288,7 +288,7 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
     const char *slash = strrchr(path, '/');
     char *folder = strndup(path, slash ? (size_t)(slash - path) + 1 : 0);
     const bool done =
-        folder ? session_parse(file_title(path), folder, text, size, out, error) : report_no_memory(error);
+        folder ? session_parse(file_display_name(path), folder, text, size, out, error) : report_no_memory(error);
     free(folder);
     free(text);
     return done;
@@ -296,7 +296,7 @@ bool session_read(const char *path, session_file *out, octreel_error *error)
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-static uint64_t get_tick(const json_counted *list, int kind, size_t index)
+static uint64_t get_tick(const json_counted_array *list, int kind, size_t index)
 {
     return *(const uint64_t *)get_item(list, kind, index);
 }
@@ -306,7 +306,7 @@ void session_write_header(const octree_session *session, const point_values *val
 {
     octree_session every_tick = {.keys = NULL};
     for (int i = SESSION_QUERIES; i <= SESSION_SHAPES; i++) {
-        const json_counted all = get_list(session, i);
+        const json_counted_array all = get_list(session, i);
         size_t first = all.count;
         while (first > 0 && get_tick(&all, i, first - 1) == OCTREE_EVERY_TICK)
             first--;
@@ -329,7 +329,7 @@ void session_write_tick(uint64_t tick, const octree_input *input, const point_va
 }
 
 /* Returns the lowest tick of the items that are not written yet; OCTREE_EVERY_TICK if no single tick has any. */
-static uint64_t find_next_tick(const json_counted unwritten[SESSION_LISTS])
+static uint64_t find_next_tick(const json_counted_array unwritten[SESSION_LISTS])
 {
     uint64_t next = OCTREE_EVERY_TICK;
     for (int i = 0; i < SESSION_LISTS; i++)
@@ -340,20 +340,20 @@ static uint64_t find_next_tick(const json_counted unwritten[SESSION_LISTS])
 
 bool session_write(const octree_session *session, const point_values *values, FILE *out)
 {
-    json_counted unwritten[SESSION_LISTS];
+    json_counted_array unwritten[SESSION_LISTS];
     for (int i = 0; i < SESSION_LISTS; i++)
         unwritten[i] = get_list(session, i);
     session_write_header(session, values, out);
     for (uint64_t tick; (tick = find_next_tick(unwritten)) != OCTREE_EVERY_TICK;) {
         octree_session now = {.keys = NULL}; /* the items of this tick */
         for (int i = 0; i < SESSION_LISTS; i++) {
-            json_counted *list = &unwritten[i];
+            json_counted_array *list = &unwritten[i];
             size_t count = 0;
             while (count < list->count && get_tick(list, i, count) == tick)
                 count++;
             set_list(&now, i, list->items, count);
             if (count > 0)
-                *list = (json_counted){get_item(list, i, count), list->count - count};
+                *list = (json_counted_array){get_item(list, i, count), list->count - count};
         }
         const octree_input input = session_all_input(&now);
         session_write_tick(tick, &input, values, out);

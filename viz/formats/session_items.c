@@ -59,7 +59,7 @@ static bool read_target(json_reader *r, json_t *value, const json_place *at, voi
     if (is_player(value))
         return read_player(r, at, query);
     if (!json_is_array(value))
-        return json_expected(r, value, at, "\"player\" or three numbers [x, y, z]");
+        return json_fail_expected(r, value, at, "\"player\" or three numbers [x, y, z]");
     return json_read_vector(r, value, at, query->target);
 }
 
@@ -74,7 +74,7 @@ static void write_target(json_writer *w, const void *from)
 
 static bool read_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return is_player(value) ? read_player(r, at, into) : json_expected(r, value, at, "\"player\"");
+    return is_player(value) ? read_player(r, at, into) : json_fail_expected(r, value, at, "\"player\"");
 }
 
 /* "skip" is an id, or this word for all points exactly at the target. */
@@ -90,8 +90,8 @@ static bool read_skip(json_reader *r, json_t *value, const json_place *at, void 
         return has_target || json_fail(r, at, "a %s has no target, so \"skip\" cannot be \"coincident\"; give an id",
                                        octree_query_about(query->kind)->region);
     if (json_is_string(value))
-        return json_expected(r, value, at, has_target ? "an id or \"coincident\"" : "an id");
-    return json_read_whole(r, value, at, 0, JSON_LARGEST_WHOLE, &query->skip_id);
+        return json_fail_expected(r, value, at, has_target ? "an id or \"coincident\"" : "an id");
+    return json_read_whole_number(r, value, at, 0, JSON_LARGEST_WHOLE, &query->skip_id);
 }
 
 static void write_skip(json_writer *w, const void *from)
@@ -134,7 +134,7 @@ static json_member query_member(const octree_query_member_traits *member)
     static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_box,
                                                [OCTREE_MEMBER_POSITION] = &json_vector,
                                                [OCTREE_MEMBER_COUNT] = &json_size,
-                                               [OCTREE_MEMBER_LENGTH] = &json_positive};
+                                               [OCTREE_MEMBER_LENGTH] = &json_nonnegative};
     static const json_codec target = {read_target, write_target};
     json_member row = {member->key, codecs[member->type], member->in_query, .required = true, .max = UINT32_MAX};
     if (member->bit == OCTREE_QUERY_HAS_TARGET) {
@@ -158,7 +158,7 @@ JSON_NAMES(precision_name, octree_precision_name, octree_precision)
 /* The members of every kind of query. */
 static const json_member general_members[] = {
     {"skip", JSON_CODEC(read_skip, write_skip), .offset = 0, JSON_IF(octree_query, skip)},
-    {"epsilon", &json_positive, QUERY(epsilon), .is_set = has_epsilon},
+    {"epsilon", &json_nonnegative, QUERY(epsilon), .is_set = has_epsilon},
     {"answer", &json_ids, QUERY(answer), .given = QUERY(answered)},
     VISITS("visited", OCTREE_NODE_VISITED),
     VISITS("pruned", OCTREE_NODE_PRUNED),
@@ -192,7 +192,7 @@ static bool read_segment(json_reader *r, json_t *value, const json_place *at, vo
 {
     octree_shape *shape = into;
     if (json_array_size(value) != 2)
-        return json_expected(r, value, at, "two positions [[x, y, z], [x, y, z]]");
+        return json_fail_expected(r, value, at, "two positions [[x, y, z], [x, y, z]]");
     return json_read_vector(r, json_array_get(value, 0), &(json_place){at, NULL, 0}, shape->at) &&
            json_read_vector(r, json_array_get(value, 1), &(json_place){at, NULL, 1}, shape->to);
 }
@@ -275,7 +275,7 @@ static bool read_items(json_reader *r, json_t *value, const json_place *at, void
 static void write_items(json_writer *w, const void *from)
 {
     const session_items *type = w->row->about;
-    const json_counted list = json_counted_at(from);
+    const json_counted_array list = json_get_counted_array(from);
     json_write_begin_array(w);
     for (size_t i = 0; i < list.count; i++) {
         const char *item = (const char *)list.items + i * type->size;

@@ -90,7 +90,7 @@ static bool set_default_box_size(json_reader *r, const json_place *at, void *str
 static bool read_is_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(octree_player_kind *)into = json_is_true(value) ? OCTREE_PLAYER_BODY : OCTREE_PLAYER_KEYS;
-    return json_is_boolean(value) || json_expected(r, value, at, "true or false");
+    return json_is_boolean(value) || json_fail_expected(r, value, at, "true or false");
 }
 
 static void write_is_body(json_writer *w, const void *from)
@@ -103,7 +103,7 @@ static void write_is_body(json_writer *w, const void *from)
 #define BODY                                                                                                           \
     "body", JSON_CODEC(read_is_body, write_is_body), .offset = offsetof(octree_player, kind),                          \
                                                      JSON_IF(octree_player, kind)
-#define BOX_SIZE "box_size", &json_positive, .offset = offsetof(octree_player, box_size)
+#define BOX_SIZE "box_size", &json_nonnegative, .offset = offsetof(octree_player, box_size)
 #define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep), JSON_IF(octree_player, sweep)
 
 /* A player that is a body has no position and step: it is the point with its id. */
@@ -112,7 +112,7 @@ static const json_member player_members[] = {
     {ID},
     {BODY},
     {"position", &json_vector, offsetof(octree_player, position), .check = check_position},
-    {"step", &json_positive, offsetof(octree_player, step), .check = set_default_box_size},
+    {"step", &json_nonnegative, offsetof(octree_player, step), .check = set_default_box_size},
     {BOX_SIZE},
     {SWEEP},
     {0},
@@ -156,7 +156,7 @@ static bool read_keys(json_reader *r, json_t *value, const json_place *at, void 
     const char *keys = json_string_value(value), **copy = into;
     octreel_error reason;
     if (!keys)
-        return json_expected(r, value, at, "a string of keys");
+        return json_fail_expected(r, value, at, "a string of keys");
     if (!session_check_keys(keys, &reason))
         return json_fail(r, at, "%s", reason.text);
     *copy = strdup(keys);

@@ -117,7 +117,7 @@ static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void
     session_list *list = header ? &s->header_lists[SESSION_FOREIGN] : &s->lists[SESSION_FOREIGN];
     (void)into;
     if (!json_is_array(value))
-        return json_expected(r, value, at, "a list of nodes");
+        return json_fail_expected(r, value, at, "a list of nodes");
     if (s->tick == 0 && s->header_lists[SESSION_FOREIGN].count > 0)
         return json_fail(r, at, "the header already has the nodes of tick 0");
     octree_foreign_tree *tree = session_append(r, at, list, sizeof *tree);

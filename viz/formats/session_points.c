@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const hash_map_keys by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_same_id};
+static const hash_map_item_type by_id = {sizeof(octree_body), hash_map_hash_id, hash_map_ids_equal};
 
 uint32_t session_find_body(const session_loader *s, uint64_t id)
 {
@@ -54,10 +54,10 @@ static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_b
     const size_t size = json_array_size(row);
     point_value value = {0};
     if (size != 3 && size != 4 && (values->column_count == 0 || size != 4 + values->column_count))
-        return json_expected(r, row, at,
-                             values->column_count
-                                 ? "a point [x, y, z], [x, y, z, id], or this with a value for each of \"columns\""
-                                 : "a point [x, y, z] or [x, y, z, id]");
+        return json_fail_expected(r, row, at,
+                                  values->column_count
+                                      ? "a point [x, y, z], [x, y, z, id], or this with a value for each of \"columns\""
+                                      : "a point [x, y, z] or [x, y, z, id]");
     if (!json_read_numbers(r, row, at, 0, 3, body->position) || (size > 3 && !json_read_id(r, row, at, 3, &body->id)))
         return false;
     for (size_t i = 4; i < size; i++)
@@ -76,7 +76,7 @@ static bool read_point(json_reader *r, json_t *value, const json_place *at, void
         return read_row(r, value, at, body);
     if (json_is_object(value))
         return session_body_codec.read(r, value, at, body);
-    return json_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
+    return json_fail_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
 }
 
 bool session_map_bodies(json_reader *r, const json_place *at)
@@ -95,7 +95,7 @@ bool session_map_bodies(json_reader *r, const json_place *at)
         const uint32_t first = session_find_body(s, id);
         if (first != HASH_MAP_NONE)
             return json_fail(r, &place, "id %" PRIu64 " already belongs to points[%" PRIu32 "] in line %zu", id, first,
-                             json_line(r, &(json_place){at, NULL, first}));
+                             json_find_line(r, &(json_place){at, NULL, first}));
         hash_map_add(map, &by_id, s->bodies); /* there is room */
     }
     const uint32_t clash = is_player_separate(player) ? session_find_body(s, player->id) : HASH_MAP_NONE;
@@ -128,7 +128,7 @@ static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
 /* The path of a file that the session names; the caller frees it. "-" is a file here, not standard input. */
 static char *path_in_folder(const char *folder, const char *file)
 {
-    if (!*folder && file_is_standard(file))
+    if (!*folder && file_is_standard_stream(file))
         folder = "./";
     const size_t length = strlen(folder), size = length + strlen(file) + 2;
     const bool separate = length > 0 && folder[length - 1] != '/';
@@ -171,7 +171,8 @@ static bool load_file(json_reader *r, const json_t *value, const json_place *at)
     const bool done = cloud_read(path, NULL, &s->points, &why);
     free(path);
     if (!done)
-        return error_set(r->error, "%s:%zu: points.file: %s", json_name_end(r->name), json_line(r, at), why.text);
+        return error_set(r->error, "%s:%zu: points.file: %s", json_shorten_name(r->name), json_find_line(r, at),
+                         why.text);
     memcpy(s->note, s->points.note, sizeof s->note);
     if (!*s->note)
         write_values_note(s, json_string_value(value));
@@ -204,7 +205,7 @@ static bool read_file(json_reader *r, json_t *value, const json_place *at, void 
     session_loader *s = r->context;
     (void)into;
     if (!is_file_name(value))
-        return json_expected(r, value, at, "the name of a file");
+        return json_fail_expected(r, value, at, "the name of a file");
     const bool done = load_file(r, value, at) && copy_points(r, at, &s->points) && set_file_values(r, at);
     cloud_release(&s->points);
     return done;
@@ -238,7 +239,7 @@ static const json_member sample_members[] = {
 };
 
 static const json_member random_velocities_members[] = {
-    {"speed", &json_positive, SAMPLED(velocities.speed), .required = true},
+    {"speed", &json_nonnegative, SAMPLED(velocities.speed), .required = true},
     {"seed", &json_uint64, SAMPLED(velocities.seed), .max = JSON_LARGEST_WHOLE},
     {0},
 };
@@ -290,7 +291,7 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
 /* Points without velocity are written short; -0 counts as a velocity. */
 static void write_point(json_writer *w, const octree_body *body)
 {
-    if (json_has_bits(body->velocity, sizeof body->velocity)) {
+    if (json_has_nonzero_byte(body->velocity, sizeof body->velocity)) {
         session_body_codec.write(w, body);
         return;
     }
@@ -306,11 +307,11 @@ static void write_points(json_writer *w, const void *from)
     const octree_session *session = from;
     json_write_begin_array(w);
     for (size_t i = 0; i < session->body_count; i++) {
-        json_write_newline(w);
+        json_start_new_line(w);
         write_point(w, &session->bodies[i]);
     }
     if (session->body_count > 0)
-        json_write_newline(w);
+        json_start_new_line(w);
     json_write_end_array(w);
 }
 
@@ -325,7 +326,7 @@ static bool read_velocity(json_reader *r, json_t *row, const json_place *at, voi
     bool *given = into; /* for each body, whether it has a velocity */
     uint64_t id;
     if (json_array_size(row) != 4)
-        return json_expected(r, row, at, "[id, vx, vy, vz]");
+        return json_fail_expected(r, row, at, "[id, vx, vy, vz]");
     if (!json_read_id(r, row, at, 0, &id))
         return false;
     const uint32_t place = session_find_body(s, id);
@@ -370,7 +371,7 @@ static bool read_velocities(json_reader *r, json_t *value, const json_place *at,
         return read_velocity_list(r, value, at);
     if (json_is_object(value))
         return read_random_velocities(r, value, at);
-    return json_expected(r, value, at, "a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": ...}");
+    return json_fail_expected(r, value, at, "a list of [id, vx, vy, vz] or {\"speed\": ..., \"seed\": ...}");
 }
 
 const json_codec session_velocities_codec = {read_velocities, NULL};

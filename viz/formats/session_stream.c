@@ -51,7 +51,7 @@ void session_stream_close(session_stream *s)
 static session_stream_state read_object(session_stream *s, json_object_reader *read, octreel_error *error)
 {
     s->reader.error = error;
-    const session_stream_state state = (session_stream_state)json_stream_next(&s->objects, &s->reader);
+    const session_stream_state state = (session_stream_state)json_stream_read_object(&s->objects, &s->reader);
     const bool done =
         state != SESSION_STREAM_TICK ||
         (session_check_text(&s->reader) && json_read_object(&s->reader, false, read) && session_end_values(&s->reader));

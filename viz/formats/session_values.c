@@ -18,7 +18,7 @@ static bool read_color(json_reader *r, json_t *value, const json_place *at, void
     const char *text = json_string_value(value);
     unsigned char *color = into;
     if (!text || *text != '#' || strlen(text) != 7 || strspn(text + 1, "0123456789abcdefABCDEF") != 6)
-        return json_expected(r, value, at, "a colour \"#rrggbb\"");
+        return json_fail_expected(r, value, at, "a colour \"#rrggbb\"");
     const unsigned long packed = strtoul(text + 1, NULL, 16);
     for (int i = 0; i < 3; i++)
         color[i] = (unsigned char)(packed >> (16 - 8 * i));
@@ -37,7 +37,7 @@ static bool read_intensity(json_reader *r, json_t *value, const json_place *at, 
 {
     const double number = json_real_value(value);
     if (!json_is_real(value))
-        return json_expected(r, value, at, "a number");
+        return json_fail_expected(r, value, at, "a number");
     if (fabs(number) > FLT_MAX)
         return json_fail(r, at, "the intensity does not fit into a float");
     *(float *)into = (float)number;
@@ -53,7 +53,7 @@ static bool read_class(json_reader *r, json_t *value, const json_place *at, void
 {
     uint64_t whole;
     uint16_t *class = into;
-    if (!json_read_whole(r, value, at, 0, UINT16_MAX, &whole))
+    if (!json_read_whole_number(r, value, at, 0, UINT16_MAX, &whole))
         return false;
     *class = (uint16_t)whole;
     return true;
@@ -66,8 +66,8 @@ static void write_class(json_writer *w, const void *from)
 
 /* ---- Values by id ------------------------------------------------------------------------------------------- */
 
-static const hash_map_keys listed_by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_same_id};
-static const hash_map_keys plain_by_id = {sizeof(uint64_t), hash_map_hash_id, hash_map_same_id};
+static const hash_map_item_type listed_by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_ids_equal};
+static const hash_map_item_type plain_by_id = {sizeof(uint64_t), hash_map_hash_id, hash_map_ids_equal};
 
 static point_value find_value(const session_values *s, uint64_t id)
 {
@@ -223,13 +223,13 @@ static bool read_columns(json_reader *r, json_t *list, const json_place *at, voi
     unsigned seen = 0;
     (void)into;
     if (!json_is_array(list) || count == 0)
-        return json_expected(r, list, at, "a list of \"color\", \"intensity\" and \"class\"");
+        return json_fail_expected(r, list, at, "a list of \"color\", \"intensity\" and \"class\"");
     for (size_t i = 0; i < count; i++) {
         json_t *name = json_array_get(list, i);
         const json_place place = {at, NULL, i};
         const int kind = json_find_name(kind_name, json_string_value(name));
         if (kind < 0)
-            return json_expected(r, name, &place, "one of \"color\", \"intensity\" and \"class\"");
+            return json_fail_expected(r, name, &place, "one of \"color\", \"intensity\" and \"class\"");
         if (seen >> kind & 1)
             return json_fail(r, &place, "\"%s\" occurs twice", kind_name(kind));
         seen |= 1U << kind;

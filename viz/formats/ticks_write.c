@@ -40,7 +40,7 @@ static void write_digest(json_writer *w, const void *from)
 /* Write the ids of points. */
 static void write_points(json_writer *w, const void *from)
 {
-    const json_counted points = json_counted_at(from);
+    const json_counted_array points = json_get_counted_array(from);
     json_write_begin_array(w);
     for (size_t i = 0; i < points.count; i++)
         json_write_integer(w, ((const octree_point *)points.items)[i].id);
@@ -49,7 +49,7 @@ static void write_points(json_writer *w, const void *from)
 
 static void write_addresses(json_writer *w, const void *from)
 {
-    const json_counted addresses = json_counted_at(from);
+    const json_counted_array addresses = json_get_counted_array(from);
     char text[OCTREE_ADDRESS_TEXT];
     json_write_begin_array(w);
     for (size_t i = 0; i < addresses.count; i++)
@@ -60,7 +60,7 @@ static void write_addresses(json_writer *w, const void *from)
 /* Write the nodes that split or merged: a list, or the count and a digest if there are more than TICK_LISTED. */
 static void write_nodes(json_writer *w, const void *from)
 {
-    const json_counted addresses = json_counted_at(from);
+    const json_counted_array addresses = json_get_counted_array(from);
     uint64_t digest = OCTREE_DIGEST_START;
     if (addresses.count <= TICK_LISTED || ((const tick_extras *)w->context)->whole) {
         write_addresses(w, from);
@@ -69,7 +69,7 @@ static void write_nodes(json_writer *w, const void *from)
     for (size_t i = 0; i < addresses.count; i++)
         digest = octree_digest_word(digest, ((const octree_address *)addresses.items)[i]);
     json_write_begin_object(w);
-    json_member_integer(w, "count", addresses.count);
+    json_write_integer_member(w, "count", addresses.count);
     json_write_key(w, "digest");
     write_digest(w, &digest);
     json_write_end_object(w);
@@ -142,15 +142,15 @@ static void write_result(json_writer *w, const octree_answer *answer, const octr
     static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
     if (!about->neighbors) {
         json_write_key(w, "ids");
-        write_points(w, &(json_counted){answer->points, answer->count});
+        write_points(w, &(json_counted_array){answer->points, answer->count});
     } else if (about->members & OCTREE_QUERY_HAS_K) {
         json_write_key(w, "neighbors");
         w->row = &list;
-        json_structures.write(w, &(json_counted){answer->neighbors, answer->count});
+        json_structures.write(w, &(json_counted_array){answer->neighbors, answer->count});
     } else if (answer->count > 0) {
         json_write_members(w, neighbor_members, answer->neighbors);
     } else {
-        json_member_text(w, "id", NULL);
+        json_write_text_member(w, "id", NULL);
     }
 }
 
@@ -182,14 +182,14 @@ void tick_write_answer(json_writer *w, const octree_answer *answer)
 {
     const octree_query_traits *about = octree_query_about(answer->kind);
     json_write_begin_object(w);
-    json_member_begin_object(w, about->name);
+    json_begin_object_member(w, about->name);
     tick_write_parameters(w, answer);
     if (answer->skip == OCTREE_SKIP_ID)
-        json_member_integer(w, "skip", answer->skip_id);
+        json_write_integer_member(w, "skip", answer->skip_id);
     if (answer->skip == OCTREE_SKIP_COINCIDENT)
-        json_member_text(w, "skip", "coincident");
+        json_write_text_member(w, "skip", "coincident");
     if (answer->epsilon > 0)
-        json_member_number(w, "epsilon", answer->epsilon);
+        json_write_number_member(w, "epsilon", answer->epsilon);
     write_result(w, answer, about);
     json_write_members(w, last_answer_members, answer);
     json_write_end_object(w);
@@ -237,11 +237,11 @@ static void write_wrong_nodes(json_writer *w, const void *from)
 {
     const octree_foreign_state *foreign = from;
     json_write_begin_object(w);
-    json_member_integer(w, "count", foreign->wrong_count);
+    json_write_integer_member(w, "count", foreign->wrong_count);
     for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
         if (foreign->wrong[kind])
-            json_member_integer(w, wrong_node_name(kind), foreign->wrong[kind]);
-    json_member_begin_array(w, "first");
+            json_write_integer_member(w, wrong_node_name(kind), foreign->wrong[kind]);
+    json_begin_array_member(w, "first");
     for (size_t i = 0; i < foreign->listed_count; i++)
         json_write_object(w, wrong_node_members, &foreign->listed[i]);
     json_write_end_array(w);
@@ -325,8 +325,8 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
     json_write_begin_object(w);
     json_write_members(w, tick->gap ? gap_members : line_members, tick);
     if (extras->frame) {
-        json_member_text(w, "frame", extras->frame);
-        json_member_text(w, "scene", digest_print(extras->scene_digest, digest));
+        json_write_text_member(w, "frame", extras->frame);
+        json_write_text_member(w, "scene", digest_print(extras->scene_digest, digest));
     }
     json_write_end_object(w);
     json_write_end_line(w);

@@ -45,11 +45,11 @@ static bool refuse_name(const view_option *option, const char *text, size_t leng
 {
     char known[320], meant[HINT_TEXT];
     json_name *names = option->member.names;
-    hint h = hint_for(text, length);
+    hint h = hint_create(text, length);
     for (int i = 0; names(i); i++)
-        hint_offer(&h, names(i));
+        hint_add_candidate(&h, names(i));
     return error_set(error, "there is no %s \"%.*s\"%sthere are %s", option->takes, length < 100 ? (int)length : 100,
-                     text, hint_text(&h, "", meant), json_list_names(names, known, sizeof known));
+                     text, hint_format(&h, "", meant), json_list_names(names, known, sizeof known));
 }
 
 /* ---- Values of each type ------------------------------------------------------------------------------------ */
@@ -84,7 +84,7 @@ static bool parse_switch(const view_option *option, const char *text, view *v, o
 static bool parse_whole(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *at = text;
-    if (!whole_parse(&at, (uint64_t)option->member.max, value_of(option, v)) || *at != 0)
+    if (!whole_number_parse(&at, (uint64_t)option->member.max, value_of(option, v)) || *at != 0)
         return refuse_value(option, text, error);
     return true;
 }
@@ -109,7 +109,8 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
 {
     const char *at = text;
     uint64_t width, height;
-    if (!whole_parse(&at, INT32_MAX, &width) || *at++ != 'x' || !whole_parse(&at, INT32_MAX, &height) || *at != 0)
+    if (!whole_number_parse(&at, INT32_MAX, &width) || *at++ != 'x' || !whole_number_parse(&at, INT32_MAX, &height) ||
+        *at != 0)
         return refuse_value(option, text, error);
     v->width = (int)width;
     v->height = (int)height;
@@ -188,7 +189,7 @@ static bool read_slice(json_reader *r, json_t *value, const json_place *at, void
     view_filter *f = into;
     const char *axis = json_object_size(value) == 1 ? json_object_iter_key(json_object_iter(value)) : "";
     if (strlen(axis) != 1 || !strchr("xyz", *axis))
-        return json_expected(r, value, at, "an axis and a place as in {\"z\": 100}");
+        return json_fail_expected(r, value, at, "an axis and a place as in {\"z\": 100}");
     f->slice = *axis;
     return json_number.read(r, json_object_get(value, axis), &(json_place){at, axis, 0}, &f->slice_at);
 }
@@ -197,7 +198,7 @@ static void write_slice(json_writer *w, const void *from)
 {
     const view_filter *f = from;
     json_write_begin_object(w);
-    json_member_number(w, (const char[]){f->slice, 0}, f->slice_at);
+    json_write_number_member(w, (const char[]){f->slice, 0}, f->slice_at);
     json_write_end_object(w);
 }
 
@@ -206,9 +207,9 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
 {
     const char *at = text;
     uint64_t from = 0, to = OCTREE_MAX_DEPTH;
-    const bool begins = whole_parse(&at, OCTREE_MAX_DEPTH, &from), open = *at == ':';
+    const bool begins = whole_number_parse(&at, OCTREE_MAX_DEPTH, &from), open = *at == ':';
     at += open;
-    const bool ends = open && whole_parse(&at, OCTREE_MAX_DEPTH, &to);
+    const bool ends = open && whole_number_parse(&at, OCTREE_MAX_DEPTH, &to);
     to = open ? to : from;
     if (*at != 0 || from > to || !(begins || ends))
         return refuse_value(option, text, error);

@@ -45,7 +45,7 @@ struct image_source {
 static bool fail(image_source *s, const char *reason)
 {
     s->failed = true;
-    return error_set(s->error, "%s: %s", file_title(s->path), reason);
+    return error_set(s->error, "%s: %s", file_display_name(s->path), reason);
 }
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */

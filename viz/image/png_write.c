@@ -112,7 +112,8 @@ static bool encode_png(output *out)
 static bool is_replaceable(const char *path)
 {
     struct stat status;
-    return file_is_standard(path) || stat(path, &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode);
+    return file_is_standard_stream(path) || stat(path, &status) != 0 || S_ISREG(status.st_mode) ||
+           S_ISDIR(status.st_mode);
 }
 
 static bool write_file(output *out, const char *path)
@@ -121,7 +122,7 @@ static bool write_file(output *out, const char *path)
         return error_set(out->error, "%s: exists and is not a regular file; choose another name", path);
     if (!file_writer_open(&out->file, path, out->error))
         return false;
-    return encode_png(out) ? file_writer_close(&out->file, out->error) : file_writer_abandon(&out->file);
+    return encode_png(out) ? file_writer_close(&out->file, out->error) : file_writer_discard(&out->file);
 }
 
 static const uint8_t *row_of_image(int y, void *context)

@@ -48,7 +48,7 @@ static const octree_answer *append_query(description *d, const char *what, uint6
 
 static void append_found_count(description *d, const octree_answer *answer)
 {
-    append_text(d, ", %zu point%s found", answer->count, plural(answer->count));
+    append_text(d, ", %zu point%s found", answer->count, plural_ending(answer->count));
 }
 
 static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
@@ -216,7 +216,7 @@ static void write_nearest(pen *p, const octree_answer *answer)
         write_row(p, "nearest", "", "none");
         return;
     }
-    number_text(answer->neighbors[0].distance, 6, distance);
+    number_format(answer->neighbors[0].distance, 6, distance);
     snprintf(id, sizeof id, "#%" PRIu64, answer->neighbors[0].point.id);
     const bool fits = DETAIL + strlen(id) + 1 + strlen(distance) + strlen(" away") <= (size_t)p->letters;
     if (!fits)

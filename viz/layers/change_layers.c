@@ -51,8 +51,8 @@ static void add_change_legend(legend *l, const layer_source *in)
     size_t count;
     const bool split = l->next.layer == LAYER_SPLITS;
     const octree_address *nodes = get_changed_nodes(in->tick, l->next.layer, &count);
-    legend_line *line = legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu node%s %s", count, plural(count),
-                                   split ? "split" : "merged");
+    legend_line *line = legend_add(l, split ? SIGN_PLUS : SIGN_DASHED_PLUS, "%zu node%s %s", count,
+                                   plural_ending(count), split ? "split" : "merged");
     if (count == 0)
         return;
     octree_address_format(nodes[count - 1], last);

@@ -70,7 +70,7 @@ void describe_node(description *d, const char *before, uint64_t id)
         append_text(d, "an empty cell at depth %u (its node no longer exists)", node->depth);
     else
         append_text(d, "%s at depth %u, %zu point%s", node->leaf ? "leaf" : "inner node", node->depth, node->count,
-                    plural(node->count));
+                    plural_ending(node->count));
     append_box(d, ", box ", &node->box);
 }
 

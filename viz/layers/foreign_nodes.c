@@ -221,7 +221,7 @@ void describe_foreign_node(description *d, const char *before, uint64_t element)
         append_text(d, " of kind \"%s\"", node->kind);
     if (node->has_parent)
         append_text(d, " under node %" PRIu64, node->parent);
-    append_text(d, ", %zu point%s listed", place->points, plural(place->points));
+    append_text(d, ", %zu point%s listed", place->points, plural_ending(place->points));
     append_box(d, ", box ", &node->box);
     for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
         if (place->wrong >> kind & 1)

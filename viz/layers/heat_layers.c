@@ -77,8 +77,8 @@ static void describe_heat(description *d, const described_element *element)
     if (element->style.layer == LAYER_VISIT_HEAT)
         append_text(d, "visited in %" PRIu64 " of", heat_of_node.visits);
     else
-        append_text(d, "%" PRIu64 " point%s summed over", heat_of_node.points, plural(heat_of_node.points));
-    append_text(d, " %" PRIu64 " tick%s", ticks, plural(ticks));
+        append_text(d, "%" PRIu64 " point%s summed over", heat_of_node.points, plural_ending(heat_of_node.points));
+    append_text(d, " %" PRIu64 " tick%s", ticks, plural_ending(ticks));
     describe_node(d, ", ", element->id);
 }
 

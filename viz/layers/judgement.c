@@ -16,9 +16,9 @@ static void print_ratio(double ratio, char text[JUDGEMENT_TEXT])
     if (isinf(ratio))
         snprintf(text, JUDGEMENT_TEXT, "infinite ratio");
     else if (ratio < PERCENT_BELOW)
-        snprintf(text, JUDGEMENT_TEXT, "%s%% farther", number_text((ratio - 1) * 100, 2, number));
+        snprintf(text, JUDGEMENT_TEXT, "%s%% farther", number_format((ratio - 1) * 100, 2, number));
     else
-        snprintf(text, JUDGEMENT_TEXT, "%s times as far", number_text(ratio, 3, number));
+        snprintf(text, JUDGEMENT_TEXT, "%s times as far", number_format(ratio, 3, number));
 }
 
 static void print_point_counts(const octree_judgement *judgement, char text[JUDGEMENT_TEXT])

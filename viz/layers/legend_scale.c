@@ -31,7 +31,7 @@ static void add_number(scale_numbers *m, double part, double value)
 {
     if (m->count < MOST_NUMBERS + 2) {
         m->items[m->count].part = part;
-        number_text(value, DIGITS, m->items[m->count++].text);
+        number_format(value, DIGITS, m->items[m->count++].text);
     }
 }
 
@@ -52,7 +52,7 @@ static scale_numbers number_powers(const legend_scale *scale)
 static scale_numbers number_round_steps(const legend_scale *scale, int count)
 {
     scale_numbers m = {.count = 0};
-    const double extent = scale->high - scale->low, step = number_round_up(extent / count);
+    const double extent = scale->high - scale->low, step = number_round_up_to_1_2_5(extent / count);
     const double first = step > 0 ? ceil(scale->low / step) : 0, last = step > 0 ? floor(scale->high / step) : -1;
     for (double i = first; i <= last && i < first + MOST_NUMBERS + 1; i++) /* + 0.0 turns -0 into 0 */
         add_number(&m, (i * step - scale->low) / extent, i * step + 0.0);

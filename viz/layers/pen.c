@@ -112,7 +112,7 @@ void write_rule(pen *p)
 
 const char *format_number_within(double value, size_t letters, char text[NUMBER_TEXT])
 {
-    for (int digits = 9; digits > 0 && strlen(number_text(value, digits, text)) > letters; digits--)
+    for (int digits = 9; digits > 0 && strlen(number_format(value, digits, text)) > letters; digits--)
         continue;
     return text;
 }

@@ -57,7 +57,7 @@ static void add_shapes(scene *s, const layer_source *in, view_layer layer)
 
 static void add_shape_legend(legend *l, const layer_source *in)
 {
-    legend_add(l, SIGN_BOLD, "%zu shape%s", in->tick->shape_count, plural(in->tick->shape_count));
+    legend_add(l, SIGN_BOLD, "%zu shape%s", in->tick->shape_count, plural_ending(in->tick->shape_count));
 }
 
 static void describe_shape(description *d, const described_element *element)

@@ -170,7 +170,7 @@ static bool has_movers(const layer_source *in)
 static void add_velocity_legend(legend *l, const layer_source *in)
 {
     const unsigned ticks = velocity_ticks(in->game);
-    legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural(ticks));
+    legend_add(l, SIGN_ARROW, "velocity, %u tick%s", ticks, plural_ending(ticks));
 }
 
 static void describe_arrow(description *d, const described_element *element)
@@ -181,7 +181,8 @@ static void describe_arrow(description *d, const described_element *element)
             continue;
         describe_point(d, "the velocity of ", body->id, body->position);
         append_position(d, ": ", body->velocity);
-        append_text(d, " per tick, drawn for %u tick%s", velocity_ticks(d->game), plural(velocity_ticks(d->game)));
+        append_text(d, " per tick, drawn for %u tick%s", velocity_ticks(d->game),
+                    plural_ending(velocity_ticks(d->game)));
     }
 }
 

@@ -52,7 +52,7 @@ static size_t count_shown_visits(const layer_source *in, size_t octreel, octree_
 static void add_pruned_legend(legend *l, const layer_source *in)
 {
     const size_t pruned = count_shown_visits(in, in->tick->touched[OCTREE_TRACE_PRUNED], OCTREE_NODE_PRUNED);
-    legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural(pruned));
+    legend_add(l, SIGN_DASHES, "%zu node%s pruned", pruned, plural_ending(pruned));
 }
 
 /* Write the counts of visited nodes and of nodes taken whole (all their points accepted without comparison) into one
@@ -62,7 +62,7 @@ static void add_visited_legend(legend *l, const layer_source *in)
     const size_t taken = shows_own_tree(in) ? in->tick->touched[OCTREE_TRACE_TAKEN] : 0;
     const size_t visited = count_shown_visits(in, in->tick->touched[OCTREE_TRACE_VISITED], OCTREE_NODE_VISITED);
     char rest[SCENE_TEXT];
-    legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural(visited));
+    legend_line *line = legend_add(l, SIGN_BOLD, "%zu node%s visited", visited, plural_ending(visited));
     const int length = snprintf(rest, sizeof rest, "%zu taken whole", taken);
     if (taken && strlen(line->text) + strlen(", ") + (size_t)length > LEGEND_LETTERS)
         legend_add(l, SIGN_NONE, "%s", rest);

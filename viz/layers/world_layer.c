@@ -60,7 +60,7 @@ static double number_step(const axes *a, int axis)
     const double count = fmin(floor(length / space), MOST_TICKS);
     if (!(extent > 0) || !isfinite(extent) || count < 1)
         return 0;
-    const double step = number_round_up(extent / count);
+    const double step = number_round_up_to_1_2_5(extent / count);
     const double largest = fmax(fabs(a->box->min[axis]), fabs(a->box->max[axis]));
     return step > 0 && largest / step < 1e8 ? step : 0; /* otherwise neighbouring numbers could print the same digits */
 }
@@ -155,7 +155,7 @@ static void add_tick(axes *a, const axis_edge *e, double at, uint64_t id)
         ends[1][i] = ends[0][i] + (e->corner >> i & 1 ? length : -length);
     ends[0][e->axis] = ends[1][e->axis] = at;
     char text[NUMBER_TEXT];
-    scene_label number = scene_make_label(id, axis_style, "%s", number_text(at, DIGITS, text));
+    scene_label number = scene_make_label(id, axis_style, "%s", number_format(at, DIGITS, text));
     scene_add_line(s, id, ends[0], ends[1], axis_style);
     number.style.stroke = STROKE_CUT;
     if (place_number(a, e, ends, &number))

@@ -131,10 +131,10 @@ bool film_session(const octree_session *session, const film_options *options, fi
 /* Check the picture that is to be written to a path. A picture for standard output is kept in the current folder. */
 static bool check_picture(picture *p, const scene *s, const char *path, frame_checks *checks, octreel_error *error)
 {
-    const char *title = file_output_title(path);
+    const char *title = file_output_display_name(path);
     const size_t length = strlen(path), suffix = sizeof ".png" - 1;
     const bool is_png = length > suffix && strcmp(path + length - suffix, ".png") == 0;
-    char *prefix = file_is_standard(path) ? strdup("different_picture") : strdup(path);
+    char *prefix = file_is_standard_stream(path) ? strdup("different_picture") : strdup(path);
     if (!prefix)
         return error_no_memory(error);
     if (is_png)

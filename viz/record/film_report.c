@@ -25,7 +25,7 @@ static void print_uses(FILE *out, const film_summary *summary, const char *folde
         return;
     }
     fprintf(out, "its index.html shows it in a browser; as a film: (cd %s", folder[0] == '/' ? "" : "./");
-    hint_write_word(out, folder);
+    hint_write_shell_word(out, folder);
     fputs(" && ffmpeg -framerate 15 -pattern_type glob -i 'frame_*.png' -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt "
           "yuv420p film.mp4)\n",
           out);
@@ -42,27 +42,27 @@ static double find_rate(const film_summary *summary, double seconds)
 static void begin_json(json_writer *w, const film_summary *summary, const char *folder)
 {
     json_write_begin_object(w);
-    json_member_text(w, "folder", folder);
-    json_member_integer(w, "ticks", summary->ticks);
-    json_member_integer(w, "frames", summary->frames);
-    json_member_integer(w, "gaps", summary->gaps);
-    json_member_integer(w, "left_out", summary->left_out);
+    json_write_text_member(w, "folder", folder);
+    json_write_integer_member(w, "ticks", summary->ticks);
+    json_write_integer_member(w, "frames", summary->frames);
+    json_write_integer_member(w, "gaps", summary->gaps);
+    json_write_integer_member(w, "left_out", summary->left_out);
 }
 
 static void report_json(FILE *out, const film_summary *summary, const char *folder, double seconds)
 {
     json_writer writer = {.out = out}, *w = &writer;
     begin_json(w, summary, folder);
-    json_member_integer(w, "checked", summary->checks.count);
-    json_member_text(w, "checked_by", summary->checks.count ? draw_context_name(summary->checks.by) : NULL);
-    json_member_integer(w, "over_budget", summary->over_budget);
-    json_member_integer(w, "below_lod", summary->below_lod);
-    json_member_integer(w, "refusals", summary->refusals);
-    json_member_number(w, "seconds", seconds);
-    json_member_number(w, "frames_per_second", find_rate(summary, seconds));
-    json_member_begin_object(w, "events");
+    json_write_integer_member(w, "checked", summary->checks.count);
+    json_write_text_member(w, "checked_by", summary->checks.count ? draw_context_name(summary->checks.by) : NULL);
+    json_write_integer_member(w, "over_budget", summary->over_budget);
+    json_write_integer_member(w, "below_lod", summary->below_lod);
+    json_write_integer_member(w, "refusals", summary->refusals);
+    json_write_number_member(w, "seconds", seconds);
+    json_write_number_member(w, "frames_per_second", find_rate(summary, seconds));
+    json_begin_object_member(w, "events");
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        json_member_integer(w, octree_event_name(1u << i), summary->events[i]);
+        json_write_integer_member(w, octree_event_name(1u << i), summary->events[i]);
     json_write_end_object(w);
     json_write_end_object(w);
     json_write_end_line(w);
@@ -71,11 +71,11 @@ static void report_json(FILE *out, const film_summary *summary, const char *fold
 static void report_counts(FILE *out, const film_summary *summary, const char *folder)
 {
     write_escaped(out, folder, escape_nothing);
-    fprintf(out, ": %" PRIu64 " tick%s, ", summary->ticks, plural(summary->ticks));
+    fprintf(out, ": %" PRIu64 " tick%s, ", summary->ticks, plural_ending(summary->ticks));
     if (summary->frames == 0)
         fputs("no frames", out);
     else
-        fprintf(out, "%" PRIu64 " frame%s", summary->frames, plural(summary->frames));
+        fprintf(out, "%" PRIu64 " frame%s", summary->frames, plural_ending(summary->frames));
     if (summary->kept > 0)
         fprintf(out, ", of which %" PRIu64 " %s there", summary->kept, summary->kept == 1 ? "was" : "were");
 }
@@ -103,21 +103,22 @@ static void report_left_out(FILE *out, const film_summary *summary)
                                    : "ticks are gaps: nothing is known of them");
     if (summary->left_out)
         fprintf(out, "%" PRIu64 " element%s too far off to be drawn: the frames lack what is so far away\n",
-                summary->left_out, plural(summary->left_out));
+                summary->left_out, plural_ending(summary->left_out));
     if (summary->over_budget)
         fprintf(out, "%" PRIu64 " frame%s leave%s out %s beyond --budget\n", summary->over_budget,
-                plural(summary->over_budget), plural_verb(summary->over_budget),
+                plural_ending(summary->over_budget), verb_ending(summary->over_budget),
                 film_left_out_text(summary->beyond, text));
     if (summary->below_lod)
         fprintf(out, "%" PRIu64 " frame%s leave%s out %s smaller than --lod\n", summary->below_lod,
-                plural(summary->below_lod), plural_verb(summary->below_lod), film_left_out_text(summary->small, text));
+                plural_ending(summary->below_lod), verb_ending(summary->below_lod),
+                film_left_out_text(summary->small, text));
 }
 
 static void report_chunk(FILE *out, const film_summary *summary, const film_options *options)
 {
     fprintf(out, "a chunk, from tick %" PRIu64 " to %" PRIu64 "; when all chunks are there: %s join ", options->first,
             options->first + summary->ticks - 1, hint_program_name());
-    hint_write_word(out, options->folder);
+    hint_write_shell_word(out, options->folder);
     putc('\n', out);
 }
 
@@ -134,7 +135,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     putc('\n', out);
     if (summary->checks.count)
         fprintf(out, "%" PRIu64 " of %" PRIu64 " frame%s checked with %s\n", summary->checks.count,
-                summary->frames - summary->kept, plural(summary->frames - summary->kept),
+                summary->frames - summary->kept, plural_ending(summary->frames - summary->kept),
                 frame_checks_title(summary->checks.by));
     report_left_out(out, summary);
     fputs("ticks that", out);
@@ -159,7 +160,7 @@ static void print_world(FILE *out, const octree_session *session)
 {
     const octree_body *bodies = session->bodies;
     const octree_box world = point_world(bodies->position, sizeof *bodies, session->body_count);
-    json_member_box(&(json_writer){.out = out}, "world", &world);
+    json_write_box_member(&(json_writer){.out = out}, "world", &world);
 }
 
 void film_report_start(FILE *out, const film_start *start, const octree_session *session)
@@ -228,10 +229,10 @@ void film_report_stopped(FILE *out, const film_summary *summary, const film_opti
         return;
     }
     fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to go on: %s record --resume",
-            summary->ticks, summary->total, plural(summary->total), hint_program_name());
+            summary->ticks, summary->total, plural_ending(summary->total), hint_program_name());
     if (options->last != 0)
         fprintf(out, " --ticks %" PRIu64 ":%" PRIu64, options->first, options->first + summary->total);
     fputs(" -o ", out);
-    hint_write_word(out, options->folder);
+    hint_write_shell_word(out, options->folder);
     putc('\n', out);
 }

@@ -127,8 +127,8 @@ bool write_recording_file(const folder_place *place, const view *v, uint64_t eve
 
 static void write_text(json_writer *w, const char *key, const char *text)
 {
-    json_write_newline(w);
-    json_member_text(w, key, text);
+    json_start_new_line(w);
+    json_write_text_member(w, key, text);
 }
 
 bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error)
@@ -145,7 +145,7 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     write_text(w, "version", info->version);
     write_text(w, "fill", info->fill);
     write_text(w, "png", image_library(library));
-    json_write_newline(w);
+    json_start_new_line(w);
     json_write_end_object(w);
     json_write_end_line(w);
     return write_stream(place, "renderer.json", &s, NULL, error);
@@ -227,8 +227,8 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
  * these two first, so a recording that another process has just begun is not refused. */
 static bool check_known(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
-    const bool view = folder_has(folder, "recording.json"), session = folder_has(folder, "session.json");
-    if (view && !session && folder_has(folder, "session.json.live"))
+    const bool view = folder_contains(folder, "recording.json"), session = folder_contains(folder, "session.json");
+    if (view && !session && folder_contains(folder, "session.json.live"))
         return check_live_session(folder, session_digest, error);
     return (view && session) ||
            error_set(error, "%s: cannot resume: %s is there, but %s is missing; choose another folder", folder, past,

@@ -92,7 +92,7 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
 {
     frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
     char name[FRAME_NAME];
-    if (!folder_has(j->options->folder, frame_name(origin.tick, name)))
+    if (!folder_contains(j->options->folder, frame_name(origin.tick, name)))
         return error_set(error, "%s: %s is missing; complete the recording with %s record --resume", j->options->folder,
                          name, hint_program_name());
     if (!frame_check(j->options->folder, &origin, error))
@@ -182,7 +182,7 @@ static bool write_ticks(joining *j, octreel_error *error)
         if (ok && !stopped)
             ok = file_writer_close(&j->ticks, error);
         else
-            file_writer_abandon(&j->ticks);
+            file_writer_discard(&j->ticks);
     }
     free(path);
     return ok;
@@ -190,7 +190,7 @@ static bool write_ticks(joining *j, octreel_error *error)
 
 static bool check_renderer_file(const char *folder, octreel_error *error)
 {
-    return folder_has(folder, "renderer.json") ||
+    return folder_contains(folder, "renderer.json") ||
            error_set(error, "%s: renderer.json is missing; %s record --resume writes it", folder, hint_program_name());
 }
 

@@ -149,7 +149,7 @@ static bool write_session(live_recording *live, uint64_t ticks, const char *path
     if (!file_writer_open_replacing(&file, path, error))
         return false;
     session_write_header(&header, live->options.values, file.stream);
-    return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+    return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
 }
 
 /* Like octree_digest_bytes() for the bytes of a file, which is read in pieces since a session may be large. */

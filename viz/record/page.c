@@ -235,7 +235,7 @@ bool page_write(const char *folder, octreel_error *error)
     file_writer file;
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok)
-        ok = write_page(folder, file.stream, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+        ok = write_page(folder, file.stream, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
     free(path);
     return ok;
 }

@@ -70,7 +70,7 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
-    return !folder_has(r->options->folder, chunk_name(r->share.first, r->share.last, name)) ||
+    return !folder_contains(r->options->folder, chunk_name(r->share.first, r->share.last, name)) ||
            error_set(error, "%s: already holds this chunk (%s); use --resume to complete it", r->options->folder, name);
 }
 

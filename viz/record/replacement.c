@@ -170,7 +170,8 @@ static bool recover(const replacement *r, octreel_error *error)
     if (!is_recording(r->aside))
         ok = remove_all(r->aside);
     else
-        ok = (folder_has(r->folder, mark) ? remove_all(r->folder) : move_or_remove(r->folder, NULL, unfinished_mark)) &&
+        ok = (folder_contains(r->folder, mark) ? remove_all(r->folder)
+                                               : move_or_remove(r->folder, NULL, unfinished_mark)) &&
              restore(r);
     return ok || error_set(error, "%s: what is there cannot be put back: %s", r->aside, strerror(errno));
 }
@@ -250,7 +251,7 @@ bool replacement_undo(replacement *r)
 void replacement_sweep(const char *folder)
 {
     char *aside = path_join(folder, FOLDER_ASIDE);
-    if (aside && folder_has(folder, FOLDER_ASIDE) && remove_all(aside))
+    if (aside && folder_contains(folder, FOLDER_ASIDE) && remove_all(aside))
         rmdir(aside);
     free(aside);
 }

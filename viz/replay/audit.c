@@ -220,7 +220,7 @@ static bool play_session(const char *path, const octree_session *session, audit_
     octree_game *game;
     const octree_status status = octree_game_create(session, &game);
     if (status != OCTREE_OK)
-        return error_set(error, "%s: cannot be played: %s", file_title(path), octree_status_text(status));
+        return error_set(error, "%s: cannot be played: %s", file_display_name(path), octree_status_text(status));
     const bool done = play(game, progress, context, report, error);
     octree_game_destroy(game);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
@@ -228,7 +228,7 @@ static bool play_session(const char *path, const octree_session *session, audit_
             qsort(report->kinds[kind].ratios, report->kinds[kind].ratio_count, sizeof(double), compare_numbers);
     if (done && report->asked == 0 && !report->nodes.given)
         return error_set(error, "%s: nothing to audit: no played tick has a query with an \"answer\" or foreign nodes",
-                         file_title(path));
+                         file_display_name(path));
     return done;
 }
 

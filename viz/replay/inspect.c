@@ -100,10 +100,10 @@ void inspect_print_point(const octree_point *point, const double *distance, FILE
 void inspect_write_point(json_writer *w, const octree_point *point, const double *distance)
 {
     json_write_begin_object(w);
-    json_member_integer(w, "id", point->id);
-    json_member_vector(w, "position", point->position);
+    json_write_integer_member(w, "id", point->id);
+    json_write_vector_member(w, "position", point->position);
     if (distance) {
-        json_member_number(w, "distance", *distance);
+        json_write_number_member(w, "distance", *distance);
     }
     json_write_end_object(w);
 }
@@ -153,7 +153,8 @@ static void print_statistics(const inspection *i, const octree_stats *stats, con
     print_box(out, "  world    ", &def.world);
     fprintf(out, "  capacity  %zu, depth at most %zu\n", def.leaf_capacity, def.max_depth);
     fprintf(out, "  nodes     %zu (%zu %s); deepest %u; fullest leaf %zu point%s\n", stats->nodes, stats->leaves,
-            stats->leaves == 1 ? "leaf" : "leaves", stats->depth, stats->largest_leaf, plural(stats->largest_leaf));
+            stats->leaves == 1 ? "leaf" : "leaves", stats->depth, stats->largest_leaf,
+            plural_ending(stats->largest_leaf));
     fprintf(out, "  memory    %zu bytes, %.1f a point\n", stats->memory,
             stats->points ? (double)stats->memory / (double)stats->points : 0.0);
     print_histograms(out, i->tree, stats);
@@ -163,12 +164,12 @@ static void write_occupancy(json_writer *w, const octree *tree)
 {
     histogram_row rows[OCCUPANCY_ROWS];
     const size_t count = count_occupancy(tree, rows);
-    json_member_begin_array(w, "leaves_by_points");
+    json_begin_array_member(w, "leaves_by_points");
     for (size_t i = 0; i < count; i++) {
         json_write_begin_object(w);
-        json_member_integer(w, "from", rows[i].from);
-        json_member_integer(w, "to", rows[i].to);
-        json_member_integer(w, "leaves", rows[i].leaves);
+        json_write_integer_member(w, "from", rows[i].from);
+        json_write_integer_member(w, "to", rows[i].to);
+        json_write_integer_member(w, "leaves", rows[i].leaves);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -176,7 +177,7 @@ static void write_occupancy(json_writer *w, const octree *tree)
 
 static void write_depths(json_writer *w, const char *key, const size_t *counts, unsigned depth)
 {
-    json_member_begin_array(w, key);
+    json_begin_array_member(w, key);
     for (unsigned i = 0; i <= depth; i++)
         json_write_integer(w, counts[i]);
     json_write_end_array(w);
@@ -187,25 +188,25 @@ static void write_statistics(const inspection *i, const octree_stats *stats, con
     const octree_def def = octree_definition(i->tree);
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    json_member_text(w, "cloud", name);
-    json_member_integer(w, "points", i->points);
-    json_member_integer(w, "skipped", i->skipped);
-    json_member_integer(w, "refused", i->refused);
-    json_member_integer(w, "outside", i->outside);
-    json_member_integer(w, "stored", stats->points);
+    json_write_text_member(w, "cloud", name);
+    json_write_integer_member(w, "points", i->points);
+    json_write_integer_member(w, "skipped", i->skipped);
+    json_write_integer_member(w, "refused", i->refused);
+    json_write_integer_member(w, "outside", i->outside);
+    json_write_integer_member(w, "stored", stats->points);
     inspect_write_values(i, w);
     if (stats->points) {
         const octree_box bounds = find_bounds(i->tree);
-        json_member_box(w, "bounds", &bounds);
+        json_write_box_member(w, "bounds", &bounds);
     }
-    json_member_box(w, "world", &def.world);
-    json_member_integer(w, "capacity", def.leaf_capacity);
-    json_member_integer(w, "max_depth", def.max_depth);
-    json_member_integer(w, "nodes", stats->nodes);
-    json_member_integer(w, "leaves", stats->leaves);
-    json_member_integer(w, "depth", stats->depth);
-    json_member_integer(w, "largest_leaf", stats->largest_leaf);
-    json_member_integer(w, "memory", stats->memory);
+    json_write_box_member(w, "world", &def.world);
+    json_write_integer_member(w, "capacity", def.leaf_capacity);
+    json_write_integer_member(w, "max_depth", def.max_depth);
+    json_write_integer_member(w, "nodes", stats->nodes);
+    json_write_integer_member(w, "leaves", stats->leaves);
+    json_write_integer_member(w, "depth", stats->depth);
+    json_write_integer_member(w, "largest_leaf", stats->largest_leaf);
+    json_write_integer_member(w, "memory", stats->memory);
     write_depths(w, "nodes_by_depth", stats->nodes_at_depth, stats->depth);
     write_depths(w, "leaves_by_depth", stats->leaves_at_depth, stats->depth);
     write_occupancy(w, i->tree);
@@ -227,7 +228,7 @@ static void print_node(const octree_node *node, const char *name, FILE *out)
     char address[OCTREE_ADDRESS_TEXT];
     inspect_print_name(name, out);
     fprintf(out, "%s: %s of %zu point%s at depth %u\n", octree_address_format(node->address, address),
-            node->leaf ? "leaf" : "inner node", node->count, plural(node->count), node->depth);
+            node->leaf ? "leaf" : "inner node", node->count, plural_ending(node->count), node->depth);
     print_box(out, "  box", &node->box);
     for (size_t i = 0; node->leaf && i < node->count && i < LIST_LINES; i++)
         inspect_print_point(&node->points[i], NULL, out);
@@ -239,13 +240,13 @@ static void write_node(const octree_node *node, const char *name, FILE *out)
     char address[OCTREE_ADDRESS_TEXT];
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    json_member_text(w, "cloud", name);
-    json_member_text(w, "node", octree_address_format(node->address, address));
-    json_member_integer(w, "depth", node->depth);
-    json_member_bool(w, "leaf", node->leaf);
-    json_member_integer(w, "count", node->count);
-    json_member_box(w, "box", &node->box);
-    json_member_begin_array(w, "points");
+    json_write_text_member(w, "cloud", name);
+    json_write_text_member(w, "node", octree_address_format(node->address, address));
+    json_write_integer_member(w, "depth", node->depth);
+    json_write_bool_member(w, "leaf", node->leaf);
+    json_write_integer_member(w, "count", node->count);
+    json_write_box_member(w, "box", &node->box);
+    json_begin_array_member(w, "points");
     for (size_t i = 0; node->leaf && i < node->count; i++)
         inspect_write_point(w, &node->points[i], NULL);
     json_write_end_array(w);

@@ -179,16 +179,16 @@ static void print_answer(const shown_answer *shown, FILE *out)
     fprintf(out,
             "  cost: %" PRIu64 " node%s visited (%" PRIu64 " %s); %" PRIu64 " point%s compared; %" PRIu64
             " node%s pruned, %" PRIu64 " taken whole\n",
-            cost->nodes, plural(cost->nodes), cost->leaves, cost->leaves == 1 ? "leaf" : "leaves", cost->points,
-            plural(cost->points), cost->pruned, plural(cost->pruned), cost->taken);
+            cost->nodes, plural_ending(cost->nodes), cost->leaves, cost->leaves == 1 ? "leaf" : "leaves", cost->points,
+            plural_ending(cost->points), cost->pruned, plural_ending(cost->pruned), cost->taken);
 }
 
 /* ---- JSON --------------------------------------------------------------------------------------------------- */
 
 static void write_points(json_writer *w, const shown_answer *shown)
 {
-    json_member_integer(w, "found", shown->answer->count);
-    json_member_begin_array(w, "points");
+    json_write_integer_member(w, "found", shown->answer->count);
+    json_begin_array_member(w, "points");
     for (size_t i = 0; i < shown->answer->count; i++)
         inspect_write_point(w, point_at(shown, i), distance_at(shown, i));
     json_write_end_array(w);
@@ -198,19 +198,19 @@ static void write_answer(json_writer *w, const shown_answer *shown)
 {
     char note[NOTE_TEXT];
     json_write_begin_object(w);
-    json_member_text(w, "query", shown->about->name);
+    json_write_text_member(w, "query", shown->about->name);
     tick_write_parameters(w, shown->answer);
     if (shown->about->neighbors && !(shown->about->members & OCTREE_QUERY_HAS_K))
-        json_member_integer(w, "k", shown->answer->k);
+        json_write_integer_member(w, "k", shown->answer->k);
     write_points(w, shown);
     if (find_note(shown, note))
-        json_member_text(w, "note", note);
-    json_member_begin_object(w, "cost");
-    json_member_integer(w, "nodes", shown->answer->cost.nodes);
-    json_member_integer(w, "leaves", shown->answer->cost.leaves);
-    json_member_integer(w, "points", shown->answer->cost.points);
-    json_member_integer(w, "pruned", shown->answer->cost.pruned);
-    json_member_integer(w, "taken", shown->answer->cost.taken);
+        json_write_text_member(w, "note", note);
+    json_begin_object_member(w, "cost");
+    json_write_integer_member(w, "nodes", shown->answer->cost.nodes);
+    json_write_integer_member(w, "leaves", shown->answer->cost.leaves);
+    json_write_integer_member(w, "points", shown->answer->cost.points);
+    json_write_integer_member(w, "pruned", shown->answer->cost.pruned);
+    json_write_integer_member(w, "taken", shown->answer->cost.taken);
     json_write_end_object(w);
     json_write_end_object(w);
 }
@@ -220,8 +220,8 @@ void inspect_print_answers(const inspect_answers *answers, const char *name, boo
     json_writer writer = {.out = out}, *w = &writer;
     if (json) {
         json_write_begin_object(w);
-        json_member_text(w, "cloud", name);
-        json_member_begin_array(w, "answers");
+        json_write_text_member(w, "cloud", name);
+        json_begin_array_member(w, "answers");
     } else {
         inspect_print_name(name, out);
     }

@@ -66,12 +66,12 @@ static void print_kind(const inspection *i, const value_summary *s, point_value_
     if (kind == POINT_COLOR)
         fprintf(out, "color 0-%u", i->color_full);
     else if (kind == POINT_INTENSITY)
-        fprintf(out, "intensity %s to %s", number_text((double)s->least, 6, least),
-                number_text((double)s->most, 6, most));
+        fprintf(out, "intensity %s to %s", number_format((double)s->least, 6, least),
+                number_format((double)s->most, 6, most));
     else
         print_classes(i->classes, out);
     if (s->counts[kind] < i->points)
-        fprintf(out, " of %zu point%s", s->counts[kind], plural(s->counts[kind]));
+        fprintf(out, " of %zu point%s", s->counts[kind], plural_ending(s->counts[kind]));
 }
 
 void inspect_print_values(const inspection *i, FILE *out)
@@ -96,13 +96,13 @@ void inspect_print_values(const inspection *i, FILE *out)
 
 static void write_classes(const size_t *classes, json_writer *w)
 {
-    json_member_begin_array(w, "classes");
+    json_begin_array_member(w, "classes");
     for (int i = 0; i < CLASSES; i++) {
         if (classes[i] == 0)
             continue;
         json_write_begin_object(w);
-        json_member_integer(w, "class", (uint64_t)i);
-        json_member_integer(w, "points", classes[i]);
+        json_write_integer_member(w, "class", (uint64_t)i);
+        json_write_integer_member(w, "points", classes[i]);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -116,29 +116,29 @@ void inspect_write_values(const inspection *i, json_writer *w)
     if (point_values_kinds(&i->values) == 0 && !i->column_note &&
         !*cloud_describe_out_of_range(i->out_of_range, beyond))
         return;
-    json_member_begin_object(w, "values");
+    json_begin_object_member(w, "values");
     if (s.counts[POINT_COLOR]) {
-        json_member_begin_object(w, "color");
-        json_member_integer(w, "points", s.counts[POINT_COLOR]);
-        json_member_integer(w, "full", i->color_full);
+        json_begin_object_member(w, "color");
+        json_write_integer_member(w, "points", s.counts[POINT_COLOR]);
+        json_write_integer_member(w, "full", i->color_full);
         json_write_end_object(w);
     }
     if (s.counts[POINT_INTENSITY]) {
-        json_member_begin_object(w, "intensity");
-        json_member_integer(w, "points", s.counts[POINT_INTENSITY]);
-        json_member_number(w, "min", (double)s.least);
-        json_member_number(w, "max", (double)s.most);
+        json_begin_object_member(w, "intensity");
+        json_write_integer_member(w, "points", s.counts[POINT_INTENSITY]);
+        json_write_number_member(w, "min", (double)s.least);
+        json_write_number_member(w, "max", (double)s.most);
         json_write_end_object(w);
     }
     if (s.counts[POINT_CLASS]) {
-        json_member_begin_object(w, "class");
-        json_member_integer(w, "points", s.counts[POINT_CLASS]);
+        json_begin_object_member(w, "class");
+        json_write_integer_member(w, "points", s.counts[POINT_CLASS]);
         write_classes(i->classes, w);
         json_write_end_object(w);
     }
     if (i->column_note)
-        json_member_text(w, "columns", i->column_note);
+        json_write_text_member(w, "columns", i->column_note);
     if (*cloud_describe_out_of_range(i->out_of_range, beyond))
-        json_member_text(w, "left_out", beyond);
+        json_write_text_member(w, "left_out", beyond);
     json_write_end_object(w);
 }

@@ -39,7 +39,7 @@ static bool check_beside(const pick *p, const char *folder, octreel_error *error
 {
     static const char *const needed[] = {"recording.json", "session.json"};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
-        if (!folder_has(folder, needed[i]))
+        if (!folder_contains(folder, needed[i]))
             return error_set(error, "%s: not a frame of a recording: its folder has no %s", p->path, needed[i]);
     return true;
 }
@@ -161,7 +161,7 @@ bool pick_frame(const char *path, const pick_options *options, pick *found, octr
         .path = path, .asked = {options->x, options->y}, .pixel = {options->x, options->y}, .radius = options->radius};
     replay r = {.ticks = 0};
     image frame = {0};
-    char *folder = path_folder(path);
+    char *folder = path_parent_folder(path);
     const bool ok = (folder || error_no_memory(error)) && read_picture(found, &frame, error) &&
                     frame_read_tick(path, &found->tick, error) && check_beside(found, folder, error) &&
                     compose_scene_again(found, &r, folder, error) && pick_pixel(found, &r, options, error);
@@ -209,7 +209,8 @@ static void print_heading(FILE *out, const pick *p)
     write_escaped(out, p->path, escape_nothing);
     fprintf(out, ": tick %" PRIu64 ", pixel (%d, %d)", p->tick, p->asked[0], p->asked[1]);
     if (p->count == 0)
-        fprintf(out, ": nothing is drawn there, nor within %d pixel%s\n", p->radius, plural((uint64_t)p->radius));
+        fprintf(out, ": nothing is drawn there, nor within %d pixel%s\n", p->radius,
+                plural_ending((uint64_t)p->radius));
     else if (distance(p) > 0)
         fprintf(out, ": nothing is drawn there; %.1f pixels away, at (%d, %d), %s:\n", distance(p), p->pixel[0],
                 p->pixel[1], print_color(p, color));
@@ -248,7 +249,7 @@ static void print_text(FILE *out, const pick *p)
 
 static void write_pair(json_writer *w, const char *key, const int pair[2])
 {
-    json_member_begin_array(w, key);
+    json_begin_array_member(w, key);
     json_write_integer(w, (uint64_t)pair[0]);
     json_write_integer(w, (uint64_t)pair[1]);
     json_write_end_array(w);
@@ -258,14 +259,14 @@ static void write_node(json_writer *w, const element_subject *subject)
 {
     char path[OCTREE_ADDRESS_TEXT];
     const octree_node *node = &subject->node;
-    json_member_begin_object(w, "node");
-    json_member_text(w, "path", octree_address_format(node->address, path));
-    json_member_integer(w, "depth", node->depth);
+    json_begin_object_member(w, "node");
+    json_write_text_member(w, "path", octree_address_format(node->address, path));
+    json_write_integer_member(w, "depth", node->depth);
     if (!subject->gone) {
-        json_member_bool(w, "leaf", node->leaf);
-        json_member_integer(w, "points", node->count);
+        json_write_bool_member(w, "leaf", node->leaf);
+        json_write_integer_member(w, "points", node->count);
     }
-    json_member_box(w, "box", &node->box);
+    json_write_box_member(w, "box", &node->box);
     json_write_end_object(w);
 }
 
@@ -273,17 +274,17 @@ static void write_node(json_writer *w, const element_subject *subject)
 static void write_foreign_node(json_writer *w, const octree_foreign_place *place)
 {
     const octree_foreign_node *node = place->node;
-    json_member_begin_object(w, "program_node");
-    json_member_integer(w, "id", node->id);
+    json_begin_object_member(w, "program_node");
+    json_write_integer_member(w, "id", node->id);
     if (node->has_parent)
-        json_member_integer(w, "parent", node->parent);
+        json_write_integer_member(w, "parent", node->parent);
     if (node->kind[0])
-        json_member_text(w, "kind", node->kind);
-    json_member_integer(w, "depth", place->depth);
-    json_member_bool(w, "leaf", place->leaf);
-    json_member_integer(w, "points", place->points);
-    json_member_box(w, "box", &node->box);
-    json_member_begin_array(w, "wrong");
+        json_write_text_member(w, "kind", node->kind);
+    json_write_integer_member(w, "depth", place->depth);
+    json_write_bool_member(w, "leaf", place->leaf);
+    json_write_integer_member(w, "points", place->points);
+    json_write_box_member(w, "box", &node->box);
+    json_begin_array_member(w, "wrong");
     for (int kind = 0; kind < OCTREE_WRONG_NODE_KINDS; kind++)
         if (place->wrong >> kind & 1)
             json_write_string(w, octree_wrong_node_name((octree_wrong_node_kind)kind));
@@ -293,30 +294,30 @@ static void write_foreign_node(json_writer *w, const octree_foreign_place *place
 
 static void write_point(json_writer *w, const octree_point *point)
 {
-    json_member_begin_object(w, "point");
-    json_member_integer(w, "id", point->id);
-    json_member_vector(w, "position", point->position);
+    json_begin_object_member(w, "point");
+    json_write_integer_member(w, "id", point->id);
+    json_write_vector_member(w, "position", point->position);
     json_write_end_object(w);
 }
 
 static void write_element(json_writer *w, const pick_element *e)
 {
     json_write_begin_object(w);
-    json_member_text(w, "kind", scene_kind_name(e->kind));
-    json_member_text(w, "layer", e->layer);
-    json_member_integer(w, "shown", (uint64_t)e->touch.shown);
-    json_member_integer(w, "painted", (uint64_t)e->touch.painted);
+    json_write_text_member(w, "kind", scene_kind_name(e->kind));
+    json_write_text_member(w, "layer", e->layer);
+    json_write_integer_member(w, "shown", (uint64_t)e->touch.shown);
+    json_write_integer_member(w, "painted", (uint64_t)e->touch.painted);
     if (is_gap(e))
-        json_member_bool(w, "gap", true);
+        json_write_bool_member(w, "gap", true);
     if (e->in_closeup)
-        json_member_bool(w, "closeup", true);
+        json_write_bool_member(w, "closeup", true);
     if (e->subject.has_node)
         write_node(w, &e->subject);
     if (e->subject.foreign)
         write_foreign_node(w, e->subject.foreign);
     if (e->subject.has_point)
         write_point(w, &e->subject.point);
-    json_member_text(w, "text", e->subject.text);
+    json_write_text_member(w, "text", e->subject.text);
     json_write_end_object(w);
 }
 
@@ -325,20 +326,20 @@ static void print_json(FILE *out, const pick *p)
     json_writer writer = {.out = out}, *w = &writer;
     char color[COLOR_TEXT];
     json_write_begin_object(w);
-    json_member_text(w, "frame", p->path);
-    json_member_integer(w, "tick", p->tick);
+    json_write_text_member(w, "frame", p->path);
+    json_write_integer_member(w, "tick", p->tick);
     write_pair(w, "size", (const int[]){p->width, p->height});
     write_pair(w, "asked", p->asked);
-    json_member_integer(w, "radius", (uint64_t)p->radius);
+    json_write_integer_member(w, "radius", (uint64_t)p->radius);
     if (p->count) {
         write_pair(w, "pixel", p->pixel);
     } else {
         json_write_key(w, "pixel");
         json_write_null(w);
     }
-    json_member_text(w, "color", print_color(p, color));
-    json_member_integer(w, "samples", (uint64_t)p->samples);
-    json_member_begin_array(w, "elements");
+    json_write_text_member(w, "color", print_color(p, color));
+    json_write_integer_member(w, "samples", (uint64_t)p->samples);
+    json_begin_array_member(w, "elements");
     for (size_t i = 0; i < p->count; i++)
         write_element(w, &p->elements[i]);
     json_write_end_array(w);

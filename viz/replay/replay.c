@@ -9,7 +9,7 @@
 bool replay_read(replay *r, const char *folder, octreel_error *error)
 {
     *r = (replay){.film.folder = folder};
-    if (folder_has(folder, "session.json.live") && !folder_has(folder, "session.json"))
+    if (folder_contains(folder, "session.json.live") && !folder_contains(folder, "session.json"))
         return error_set(error,
                          "%s: its program is still recording or was interrupted: octreel record --resume completes the "
                          "recording",

@@ -115,7 +115,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
     else if (state == LINE_NONE)
         add_finding(v, VERIFY_LINES, step->tick,
                     "ticks.jsonl ends before it, and lacks %" PRIu64 " of %" PRIu64 " line%s%s",
-                    v->replay.ticks - step->tick, v->replay.ticks, plural(v->replay.ticks), COMPLETED);
+                    v->replay.ticks - step->tick, v->replay.ticks, plural_ending(v->replay.ticks), COMPLETED);
     else
         add_finding(v, VERIFY_LINES, step->tick, "its line in ticks.jsonl %s%s",
                     state == LINE_TORN ? "is torn: the file ends within it" : "does not end where it should",
@@ -137,7 +137,7 @@ static void report_pixels(verifying *v, const char *path, uint64_t tick)
     const verify_report *r = v->report;
     const bool same = strcmp(r->drawn_by, r->drawn_now) == 0;
     add_finding(v, VERIFY_PIXELS, tick, "%" PRIu64 " pixel%s from (%d, %d) to (%d, %d); filmed by %s; now drawn by %s",
-                unlike.pixels, plural(unlike.pixels), unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y,
+                unlike.pixels, plural_ending(unlike.pixels), unlike.min_x, unlike.min_y, unlike.max_x, unlike.max_y,
                 r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
@@ -222,7 +222,7 @@ static void check_end_of_lines(verifying *v)
         return;
     add_finding(v, VERIFY_LINES, v->replay.ticks,
                 "ticks.jsonl has lines beyond the session, which has %" PRIu64 " tick%s", v->replay.ticks,
-                plural(v->replay.ticks));
+                plural_ending(v->replay.ticks));
 }
 
 /* Whether a file is named like a frame, but this recording has no such frame. */
@@ -330,9 +330,9 @@ static const struct {
 static void print_identical(FILE *out, const char *folder, const verify_report *report)
 {
     write_escaped(out, folder, escape_nothing);
-    fprintf(out, ": identical: %" PRIu64 " tick%s, ", report->ticks, plural(report->ticks));
+    fprintf(out, ": identical: %" PRIu64 " tick%s, ", report->ticks, plural_ending(report->ticks));
     if (report->has_frames)
-        fprintf(out, "%" PRIu64 " frame%s\n", report->frames, plural(report->frames));
+        fprintf(out, "%" PRIu64 " frame%s\n", report->frames, plural_ending(report->frames));
     else
         fputs("by what happened in them alone: it has no frames\n", out);
 }
@@ -375,11 +375,11 @@ static void write_finding(json_writer *w, const verify_report *report, const ver
     json_write_begin_object(w);
     write_string(w, "in", kinds[finding->kind].name);
     if (finding->has_tick)
-        json_member_integer(w, "tick", finding->tick);
+        json_write_integer_member(w, "tick", finding->tick);
     if (*finding->fact)
         write_string(w, "fact", finding->fact);
     if (finding->kind == VERIFY_PIXELS)
-        json_member_integer(w, "pixels", report->pixels);
+        json_write_integer_member(w, "pixels", report->pixels);
     write_string(w, "text", finding->text);
     json_write_end_object(w);
 }
@@ -389,11 +389,11 @@ static void print_json(FILE *out, const char *folder, const verify_report *repor
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
     write_string(w, "folder", folder);
-    json_member_bool(w, "identical", report->count == 0);
-    json_member_integer(w, "ticks", report->ticks);
-    json_member_integer(w, "frames", report->frames);
-    json_member_integer(w, "gaps", report->gaps);
-    json_member_begin_array(w, "findings");
+    json_write_bool_member(w, "identical", report->count == 0);
+    json_write_integer_member(w, "ticks", report->ticks);
+    json_write_integer_member(w, "frames", report->frames);
+    json_write_integer_member(w, "gaps", report->gaps);
+    json_begin_array_member(w, "findings");
     for (size_t i = 0; i < report->count; i++)
         write_finding(w, report, &report->findings[i]);
     json_write_end_array(w);

@@ -23,7 +23,8 @@ bool lines_open(line_reader *reader, const char *folder, octreel_error *error)
     reader->stream = file_open(path, NULL, reason);
     if (!reader->stream)
         error_set(error, "%s: %s%s", path, reason,
-                  folder_has(folder, "ticks.jsonl") ? "" : "; where the folder holds chunks, octreel join makes it");
+                  folder_contains(folder, "ticks.jsonl") ? ""
+                                                         : "; where the folder holds chunks, octreel join makes it");
     free(path);
     return reader->stream;
 }

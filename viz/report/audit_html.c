@@ -84,7 +84,7 @@ static bool find_recording(page *p, const char *from)
         return true;
     char *here = absolute_path(from), *there = absolute_path(p->verdict->path);
     p->base = here && there ? relative_path(here, there) : NULL;
-    p->has_viewer = folder_has(p->verdict->path, "index.html");
+    p->has_viewer = folder_contains(p->verdict->path, "index.html");
     free(here);
     free(there);
     return p->base;
@@ -104,7 +104,7 @@ static void write_url(FILE *out, const char *path)
 static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
 {
     char name[FRAME_NAME];
-    if (!p->base || !folder_has(p->verdict->path, frame_name(tick, name)))
+    if (!p->base || !folder_contains(p->verdict->path, frame_name(tick, name)))
         return false;
     fprintf(p->out, "%s<a href=\"", before);
     write_url(p->out, p->base);
@@ -188,7 +188,7 @@ static void write_scale(const page *p, const chart *c, double value)
     const double y = y_of(c, value);
     fprintf(p->out, "<path class=\"axis\" d=\"M%d %.1fH%d\"/>", LEFT, y, WIDTH - RIGHT);
     fprintf(p->out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n", LEFT - 8, y + 4,
-            value > c->finite ? "infinite" : number_text(value, 6, number));
+            value > c->finite ? "infinite" : number_format(value, 6, number));
 }
 
 static void write_ticks_scale(const page *p, const chart *c)

@@ -13,7 +13,7 @@
 const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
 {
     char number[NUMBER_TEXT];
-    snprintf(text, AUDIT_RATIO_TEXT, "%s", isinf(ratio) ? "infinite" : number_text(ratio, 6, number));
+    snprintf(text, AUDIT_RATIO_TEXT, "%s", isinf(ratio) ? "infinite" : number_format(ratio, 6, number));
     return text;
 }
 
@@ -21,7 +21,7 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
 static const char *share_text(double share, char text[NUMBER_TEXT])
 {
     int digits = 6;
-    while (number_text(share, digits, text)[0] == '1' && share < 1)
+    while (number_format(share, digits, text)[0] == '1' && share < 1)
         digits++;
     return text;
 }
@@ -48,7 +48,7 @@ static void print_points(FILE *out, const char *what, const octree_point *points
     char texts[3][NUMBER_TEXT];
     for (size_t i = 0; i < printed; i++) {
         for (int axis = 0; axis < 3; axis++)
-            number_text(points[i].position[axis], 9, texts[axis]);
+            number_format(points[i].position[axis], 9, texts[axis]);
         fprintf(out, "%s%s%" PRIu64 " at (%s, %s, %s)", i ? ", " : what, i ? "" : " ", points[i].id, texts[0], texts[1],
                 texts[2]);
     }
@@ -103,14 +103,14 @@ static void print_if_within(FILE *out, const audit_limits *limits, bool passes)
 void audit_print_all(FILE *out, const audit_verdict *v)
 {
     const audit_report *report = v->report;
-    fprintf(out, "%" PRIu64 " answer%s in %" PRIu64 " tick%s", report->asked, plural(report->asked), report->ticks,
-            plural(report->ticks));
+    fprintf(out, "%" PRIu64 " answer%s in %" PRIu64 " tick%s", report->asked, plural_ending(report->asked),
+            report->ticks, plural_ending(report->ticks));
     if (report->wrong)
         fprintf(out, ", %" PRIu64 " wrong", report->wrong);
     else if (report->asked)
         fputs(", all right", out);
     if (report->nodes.faults)
-        fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.faults, plural(report->nodes.faults));
+        fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.faults, plural_ending(report->nodes.faults));
     print_if_within(out, &v->report->limits, audit_passes(report));
     if (report->nodes.faults && has_limits(&report->limits))
         fputs("; wrong nodes are never allowed", out);
@@ -134,7 +134,7 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
     print_if_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->faults[i])
-            fprintf(out, "; %" PRIu64 " time%s: %s", kind->faults[i], plural(kind->faults[i]),
+            fprintf(out, "; %" PRIu64 " time%s: %s", kind->faults[i], plural_ending(kind->faults[i]),
                     reason_words((octree_wrong_kind)i));
 }
 
@@ -142,14 +142,14 @@ void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
 {
     fprintf(out, "nodes: %" PRIu64 " wrong", nodes->faults);
     if (nodes->faults)
-        fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural(nodes->ticks),
+        fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural_ending(nodes->ticks),
                 nodes->first_wrong);
 }
 
 void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind)
 {
     const octree_wrong_node *wrong = &nodes->first[kind].fault;
-    fprintf(out, "%" PRIu64 " time%s: %s", nodes->kinds[kind], plural(nodes->kinds[kind]),
+    fprintf(out, "%" PRIu64 " time%s: %s", nodes->kinds[kind], plural_ending(nodes->kinds[kind]),
             octree_wrong_node_words(kind));
     if (!nodes->first[kind].known)
         return;
@@ -205,11 +205,11 @@ static void write_points(json_writer *w, const char *key, const octree_point *po
 {
     if (count == 0)
         return;
-    json_member_begin_array(w, key);
+    json_begin_array_member(w, key);
     for (size_t i = 0; i < count && i < AUDIT_POINTS; i++) {
         json_write_begin_object(w);
-        json_member_integer(w, "id", points[i].id);
-        json_member_vector(w, "position", points[i].position);
+        json_write_integer_member(w, "id", points[i].id);
+        json_write_vector_member(w, "position", points[i].position);
         json_write_end_object(w);
     }
     json_write_end_array(w);
@@ -219,15 +219,15 @@ static void write_points(json_writer *w, const char *key, const octree_point *po
 static void write_case(json_writer *w, const audit_case *c, bool neighbors)
 {
     json_write_begin_object(w);
-    json_member_integer(w, "tick", c->tick);
-    json_member_integer(w, "place", c->place);
-    json_member_text(w, "wrong", octree_wrong_name(c->made.wrong));
+    json_write_integer_member(w, "tick", c->tick);
+    json_write_integer_member(w, "place", c->place);
+    json_write_text_member(w, "wrong", octree_wrong_name(c->made.wrong));
     if (c->made.rank)
-        json_member_integer(w, "rank", c->made.rank);
+        json_write_integer_member(w, "rank", c->made.rank);
     if (neighbors)
-        json_member_number(w, "ratio", c->made.ratio);
-    json_member_integer(w, "missing", c->made.missing_count);
-    json_member_integer(w, "extra", c->made.extra_count);
+        json_write_number_member(w, "ratio", c->made.ratio);
+    json_write_integer_member(w, "missing", c->made.missing_count);
+    json_write_integer_member(w, "extra", c->made.extra_count);
     write_points(w, "missing_points", c->missed, c->made.missing_count);
     write_points(w, "extra_points", c->extra, c->made.extra_count);
     json_write_key(w, "answer");
@@ -240,25 +240,25 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
 {
     const audit_kind *kind = &v->report->kinds[of];
     const octree_query_traits *about = octree_query_about((octree_query_kind)of);
-    json_member_begin_object(w, about->name);
-    json_member_integer(w, "asked", kind->asked);
-    json_member_integer(w, "wrong", kind->wrong);
-    json_member_bool(w, "passes", audit_kind_passes(kind, &v->report->limits));
-    json_member_number(w, "recall", audit_recall(kind));
-    json_member_integer(w, "missing", kind->missed);
-    json_member_integer(w, "extra", kind->extra);
+    json_begin_object_member(w, about->name);
+    json_write_integer_member(w, "asked", kind->asked);
+    json_write_integer_member(w, "wrong", kind->wrong);
+    json_write_bool_member(w, "passes", audit_kind_passes(kind, &v->report->limits));
+    json_write_number_member(w, "recall", audit_recall(kind));
+    json_write_integer_member(w, "missing", kind->missed);
+    json_write_integer_member(w, "extra", kind->extra);
     if (about->neighbors) {
-        json_member_number(w, "worst_ratio", audit_ratio(kind, 1));
-        json_member_number(w, "ratio_99", audit_ratio(kind, 0.99));
+        json_write_number_member(w, "worst_ratio", audit_ratio(kind, 1));
+        json_write_number_member(w, "ratio_99", audit_ratio(kind, 0.99));
     }
     if (kind->wrong)
-        json_member_integer(w, "first_wrong_tick", kind->first_wrong);
-    json_member_begin_object(w, "faults");
+        json_write_integer_member(w, "first_wrong_tick", kind->first_wrong);
+    json_begin_object_member(w, "faults");
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
         if (kind->faults[i])
-            json_member_integer(w, octree_wrong_name((octree_wrong_kind)i), kind->faults[i]);
+            json_write_integer_member(w, octree_wrong_name((octree_wrong_kind)i), kind->faults[i]);
     json_write_end_object(w);
-    json_member_begin_array(w, "worst");
+    json_begin_array_member(w, "worst");
     for (size_t i = 0; i < kind->worst_count; i++)
         write_case(w, &kind->worst[i], about->neighbors);
     json_write_end_array(w);
@@ -269,13 +269,13 @@ static void write_nodes(json_writer *w, const audit_nodes *nodes)
 {
     if (!nodes->given)
         return;
-    json_member_begin_object(w, "nodes");
-    json_member_integer(w, "faults", nodes->faults);
+    json_begin_object_member(w, "nodes");
+    json_write_integer_member(w, "faults", nodes->faults);
     if (nodes->faults)
-        json_member_integer(w, "first_wrong_tick", nodes->first_wrong);
+        json_write_integer_member(w, "first_wrong_tick", nodes->first_wrong);
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
         if (nodes->kinds[i])
-            json_member_integer(w, octree_wrong_node_name((octree_wrong_node_kind)i), nodes->kinds[i]);
+            json_write_integer_member(w, octree_wrong_node_name((octree_wrong_node_kind)i), nodes->kinds[i]);
     json_write_end_object(w);
 }
 
@@ -283,11 +283,11 @@ static void write_limits(json_writer *w, const audit_limits *limits)
 {
     if (!has_limits(limits))
         return;
-    json_member_begin_object(w, "allowed");
+    json_begin_object_member(w, "allowed");
     if (limits->by_ratio)
-        json_member_number(w, "ratio", limits->ratio);
+        json_write_number_member(w, "ratio", limits->ratio);
     if (limits->by_recall)
-        json_member_number(w, "recall", limits->recall);
+        json_write_number_member(w, "recall", limits->recall);
     json_write_end_object(w);
 }
 
@@ -296,14 +296,14 @@ void audit_print_json(FILE *out, const audit_verdict *v)
     json_writer writer = {.out = out}, *w = &writer;
     const audit_report *report = v->report;
     json_write_begin_object(w);
-    json_member_text(w, "path", v->path);
-    json_member_bool(w, "right", report->wrong == 0 && report->nodes.faults == 0);
-    json_member_bool(w, "passes", audit_passes(report));
+    json_write_text_member(w, "path", v->path);
+    json_write_bool_member(w, "right", report->wrong == 0 && report->nodes.faults == 0);
+    json_write_bool_member(w, "passes", audit_passes(report));
     write_limits(w, &v->report->limits);
-    json_member_integer(w, "ticks", report->ticks);
-    json_member_integer(w, "asked", report->asked);
-    json_member_integer(w, "wrong", report->wrong);
-    json_member_begin_object(w, "kinds");
+    json_write_integer_member(w, "ticks", report->ticks);
+    json_write_integer_member(w, "asked", report->asked);
+    json_write_integer_member(w, "wrong", report->wrong);
+    json_begin_object_member(w, "kinds");
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
         if (report->kinds[i].asked)
             write_kind(w, v, i);

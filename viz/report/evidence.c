@@ -93,7 +93,7 @@ static char *picture_path(const char *folder, const diff_pair *pair, evidence_pi
 static bool check_folder_is_not_side(const char *folder, const diff_side *side, octreel_error *error)
 {
     struct stat folder_status, side_status;
-    if (side->kind == DIFF_BASELINE || file_is_standard(side->source) || stat(folder, &folder_status) != 0)
+    if (side->kind == DIFF_BASELINE || file_is_standard_stream(side->source) || stat(folder, &folder_status) != 0)
         return true;
     const bool found =
         side->kind == DIFF_PICTURE ? stat_parent(side->path, &side_status) : stat(side->path, &side_status) == 0;
@@ -150,7 +150,7 @@ static bool has_file(const diff_frame *frame)
     struct stat status;
     if (!frame || !frame->path)
         return false;
-    return file_is_standard(frame->path) || (stat(frame->path, &status) == 0 && S_ISREG(status.st_mode));
+    return file_is_standard_stream(frame->path) || (stat(frame->path, &status) == 0 && S_ISREG(status.st_mode));
 }
 
 static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_picture picture, const char *folder,

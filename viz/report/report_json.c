@@ -17,10 +17,10 @@ static void write_two_numbers(json_writer *w, const char *key, int a, int b)
 
 static void write_side(json_writer *w, const char *key, const diff_side *side)
 {
-    json_member_begin_object(w, key);
-    json_member_text(w, "path", side->path);
-    json_member_text(w, "kind", diff_kind_name(side->kind));
-    json_member_integer(w, "frames", side->count);
+    json_begin_object_member(w, key);
+    json_write_text_member(w, "path", side->path);
+    json_write_text_member(w, "kind", diff_kind_name(side->kind));
+    json_write_integer_member(w, "frames", side->count);
     json_write_end_object(w);
 }
 
@@ -42,35 +42,35 @@ static void write_tolerance(json_writer *w, const diff_result *result)
     const image_tolerance *t = &options->tolerance;
     const image_color ground = options->background;
     char color[8];
-    json_member_begin_object(w, "tolerance");
-    json_member_integer(w, "max_pixels", t->max_pixels);
-    json_member_number(w, "max_delta", t->max_delta);
-    json_member_text(w, "delta_unit", IMAGE_DELTA_UNIT);
-    json_member_bool(w, "antialias", t->antialias);
-    json_member_begin_array(w, "ignore");
+    json_begin_object_member(w, "tolerance");
+    json_write_integer_member(w, "max_pixels", t->max_pixels);
+    json_write_number_member(w, "max_delta", t->max_delta);
+    json_write_text_member(w, "delta_unit", IMAGE_DELTA_UNIT);
+    json_write_bool_member(w, "antialias", t->antialias);
+    json_begin_array_member(w, "ignore");
     for (size_t i = 0; i < t->ignored_count; i++) {
         const image_rectangle *r = &t->ignored[i];
         json_write_numbers(w, (double[]){r->x, r->y, r->width, r->height}, 4);
     }
     json_write_end_array(w);
-    json_member_begin_array(w, "ignore_layers");
+    json_begin_array_member(w, "ignore_layers");
     if (options->mask)
         write_layers(w, options->layers);
     json_write_end_array(w);
     json_write_end_object(w);
     snprintf(color, sizeof color, "#%02x%02x%02x", ground.r, ground.g, ground.b);
-    json_member_text(w, "background", color);
-    json_member_integer(w, "color_spaces_ignored", diff_count_color_spaces(result));
+    json_write_text_member(w, "background", color);
+    json_write_integer_member(w, "color_spaces_ignored", diff_count_color_spaces(result));
 }
 
 static void write_tally(json_writer *w, const char *key, const image_tally *t)
 {
-    json_member_begin_object(w, key);
-    json_member_integer(w, "pixels", t->pixels);
+    json_begin_object_member(w, key);
+    json_write_integer_member(w, "pixels", t->pixels);
     if (t->pixels > 0) {
-        json_member_number(w, "worst_delta", t->worst_delta);
+        json_write_number_member(w, "worst_delta", t->worst_delta);
         write_two_numbers(w, "worst_at", t->worst_x, t->worst_y);
-        json_member_integer(w, "largest_channel", (uint64_t)t->largest_channel);
+        json_write_integer_member(w, "largest_channel", (uint64_t)t->largest_channel);
         write_two_numbers(w, "min", t->min_x, t->min_y);
         write_two_numbers(w, "max", t->max_x, t->max_y);
     }
@@ -79,12 +79,12 @@ static void write_tally(json_writer *w, const char *key, const image_tally *t)
 
 static void write_difference(json_writer *w, const image_difference *d)
 {
-    json_member_integer(w, "channel_range", (uint64_t)d->channel_range);
+    json_write_integer_member(w, "channel_range", (uint64_t)d->channel_range);
     write_tally(w, "unlike", &d->unlike);
     write_tally(w, "counted", &d->counted);
-    json_member_integer(w, "close", d->close);
-    json_member_integer(w, "antialiased", d->antialiased);
-    json_member_integer(w, "ignored", d->ignored);
+    json_write_integer_member(w, "close", d->close);
+    json_write_integer_member(w, "antialiased", d->antialiased);
+    json_write_integer_member(w, "ignored", d->ignored);
 }
 
 void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
@@ -92,8 +92,8 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
     const diff_pair *pair = &report->result->pairs[i];
     const char *cause = explanation_cause(report->why, i);
     char digest[DIGEST_TEXT];
-    json_member_text(w, "frame", diff_pair_name(pair));
-    json_member_text(w, "finding", diff_finding_name(pair->finding));
+    json_write_text_member(w, "frame", diff_pair_name(pair));
+    json_write_text_member(w, "finding", diff_finding_name(pair->finding));
     if (pair->about[0].width)
         write_two_numbers(w, "reference_size", pair->about[0].width, pair->about[0].height);
     if (pair->about[1].width)
@@ -101,24 +101,24 @@ void diff_json_finding(json_writer *w, const diff_report *report, size_t i)
     if (pair->finding == FOUND_PIXELS || pair->finding == FOUND_WITHIN)
         write_difference(w, &pair->difference);
     if (pair->finding == FOUND_DIGEST) {
-        json_member_text(w, "reference_digest", digest_print(pair->about[0].pixels, digest));
-        json_member_text(w, "frame_digest", digest_print(pair->about[1].pixels, digest));
+        json_write_text_member(w, "reference_digest", digest_print(pair->about[0].pixels, digest));
+        json_write_text_member(w, "frame_digest", digest_print(pair->about[1].pixels, digest));
     }
     if (pair->trouble)
-        json_member_text(w, "trouble", pair->trouble);
+        json_write_text_member(w, "trouble", pair->trouble);
     if (pair->no_picture)
-        json_member_text(w, "no_picture", pair->no_picture);
+        json_write_text_member(w, "no_picture", pair->no_picture);
     if (cause)
-        json_member_text(w, "cause", cause);
+        json_write_text_member(w, "cause", cause);
 }
 
 static void write_evidence(json_writer *w, const diff_report *report, size_t i)
 {
-    json_member_begin_object(w, "evidence");
+    json_begin_object_member(w, "evidence");
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *path = evidence_path(report->evidence, report->result, i, (evidence_picture)picture);
         if (path)
-            json_member_text(w, evidence_word((evidence_picture)picture), path);
+            json_write_text_member(w, evidence_word((evidence_picture)picture), path);
         free(path);
     }
     json_write_end_object(w);
@@ -126,7 +126,7 @@ static void write_evidence(json_writer *w, const diff_report *report, size_t i)
 
 static void write_findings(json_writer *w, const diff_report *report)
 {
-    json_member_begin_array(w, "findings");
+    json_begin_array_member(w, "findings");
     for (size_t i = 0; i < report->result->count; i++) {
         const diff_pair *pair = &report->result->pairs[i];
         if (!diff_is_listed(pair->finding))
@@ -144,7 +144,7 @@ static void write_findings(json_writer *w, const diff_report *report)
 void diff_json_group(json_writer *w, const diff_report *report, size_t group)
 {
     const diff_result *result = report->result;
-    json_member_begin_array(w, "frames");
+    json_begin_array_member(w, "frames");
     for (size_t i = report->groups->groups[group].first; i < result->count; i++)
         if (report->groups->of[i] == group)
             json_write_string(w, diff_pair_name(&result->pairs[i]));
@@ -153,14 +153,14 @@ void diff_json_group(json_writer *w, const diff_report *report, size_t group)
 
 static void write_groups(json_writer *w, const diff_report *report)
 {
-    json_member_begin_array(w, "groups");
+    json_begin_array_member(w, "groups");
     for (size_t i = 0; i < report->groups->count; i++) {
         const size_t first = report->groups->groups[i].first;
         const char *cause = explanation_cause(report->why, first);
         json_write_begin_object(w);
-        json_member_text(w, "finding", diff_finding_name(report->result->pairs[first].finding));
+        json_write_text_member(w, "finding", diff_finding_name(report->result->pairs[first].finding));
         if (cause)
-            json_member_text(w, "cause", cause);
+            json_write_text_member(w, "cause", cause);
         diff_json_group(w, report, i);
         json_write_end_object(w);
     }
@@ -169,10 +169,10 @@ static void write_groups(json_writer *w, const diff_report *report)
 
 static void write_counts(json_writer *w, const diff_result *result)
 {
-    json_member_integer(w, "frames", result->count);
-    json_member_begin_object(w, "found");
+    json_write_integer_member(w, "frames", result->count);
+    json_begin_object_member(w, "found");
     for (int i = 0; i < DIFF_FINDINGS; i++)
-        json_member_integer(w, diff_finding_name((diff_finding)i), result->found[i]);
+        json_write_integer_member(w, diff_finding_name((diff_finding)i), result->found[i]);
     json_write_end_object(w);
 }
 
@@ -180,11 +180,11 @@ void diff_json_summary(json_writer *w, const diff_report *report)
 {
     const diff_result *result = report->result;
     const explanation *why = report->why;
-    json_member_text(w, "verdict", diff_verdict_name(explanation_verdict(why, result)));
+    json_write_text_member(w, "verdict", diff_verdict_name(explanation_verdict(why, result)));
     if (why->headline)
-        json_member_text(w, "headline", why->headline);
+        json_write_text_member(w, "headline", why->headline);
     if (why->trouble)
-        json_member_text(w, "trouble", why->trouble);
+        json_write_text_member(w, "trouble", why->trouble);
     write_side(w, "reference", report->a);
     write_side(w, "compared", report->b);
     write_tolerance(w, result);
@@ -195,12 +195,12 @@ static void write_evidence_folder(json_writer *w, const diff_report *report)
 {
     const evidence *e = report->evidence;
     char *page = path_join(e->folder, EVIDENCE_PAGE), *sheet = path_join(e->folder, CONTACT_SHEET);
-    json_member_begin_object(w, "evidence");
-    json_member_text(w, "folder", e->folder);
+    json_begin_object_member(w, "evidence");
+    json_write_text_member(w, "folder", e->folder);
     if (page)
-        json_member_text(w, "page", page);
+        json_write_text_member(w, "page", page);
     if (sheet && frame_groups_count_failing(report->groups, report->result) > 0)
-        json_member_text(w, "contact_sheet", sheet);
+        json_write_text_member(w, "contact_sheet", sheet);
     json_write_end_object(w);
     free(sheet);
     free(page);
@@ -210,8 +210,8 @@ void diff_report_json(FILE *out, const diff_report *report)
 {
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    json_member_text(w, "octreel", "diff");
-    json_member_integer(w, "version", DIFF_REPORT_JSON_VERSION);
+    json_write_text_member(w, "octreel", "diff");
+    json_write_integer_member(w, "version", DIFF_REPORT_JSON_VERSION);
     diff_json_summary(w, report);
     if (report->evidence)
         write_evidence_folder(w, report);

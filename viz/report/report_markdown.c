@@ -31,7 +31,7 @@ static void write_pixels(FILE *out, const diff_pair *pair)
 {
     const image_difference *d = &pair->difference;
     const uint64_t all = (uint64_t)pair->about[0].width * (uint64_t)pair->about[0].height;
-    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s", d->counted.pixels, all, plural(all));
+    fprintf(out, "%" PRIu64 " of %" PRIu64 " pixel%s", d->counted.pixels, all, plural_ending(all));
     if (d->unlike.pixels > d->counted.pixels)
         fprintf(out, ", %" PRIu64 " more forgiven", d->unlike.pixels - d->counted.pixels);
     fprintf(out, " | %.4f " IMAGE_DELTA_UNIT " at (%d,%d)", diff_shown_delta(d->counted.worst_delta),

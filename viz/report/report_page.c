@@ -79,7 +79,7 @@ static void choose_groups(page *p)
  */
 static void write_curve(json_writer *w, const diff_result *result)
 {
-    json_member_begin_array(w, "pixels");
+    json_begin_array_member(w, "pixels");
     for (size_t i = 0; i < result->count; i++) {
         const diff_pair *pair = &result->pairs[i];
         if (diff_finding_verdict(pair->finding) == DIFF_SAME)
@@ -90,7 +90,7 @@ static void write_curve(json_writer *w, const diff_result *result)
             json_write_null(w);
     }
     json_write_end_array(w);
-    json_member_begin_array(w, "ends");
+    json_begin_array_member(w, "ends");
     if (result->count > 0) {
         json_write_string(w, diff_pair_name(&result->pairs[0]));
         json_write_string(w, diff_pair_name(&result->pairs[result->count - 1]));
@@ -101,7 +101,7 @@ static void write_curve(json_writer *w, const diff_result *result)
 /* Write for each pair the number of its group on the page, or null. */
 static void write_entries(json_writer *w, const page *p)
 {
-    json_member_begin_array(w, "entries");
+    json_begin_array_member(w, "entries");
     for (size_t i = 0; i < p->report->result->count; i++) {
         size_t n = 0;
         while (n < p->count && p->groups[n].group != p->report->groups->of[i])
@@ -118,10 +118,10 @@ static void write_whole(json_writer *w, const page *p)
 {
     json_write_begin_object(w);
     diff_json_summary(w, p->report);
-    json_member_text(w, "verdict_words", p->report->groups->verdict);
-    json_member_text(w, "tolerance_words", p->report->groups->tolerance);
-    json_member_integer(w, "different", p->count + p->left_out);
-    json_member_integer(w, "left_out", p->left_out);
+    json_write_text_member(w, "verdict_words", p->report->groups->verdict);
+    json_write_text_member(w, "tolerance_words", p->report->groups->tolerance);
+    json_write_integer_member(w, "different", p->count + p->left_out);
+    json_write_integer_member(w, "left_out", p->left_out);
     write_curve(w, p->report->result);
     write_entries(w, p);
     json_write_end_object(w);
@@ -131,13 +131,13 @@ static void write_whole(json_writer *w, const page *p)
 /* Write the names of the files beside the page. */
 static void write_files(json_writer *w, const diff_report *report, size_t i)
 {
-    json_member_begin_object(w, "files");
+    json_begin_object_member(w, "files");
     for (int picture = 0; picture < EVIDENCE_PICTURES; picture++) {
         char *name = NULL;
         if (report->evidence->pictures[i] & 1u << picture)
             name = evidence_name(diff_pair_name(&report->result->pairs[i]), (evidence_picture)picture);
         if (name)
-            json_member_text(w, evidence_word((evidence_picture)picture), name);
+            json_write_text_member(w, evidence_word((evidence_picture)picture), name);
         free(name);
     }
     json_write_end_object(w);
@@ -148,11 +148,11 @@ static void write_group(json_writer *w, const page *p, size_t n)
     const size_t group = p->groups[n].group;
     json_write_begin_object(w);
     diff_json_finding(w, p->report, first_pair(p, n));
-    json_member_text(w, "words", p->report->groups->groups[group].difference);
-    json_member_text(w, "frames_words", p->report->groups->groups[group].frames);
+    json_write_text_member(w, "words", p->report->groups->groups[group].difference);
+    json_write_text_member(w, "frames_words", p->report->groups->groups[group].frames);
     diff_json_group(w, p->report, group);
     write_files(w, p->report, first_pair(p, n));
-    json_member_bool(w, "embedded", p->groups[n].embedded);
+    json_write_bool_member(w, "embedded", p->groups[n].embedded);
     json_write_end_object(w);
     json_write_end_line(w);
 }
@@ -196,7 +196,7 @@ static bool write_picture(const page *p, size_t n, evidence_picture picture, oct
     }
     fprintf(p->out, "<img data-frame=\"%zu\" data-picture=\"%s\" src=\"data:image/png;base64,", n,
             evidence_word(picture));
-    base64_copy(in, p->out);
+    base64_encode(in, p->out);
     fputs("\">\n", p->out);
     const bool ok = !ferror(in) || error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     fclose(in);
@@ -233,7 +233,7 @@ bool diff_report_page(const diff_report *report, octreel_error *error)
     if (ok) {
         page p = {.report = report, .out = file.stream};
         choose_groups(&p);
-        ok = write_page(&p, error) ? file_writer_close(&file, error) : file_writer_abandon(&file);
+        ok = write_page(&p, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
     }
     free(path);
     return ok;

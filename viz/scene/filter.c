@@ -72,8 +72,8 @@ static const char *refuse_slice(const view_filter *f, const octree_box *world, c
     if (f->slice_at >= world->min[axis] && f->slice_at <= world->max[axis])
         return NULL;
     snprintf(text, FILTER_TEXT, "the slice %c = %s lies outside the world, which reaches from %s to %s there", f->slice,
-             number_text(f->slice_at, 9, at), number_text(world->min[axis], 9, min),
-             number_text(world->max[axis], 9, max));
+             number_format(f->slice_at, 9, at), number_format(world->min[axis], 9, min),
+             number_format(world->max[axis], 9, max));
     return text;
 }
 
@@ -85,8 +85,8 @@ static const char *refuse_region(const view_filter *f, const octree_box *world, 
             continue;
         snprintf(text, FILTER_TEXT,
                  "the region lies outside the world: on %c it reaches from %s to %s, and the world from %s to %s",
-                 "xyz"[i], number_text(f->region.min[i], 9, from), number_text(f->region.max[i], 9, to),
-                 number_text(world->min[i], 9, min), number_text(world->max[i], 9, max));
+                 "xyz"[i], number_format(f->region.min[i], 9, from), number_format(f->region.max[i], 9, to),
+                 number_format(world->min[i], 9, min), number_format(world->max[i], 9, max));
         return text;
     }
     return NULL;

@@ -4,7 +4,7 @@
 #include "array.h"
 #include "octree/octree.h"
 
-static const hash_map_keys by_node = {sizeof(heat_cell), hash_map_hash_id, hash_map_same_id};
+static const hash_map_item_type by_node = {sizeof(heat_cell), hash_map_hash_id, hash_map_ids_equal};
 
 void heat_release(heat *h)
 {

@@ -110,7 +110,7 @@ static bool update_changes(kept_tree *k, const octree *tree)
     if (known) {
         k->backoff = 0;
         if (k->changed_count > 0)
-            qsort(k->changed, k->changed_count, sizeof *k->changed, by_uint64);
+            qsort(k->changed, k->changed_count, sizeof *k->changed, compare_uint64);
         return true;
     }
     if (is_first)

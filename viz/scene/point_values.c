@@ -119,7 +119,7 @@ bool point_values_add(point_values *v, const point_entry *entries, size_t count)
     for (size_t i = 0; i < v->count; i++)
         if (point_value_is_set(&v->rows[i]))
             sorted[all++] = (point_entry){v->ids ? v->ids[i] : v->first + i, v->rows[i]};
-    qsort(sorted, all, sizeof *sorted, by_uint64);
+    qsort(sorted, all, sizeof *sorted, compare_uint64);
     const bool done = build(&made, sorted, all);
     free(sorted);
     point_values_release(done ? v : &made);

@@ -96,7 +96,7 @@ static bool copy_beside(const char *from, const char *to, octreel_error *error)
     file_writer file;
     assert_true(file_copy_prepare(&file, from, to, error));
     assert_true(holds(to, "old"));
-    return file_writer_place(&file, error);
+    return file_writer_rename(&file, error);
 }
 
 static void copies_that_last_are_synced_too(void **state)

@@ -34,8 +34,8 @@ static void path_join_puts_one_slash_between_folder_and_name(void **state)
 static void an_empty_folder_does_not_name_the_root(void **state)
 {
     (void)state;
-    assert_true(folder_has("/", "dev"));
-    assert_false(folder_has("", "dev"));
+    assert_true(folder_contains("/", "dev"));
+    assert_false(folder_contains("", "dev"));
 }
 
 static void folder_list_has_all_names_in_order(void **state)

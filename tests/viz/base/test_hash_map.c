@@ -14,7 +14,7 @@ typedef struct item {
     int value;
 } item;
 
-static const hash_map_keys by_id = {sizeof(item), hash_map_hash_id, hash_map_same_id};
+static const hash_map_item_type by_id = {sizeof(item), hash_map_hash_id, hash_map_ids_equal};
 
 typedef struct items {
     item *items;

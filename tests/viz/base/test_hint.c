@@ -14,9 +14,9 @@ static const char *const names[] = {"record", "verify", "diff", "color-by", "siz
 
 static const char *meant_by(const char *word)
 {
-    hint h = hint_for(word, strlen(word));
+    hint h = hint_create(word, strlen(word));
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        hint_offer(&h, names[i]);
+        hint_add_candidate(&h, names[i]);
     return h.name;
 }
 
@@ -96,7 +96,7 @@ static void a_word_is_one_word_for_a_shell(void **state)
                                           {"a\x7f", "'a'$'\\177'''"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        assert_written(hint_write_word, rows[i][0], rows[i][1]);
+        assert_written(hint_write_shell_word, rows[i][0], rows[i][1]);
 }
 
 int main(void)

@@ -57,7 +57,7 @@ static void close_pipe(piped *p)
 /* More would be waited for without end: the pipe is still open. */
 static void assert_next(piped *p, const char *object, size_t line)
 {
-    assert_int_equal(json_stream_next(&p->stream, &p->reader), JSON_STREAM_OBJECT);
+    assert_int_equal(json_stream_read_object(&p->stream, &p->reader), JSON_STREAM_OBJECT);
     assert_int_equal(p->reader.line, line);
     assert_true(json_read_object(&p->reader, false, print_compact));
     assert_string_equal(p->compact, object);
@@ -80,7 +80,7 @@ static void an_object_comes_with_its_last_character(void **state)
     assert_next(&p, "{}", 6);
     put(&p, " \n");
     end_text(&p);
-    assert_int_equal(json_stream_next(&p.stream, &p.reader), JSON_STREAM_END);
+    assert_int_equal(json_stream_read_object(&p.stream, &p.reader), JSON_STREAM_END);
     close_pipe(&p);
 }
 
@@ -118,7 +118,7 @@ static void what_can_be_no_object_is_handed_over_at_once(void **state)
         put(&p, texts[i]);
         if (strchr(texts[i], 1))
             end_text(&p); /* only a parser knows that this begins nothing */
-        const json_stream_state found = json_stream_next(&p.stream, &p.reader);
+        const json_stream_state found = json_stream_read_object(&p.stream, &p.reader);
         if (found == JSON_STREAM_OBJECT)
             assert_false(json_read_object(&p.reader, false, print_compact));
         else
@@ -136,7 +136,7 @@ static void nothing_is_deeper_than_the_deepest(void **state)
     open_pipe(&p);
     for (int i = 0; i <= JSON_DEEPEST; i++)
         put(&p, "[");
-    assert_int_equal(json_stream_next(&p.stream, &p.reader), JSON_STREAM_OBJECT);
+    assert_int_equal(json_stream_read_object(&p.stream, &p.reader), JSON_STREAM_OBJECT);
     assert_false(json_read_object(&p.reader, false, print_compact));
     close_pipe(&p);
 }
@@ -149,7 +149,7 @@ static void a_text_that_stops_within_an_object_is_broken(void **state)
     put(&p, "{}\n\n{\"a\":\n");
     assert_next(&p, "{}", 1);
     end_text(&p);
-    assert_int_equal(json_stream_next(&p.stream, &p.reader), JSON_STREAM_BROKEN);
+    assert_int_equal(json_stream_read_object(&p.stream, &p.reader), JSON_STREAM_BROKEN);
     assert_string_equal(p.error.text, "pipe:3: the text stops in the middle of the object that begins here");
     close_pipe(&p);
 }
@@ -169,7 +169,7 @@ static void a_wait_can_be_stopped(void **state)
     p.stream.keep_going = count_down;
     p.stream.context = &left;
     put(&p, "{\"a\":");
-    assert_int_equal(json_stream_next(&p.stream, &p.reader), JSON_STREAM_STOPPED);
+    assert_int_equal(json_stream_read_object(&p.stream, &p.reader), JSON_STREAM_STOPPED);
     close_pipe(&p);
 }
 

@@ -85,17 +85,17 @@ static void lines_break_where_they_are_told_to(void **state)
     open_page(&page);
     json_writer *writer = &page.writer;
     json_write_begin_array(writer);
-    json_write_newline(writer);
+    json_start_new_line(writer);
     json_write_integer(writer, 1);
-    json_write_newline(writer);
-    json_write_newline(writer);
+    json_start_new_line(writer);
+    json_start_new_line(writer);
     json_write_integer(writer, 2);
     json_write_integer(writer, 3);
-    json_write_newline(writer);
+    json_start_new_line(writer);
     json_write_end_array(writer);
     json_write_end_line(writer);
     json_write_begin_object(writer);
-    json_write_newline(writer);
+    json_start_new_line(writer);
     json_write_key(writer, "a");
     json_write_integer(writer, 4);
     json_write_end_object(writer);
@@ -158,9 +158,9 @@ static void many_numbers_are_written_as_one_by_one(void **state)
     }
     open_page(&page);
     json_write_begin_array(&page.writer);
-    json_write_newline(&page.writer);
+    json_start_new_line(&page.writer);
     json_write_elements(&page.writer, values, COUNT);
-    json_write_newline(&page.writer);
+    json_start_new_line(&page.writer);
     json_write_integer(&page.writer, 7);
     json_write_end_array(&page.writer);
     close_page(&page, strcat(expected, ",\n7]"));
@@ -191,7 +191,7 @@ static void assert_place(const json_place *place, const char *name, size_t line)
     const json_reader r = {.at = text, .limit = text + strlen(text), .line = 1};
     char found[64];
     assert_string_equal(json_place_format(place, found, sizeof found), name);
-    assert_int_equal(json_line(&r, place), line);
+    assert_int_equal(json_find_line(&r, place), line);
 }
 
 static void places_are_named_and_found(void **state)

@@ -123,7 +123,7 @@ static void data_are_base64(void **state)
         assert_true(in && out);
         assert_int_equal(fwrite("foobar", 1, length, in), length);
         rewind(in);
-        base64_copy(in, out);
+        base64_encode(in, out);
         assert_int_equal(fclose(out), 0);
         assert_string_equal(text, texts[length]);
         fclose(in);

@@ -121,7 +121,7 @@ static void session_is_read_whole_or_not_at_all_if_jansson_fails(void **state)
     json_get_alloc_funcs(&allocate, &release);
     jansson_fails = true;
     json_set_alloc_funcs(malloc, free);
-    json_watch_memory();
+    json_detect_failed_allocations();
     session_is_read_whole_or_not_at_all_if_an_allocation_fails(state);
     json_set_alloc_funcs(allocate, release);
     jansson_fails = false;

@@ -116,7 +116,7 @@ static bool has_point(const scene *s, const octree_point *point)
 static bool has_count(const scene *s, const char *noun, size_t count)
 {
     char text[SCENE_TEXT];
-    snprintf(text, sizeof text, "%zu %s%s", count, noun, plural(count));
+    snprintf(text, sizeof text, "%zu %s%s", count, noun, plural_ending(count));
     for (size_t i = 0; i < s->labels.count; i++)
         if (strcmp(s->labels.items[i].text, text) == 0)
             return true;

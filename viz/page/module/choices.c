@@ -8,7 +8,7 @@
 
 static void write_names(json_writer *w, const char *key, json_name *names)
 {
-    json_member_begin_array(w, key);
+    json_begin_array_member(w, key);
     for (int i = 0; names(i); i++)
         json_write_string(w, names(i));
     json_write_end_array(w);
@@ -19,7 +19,7 @@ static void write_color(json_writer *w, theme_role role)
     char text[8];
     const theme_color c = theme_color_at(theme_index(role, 0));
     snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
-    json_member_text(w, "color", text);
+    json_write_text_member(w, "color", text);
 }
 
 /* Write the members that queries of a kind have. The member that has the kind's name comes first. */
@@ -29,15 +29,15 @@ static void write_query_members(json_writer *w, const octree_query_traits *about
                                         [OCTREE_MEMBER_POSITION] = "position",
                                         [OCTREE_MEMBER_COUNT] = "number",
                                         [OCTREE_MEMBER_LENGTH] = "number"};
-    json_member_begin_array(w, "members");
+    json_begin_array_member(w, "members");
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
             const octree_query_member_traits *member = octree_query_member_at(i);
             if (!(about->members & member->bit) || (about->named_by == member->bit) == pass)
                 continue;
             json_write_begin_object(w);
-            json_member_text(w, "name", member->key);
-            json_member_text(w, "type", types[member->type]);
+            json_write_text_member(w, "name", member->key);
+            json_write_text_member(w, "type", types[member->type]);
             json_write_end_object(w);
         }
     json_write_end_array(w);
@@ -45,12 +45,12 @@ static void write_query_members(json_writer *w, const octree_query_traits *about
 
 static void write_query_kinds(json_writer *w)
 {
-    json_member_begin_array(w, "queries");
+    json_begin_array_member(w, "queries");
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++) {
         const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
         json_write_begin_object(w);
-        json_member_text(w, "name", about->name);
-        json_member_text(w, "words", about->words);
+        json_write_text_member(w, "name", about->name);
+        json_write_text_member(w, "words", about->words);
         write_query_members(w, about);
         json_write_end_object(w);
     }
@@ -66,11 +66,11 @@ bool choices_write(FILE *out)
         if (option->member.codec == &json_choice)
             write_names(w, option->member.name, option->member.names);
     }
-    json_member_begin_array(w, "layers");
+    json_begin_array_member(w, "layers");
     for (int i = 0; i < LAYER_COUNT; i++) {
         json_write_begin_object(w);
-        json_member_text(w, "name", layer_rows[i].name);
-        json_member_text(w, "words", layer_rows[i].words);
+        json_write_text_member(w, "name", layer_rows[i].name);
+        json_write_text_member(w, "words", layer_rows[i].words);
         write_color(w, (theme_role)layer_rows[i].role);
         json_write_end_object(w);
     }

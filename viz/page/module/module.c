@@ -292,16 +292,16 @@ bool web_digest(void)
 /* Write a camera's center, the pixel that shows it, and the length of a pixel there. */
 static void write_center(json_writer *w, const camera *c, const int origin[2])
 {
-    json_member_vector(w, "center", c->center);
+    json_write_vector_member(w, "center", c->center);
     json_write_key(w, "middle");
     json_write_numbers(w, (double[]){c->middle[0] + origin[0], c->middle[1] + origin[1]}, 2);
-    json_member_number(w, "pixel", camera_pixel_length(c));
+    json_write_number_member(w, "pixel", camera_pixel_length(c));
 }
 
 static void write_closeup(json_writer *w, const scene *closeup)
 {
     const view *v = &closeup->view;
-    json_member_begin_object(w, "closeup");
+    json_begin_object_member(w, "closeup");
     json_write_key(w, "window");
     json_write_numbers(w, (double[]){closeup->place[0], closeup->place[1], v->width, v->height}, 4);
     write_center(w, &closeup->camera, closeup->place);
@@ -314,9 +314,9 @@ static bool write_camera(FILE *out)
     const camera *c = &s->camera;
     json_writer writer = {.out = out}, *w = &writer;
     json_write_begin_object(w);
-    json_member_vector(w, "right", c->right);
-    json_member_vector(w, "up", c->up);
-    json_member_vector(w, "forward", c->forward);
+    json_write_vector_member(w, "right", c->right);
+    json_write_vector_member(w, "up", c->up);
+    json_write_vector_member(w, "forward", c->forward);
     write_center(w, c, s->place);
     if (s->has_closeup)
         write_closeup(w, s->closeup);
