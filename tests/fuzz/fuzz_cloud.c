@@ -66,7 +66,8 @@ static void check_cloud(const cloud *cloud)
     if (cloud->count == 0 || (cloud->skipped > 0) != (cloud->why_skipped != NULL))
         abort();
     for (size_t i = 1; i < cloud->count; i++)
-        if (cloud_row(cloud, i) <= cloud_row(cloud, i - 1) || cloud_row(cloud, i) >= cloud->count + cloud->skipped)
+        if (cloud_row_number(cloud, i) <= cloud_row_number(cloud, i - 1) ||
+            cloud_row_number(cloud, i) >= cloud->count + cloud->skipped)
             abort();
     for (size_t i = 0; i < cloud->count; i++)
         for (int axis = 0; axis < 3; axis++)

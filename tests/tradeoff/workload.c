@@ -185,7 +185,8 @@ static workload divide_cloud(const char *name, const cloud *read, size_t points,
     }
     targets = targets < read->count / 4 ? targets : read->count / 4;
     points = points < read->count - targets ? points : read->count - targets;
-    workload w = allocate(name, point_world(read->positions, sizeof *read->positions, read->count), points, targets);
+    workload w =
+        allocate(name, find_point_world(read->positions, sizeof *read->positions, read->count), points, targets);
     for (size_t i = 0; i < points; i++) {
         memcpy(w.points[i].position, read->positions[order[i]], sizeof w.points[i].position);
         w.points[i].id = i;

@@ -236,7 +236,7 @@ static bool build_tree(const arguments *a, inspection *made, octreel_error *erro
     bool ok = cloud_read(a->cloud, &(cloud_watch){show_read_bytes, show_parsed_part, &r}, &points, error);
     if (ok) {
         if (!a->has_world)
-            def.world = point_world(points.positions, sizeof *points.positions, points.count);
+            def.world = find_point_world(points.positions, sizeof *points.positions, points.count);
         progress_end(&r.bar);
         r.bar = progress_start("points inserted");
         ok = inspect_build(&points, &def, progress_show, &r.bar, made, &why) ||

@@ -20,7 +20,7 @@ static const struct {
 
 enum { FORMATS = sizeof rows / sizeof rows[0] };
 
-/* The format that recognises the contents; null for none. */
+/* Returns the format that recognises the contents, or null. */
 static const cloud_format *recognise_format(cloud_file *file)
 {
     for (int i = 0; i < FORMATS; i++)
@@ -39,16 +39,16 @@ static const cloud_format *choose_format(cloud_file *file)
     return found ? found : &cloud_text;
 }
 
-bool cloud_recognise(const unsigned char *bytes, size_t size)
+bool cloud_is_recognised(const unsigned char *bytes, size_t size)
 {
     octreel_error ignored;
     cloud_file file = {.name = "", .bytes = bytes, .size = size, .error = &ignored};
-    return size > 0 && (recognise_format(&file) || cloud_text_recognise(&file));
+    return size > 0 && (recognise_format(&file) || cloud_text_is_recognised(&file));
 }
 
 /* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-static bool parse_filled(cloud_file *file)
+static bool parse_nonempty(cloud_file *file)
 {
     if (file->size > 0 && !choose_format(file)->parse(file))
         return false;
@@ -63,7 +63,7 @@ static bool parse_filled(cloud_file *file)
 static bool parse(cloud_file *file)
 {
     *file->out = (cloud){0};
-    bool parsed = parse_filled(file);
+    bool parsed = parse_nonempty(file);
     if (!parsed)
         cloud_release(file->out);
     return parsed;
@@ -74,7 +74,7 @@ bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, clou
     return parse(&(cloud_file){.name = name, .bytes = bytes, .size = size, .out = out, .error = error});
 }
 
-size_t cloud_row(const cloud *c, size_t index)
+size_t cloud_row_number(const cloud *c, size_t index)
 {
     return c->rows ? c->rows[index] : index;
 }

@@ -13,7 +13,7 @@
  *
  * LAS: versions 1.0 to 1.5, all point formats. Coordinates are record * scale + offset in doubles, the same bits as
  * laspy computes. Withheld (deleted) records are skipped. LAZ and COPC, which are compressed LAS, are read with the
- * same bits if this was built with liblaszip (see cloud_reads_laz()).
+ * same bits if this was built with liblaszip (see cloud_can_read_laz()).
  *
  * Values are found by their names, in upper or lower case: red green blue, r g b or diffuse_red ...; PCD's packed rgb
  * and rgba; intensity; class, classification or label. CloudCompare's prefix "scalar_" is ignored. Colours are kept
@@ -58,23 +58,23 @@ typedef struct cloud {
     double (*positions)[3];  /* `count` rows of x, y, z in the file's order and units; all finite; owned */
     size_t count;            /* at least 1 after a successful read */
     size_t skipped;          /* points of the file that are not in `positions` */
-    const char *why_skipped; /* the reason: "without finite coordinates" (many files mark "no return" so) or "marked as
-                              * withheld" (LAS: deleted); null if none is skipped; static storage */
-    size_t *rows;            /* `count` row numbers in the file, skipped rows counted; null if none is skipped; owned */
-    point_values values;     /* colours, intensities and classes, by cloud_row(); owned */
+    const char *why_skipped; /* "without finite coordinates", or "marked as withheld" (LAS: deleted); null if none is
+                                skipped; static storage */
+    size_t *rows; /* the file's row number of each point, counting skipped rows; null if none are skipped; owned */
+    point_values values;     /* colours, intensities and classes, by cloud_row_number(); owned */
     unsigned color_full;     /* the full scale of a colour channel in the file: 1, 255 or 65535; 0 without colours */
     const char *column_note; /* a sentence about columns that the file does not name; null for none; static storage */
     size_t out_of_range[POINT_VALUE_KINDS]; /* values that were dropped because they are out of range */
     char note[512];                         /* a sentence about unexpected data after the last point; "" for none */
 } cloud;
 
-/* The row of a point in its file, from 0 on, skipped rows counted. */
-size_t cloud_row(const cloud *c, size_t index);
+/* Returns the row of a point in its file, from 0, counting skipped rows. */
+size_t cloud_row_number(const cloud *c, size_t index);
 
-/* Callbacks for the progress of a long read: first bytes are loaded, then points are parsed. */
+/* Callbacks that report the progress of a long read: first the file's bytes are loaded, then its points are parsed. */
 typedef struct cloud_watch {
     void (*read)(uint64_t done, uint64_t total, void *context); /* after each block; total 0: unknown; may be null */
-    void (*step)(double part, void *context);                   /* now and then: the parsed part, 0 to 1 */
+    void (*step)(double part, void *context); /* called every 65536 points with the parsed part, 0 to 1 */
     void *context;
 } cloud_watch;
 
@@ -85,15 +85,15 @@ typedef struct cloud_watch {
  * points per byte. */
 bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_error *error);
 
-/* Parse a file in memory. `name` is its file name, used in errors and for its ending. */
+/* Parse a file in memory. `name` is its file name, for errors and for its ending. */
 bool cloud_parse(const char *name, const unsigned char *bytes, size_t size, cloud *out, octreel_error *error);
 
-/* Whether this build reads LAZ and COPC. */
-bool cloud_reads_laz(void);
+/* True if this build can read LAZ and COPC. */
+bool cloud_can_read_laz(void);
 
-/* Whether a file that begins with these bytes is a cloud: they hold the header of a format, or a text whose first line
- * is a point. */
-bool cloud_recognise(const unsigned char *bytes, size_t size);
+/* True if a file that begins with these bytes is a cloud: they contain the header of a format, or a text whose first
+ * line is a point. */
+bool cloud_is_recognised(const unsigned char *bytes, size_t size);
 
 /* Describe cloud.out_of_range: "2 colours beyond 0 to 65535 are left out"; "" if there are none. Returns `text`. */
 #define CLOUD_OUT_OF_RANGE_TEXT 200

@@ -12,7 +12,8 @@
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
-/* Record the row of the next point. Called from the first skipped point on: before, rows and points coincide. */
+/* Record the row of the next point. Not called before the first skipped point: up to it, rows and points have the same
+ * numbers. */
 static bool add_row(cloud_file *file)
 {
     cloud *points = file->out;
@@ -57,7 +58,7 @@ bool cloud_reserve(cloud_file *file, uint64_t count)
     return true;
 }
 
-bool cloud_reserve_rows(cloud_file *file, uint64_t count, uint64_t columns)
+bool cloud_reserve_announced(cloud_file *file, uint64_t count, uint64_t columns)
 {
     const uint64_t most = file->size / columns;
     return cloud_reserve(file, count < most ? count : most);
@@ -84,9 +85,9 @@ bool cloud_add_point(cloud_file *file, const double *position)
     return true;
 }
 
-void cloud_report_progress(const cloud_file *file, uint64_t times, uint64_t done, uint64_t total)
+void cloud_report_progress(const cloud_file *file, uint64_t calls, uint64_t done, uint64_t total)
 {
-    if (file->watch && times % 65536 == 0)
+    if (file->watch && calls % 65536 == 0)
         file->watch->step((double)done / (double)total, file->watch->context);
 }
 
@@ -102,7 +103,7 @@ bool cloud_fail_at(const cloud_file *file, const char *unit, size_t number, cons
     return error_set(file->error, "%s:%s %s", file->name, place, reason);
 }
 
-bool cloud_move_error_to_note(const cloud_file *file)
+bool cloud_turn_error_into_note(const cloud_file *file)
 {
     char *note = file->out->note;
     if (!*note)
@@ -113,7 +114,7 @@ bool cloud_move_error_to_note(const cloud_file *file)
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Lines end in \r alone only if the first line does: in binary data, a \n may follow the header's last \r. */
+/* A line ends in \r without \n only if the first line does: binary data after a header's last \r may begin with \n. */
 static char find_terminator(const char *at, const char *limit)
 {
     while (at < limit && *at != '\n' && *at != '\r')
@@ -122,7 +123,7 @@ static char find_terminator(const char *at, const char *limit)
     return alone ? '\r' : '\n';
 }
 
-void cloud_begin_lines(cloud_file *file)
+void cloud_rewind_lines(cloud_file *file)
 {
     const char *begin = (const char *)file->bytes, *limit = begin + file->size;
     file->lines = (cloud_lines){begin, limit, find_terminator(begin, limit), 0};
@@ -142,11 +143,11 @@ bool cloud_read_next_line(cloud_file *file, cloud_span *line)
     return true;
 }
 
-bool cloud_read_filled_line(cloud_file *file, cloud_span *line)
+bool cloud_read_nonblank_line(cloud_file *file, cloud_span *line)
 {
     while (cloud_read_next_line(file, line)) {
         cloud_span rest = *line, word;
-        if (cloud_next_word(&rest, &word))
+        if (cloud_read_word(&rest, &word))
             return true;
     }
     return false;
@@ -157,7 +158,7 @@ bool cloud_is_blank(char c)
     return c == ' ' || c == '\t';
 }
 
-bool cloud_next_word(cloud_span *line, cloud_span *word)
+bool cloud_read_word(cloud_span *line, cloud_span *word)
 {
     while (line->begin < line->limit && cloud_is_blank(*line->begin))
         line->begin++;
@@ -168,23 +169,23 @@ bool cloud_next_word(cloud_span *line, cloud_span *word)
     return word->begin < word->limit;
 }
 
-bool cloud_word_is(cloud_span word, const char *text)
+bool cloud_word_equals(cloud_span word, const char *text)
 {
     size_t length = (size_t)(word.limit - word.begin);
     return length == strlen(text) && memcmp(word.begin, text, length) == 0;
 }
 
-int cloud_find_word(cloud_span word, const char *list)
+int cloud_find_word_in_list(cloud_span word, const char *list)
 {
     cloud_span rest = {list, list + strlen(list)}, listed;
     const size_t length = (size_t)(word.limit - word.begin);
-    for (int i = 0; cloud_next_word(&rest, &listed); i++)
+    for (int i = 0; cloud_read_word(&rest, &listed); i++)
         if (length == (size_t)(listed.limit - listed.begin) && memcmp(word.begin, listed.begin, length) == 0)
             return i;
     return -1;
 }
 
-bool cloud_word_count(cloud_span word, uint64_t *count)
+bool cloud_parse_count(cloud_span word, uint64_t *count)
 {
     *count = 0;
     for (const char *at = word.begin; at < word.limit; at++) {
@@ -198,21 +199,21 @@ bool cloud_word_count(cloud_span word, uint64_t *count)
     return word.begin < word.limit;
 }
 
-bool cloud_word_coordinate(const cloud_file *file, cloud_span word, double *coordinate)
+bool cloud_parse_coordinate(const cloud_file *file, cloud_span word, double *coordinate)
 {
     const char *end;
     bool finite = number_parse(word.begin, word.limit, &end, coordinate);
     if (end == word.limit && finite)
         return true;
     if (end == word.limit)
-        return cloud_fail_word(file, word, "is beyond the largest double");
+        return cloud_fail_at_word(file, word, "is beyond the largest double");
     if (!number_parse_nonfinite(word.begin, word.limit, &end) || end != word.limit)
-        return cloud_fail_word(file, word, "is not a number");
+        return cloud_fail_at_word(file, word, "is not a number");
     *coordinate = NAN;
     return true;
 }
 
-const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE])
+const char *cloud_quote_word(cloud_span word, char text[CLOUD_QUOTE])
 {
     enum { LONGEST = CLOUD_QUOTE - sizeof "\\xff...'" + 1 };
     const char *at = word.begin;
@@ -224,10 +225,10 @@ const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE])
     return text;
 }
 
-bool cloud_fail_word(const cloud_file *file, cloud_span word, const char *reason)
+bool cloud_fail_at_word(const cloud_file *file, cloud_span word, const char *reason)
 {
     char quote[CLOUD_QUOTE];
-    return cloud_fail_line(file, "%s %s", cloud_quote(word, quote), reason);
+    return cloud_fail_line(file, "%s %s", cloud_quote_word(word, quote), reason);
 }
 
 bool cloud_check_text(const cloud_file *file)
@@ -237,7 +238,7 @@ bool cloud_check_text(const cloud_file *file)
     cloud_span line;
     if (!nul)
         return true;
-    cloud_begin_lines(&again);
+    cloud_rewind_lines(&again);
     while (again.lines.at <= nul)
         cloud_read_next_line(&again, &line);
     return cloud_fail_line(&again, "holds a NUL byte and is not text; supported formats are %s", CLOUD_NAMES);
@@ -246,9 +247,9 @@ bool cloud_check_text(const cloud_file *file)
 void cloud_note_trailing_lines(cloud_file *file)
 {
     cloud_span line;
-    if (cloud_read_filled_line(file, &line)) {
+    if (cloud_read_nonblank_line(file, &line)) {
         cloud_fail_line(file, "more lines follow than the header announces");
-        cloud_move_error_to_note(file);
+        cloud_turn_error_into_note(file);
     }
 }
 
@@ -289,6 +290,6 @@ void cloud_note_trailing_bytes(const cloud_file *file, size_t offset)
         offset++;
     if (offset < file->size) {
         cloud_fail_byte(file, offset, "more data follows than the header announces");
-        cloud_move_error_to_note(file);
+        cloud_turn_error_into_note(file);
     }
 }

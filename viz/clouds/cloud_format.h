@@ -11,7 +11,7 @@
 
 #include <stdint.h>
 
-/* The meaning of one number of a point: of a column, field or property of the file. */
+/* The meaning of a column, field or property of the file. */
 typedef enum cloud_channel {
     CLOUD_X,
     CLOUD_Y,
@@ -52,17 +52,17 @@ typedef struct cloud_file {
 } cloud_file;
 
 typedef struct cloud_format {
-    bool (*recognise)(cloud_file *file); /* whether the contents are certainly of this format; may be null */
+    bool (*recognise)(cloud_file *file); /* true if the contents are certainly of this format; may be null */
     bool (*parse)(cloud_file *file);     /* read the whole file into file->out; on false the error is set */
 } cloud_format;
 
 #define CLOUD_FORMAT_EXTERN(id, names, endings) extern const cloud_format cloud_##id;
 CLOUD_FORMAT_MAP(CLOUD_FORMAT_EXTERN)
 #undef CLOUD_FORMAT_EXTERN
-extern const cloud_format cloud_text; /* recognises nothing, and reads any text */
+extern const cloud_format cloud_text; /* has no recognise(); reads any text */
 
-/* Whether the first line that is neither a comment nor a header holds a point. */
-bool cloud_text_recognise(cloud_file *file);
+/* True if the first line that is neither a comment nor a header contains a point. */
+bool cloud_text_is_recognised(cloud_file *file);
 
 /* ---- Result and errors -------------------------------------------------------------------------------------- */
 
@@ -74,17 +74,18 @@ void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full);
 point_value cloud_convert_values(cloud_file *file, const double *numbers);
 
 /* Discard the values read so far; points that follow have none. */
-void cloud_drop_values(cloud_file *file);
+void cloud_discard_values(cloud_file *file);
 
 /* Call after the last point. */
 void cloud_finish_values(cloud_file *file);
 
-/* Reserve room for `count` points, which the caller has found to be in the file. Returns false if memory runs out. */
+/* Reserve room for `count` points; the caller has checked that the file contains them. Returns false if memory runs
+ * out. */
 bool cloud_reserve(cloud_file *file, uint64_t count);
 
-/* The same for a count that the file merely announces, of points with `columns` numbers of at least one byte: no more
- * than the file can hold. */
-bool cloud_reserve_rows(cloud_file *file, uint64_t count, uint64_t columns);
+/* Reserve room for a count that the file announces, of points with `columns` numbers of at least one byte each.
+ * Reserves no more than the file's size can hold. */
+bool cloud_reserve_announced(cloud_file *file, uint64_t count, uint64_t columns);
 
 /* Append a point from numbers[CLOUD_CHANNELS]: x, y, z and the file's channels are read. A point whose position is not
  * finite is skipped instead. Returns false if memory runs out. */
@@ -96,68 +97,65 @@ void cloud_count_skipped(const cloud_file *file, const char *why);
 /* Skip a point if its position is not finite; returns whether it was skipped. */
 bool cloud_skip_nonfinite(const cloud_file *file, const double *position);
 
-/* Report the progress `done` of `total` if `calls`, the number of calls so far, is a multiple of 65536. */
+/* Report the progress `done` of `total` on every 65536th call. `calls` is the number of calls so far. */
 void cloud_report_progress(const cloud_file *file, uint64_t calls, uint64_t done, uint64_t total);
 
-/* Set the error from a printf format and return false: for the file, for the last line read, for a byte (from 0 on). A
- * null unit leaves the number out. */
+/* Set the error from a printf format and return false. It names the file and the last line read, a byte (from 0), or no
+ * place if `unit` is null. */
 #define cloud_fail(file, ...) cloud_fail_at(file, NULL, 0, __VA_ARGS__)
 #define cloud_fail_line(file, ...) cloud_fail_at(file, "", (file)->lines.number, __VA_ARGS__)
 #define cloud_fail_byte(file, offset, ...) cloud_fail_at(file, "byte ", offset, __VA_ARGS__)
 bool cloud_fail_at(const cloud_file *file, const char *unit, size_t number, const char *format, ...);
 
-/* Move the error, which concerns data after the last point, to the cloud's note, unless there is one already. Returns
- * true. */
-bool cloud_move_error_to_note(const cloud_file *file);
+/* Turn an error in data after the last point into the cloud's note, unless it has a note already. Returns true. */
+bool cloud_turn_error_into_note(const cloud_file *file);
 
 /* ---- Lines and words ---------------------------------------------------------------------------------------- */
 
-/* Put the cursor before the first line. */
-void cloud_begin_lines(cloud_file *file);
+/* Move the cursor before the first line. */
+void cloud_rewind_lines(cloud_file *file);
 
 /* Read the next line without its terminator. Returns false at the end of the file. */
 bool cloud_read_next_line(cloud_file *file, cloud_span *line);
 
 /* Read the next line that is not blank. */
-bool cloud_read_filled_line(cloud_file *file, cloud_span *line);
+bool cloud_read_nonblank_line(cloud_file *file, cloud_span *line);
 
 bool cloud_is_blank(char c);
 
-/* Remove the next word from the front of a line; words are separated by blanks and tabs. Returns false if there is
- * none. */
-bool cloud_next_word(cloud_span *line, cloud_span *word);
+/* Remove the first word from a line; blanks and tabs separate words. Returns false if there is none. */
+bool cloud_read_word(cloud_span *line, cloud_span *word);
 
-bool cloud_word_is(cloud_span word, const char *text);
+bool cloud_word_equals(cloud_span word, const char *text);
 
-/* The index of a word in a list whose words are separated by blanks; -1 if the list lacks it. */
-int cloud_find_word(cloud_span word, const char *list);
+/* Returns the index of a word in a list whose words are separated by blanks, or -1. */
+int cloud_find_word_in_list(cloud_span word, const char *list);
 
-/* The channel with this name; -1 for none. x, y and z must be lower case; others may have any case. */
-int cloud_word_channel(cloud_span word);
+/* Returns the channel of this name, or -1. x, y and z must be lower case; other names may have any case. */
+int cloud_find_channel(cloud_span word);
 
 /* Parse a whole word as an integer from 0 to 2^64 - 1. */
-bool cloud_word_count(cloud_span word, uint64_t *count);
+bool cloud_parse_count(cloud_span word, uint64_t *count);
 
-/* Parse a whole word as a coordinate; "nan" and "inf" give NaN. On false, the error names the
- * last line read. */
-bool cloud_word_coordinate(const cloud_file *file, cloud_span word, double *coordinate);
+/* Parse a whole word as a coordinate; "nan" and "inf" give NaN. On failure, the error names the last line read. */
+bool cloud_parse_coordinate(const cloud_file *file, cloud_span word, double *coordinate);
 
-/* The same for any channel. A packed colour may be written as an integer, or as the float with the same bits. */
-bool cloud_word_number(const cloud_file *file, cloud_span word, int channel, double *number);
+/* Parse a whole word as a value of a channel. A packed colour is an integer, or the float with the same bits. */
+bool cloud_parse_channel(const cloud_file *file, cloud_span word, int channel, double *number);
 
-/* Size of a quoted word. */
+/* Size of a quoted word with its final zero. */
 #define CLOUD_QUOTE 48
 
-/* Quote a word for an error: printable, and shortened if it is long. Returns `text`. */
-const char *cloud_quote(cloud_span word, char text[CLOUD_QUOTE]);
+/* Quote a word for an error: unprintable bytes are escaped, long words are shortened. Returns `text`. */
+const char *cloud_quote_word(cloud_span word, char text[CLOUD_QUOTE]);
 
-/* Set the error "'word' reason" for the last line read and return false. */
-bool cloud_fail_word(const cloud_file *file, cloud_span word, const char *reason);
+/* Set the error "'WORD' REASON" for the last line read. Returns false. */
+bool cloud_fail_at_word(const cloud_file *file, cloud_span word, const char *reason);
 
-/* Return false and set the error if the file holds a NUL byte and thus is not text. */
+/* Returns false, with an error, if the file contains a NUL byte and so is not text. */
 bool cloud_check_text(const cloud_file *file);
 
-/* Add a note if a line that is not blank follows. */
+/* Add a note if another line follows that is not blank. */
 void cloud_note_trailing_lines(cloud_file *file);
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
@@ -176,7 +174,7 @@ uint64_t cloud_read_bits(unsigned size, bool big_endian, const unsigned char *by
 /* Read a number; integers beyond 2^53 are rounded. */
 double cloud_read_scalar(cloud_scalar type, bool big_endian, const unsigned char *bytes);
 
-/* Add a note if a non-zero byte follows from `offset` on. Zeros are accepted: some writers pad to a whole page. */
+/* Add a note if a byte from `offset` on is not zero. Zeros are accepted: some writers pad files to a whole page. */
 void cloud_note_trailing_bytes(const cloud_file *file, size_t offset);
 
 #endif

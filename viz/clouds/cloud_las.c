@@ -93,7 +93,7 @@ static bool read_format(las_reader *reader)
     reader->format = file->bytes[AT_FORMAT];
     reader->length = read_unsigned(reader, AT_LENGTH, 2);
     reader->compressed = reader->format & COMPRESSED;
-    if (reader->compressed && !cloud_reads_laz())
+    if (reader->compressed && !cloud_can_read_laz())
         return cloud_fail(file,
                           "is compressed LAS (LAZ or COPC), but this octreel was built without liblaszip; install "
                           "liblaszip-dev (Debian 13) and build again, or decompress the file: pdal translate in.laz "
@@ -124,7 +124,7 @@ static bool read_count(las_reader *reader)
                            wide, narrow, AT_COUNT);
 }
 
-static bool read_factors(las_reader *reader)
+static bool read_scales_and_offsets(las_reader *reader)
 {
     static const cloud_scalar real = {CLOUD_FLOAT, 8};
     for (unsigned i = 0; i < 6; i++) {
@@ -141,7 +141,7 @@ static bool read_factors(las_reader *reader)
 
 /* ---- Place of the points ------------------------------------------------------------------------------------ */
 
-/* LAS 1.0 has two signature bytes before the points, and some writers let the header point at these bytes. */
+/* LAS 1.0 has two signature bytes before the points, and some writers store the position of these bytes instead. */
 static void skip_signature(las_reader *reader, uint64_t left)
 {
     static const unsigned char start[] = {0xdd, 0xcc};
@@ -170,9 +170,9 @@ static bool find_points(las_reader *reader)
                            reader->count, reader->length, left);
 }
 
-/* Lower *next to the start of a part that follows the points, which the header holds at `at`; a start of 0 means that
- * the part is missing. */
-static bool find_part_after_points(const las_reader *reader, size_t at, const char *what, uint64_t *next)
+/* Lower *next to the start of a part that follows the points; the header stores the start at `at`, or 0 if the part is
+ * missing. */
+static bool lower_to_part_start(const las_reader *reader, size_t at, const char *what, uint64_t *next)
 {
     const uint64_t end = reader->first + reader->count * reader->length, start = read_unsigned(reader, at, 8);
     if (start == 0)
@@ -188,16 +188,16 @@ static bool find_part_after_points(const las_reader *reader, size_t at, const ch
 }
 
 /* Add a note if anything but waveforms and extended variable length records follows the points. */
-static bool check_end(const las_reader *reader)
+static bool check_bytes_after_points(const las_reader *reader)
 {
     static const bool has_waveforms[FORMATS] = {[4] = true, [5] = true, [9] = true, [10] = true};
     cloud_file before = *reader->file;
     uint64_t next = before.size;
     if (reader->minor >= 3 && has_waveforms[reader->format] &&
-        !find_part_after_points(reader, AT_WAVEFORMS, "the waveforms", &next))
+        !lower_to_part_start(reader, AT_WAVEFORMS, "the waveforms", &next))
         return false;
     if (reader->minor >= 4 && read_unsigned(reader, AT_RECORD_COUNT, 4) > 0 &&
-        !find_part_after_points(reader, AT_RECORDS, "the extended records", &next))
+        !lower_to_part_start(reader, AT_RECORDS, "the extended records", &next))
         return false;
     before.size = (size_t)next;
     cloud_note_trailing_bytes(&before, (size_t)(reader->first + reader->count * reader->length));
@@ -236,14 +236,14 @@ static bool add_record(const las_reader *reader, const unsigned char *record, si
     return cloud_add_point(reader->file, numbers);
 }
 
-static bool add_unpacked(void *context, const unsigned char *record)
+static bool add_decompressed_record(void *context, const unsigned char *record)
 {
     const las_reader *reader = context;
     return add_record(reader, record, (size_t)reader->first);
 }
 
-/* Read LAZ; the decompressor finds the points itself. The limit refuses counts that no file of this size can hold: ten
- * million equal points take 68 kB, 147 a byte. */
+/* Read compressed points, which the decompressor finds by itself. Counts that no file of this size can hold are
+ * refused: ten million equal points take 68 kB, which is 147 points a byte. */
 static bool read_compressed(las_reader *reader)
 {
     enum { MOST_A_BYTE = 256 };
@@ -253,12 +253,12 @@ static bool read_compressed(las_reader *reader)
         return cloud_fail_byte(file, reader->minor >= 4 ? AT_WIDE_COUNT : AT_COUNT,
                                "%" PRIu64 " compressed points are announced, but %zu bytes hold at most %d each",
                                reader->count, file->size, MOST_A_BYTE);
-    return laz_read(reader->file, reader->format, reader->count, add_unpacked, reader);
+    return laz_read_records(reader->file, reader->format, reader->count, add_decompressed_record, reader);
 }
 
 static bool read_uncompressed(las_reader *reader)
 {
-    if (!find_points(reader) || !check_end(reader) || !cloud_reserve(reader->file, reader->count))
+    if (!find_points(reader) || !check_bytes_after_points(reader) || !cloud_reserve(reader->file, reader->count))
         return false;
     for (uint64_t i = 0; i < reader->count; i++) {
         const size_t at = (size_t)(reader->first + i * reader->length);
@@ -275,7 +275,7 @@ static bool parse_las(cloud_file *file)
     las_reader reader = {.file = file};
     if (!is_las(file))
         return cloud_fail_byte(file, 0, "is not a LAS file: its first bytes are not LASF");
-    if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_factors(&reader))
+    if (!read_version(&reader) || !read_format(&reader) || !read_count(&reader) || !read_scales_and_offsets(&reader))
         return false;
     cloud_set_channels(file, 1U << CLOUD_INTENSITY | 1U << CLOUD_CLASS | (las_colors_at[reader.format] ? color : 0),
                        255);

@@ -12,12 +12,12 @@
 #include <stdio.h>
 #include <string.h>
 
-bool cloud_reads_laz(void)
+bool cloud_can_read_laz(void)
 {
     return true;
 }
 
-static void write_number(unsigned char *at, uint32_t number, unsigned size)
+static void write_little_endian(unsigned char *at, uint32_t number, unsigned size)
 {
     for (unsigned i = 0; i < size; i++)
         at[i] = (unsigned char)(number >> 8 * i);
@@ -27,17 +27,17 @@ static void write_number(unsigned char *at, uint32_t number, unsigned size)
 static void write_record(const laszip_point_struct *p, unsigned format, unsigned char record[LAS_RECORD_READ])
 {
     const unsigned color = las_colors_at[format];
-    write_number(record, (uint32_t)p->X, 4);
-    write_number(record + 4, (uint32_t)p->Y, 4);
-    write_number(record + 8, (uint32_t)p->Z, 4);
-    write_number(record + LAS_AT_INTENSITY, p->intensity, 2);
+    write_little_endian(record, (uint32_t)p->X, 4);
+    write_little_endian(record + 4, (uint32_t)p->Y, 4);
+    write_little_endian(record + 8, (uint32_t)p->Z, 4);
+    write_little_endian(record + LAS_AT_INTENSITY, p->intensity, 2);
     record[LAS_AT_FLAGS] =
         (unsigned char)(format >= 6 ? p->extended_classification_flags
                                     : (unsigned)p->classification | (unsigned)p->synthetic_flag << 5 |
                                           (unsigned)p->keypoint_flag << 6 | (unsigned)p->withheld_flag << 7);
     record[LAS_AT_CLASS] = p->extended_classification;
     for (unsigned i = 0; color && i < 3; i++)
-        write_number(record + color + 2 * i, p->rgb[i], 2);
+        write_little_endian(record + color + 2 * i, p->rgb[i], 2);
 }
 
 /* The argument of decompress(), in the child process. */
@@ -47,8 +47,8 @@ typedef struct decompression {
     uint64_t count;
 } decompression;
 
-/* Write why point i cannot be decompressed: the first line of the library's message. */
-static bool write_reason(const decompression *u, FILE *why, laszip_POINTER laszip, uint64_t i)
+/* Write why point i cannot be decompressed, with the first line of the library's message. */
+static bool write_failure_reason(const decompression *u, FILE *why, laszip_POINTER laszip, uint64_t i)
 {
     laszip_CHAR *message = NULL;
     if (laszip_get_error(laszip, &message) != 0 || !message)
@@ -68,10 +68,10 @@ static bool decompress(void *context, FILE *records, FILE *why)
     if (laszip_create(&laszip) != 0)
         return false;
     if (laszip_open_reader(laszip, u->path, &compressed) != 0 || laszip_get_point_pointer(laszip, &point) != 0)
-        return write_reason(u, why, laszip, 0);
+        return write_failure_reason(u, why, laszip, 0);
     for (uint64_t i = 0; i < u->count; i++) {
         if (laszip_read_point(laszip) != 0)
-            return write_reason(u, why, laszip, i);
+            return write_failure_reason(u, why, laszip, i);
         write_record(point, u->format, record);
         if (fwrite(record, 1, sizeof record, records) != sizeof record)
             return false;
@@ -79,15 +79,15 @@ static bool decompress(void *context, FILE *records, FILE *why)
     return true;
 }
 
-/* The limit of processor time, with a wide margin: liblaszip decompresses over a million points a second. */
-static unsigned limit_seconds(uint64_t count)
+/* Returns the limit of processor time, with a wide margin: liblaszip decompresses over a million points a second. */
+static unsigned find_time_limit(uint64_t count)
 {
     enum { LEAST = 20, POINTS_A_SECOND = 50000, MOST = 1000000 };
     const uint64_t seconds = LEAST + count / POINTS_A_SECOND;
     return seconds < MOST ? (unsigned)seconds : MOST;
 }
 
-bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *add, void *context)
+bool laz_read_records(const cloud_file *file, unsigned format, uint64_t count, laz_record_reader *add, void *context)
 {
     decompression u = {.format = format, .count = count};
     FILE *copy = tmpfile();
@@ -97,20 +97,20 @@ bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *
     if (!done)
         cloud_fail(file, "cannot write the temporary file for decompression: %s", strerror(errno));
     snprintf(u.path, sizeof u.path, "/dev/fd/%d", fileno(copy));
-    const laz_child child = {decompress, &u, limit_seconds(count)};
-    done = done && laz_child_read(&child, file, count, add, context);
+    const laz_child child = {decompress, &u, find_time_limit(count)};
+    done = done && laz_child_read_records(&child, file, count, add, context);
     fclose(copy);
     return done;
 }
 
 #else
 
-bool cloud_reads_laz(void)
+bool cloud_can_read_laz(void)
 {
     return false;
 }
 
-bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *add, void *context)
+bool laz_read_records(const cloud_file *file, unsigned format, uint64_t count, laz_record_reader *add, void *context)
 {
     (void)format, (void)count, (void)add, (void)context;
     return cloud_fail(file, "is compressed and cannot be read without liblaszip");

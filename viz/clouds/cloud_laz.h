@@ -12,6 +12,6 @@ extern const unsigned las_colors_at[];
 
 /* Pass each record of a compressed file to `add`. Returns false and sets the error if the data is damaged, and false if
  * `add` returns false. liblaszip opens files by name, so the bytes are copied to a temporary file. */
-bool laz_read(const cloud_file *file, unsigned format, uint64_t count, laz_add *add, void *context);
+bool laz_read_records(const cloud_file *file, unsigned format, uint64_t count, laz_record_reader *add, void *context);
 
 #endif

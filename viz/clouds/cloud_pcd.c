@@ -21,14 +21,14 @@ typedef enum pcd_encoding { PCD_ASCII, PCD_BINARY, PCD_COMPRESSED } pcd_encoding
 
 typedef struct pcd_field {
     cloud_scalar type;
-    uint64_t count;          /* values in each point */
-    int channel;             /* a cloud_channel; -1: none */
-    uint64_t column, offset; /* values and bytes before it in a point */
+    uint64_t count;          /* values of the field in each point */
+    int channel;             /* the field's cloud_channel; -1: ignored */
+    uint64_t column, offset; /* values and bytes before the field in a point */
 } pcd_field;
 
 typedef struct pcd_reader {
     cloud_file *file;
-    unsigned seen; /* bit i is set after keyword i was read */
+    unsigned seen; /* bit i: keyword i was read */
     size_t field_count;
     pcd_field fields[MAX_FIELDS]; /* after the header: the fields to read, one for each channel at most */
     uint64_t width, height, points;
@@ -43,23 +43,23 @@ static bool read_version(pcd_reader *reader, cloud_span rest)
     cloud_span word;
     const char *end;
     double version;
-    cloud_next_word(&rest, &word);
+    cloud_read_word(&rest, &word);
     bool known =
         number_parse(word.begin, word.limit, &end, &version) && end == word.limit && version >= 0.5 && version <= 0.7;
-    return known || cloud_fail_word(reader->file, word, "is not a supported version of PCD: 0.5 to 0.7");
+    return known || cloud_fail_at_word(reader->file, word, "is not a supported version of PCD: 0.5 to 0.7");
 }
 
 static bool read_fields(pcd_reader *reader, cloud_span rest)
 {
     cloud_span word;
     unsigned channels = 0;
-    while (cloud_next_word(&rest, &word)) {
-        int channel = cloud_word_channel(word);
+    while (cloud_read_word(&rest, &word)) {
+        int channel = cloud_find_channel(word);
         if (reader->field_count == MAX_FIELDS)
             return cloud_fail_line(reader->file, "more than %d fields", MAX_FIELDS);
         const bool is_repeated = channel >= 0 && channels >> channel & 1;
         if (is_repeated && channel <= CLOUD_Z)
-            return cloud_fail_word(reader->file, word, "is a second field with this name");
+            return cloud_fail_at_word(reader->file, word, "is a second field with this name");
         if (channel >= 0)
             channels |= 1U << channel;
         reader->fields[reader->field_count++] = (pcd_field){.channel = is_repeated ? -1 : channel, .count = 1};
@@ -72,7 +72,7 @@ static bool read_fields(pcd_reader *reader, cloud_span rest)
 
 static bool set_size(pcd_field *field, cloud_span word)
 {
-    const int power = cloud_find_word(word, "1 2 4 8");
+    const int power = cloud_find_word_in_list(word, "1 2 4 8");
     field->type.size = power < 0 ? 0 : 1U << power;
     return power >= 0;
 }
@@ -80,7 +80,7 @@ static bool set_size(pcd_field *field, cloud_span word)
 static bool set_type(pcd_field *field, cloud_span word)
 {
     static const cloud_scalar_kind kinds[] = {CLOUD_SIGNED, CLOUD_UNSIGNED, CLOUD_FLOAT};
-    const int found = cloud_find_word(word, "I U F");
+    const int found = cloud_find_word_in_list(word, "I U F");
     if (found >= 0)
         field->type.kind = kinds[found];
     return found >= 0;
@@ -89,39 +89,39 @@ static bool set_type(pcd_field *field, cloud_span word)
 /* The limit keeps the sum over MAX_FIELDS fields of 8 bytes from overflowing. */
 static bool set_count(pcd_field *field, cloud_span word)
 {
-    return cloud_word_count(word, &field->count) && field->count > 0 && field->count <= UINT32_MAX;
+    return cloud_parse_count(word, &field->count) && field->count > 0 && field->count <= UINT32_MAX;
 }
 
 /* Read a line with one word for each field. */
-static bool read_words_of_fields(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span),
-                                 const char *reason)
+static bool read_word_per_field(pcd_reader *reader, cloud_span rest, bool (*set)(pcd_field *, cloud_span),
+                                const char *reason)
 {
     cloud_span word;
     for (size_t i = 0; i < reader->field_count; i++) {
-        if (!cloud_next_word(&rest, &word))
+        if (!cloud_read_word(&rest, &word))
             return cloud_fail_line(reader->file, "has %zu words for %zu fields", i, reader->field_count);
         if (!set(&reader->fields[i], word))
-            return cloud_fail_word(reader->file, word, reason);
+            return cloud_fail_at_word(reader->file, word, reason);
     }
-    return !cloud_next_word(&rest, &word) ||
-           cloud_fail_word(reader->file, word, "is one word more than there are fields");
+    return !cloud_read_word(&rest, &word) ||
+           cloud_fail_at_word(reader->file, word, "is one word more than there are fields");
 }
 
-static bool read_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
+static bool read_header_number(const pcd_reader *reader, cloud_span rest, uint64_t *number)
 {
     cloud_span word;
-    cloud_next_word(&rest, &word);
-    return cloud_word_count(word, number) || cloud_fail_word(reader->file, word, "is not a count of points");
+    cloud_read_word(&rest, &word);
+    return cloud_parse_count(word, number) || cloud_fail_at_word(reader->file, word, "is not a count of points");
 }
 
 static bool read_encoding(pcd_reader *reader, cloud_span rest)
 {
     cloud_span word;
-    cloud_next_word(&rest, &word);
-    const int found = cloud_find_word(word, "ascii binary binary_compressed");
+    cloud_read_word(&rest, &word);
+    const int found = cloud_find_word_in_list(word, "ascii binary binary_compressed");
     reader->encoding = found < 0 ? PCD_ASCII : (pcd_encoding)found;
     return found >= 0 ||
-           cloud_fail_word(reader->file, word, "is not a kind of PCD data: ascii, binary or binary_compressed");
+           cloud_fail_at_word(reader->file, word, "is not a kind of PCD data: ascii, binary or binary_compressed");
 }
 
 typedef enum pcd_key {
@@ -161,7 +161,7 @@ static const pcd_keyword keywords[KEYS] = {
     [KEY_DATA] = {"DATA", true, .read = read_encoding},
 };
 
-static bool has_seen(const pcd_reader *reader, pcd_key key)
+static bool has_read_keyword(const pcd_reader *reader, pcd_key key)
 {
     return reader->seen >> key & 1;
 }
@@ -169,27 +169,28 @@ static bool has_seen(const pcd_reader *reader, pcd_key key)
 static bool read_header_line(pcd_reader *reader, cloud_span word, cloud_span rest)
 {
     for (int i = 0; i < KEYS; i++) {
-        if (!cloud_word_is(word, keywords[i].name))
+        if (!cloud_word_equals(word, keywords[i].name))
             continue;
-        if (has_seen(reader, (pcd_key)i))
-            return cloud_fail_word(reader->file, word, "occurs twice");
-        if (keywords[i].set && !has_seen(reader, KEY_FIELDS))
-            return cloud_fail_word(reader->file, word, "stands before FIELDS; FIELDS must come first");
+        if (has_read_keyword(reader, (pcd_key)i))
+            return cloud_fail_at_word(reader->file, word, "occurs twice");
+        if (keywords[i].set && !has_read_keyword(reader, KEY_FIELDS))
+            return cloud_fail_at_word(reader->file, word, "stands before FIELDS; FIELDS must come first");
         reader->seen |= 1U << i;
         if (keywords[i].read)
             return keywords[i].read(reader, rest);
         if (keywords[i].set)
-            return read_words_of_fields(reader, rest, keywords[i].set, keywords[i].reason);
-        return !keywords[i].number || read_number(reader, rest, (uint64_t *)((char *)reader + keywords[i].number));
+            return read_word_per_field(reader, rest, keywords[i].set, keywords[i].reason);
+        return !keywords[i].number ||
+               read_header_number(reader, rest, (uint64_t *)((char *)reader + keywords[i].number));
     }
-    return cloud_fail_word(reader->file, word, "does not belong in a PCD header");
+    return cloud_fail_at_word(reader->file, word, "does not belong in a PCD header");
 }
 
 /* Read the next line of the header that is not a comment: its first word, and the rest. */
-static bool next_header_line(cloud_file *file, cloud_span *word, cloud_span *rest)
+static bool read_next_header_line(cloud_file *file, cloud_span *word, cloud_span *rest)
 {
-    while (cloud_read_filled_line(file, rest))
-        if (cloud_next_word(rest, word) && *word->begin != '#')
+    while (cloud_read_nonblank_line(file, rest))
+        if (cloud_read_word(rest, word) && *word->begin != '#')
             return true;
     return false;
 }
@@ -197,24 +198,24 @@ static bool next_header_line(cloud_file *file, cloud_span *word, cloud_span *res
 static bool is_pcd(cloud_file *file)
 {
     cloud_span word, rest;
-    cloud_begin_lines(file);
-    return next_header_line(file, &word, &rest) && cloud_find_word(word, "VERSION FIELDS") >= 0;
+    cloud_rewind_lines(file);
+    return read_next_header_line(file, &word, &rest) && cloud_find_word_in_list(word, "VERSION FIELDS") >= 0;
 }
 
-/* ---- The header as a whole ---------------------------------------------------------------------------------- */
+/* ---- Whole header ------------------------------------------------------------------------------------------- */
 
 /* Find the number of points: WIDTH times HEIGHT, or POINTS; both must agree if both are given. HEIGHT is 1 if missing.
  */
 static bool find_point_count(pcd_reader *reader)
 {
-    if (!has_seen(reader, KEY_WIDTH) && !has_seen(reader, KEY_POINTS))
+    if (!has_read_keyword(reader, KEY_WIDTH) && !has_read_keyword(reader, KEY_POINTS))
         return cloud_fail_line(reader->file, "the header has neither WIDTH nor POINTS");
-    if (!has_seen(reader, KEY_WIDTH))
+    if (!has_read_keyword(reader, KEY_WIDTH))
         reader->width = reader->points;
-    if (!has_seen(reader, KEY_HEIGHT))
+    if (!has_read_keyword(reader, KEY_HEIGHT))
         reader->height = 1;
     bool overflows = reader->height > 0 && reader->width > UINT64_MAX / reader->height;
-    if (!has_seen(reader, KEY_POINTS) && !overflows)
+    if (!has_read_keyword(reader, KEY_POINTS) && !overflows)
         reader->points = reader->width * reader->height;
     if (overflows || reader->points != reader->width * reader->height)
         return cloud_fail_line(reader->file, "WIDTH %" PRIu64 " times HEIGHT %" PRIu64 " is not POINTS %" PRIu64,
@@ -222,10 +223,10 @@ static bool find_point_count(pcd_reader *reader)
     return true;
 }
 
-/* Compute where each field is in a point, and keep the fields to read. A coordinate must be a single number; a value
- * that is not is ignored. A packed colour has four bytes, which many files declare as a float. Other colours that are
- * floats are assumed to range from 0 to 1. */
-static bool lay_out_fields(pcd_reader *reader)
+/* Compute the offset of each field in a point, and list the fields to read. A coordinate must be a single number; other
+ * fields with several numbers are ignored. A packed colour has four bytes, which many files declare as a float. Other
+ * colours that are floats are assumed to range from 0 to 1. */
+static bool set_field_offsets(pcd_reader *reader)
 {
     size_t kept = 0;
     unsigned channels = 0, full = 255;
@@ -259,16 +260,16 @@ static bool lay_out_fields(pcd_reader *reader)
 static bool check_header(pcd_reader *reader)
 {
     for (int i = 0; i < KEYS; i++)
-        if (keywords[i].required && !has_seen(reader, (pcd_key)i))
+        if (keywords[i].required && !has_read_keyword(reader, (pcd_key)i))
             return cloud_fail_line(reader->file, "the header has no %s", keywords[i].name);
-    return find_point_count(reader) && lay_out_fields(reader);
+    return find_point_count(reader) && set_field_offsets(reader);
 }
 
 static bool read_header(pcd_reader *reader)
 {
     cloud_span word, rest;
-    while (!has_seen(reader, KEY_DATA)) {
-        if (!next_header_line(reader->file, &word, &rest))
+    while (!has_read_keyword(reader, KEY_DATA)) {
+        if (!read_next_header_line(reader->file, &word, &rest))
             return cloud_fail_line(reader->file, "the file ends in its header");
         if (!read_header_line(reader, word, rest))
             return false;
@@ -278,14 +279,14 @@ static bool read_header(pcd_reader *reader)
 
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
 
-static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[CLOUD_CHANNELS])
+static bool read_ascii_point(const pcd_reader *reader, cloud_span line, double numbers[CLOUD_CHANNELS])
 {
     cloud_span word;
     uint64_t column = 0;
-    for (const pcd_field *field = reader->fields; cloud_next_word(&line, &word); column++) {
+    for (const pcd_field *field = reader->fields; cloud_read_word(&line, &word); column++) {
         if (field == reader->fields + reader->field_count || field->column != column)
             continue;
-        if (!cloud_word_number(reader->file, word, field->channel, &numbers[field->channel]))
+        if (!cloud_parse_channel(reader->file, word, field->channel, &numbers[field->channel]))
             return false;
         field++;
     }
@@ -293,19 +294,19 @@ static bool read_line(const pcd_reader *reader, cloud_span line, double numbers[
            cloud_fail_line(reader->file, "has %" PRIu64 " values instead of %" PRIu64, column, reader->columns);
 }
 
-static bool read_ascii(pcd_reader *reader, size_t offset)
+static bool read_ascii_points(pcd_reader *reader, size_t offset)
 {
     (void)offset;
-    if (!cloud_check_text(reader->file) || !cloud_reserve_rows(reader->file, reader->points, reader->columns))
+    if (!cloud_check_text(reader->file) || !cloud_reserve_announced(reader->file, reader->points, reader->columns))
         return false;
     for (uint64_t i = 0; i < reader->points; i++) {
         cloud_span line;
         double numbers[CLOUD_CHANNELS];
         cloud_report_progress(reader->file, i, i, reader->points);
-        if (!cloud_read_filled_line(reader->file, &line))
+        if (!cloud_read_nonblank_line(reader->file, &line))
             return cloud_fail_line(reader->file, "the file ends after %" PRIu64 " of %" PRIu64 " points", i,
                                    reader->points);
-        if (!read_line(reader, line, numbers) || !cloud_add_point(reader->file, numbers))
+        if (!read_ascii_point(reader, line, numbers) || !cloud_add_point(reader->file, numbers))
             return false;
     }
     cloud_note_trailing_lines(reader->file);
@@ -314,8 +315,8 @@ static bool read_ascii(pcd_reader *reader, size_t offset)
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Read the points from binary data. Packed points follow one after another; of unpacked ones come all values of the
- * first field, then all of the second, and so on. */
+/* Add the points of binary data. Binary data is stored point by point; decompressed data field by field: all values of
+ * the first field, then all of the second, and so on. */
 static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
 {
     const bool packed = reader->encoding == PCD_BINARY;
@@ -338,7 +339,7 @@ static bool add_points(const pcd_reader *reader, const unsigned char *bytes)
     return true;
 }
 
-static bool read_binary(pcd_reader *reader, size_t offset)
+static bool read_binary_points(pcd_reader *reader, size_t offset)
 {
     size_t left = reader->file->size - offset;
     if (reader->points > left / reader->stride)
@@ -349,7 +350,7 @@ static bool read_binary(pcd_reader *reader, size_t offset)
     return add_points(reader, reader->file->bytes + offset);
 }
 
-static bool unpack(const pcd_reader *reader, size_t offset, uint32_t packed, uint32_t size)
+static bool decompress_points(const pcd_reader *reader, size_t offset, uint32_t packed, uint32_t size)
 {
     unsigned char *bytes = malloc(size);
     if (!bytes)
@@ -361,7 +362,7 @@ static bool unpack(const pcd_reader *reader, size_t offset, uint32_t packed, uin
     return done;
 }
 
-static bool read_compressed(pcd_reader *reader, size_t offset)
+static bool read_compressed_points(pcd_reader *reader, size_t offset)
 {
     enum { SIZES = 8 };
     const cloud_file *file = reader->file;
@@ -382,15 +383,15 @@ static bool read_compressed(pcd_reader *reader, size_t offset)
         return cloud_fail_byte(file, offset, "%" PRIu32 " compressed bytes cannot hold %" PRIu32 " bytes", packed,
                                size);
     cloud_note_trailing_bytes(file, offset + packed);
-    return size == 0 || unpack(reader, offset, packed, size);
+    return size == 0 || decompress_points(reader, offset, packed, size);
 }
 
 static bool parse_pcd(cloud_file *file)
 {
     static bool (*const readers[])(pcd_reader * reader, size_t offset) = {
-        [PCD_ASCII] = read_ascii, [PCD_BINARY] = read_binary, [PCD_COMPRESSED] = read_compressed};
+        [PCD_ASCII] = read_ascii_points, [PCD_BINARY] = read_binary_points, [PCD_COMPRESSED] = read_compressed_points};
     pcd_reader reader = {.file = file};
-    cloud_begin_lines(file);
+    cloud_rewind_lines(file);
     if (!read_header(&reader))
         return false;
     return readers[reader.encoding](&reader, (size_t)(file->lines.at - (const char *)file->bytes));

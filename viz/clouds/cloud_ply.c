@@ -34,16 +34,16 @@ typedef struct ply_reader {
     const ply_element *vertex; /* the element of the points; null: none so far */
     unsigned channels;         /* bits 1 << cloud_channel of its properties */
     unsigned full_color;       /* full scale of colours: 1 for floats, else 255 */
-    bool has_all_points;       /* all points were read; damage in data that follows is only noted */
+    bool has_all_points;       /* all points were read; an error in the data after them is only a note */
     bool is_truncated;         /* the file ends too early */
 } ply_reader;
 
 static bool is_ply(cloud_file *file)
 {
     cloud_span line, word, more;
-    cloud_begin_lines(file);
-    return cloud_read_next_line(file, &line) && cloud_next_word(&line, &word) && cloud_word_is(word, "ply") &&
-           !cloud_next_word(&line, &more);
+    cloud_rewind_lines(file);
+    return cloud_read_next_line(file, &line) && cloud_read_word(&line, &word) && cloud_word_equals(word, "ply") &&
+           !cloud_read_word(&line, &more);
 }
 
 /* ---- Header ------------------------------------------------------------------------------------------------- */
@@ -54,7 +54,7 @@ static bool find_type(cloud_span word, cloud_scalar *scalar)
                                 "float float32 double float64";
     static const cloud_scalar types[] = {{CLOUD_SIGNED, 1}, {CLOUD_UNSIGNED, 1}, {CLOUD_SIGNED, 2}, {CLOUD_UNSIGNED, 2},
                                          {CLOUD_SIGNED, 4}, {CLOUD_UNSIGNED, 4}, {CLOUD_FLOAT, 4},  {CLOUD_FLOAT, 8}};
-    const int found = cloud_find_word(word, names);
+    const int found = cloud_find_word_in_list(word, names);
     if (found >= 0)
         *scalar = types[found / 2]; /* each type has two names */
     return found >= 0;
@@ -63,15 +63,16 @@ static bool find_type(cloud_span word, cloud_scalar *scalar)
 static bool read_format(ply_reader *reader, cloud_span rest)
 {
     cloud_span name, version;
-    cloud_next_word(&rest, &name);
-    cloud_next_word(&rest, &version);
+    cloud_read_word(&rest, &name);
+    cloud_read_word(&rest, &version);
     if (reader->encoding != PLY_NO_ENCODING)
-        return cloud_fail_word(reader->file, name, "is a second format; a PLY header has one");
-    reader->encoding = (ply_encoding)(1 + cloud_find_word(name, "ascii binary_little_endian binary_big_endian"));
+        return cloud_fail_at_word(reader->file, name, "is a second format; a PLY header has one");
+    reader->encoding =
+        (ply_encoding)(1 + cloud_find_word_in_list(name, "ascii binary_little_endian binary_big_endian"));
     if (reader->encoding == PLY_NO_ENCODING)
-        return cloud_fail_word(reader->file, name,
-                               "is not a PLY format: ascii, binary_little_endian or binary_big_endian");
-    return cloud_word_is(version, "1.0") || cloud_fail_word(reader->file, version, "is not the PLY version 1.0");
+        return cloud_fail_at_word(reader->file, name,
+                                  "is not a PLY format: ascii, binary_little_endian or binary_big_endian");
+    return cloud_word_equals(version, "1.0") || cloud_fail_at_word(reader->file, version, "is not the PLY version 1.0");
 }
 
 static bool read_element(ply_reader *reader, cloud_span rest)
@@ -80,16 +81,16 @@ static bool read_element(ply_reader *reader, cloud_span rest)
     uint64_t count;
     if (reader->element_count == MAX_ELEMENTS)
         return cloud_fail_line(reader->file, "more than %d elements", MAX_ELEMENTS);
-    cloud_next_word(&rest, &name);
-    cloud_next_word(&rest, &number);
-    if (!cloud_word_count(number, &count))
-        return cloud_fail_word(reader->file, number, "is not a count of elements");
+    cloud_read_word(&rest, &name);
+    cloud_read_word(&rest, &number);
+    if (!cloud_parse_count(number, &count))
+        return cloud_fail_at_word(reader->file, number, "is not a count of elements");
     ply_element *element = &reader->elements[reader->element_count++];
     *element = (ply_element){name, count, reader->property_count, 0};
-    if (!cloud_word_is(name, "vertex"))
+    if (!cloud_word_equals(name, "vertex"))
         return true;
     if (reader->vertex)
-        return cloud_fail_word(reader->file, name, "is a second element with this name");
+        return cloud_fail_at_word(reader->file, name, "is a second element with this name");
     reader->vertex = element;
     return true;
 }
@@ -98,26 +99,26 @@ static bool read_element(ply_reader *reader, cloud_span rest)
 static bool read_type(ply_reader *reader, cloud_span *rest, ply_property *property)
 {
     cloud_span word;
-    cloud_next_word(rest, &word);
-    if (cloud_word_is(word, "list")) {
-        cloud_next_word(rest, &word);
+    cloud_read_word(rest, &word);
+    if (cloud_word_equals(word, "list")) {
+        cloud_read_word(rest, &word);
         if (!find_type(word, &property->length) || property->length.kind == CLOUD_FLOAT)
-            return cloud_fail_word(reader->file, word, "is not an integer type for a list's length");
-        cloud_next_word(rest, &word);
+            return cloud_fail_at_word(reader->file, word, "is not an integer type for a list's length");
+        cloud_read_word(rest, &word);
     }
-    return find_type(word, &property->type) || cloud_fail_word(reader->file, word, "is not a PLY type");
+    return find_type(word, &property->type) || cloud_fail_at_word(reader->file, word, "is not a PLY type");
 }
 
-/* Assign a property to its channel. A coordinate must be a single number and occur once; a value that is a list or
- * occurs again is ignored. */
-static bool add_channel(ply_reader *reader, ply_property *property, cloud_span name)
+/* Assign a channel to a property. A coordinate must be a single number and occur once; other properties that are lists
+ * or repeated are ignored. */
+static bool set_channel(ply_reader *reader, ply_property *property, cloud_span name)
 {
     const unsigned bit = 1U << property->channel;
     const bool again = reader->channels & bit, list = property->length.size > 0;
     if (property->channel <= CLOUD_Z && again)
-        return cloud_fail_word(reader->file, name, "is a second property with this name");
+        return cloud_fail_at_word(reader->file, name, "is a second property with this name");
     if (property->channel <= CLOUD_Z && list)
-        return cloud_fail_word(reader->file, name, "is a list; a coordinate must be a single number");
+        return cloud_fail_at_word(reader->file, name, "is a list; a coordinate must be a single number");
     if (again || list) {
         property->channel = -1;
         return true;
@@ -139,11 +140,11 @@ static bool read_property(ply_reader *reader, cloud_span rest)
     ply_element *element = &reader->elements[reader->element_count - 1];
     if (!read_type(reader, &rest, &property))
         return false;
-    if (!cloud_next_word(&rest, &name))
+    if (!cloud_read_word(&rest, &name))
         return cloud_fail_line(reader->file, "a property has no name");
     if (element == reader->vertex)
-        property.channel = cloud_word_channel(name);
-    if (property.channel >= 0 && !add_channel(reader, &property, name))
+        property.channel = cloud_find_channel(name);
+    if (property.channel >= 0 && !set_channel(reader, &property, name))
         return false;
     reader->properties[reader->property_count++] = property;
     element->property_count++;
@@ -153,9 +154,9 @@ static bool read_property(ply_reader *reader, cloud_span rest)
 static bool read_header_line(ply_reader *reader, cloud_span keyword, cloud_span rest)
 {
     enum { UNKNOWN = -1, FORMAT, ELEMENT, PROPERTY };
-    switch (cloud_find_word(keyword, "format element property comment obj_info")) {
+    switch (cloud_find_word_in_list(keyword, "format element property comment obj_info")) {
     case UNKNOWN:
-        return cloud_fail_word(reader->file, keyword, "does not belong in a PLY header");
+        return cloud_fail_at_word(reader->file, keyword, "does not belong in a PLY header");
     case FORMAT:
         return read_format(reader, rest);
     case ELEMENT:
@@ -186,9 +187,9 @@ static bool read_header(ply_reader *reader)
 {
     cloud_span line, keyword;
     while (cloud_read_next_line(reader->file, &line)) {
-        if (!cloud_next_word(&line, &keyword))
+        if (!cloud_read_word(&line, &keyword))
             continue;
-        if (cloud_word_is(keyword, "end_header"))
+        if (cloud_word_equals(keyword, "end_header"))
             return check_header(reader);
         if (!read_header_line(reader, keyword, line))
             return false;
@@ -199,43 +200,43 @@ static bool read_header(ply_reader *reader)
 /* ---- Ascii data --------------------------------------------------------------------------------------------- */
 
 /* Read the words of one property and remove them from the line. */
-static bool read_words(ply_reader *reader, const ply_property *property, cloud_span *line,
-                       double numbers[CLOUD_CHANNELS])
+static bool read_property_words(ply_reader *reader, const ply_property *property, cloud_span *line,
+                                double numbers[CLOUD_CHANNELS])
 {
     cloud_span word;
     uint64_t count = 1;
-    bool enough = cloud_next_word(line, &word);
+    bool enough = cloud_read_word(line, &word);
     if (enough && property->channel >= 0)
-        return cloud_word_number(reader->file, word, property->channel, &numbers[property->channel]);
+        return cloud_parse_channel(reader->file, word, property->channel, &numbers[property->channel]);
     if (enough && property->length.size > 0) {
-        if (!cloud_word_count(word, &count))
-            return cloud_fail_word(reader->file, word, "is not a valid length of a list");
+        if (!cloud_parse_count(word, &count))
+            return cloud_fail_at_word(reader->file, word, "is not a valid length of a list");
         for (uint64_t i = 0; enough && i < count; i++)
-            enough = cloud_next_word(line, &word);
+            enough = cloud_read_word(line, &word);
     }
     return enough || cloud_fail_line(reader->file, "the line has too few values");
 }
 
-static bool read_line(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
+static bool read_ascii_row(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
 {
     cloud_span line, word;
-    if (!cloud_read_filled_line(reader->file, &line)) {
+    if (!cloud_read_nonblank_line(reader->file, &line)) {
         char quote[CLOUD_QUOTE];
         reader->is_truncated = true;
         return cloud_fail_line(reader->file, "the file ends after %" PRIu64 " of %" PRIu64 " %s", row, element->count,
-                               cloud_quote(element->name, quote));
+                               cloud_quote_word(element->name, quote));
     }
     for (size_t i = 0; i < element->property_count; i++)
-        if (!read_words(reader, &reader->properties[element->first_property + i], &line, numbers))
+        if (!read_property_words(reader, &reader->properties[element->first_property + i], &line, numbers))
             return false;
-    return !cloud_next_word(&line, &word) ||
-           cloud_fail_word(reader->file, word, "follows the last property of the line");
+    return !cloud_read_word(&line, &word) ||
+           cloud_fail_at_word(reader->file, word, "follows the last property of the line");
 }
 
 /* ---- Binary data -------------------------------------------------------------------------------------------- */
 
-/* Advance over `count` items of a type. Returns their address; null if the file ends before. */
-static const unsigned char *advance(ply_reader *reader, cloud_scalar type, uint64_t count)
+/* Skip `count` values of a type. Returns their address; null if the file ends before. */
+static const unsigned char *skip_values(ply_reader *reader, cloud_scalar type, uint64_t count)
 {
     const unsigned char *at = reader->file->bytes + reader->offset;
     if (count > (reader->file->size - reader->offset) / type.size)
@@ -244,32 +245,33 @@ static const unsigned char *advance(ply_reader *reader, cloud_scalar type, uint6
     return at;
 }
 
-static bool fail_end(ply_reader *reader, const ply_element *element, uint64_t row)
+static bool fail_at_file_end(ply_reader *reader, const ply_element *element, uint64_t row)
 {
     char quote[CLOUD_QUOTE];
     reader->is_truncated = true;
     return cloud_fail_byte(reader->file, reader->offset, "the file ends within row %" PRIu64 " of %" PRIu64 " %s",
-                           row + 1, element->count, cloud_quote(element->name, quote));
+                           row + 1, element->count, cloud_quote_word(element->name, quote));
 }
 
-static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t row, double numbers[CLOUD_CHANNELS])
+static bool read_binary_row(ply_reader *reader, const ply_element *element, uint64_t row,
+                            double numbers[CLOUD_CHANNELS])
 {
     bool big_endian = reader->encoding == PLY_BIG_ENDIAN;
     for (size_t i = 0; i < element->property_count; i++) {
         const ply_property *property = &reader->properties[element->first_property + i];
         double count = 1;
         if (property->length.size > 0) {
-            const unsigned char *length = advance(reader, property->length, 1);
+            const unsigned char *length = skip_values(reader, property->length, 1);
             if (!length)
-                return fail_end(reader, element, row);
+                return fail_at_file_end(reader, element, row);
             count = cloud_read_scalar(property->length, big_endian, length);
         }
         if (count < 0)
             return cloud_fail_byte(reader->file, reader->offset - property->length.size,
                                    "a list has a negative length");
-        const unsigned char *value = advance(reader, property->type, (uint64_t)count);
+        const unsigned char *value = skip_values(reader, property->type, (uint64_t)count);
         if (!value)
-            return fail_end(reader, element, row);
+            return fail_at_file_end(reader, element, row);
         if (property->channel >= 0)
             numbers[property->channel] = cloud_read_scalar(property->type, big_endian, value);
     }
@@ -278,25 +280,26 @@ static bool read_bytes(ply_reader *reader, const ply_element *element, uint64_t 
 
 /* ---- Elements ----------------------------------------------------------------------------------------------- */
 
-/* Turn damage after the last point into a note. A truncated file stays an error, whatever is missing. */
-static bool note_damage(const ply_reader *reader)
+/* Turn an error after the last point into a note. A truncated file stays an error even if no point is missing. */
+static bool turn_damage_into_note(const ply_reader *reader)
 {
-    return reader->has_all_points && !reader->is_truncated && cloud_move_error_to_note(reader->file);
+    return reader->has_all_points && !reader->is_truncated && cloud_turn_error_into_note(reader->file);
 }
 
 static bool read_rows(ply_reader *reader, const ply_element *element)
 {
     bool (*read_row)(ply_reader *, const ply_element *, uint64_t, double *) =
-        reader->encoding == PLY_ASCII ? read_line : read_bytes;
+        reader->encoding == PLY_ASCII ? read_ascii_row : read_binary_row;
     bool has_points = element == reader->vertex;
     double numbers[CLOUD_CHANNELS];
     if (element->property_count == 0)
         return true;
-    if (has_points && !cloud_reserve_rows(reader->file, element->count, element->property_count))
+    if (has_points && !cloud_reserve_announced(reader->file, element->count, element->property_count))
         return false;
     for (uint64_t row = 0; row < element->count; row++) {
         cloud_report_progress(reader->file, row, row, element->count);
-        if (!read_row(reader, element, row, numbers) && !(reader->encoding == PLY_ASCII && note_damage(reader)))
+        if (!read_row(reader, element, row, numbers) &&
+            !(reader->encoding == PLY_ASCII && turn_damage_into_note(reader)))
             return false;
         if (has_points && !cloud_add_point(reader->file, numbers))
             return false;
@@ -320,7 +323,7 @@ static bool parse_ply(cloud_file *file)
     reader.offset = (size_t)(file->lines.at - (const char *)file->bytes);
     for (size_t i = 0; i < reader.element_count; i++)
         if (!read_rows(&reader, &reader.elements[i]))
-            return note_damage(&reader); /* a binary file cannot be read further after an error */
+            return turn_damage_into_note(&reader); /* a binary file cannot be read further after an error */
     if (ascii)
         cloud_note_trailing_lines(file);
     else

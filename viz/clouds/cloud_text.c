@@ -4,8 +4,8 @@
  * Text files come without a specification, so the rules here refuse what could silently become another picture: column
  * names that place x, y, z elsewhere than first, decimal commas, mixed separators, and a first line that announces more
  * points than follow. Columns from the fourth on have the meaning of their names. Without names, three or four more
- * columns are guessed to be colours, perhaps after an intensity; every line must confirm the guess (end_guess() gives
- * the rules), else the columns are ignored. Either way cloud.column_note says so.
+ * columns are guessed to be colours, perhaps after an intensity; every line must confirm the guess (decide_guess()
+ * gives the rules), else the columns are ignored. Either way cloud.column_note says so.
  */
 #include "cloud_format.h"
 #include "number.h"
@@ -21,10 +21,10 @@ typedef struct text_columns {
     } places[CLOUD_CHANNELS]; /* the columns with a channel */
     size_t place_count;
     size_t count;     /* columns to read */
-    bool unnamed;     /* the file has such columns without names */
-    bool guessed;     /* the channels are a guess; the members below record what the lines so far say about it: */
-    bool ranges[2];   /* by range: all colour channels were within it */
-    bool shifted[2];  /* by range: the column before the colour was always within it, too */
+    bool unnamed;     /* the file has columns after the third and no names */
+    bool guessed;     /* the channels are a guess; the members below say if the lines so far agree: */
+    bool ranges[2];   /* by range: all colour channels were within the range */
+    bool shifted[2];  /* by range: the column before the colour was within the range, too */
     bool no_normals;  /* some colour is not a vector of length 1 */
     double brightest; /* the largest channel of all colours */
 } text_columns;
@@ -36,8 +36,8 @@ static const char *skip_blanks(cloud_span line)
     return line.begin;
 }
 
-/* Whether nothing but a comment is left of a line. */
-static bool is_at_end(cloud_span line)
+/* True if the rest of a line is empty or a comment. */
+static bool has_only_comment(cloud_span line)
 {
     size_t left = (size_t)(line.limit - line.begin);
     return left == 0 || *line.begin == '#' || (left > 1 && line.begin[0] == '/' && line.begin[1] == '/');
@@ -48,8 +48,8 @@ static bool is_separator(char c)
     return c == ',' || c == ';';
 }
 
-/* Remove the next column from the front of a line, for names and quotes: blanks, commas or semicolons end it. */
-static bool next_column(cloud_span *line, cloud_span *column)
+/* Remove the first column from a line, for names and quotes: blanks, commas or semicolons end it. */
+static bool read_next_column(cloud_span *line, cloud_span *column)
 {
     while (line->begin < line->limit && (cloud_is_blank(*line->begin) || is_separator(*line->begin)))
         line->begin++;
@@ -69,21 +69,21 @@ static cloud_span strip_quotes(cloud_span column)
     return column;
 }
 
-/* Whether a column is a name: it does not begin like a number. */
-static bool is_name(cloud_span column)
+/* True if a column is a name: it does not begin like a number. */
+static bool is_column_name(cloud_span column)
 {
     const char *end;
     bool number_like = column.begin == column.limit || strchr("+-.0123456789", *column.begin);
     return !number_like && !number_parse_nonfinite(column.begin, column.limit, &end);
 }
 
-/* Whether a line consists of three or more names. */
-static bool is_header(cloud_span line)
+/* True if a line consists of three or more names. */
+static bool is_column_header(cloud_span line)
 {
     cloud_span column;
     size_t count = 0;
-    for (; next_column(&line, &column); count++)
-        if (!is_name(strip_quotes(column)))
+    for (; read_next_column(&line, &column); count++)
+        if (!is_column_name(strip_quotes(column)))
             return false;
     return count >= 3;
 }
@@ -91,7 +91,7 @@ static bool is_header(cloud_span line)
 static int find_channel(cloud_span name)
 {
     const char lower = (char)(name.limit - name.begin == 1 ? *name.begin | ('a' ^ 'A') : 0);
-    return cloud_word_channel(lower ? (cloud_span){&lower, &lower + 1} : name);
+    return cloud_find_channel(lower ? (cloud_span){&lower, &lower + 1} : name);
 }
 
 static void add_column(text_columns *columns, size_t column, cloud_channel channel)
@@ -103,11 +103,11 @@ static void add_column(text_columns *columns, size_t column, cloud_channel chann
 
 /* Read the names of the columns. A file with the columns "id,x,y,z" is refused, because its first three columns are not
  * the coordinates. A unit, as in "x [m], y [m]", belongs to the name before it. */
-static bool read_header(cloud_file *file, cloud_span line, text_columns *columns)
+static bool read_column_names(cloud_file *file, cloud_span line, text_columns *columns)
 {
     cloud_span column;
     unsigned channels = 0;
-    for (int index = 0; next_column(&line, &column);) {
+    for (int index = 0; read_next_column(&line, &column);) {
         if (*column.begin == '[' || *column.begin == '(')
             continue;
         int channel = find_channel(strip_quotes(column));
@@ -125,23 +125,23 @@ static bool read_header(cloud_file *file, cloud_span line, text_columns *columns
     return true;
 }
 
-/* Report why the front of a line is not a coordinate. */
+/* Report why a line does not begin with a coordinate. */
 static bool fail_coordinate(const cloud_file *file, cloud_span line, int axis)
 {
     const char *end;
     double ignored;
     cloud_span column = line;
-    if (is_at_end(line))
+    if (has_only_comment(line))
         return cloud_fail_line(file, "has %d of the three coordinates x y z", axis);
     if (is_separator(*line.begin))
         return cloud_fail_line(file, "column %d is empty", axis + 1);
-    next_column(&line, &column);
+    read_next_column(&line, &column);
     if (!number_parse(column.begin, column.limit, &end, &ignored) && end == column.limit)
-        return cloud_fail_word(file, column, "is beyond the largest double");
-    return cloud_fail_word(file, column, "is not a number");
+        return cloud_fail_at_word(file, column, "is beyond the largest double");
+    return cloud_fail_at_word(file, column, "is not a number");
 }
 
-/* Read the number at the front of a line; "nan" and "inf" give NaN. *end receives the position behind it. */
+/* Read the number at the start of a line; "nan" and "inf" give NaN. *end becomes the first character after it. */
 static bool parse_coordinate(cloud_span line, const char **end, double *coordinate)
 {
     if (number_parse(line.begin, line.limit, end, coordinate))
@@ -163,7 +163,7 @@ static bool parse_position(const cloud_file *file, cloud_span *rest, char *separ
             return fail_coordinate(file, line, axis);
         line.begin = end;
         line.begin = skip_blanks(line);
-        if (is_at_end(line)) {
+        if (has_only_comment(line)) {
             *rest = line;
             return axis == 2 || fail_coordinate(file, line, axis + 1);
         }
@@ -180,25 +180,24 @@ static bool parse_position(const cloud_file *file, cloud_span *rest, char *separ
     return true;
 }
 
-/* Remove the next column from the front of a line. It ends at `separator`; ' ' stands for any blank. False at the end.
- */
-static bool next_field(cloud_span *line, char separator, cloud_span *field)
+/* Remove the first column from a line. It ends at `separator`; ' ' stands for any blank. False: no column is left. */
+static bool read_next_field(cloud_span *line, char separator, cloud_span *field)
 {
     line->begin = skip_blanks(*line);
-    if (is_at_end(*line))
+    if (has_only_comment(*line))
         return false;
     field->begin = line->begin;
-    while (!is_at_end(*line) && (separator == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != separator))
+    while (!has_only_comment(*line) && (separator == ' ' ? !cloud_is_blank(*line->begin) : *line->begin != separator))
         line->begin++;
     field->limit = line->begin;
-    if (!is_at_end(*line))
+    if (!has_only_comment(*line))
         line->begin++;
     while (field->limit > field->begin && cloud_is_blank(field->limit[-1]))
         field->limit--;
     return true;
 }
 
-/* The number in a field; NaN if it is not a number. */
+/* Returns the number in a field; NaN if it is not a number. */
 static double parse_field(cloud_span field)
 {
     double number = NAN;
@@ -215,10 +214,10 @@ static size_t parse_values(cloud_span line, char separator, const text_columns *
     size_t i = 0, next = 0;
     for (int channel = CLOUD_Z + 1; channel < CLOUD_CHANNELS; channel++)
         numbers[channel] = NAN;
-    for (; i < columns->count && next_field(&line, separator, &field); i++)
+    for (; i < columns->count && read_next_field(&line, separator, &field); i++)
         if (columns->places[next].column == i)
             numbers[columns->places[next++].channel] = parse_field(field);
-    return i + next_field(&line, separator, &field);
+    return i + read_next_field(&line, separator, &field);
 }
 
 /* ---- Columns without names ---------------------------------------------------------------------------------- */
@@ -230,7 +229,7 @@ static void guess_columns(cloud_file *file, cloud_span rest, char separator, tex
     const unsigned color = 1U << CLOUD_RED | 1U << CLOUD_GREEN | 1U << CLOUD_BLUE;
     cloud_span field;
     size_t count = 0;
-    while (next_field(&rest, separator, &field))
+    while (read_next_field(&rest, separator, &field))
         count++;
     columns->unnamed = count > 0;
     if (count != 3 && count != 4)
@@ -255,13 +254,13 @@ static bool is_in_range(double number, int range)
 
 static void discard_guess(cloud_file *file, text_columns *columns)
 {
-    cloud_drop_values(file);
+    cloud_discard_values(file);
     memset(file->out->out_of_range, 0, sizeof file->out->out_of_range);
     columns->count = 0;
     columns->guessed = false;
 }
 
-/* Hold the guess against a line's numbers, and discard it if they contradict it. */
+/* Compare the guess with the numbers of a line, and discard it if they contradict it. */
 static void check_guess(cloud_file *file, text_columns *columns, size_t count, const double *numbers)
 {
     bool fits = false;
@@ -283,7 +282,7 @@ static void check_guess(cloud_file *file, text_columns *columns, size_t count, c
 
 /* Decide after the last line. The columns are colours if some channel is bright, if fractions are not all normals, and
  * if with four columns the first cannot be a colour channel as well. */
-static void end_guess(cloud_file *file, text_columns *columns)
+static void decide_guess(cloud_file *file, text_columns *columns)
 {
     const int range = columns->ranges[BYTES] ? BYTES : FRACTIONS;
     const bool bright = range == BYTES ? columns->brightest >= 128 : columns->brightest >= 0.5 && columns->no_normals;
@@ -305,19 +304,19 @@ static void end_guess(cloud_file *file, text_columns *columns)
         discard_guess(file, columns);
 }
 
-/* ---- The file ----------------------------------------------------------------------------------------------- */
+/* ---- Whole file --------------------------------------------------------------------------------------------- */
 
 /* Begin reading lines, after the byte order mark that some editors write before UTF-8. */
-static void begin_lines(cloud_file *file)
+static void begin_reading_lines(cloud_file *file)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
-    cloud_begin_lines(file);
+    cloud_rewind_lines(file);
     if (file->size >= 3 && memcmp(file->bytes, byte_order_mark, 3) == 0)
         file->lines.at += 3;
 }
 
-/* Whether a line holds a single integer: .pts files begin with the number of their points. */
-static bool is_count(cloud_span line, double *count)
+/* True if a line is a single integer: .pts files begin with the number of their points. */
+static bool is_point_count(cloud_span line, double *count)
 {
     const char *end;
     cloud_span rest = line;
@@ -325,27 +324,27 @@ static bool is_count(cloud_span line, double *count)
         rest.begin++;
     const char *limit = rest.begin;
     rest.begin = skip_blanks(rest);
-    return limit > line.begin && is_at_end(rest) && number_parse(line.begin, limit, &end, count);
+    return limit > line.begin && has_only_comment(rest) && number_parse(line.begin, limit, &end, count);
 }
 
-bool cloud_text_recognise(cloud_file *file)
+bool cloud_text_is_recognised(cloud_file *file)
 {
     cloud_span line;
     double position[3], count;
     char separator = ' ';
-    begin_lines(file);
+    begin_reading_lines(file);
     for (bool first = true; cloud_read_next_line(file, &line);) {
         line.begin = skip_blanks(line);
-        if (is_at_end(line))
+        if (has_only_comment(line))
             continue;
-        if (!first || (!is_header(line) && !is_count(line, &count)))
+        if (!first || (!is_column_header(line) && !is_point_count(line, &count)))
             return parse_position(file, &line, &separator, position);
         first = false;
     }
     return false;
 }
 
-/* Read a line with a point. The values of a skipped point are not read, and say nothing about a guess. */
+/* Read a line with a point. The values of a skipped point are not read, and do not count for the guess. */
 static bool parse_point(cloud_file *file, cloud_span line, bool named, text_columns *columns)
 {
     double numbers[CLOUD_CHANNELS];
@@ -364,43 +363,43 @@ static bool parse_point(cloud_file *file, cloud_span line, bool named, text_colu
     return cloud_add_point(file, numbers);
 }
 
-/* Whether a comment holds the names of the columns, as CloudCompare writes them; *line then becomes the names. */
-static bool is_comment_of_names(cloud_span *line)
+/* True if a comment holds the names of the columns, as CloudCompare writes them; *line then becomes the names. */
+static bool is_comment_with_column_names(cloud_span *line)
 {
     cloud_span rest = *line, column;
     while (rest.begin < rest.limit && (*rest.begin == '#' || *rest.begin == '/' || cloud_is_blank(*rest.begin)))
         rest.begin++;
     const cloud_span names = rest;
     for (int i = 0; i < 3; i++)
-        if (!next_column(&rest, &column) || find_channel(strip_quotes(column)) != i)
+        if (!read_next_column(&rest, &column) || find_channel(strip_quotes(column)) != i)
             return false;
     *line = names;
-    return is_header(names);
+    return is_column_header(names);
 }
 
-/* Read all lines. A line of names or a count of points may stand before the first point, and a comment with names
- * before these. More points than the count are read; fewer are an error. */
+/* Read all lines. Before the first point there may be a comment with names, then a line of names or the number of
+ * points. More points than that number are read; fewer are an error. */
 static bool parse_lines(cloud_file *file, text_columns *columns)
 {
     cloud_span line;
     bool first = true, named = false, has_header = false;
     double count = 0, points = 0;
     size_t count_line = 0; /* the number of the line with the count; 0: none */
-    begin_lines(file);
+    begin_reading_lines(file);
     while (cloud_read_next_line(file, &line)) {
         cloud_report_progress(file, file->lines.number, (uint64_t)(file->lines.at - (const char *)file->bytes),
                               file->size);
         line.begin = skip_blanks(line);
-        const bool comment = is_at_end(line);
-        if (comment && !(first && !named && is_comment_of_names(&line)))
+        const bool comment = has_only_comment(line);
+        if (comment && !(first && !named && is_comment_with_column_names(&line)))
             continue;
-        if (first && !has_header && (comment || is_header(line))) {
+        if (first && !has_header && (comment || is_column_header(line))) {
             named = true;
             has_header = !comment;
             *columns = (text_columns){0};
-            if (!read_header(file, line, columns))
+            if (!read_column_names(file, line, columns))
                 return false;
-        } else if (first && !has_header && !count_line && is_count(line, &count)) {
+        } else if (first && !has_header && !count_line && is_point_count(line, &count)) {
             count_line = file->lines.number;
         } else {
             if (!parse_point(file, line, named, columns))
@@ -419,7 +418,7 @@ static bool parse_text(cloud_file *file)
     text_columns columns = {0};
     const bool done = cloud_check_text(file) && parse_lines(file, &columns);
     if (done && columns.unnamed)
-        end_guess(file, &columns);
+        decide_guess(file, &columns);
     return done;
 }
 

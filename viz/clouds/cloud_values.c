@@ -25,7 +25,7 @@ static const struct {
     {"label", CLOUD_CLASS},
 };
 
-int cloud_word_channel(cloud_span word)
+int cloud_find_channel(cloud_span word)
 {
     static const char before[] = "scalar_";
     size_t length = (size_t)(word.limit - word.begin);
@@ -41,15 +41,15 @@ int cloud_word_channel(cloud_span word)
     return -1;
 }
 
-bool cloud_word_number(const cloud_file *file, cloud_span word, int channel, double *number)
+bool cloud_parse_channel(const cloud_file *file, cloud_span word, int channel, double *number)
 {
     uint64_t whole;
     uint32_t bits;
-    if (channel == CLOUD_PACKED && cloud_word_count(word, &whole)) {
+    if (channel == CLOUD_PACKED && cloud_parse_count(word, &whole)) {
         *number = (double)whole;
         return true;
     }
-    if (!cloud_word_coordinate(file, word, number))
+    if (!cloud_parse_coordinate(file, word, number))
         return false;
     if (channel == CLOUD_PACKED && fabs(*number) <= FLT_MAX) {
         const float narrow = (float)*number;
@@ -74,14 +74,14 @@ void cloud_set_channels(cloud_file *file, unsigned channels, unsigned full)
     file->out->color_full = channels & THREE ? full : BYTE;
 }
 
-void cloud_drop_values(cloud_file *file)
+void cloud_discard_values(cloud_file *file)
 {
     file->channels = 0;
     point_values_release(&file->out->values);
 }
 
-/* Raise the full scale of colours after a channel exceeded it. All channels before were within the old scale, so their
- * 8-bit values can be rescaled: 1 was full and becomes 1 of 255; 255 becomes less than 1 of 256. */
+/* Raise the full scale of colours after a channel exceeded it. All earlier channels were within the old scale, so their
+ * 8-bit values can be rescaled: 1, the old maximum, becomes 1 of 255; a value of 255 becomes less than 1 of 256. */
 static void raise_full_scale(cloud *points)
 {
     const bool unit = points->color_full == UNIT;
@@ -93,7 +93,7 @@ static void raise_full_scale(cloud *points)
     points->color_full = unit ? BYTE : WORD;
 }
 
-static unsigned char convert_channel(double number, unsigned full)
+static unsigned char convert_to_byte(double number, unsigned full)
 {
     if (full == WORD)
         return (unsigned char)((unsigned)number >> 8);
@@ -109,7 +109,7 @@ static bool convert_color(cloud *points, const double *channels, unsigned char c
         while (channels[i] > points->color_full)
             raise_full_scale(points);
     for (int i = 0; i < 3; i++)
-        color[i] = convert_channel(channels[i], points->color_full);
+        color[i] = convert_to_byte(channels[i], points->color_full);
     return true;
 }
 
@@ -128,10 +128,10 @@ static bool has_channel(const cloud_file *file, cloud_channel channel)
     return file->channels >> channel & 1;
 }
 
-/* Count a value that is not valid. Many files mark missing values by NaN or infinity: only finite numbers can be out of
- * range. Returns `valid`. */
-static bool count_invalid(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
-                          size_t count)
+/* Count a value that is out of range. NaN and infinity are not counted: many files mark missing values by them. Returns
+ * `valid`. */
+static bool count_if_out_of_range(const cloud_file *file, point_value_kind kind, bool valid, const double *numbers,
+                                  size_t count)
 {
     bool finite = !valid;
     for (size_t i = 0; finite && i < count; i++)
@@ -169,16 +169,18 @@ point_value cloud_convert_values(cloud_file *file, const double *numbers)
     point_value value = {0};
     if (has_channel(file, CLOUD_RED))
         value.has[POINT_COLOR] =
-            count_invalid(file, POINT_COLOR, convert_color(file->out, color, value.color), color, 3);
+            count_if_out_of_range(file, POINT_COLOR, convert_color(file->out, color, value.color), color, 3);
     else if (has_channel(file, CLOUD_PACKED))
-        value.has[POINT_COLOR] = count_invalid(file, POINT_COLOR, unpack_color(*packed, value.color), packed, 1);
+        value.has[POINT_COLOR] =
+            count_if_out_of_range(file, POINT_COLOR, unpack_color(*packed, value.color), packed, 1);
     if (has_channel(file, CLOUD_INTENSITY) &&
-        count_invalid(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1)) {
+        count_if_out_of_range(file, POINT_INTENSITY, fabs(*intensity) <= FLT_MAX, intensity, 1)) {
         value.has[POINT_INTENSITY] = true;
         value.intensity = (float)*intensity;
     }
     if (has_channel(file, CLOUD_CLASS) &&
-        count_invalid(file, POINT_CLASS, *class >= 0 && *class <= UINT16_MAX && *class == floor(*class), class, 1)) {
+        count_if_out_of_range(file, POINT_CLASS, *class >= 0 && *class <= UINT16_MAX && *class == floor(*class), class,
+                              1)) {
         value.has[POINT_CLASS] = true;
         value.class = (uint16_t) * class;
     }
@@ -186,7 +188,7 @@ point_value cloud_convert_values(cloud_file *file, const double *numbers)
 }
 
 /* Remove the values of each kind that is zero in every row. */
-static void drop_zero_kinds(point_values *v)
+static void discard_zero_kinds(point_values *v)
 {
     bool keeps[POINT_VALUE_KINDS] = {false};
     for (size_t i = 0; i < v->count; i++) {
@@ -208,9 +210,9 @@ void cloud_finish_values(cloud_file *file)
 {
     point_values *v = &file->out->values;
     if (file->zero_is_missing)
-        drop_zero_kinds(v);
+        discard_zero_kinds(v);
     if (v->kinds == 0)
-        cloud_drop_values(file);
+        cloud_discard_values(file);
     if (!(v->kinds >> POINT_COLOR & 1))
         file->out->color_full = 0;
 }

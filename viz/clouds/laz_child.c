@@ -11,15 +11,15 @@
 #include <unistd.h>
 
 /* Two pipes, each with its reading and its writing end. */
-typedef struct channels {
+typedef struct pipe_pair {
     int records[2], why[2];
-} channels;
+} pipe_pair;
 
 /* ---- The child ---------------------------------------------------------------------------------------------- */
 
 /* Run the child and exit. A crash must not print anything or dump core, so signals, core size and standard error are
  * reset first. The reason is written without blocking, because the parent reads it only after the records. */
-static _Noreturn void run_child(const laz_child *child, const channels *c)
+static _Noreturn void run_child(const laz_child *child, const pipe_pair *c)
 {
     static const int ends[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++)
@@ -30,7 +30,7 @@ static _Noreturn void run_child(const laz_child *child, const channels *c)
     const int nowhere = open("/dev/null", O_WRONLY);
     if (nowhere >= 0)
         dup2(nowhere, STDERR_FILENO);
-    close(c->records[0]); /* then the child gets SIGPIPE when the parent stops reading */
+    close(c->records[0]); /* so that the child gets SIGPIPE when the parent stops reading */
     FILE *records = fdopen(c->records[1], "wb"), *why = fdopen(c->why[1], "wb");
     const bool done = records && why && child->produce(child->context, records, why) && fflush(records) == 0;
     if (why)
@@ -40,8 +40,8 @@ static _Noreturn void run_child(const laz_child *child, const channels *c)
 
 /* ---- The parent --------------------------------------------------------------------------------------------- */
 
-/* Pass records to `add`. Returns false with *too_few set if too few come, and false if `add` returns false. */
-static bool read_records(const cloud_file *file, FILE *records, uint64_t count, laz_add *add, void *context,
+/* Pass records to `add`. Returns false if `add` does, or if too few records come; *too_few says which. */
+static bool pass_records(const cloud_file *file, FILE *records, uint64_t count, laz_record_reader *add, void *context,
                          bool *too_few)
 {
     unsigned char record[LAS_RECORD_READ];
@@ -55,7 +55,7 @@ static bool read_records(const cloud_file *file, FILE *records, uint64_t count, 
 }
 
 /* Set the error for a child that wrote too few records, by its exit status and its own reason. */
-static bool fail_too_few(const laz_child *child, const cloud_file *file, int why, int status)
+static bool fail_with_too_few_records(const laz_child *child, const cloud_file *file, int why, int status)
 {
     char text[256];
     const ssize_t size = read(why, text, sizeof text);
@@ -71,13 +71,13 @@ static bool fail_too_few(const laz_child *child, const cloud_file *file, int why
 }
 
 /* Read all records, close the pipe, and wait for the child. */
-static bool read_all(const laz_child *child, const cloud_file *file, pid_t process, const channels *c, uint64_t count,
-                     laz_add *add, void *context)
+static bool read_records_and_wait(const laz_child *child, const cloud_file *file, pid_t process, const pipe_pair *c,
+                                  uint64_t count, laz_record_reader *add, void *context)
 {
     FILE *records = fdopen(c->records[0], "rb");
     bool too_few = false;
     int status = 0;
-    const bool done = records ? read_records(file, records, count, add, context, &too_few)
+    const bool done = records ? pass_records(file, records, count, add, context, &too_few)
                               : cloud_fail(file, "cannot read the decompressed points: %s", strerror(errno));
     if (records)
         fclose(records);
@@ -85,10 +85,10 @@ static bool read_all(const laz_child *child, const cloud_file *file, pid_t proce
         close(c->records[0]);
     while (waitpid(process, &status, 0) < 0 && errno == EINTR)
         ;
-    return too_few ? fail_too_few(child, file, c->why[0], status) : done;
+    return too_few ? fail_with_too_few_records(child, file, c->why[0], status) : done;
 }
 
-static bool open_channels(const cloud_file *file, channels *c)
+static bool open_pipes(const cloud_file *file, pipe_pair *c)
 {
     const bool first = pipe(c->records) == 0;
     if (first && pipe(c->why) == 0)
@@ -101,10 +101,11 @@ static bool open_channels(const cloud_file *file, channels *c)
     return false;
 }
 
-bool laz_child_read(const laz_child *child, const cloud_file *file, uint64_t count, laz_add *add, void *context)
+bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint64_t count, laz_record_reader *add,
+                            void *context)
 {
-    channels c;
-    if (!open_channels(file, &c))
+    pipe_pair c;
+    if (!open_pipes(file, &c))
         return false;
     const pid_t process = fork();
     if (process == 0)
@@ -113,7 +114,7 @@ bool laz_child_read(const laz_child *child, const cloud_file *file, uint64_t cou
     close(c.why[1]);
     bool done = false;
     if (process > 0) {
-        done = read_all(child, file, process, &c, count, add, context);
+        done = read_records_and_wait(child, file, process, &c, count, add, context);
     } else {
         cloud_fail(file, "cannot start a process for decompression: %s", strerror(errno));
         close(c.records[0]);

@@ -14,9 +14,10 @@
 enum { LAS_AT_INTENSITY = 12, LAS_AT_FLAGS = 15, LAS_AT_CLASS = 16, LAS_RECORD_READ = 36 };
 
 /* Receives the first LAS_RECORD_READ bytes of a record, as in an uncompressed file. Returns false to stop. */
-typedef bool laz_add(void *context, const unsigned char *record);
+typedef bool laz_record_reader(void *context, const unsigned char *record);
 
-/* Runs in the child: write such records to `records`; on failure write one line to `why` and return false. */
+/* Runs in the child: writes LAS_RECORD_READ bytes per record to `records`. On failure writes one line to `why` and
+ * returns false. */
 typedef bool laz_produce(void *context, FILE *records, FILE *why);
 
 typedef struct laz_child {
@@ -25,8 +26,9 @@ typedef struct laz_child {
     unsigned seconds; /* processor time after which the child is killed */
 } laz_child;
 
-/* Start the child, pass `count` records to `add`, and wait for the child's end. Returns false and sets the error if
- * fewer records come, and false if `add` returns false. */
-bool laz_child_read(const laz_child *child, const cloud_file *file, uint64_t count, laz_add *add, void *context);
+/* Start the child, pass `count` records to `add`, and wait until the child ends. Returns false, with an error, if fewer
+ * records come; returns false if `add` does. */
+bool laz_child_read_records(const laz_child *child, const cloud_file *file, uint64_t count, laz_record_reader *add,
+                            void *context);
 
 #endif

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The distance from |value| to the next double above it. */
-static double ulp(double value)
+/* Returns the distance from |value| to the next larger double. */
+static double spacing_above(double value)
 {
     value = fabs(value);
     return value < DBL_MAX ? nextafter(value, INFINITY) - value : 0x1p971;
@@ -29,32 +29,32 @@ static octree_box find_bounds(const void *positions, size_t stride, size_t count
     return box;
 }
 
-/* Half of the extent along an axis, also if the extent itself overflows. */
-static double half_extent(const octree_box *bounds, int axis)
+/* Returns half of the extent along an axis, even if the extent overflows. */
+static double find_half_extent(const octree_box *bounds, int axis)
 {
     const double extent = bounds->max[axis] - bounds->min[axis];
     return isfinite(extent) ? extent / 2 : bounds->max[axis] / 2 - bounds->min[axis] / 2;
 }
 
-static double half_side(const octree_box *bounds)
+static double find_half_side(const octree_box *bounds)
 {
     double half = 0, largest = 0;
     bool flat = true;
     for (int i = 0; i < 3; i++) {
         flat = flat && bounds->min[i] == bounds->max[i];
-        half = fmax(half, half_extent(bounds, i));
+        half = fmax(half, find_half_extent(bounds, i));
         largest = fmax(largest, fmax(fabs(bounds->min[i]), fabs(bounds->max[i])));
     }
-    return fmax(flat ? 0.5 : half, 2 * ulp(largest));
+    return fmax(flat ? 0.5 : half, 2 * spacing_above(largest));
 }
 
-octree_box point_world(const void *positions, size_t stride, size_t count)
+octree_box find_point_world(const void *positions, size_t stride, size_t count)
 {
     octree_box box = find_bounds(positions, stride, count);
-    const double half = half_side(&box);
+    const double half = find_half_side(&box);
     for (int i = 0; i < 3; i++) {
         /* The slack is not negative and rounding is monotone: rounding cannot move a face inside a point. */
-        const double slack = fmax(half - half_extent(&box, i), 0);
+        const double slack = fmax(half - find_half_extent(&box, i), 0);
         box.min[i] = fmax(box.min[i] - slack, -DBL_MAX);
         box.max[i] = fmin(box.max[i] + slack, DBL_MAX);
     }

@@ -64,7 +64,7 @@ static file_kind find_kind(const char *bytes, size_t size)
     if (strstr(bytes, "<title>Octreel recording</title>"))
         return KIND_PAGE;
     const file_kind found = find_json_kind(strncmp(bytes, byte_order_mark, 3) == 0 ? bytes + 3 : bytes);
-    return found != KIND_UNKNOWN || !cloud_recognise((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
+    return found != KIND_UNKNOWN || !cloud_is_recognised((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
 }
 
 file_kind file_kind_read(const char *path)

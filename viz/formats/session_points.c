@@ -119,7 +119,7 @@ static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
     if (!make_bodies(r, at, from->count))
         return false;
     for (size_t i = 0; i < from->count; i++) {
-        s->bodies[i].id = default_id(s, cloud_row(from, i));
+        s->bodies[i].id = default_id(s, cloud_row_number(from, i));
         memcpy(s->bodies[i].position, from->positions[i], sizeof from->positions[i]);
     }
     return true;
@@ -222,7 +222,7 @@ bool session_read_file_world(json_reader *r, json_t *header)
     const json_place points = {NULL, "points", 0};
     if (!load_file(r, file, &(json_place){&points, "file", 0}))
         return false;
-    const octree_box world = point_world(s->points.positions, sizeof *s->points.positions, s->points.count);
+    const octree_box world = find_point_world(s->points.positions, sizeof *s->points.positions, s->points.count);
     session_set_world(s, &world);
     return true;
 }

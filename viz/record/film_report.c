@@ -159,7 +159,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
 static void print_world(FILE *out, const octree_session *session)
 {
     const octree_body *bodies = session->bodies;
-    const octree_box world = point_world(bodies->position, sizeof *bodies, session->body_count);
+    const octree_box world = find_point_world(bodies->position, sizeof *bodies, session->body_count);
     json_write_box_member(&(json_writer){.out = out}, "world", &world);
 }
 

@@ -91,7 +91,7 @@ static void divide(const cloud *c, const octree_def *def, portions *p, uint16_t 
     for (size_t i = 0; i < c->count; i++) {
         octree_point *point = &points[next[p->portion_of_cell[cells[i]]]++];
         memcpy(point->position, c->positions[i], sizeof point->position);
-        point->id = cloud_row(c, i);
+        point->id = cloud_row_number(c, i);
     }
 }
 

@@ -89,9 +89,9 @@ static void assert_same_clouds(const cloud *a, const cloud *b)
     assert_memory_equal(a->positions, b->positions, a->count * sizeof *a->positions);
     assert_int_equal(a->color_full, b->color_full);
     for (size_t i = 0; i < a->count; i++) {
-        const point_value x = point_values_get(&a->values, cloud_row(a, i)),
-                          y = point_values_get(&b->values, cloud_row(b, i));
-        assert_true(cloud_row(a, i) == cloud_row(b, i) && point_value_same(&x, &y));
+        const point_value x = point_values_get(&a->values, cloud_row_number(a, i)),
+                          y = point_values_get(&b->values, cloud_row_number(b, i));
+        assert_true(cloud_row_number(a, i) == cloud_row_number(b, i) && point_value_same(&x, &y));
     }
 }
 

@@ -12,7 +12,7 @@ static void say(const cloud *c, char *text, size_t size)
     size_t length = 0;
     text[0] = 0;
     for (size_t i = 0; i < c->count; i++) {
-        const point_value v = point_values_get(&c->values, cloud_row(c, i));
+        const point_value v = point_values_get(&c->values, cloud_row_number(c, i));
         char color[8] = "-", intensity[16] = "-", class[8] = "-";
         if (v.has[POINT_COLOR])
             snprintf(color, sizeof color, "#%02x%02x%02x", v.color[0], v.color[1], v.color[2]);

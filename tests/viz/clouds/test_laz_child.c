@@ -141,7 +141,7 @@ static void each_misbehaviour_of_the_child_gives_one_sentence(void **state)
         cloud none = {0};
         const cloud_file file = {.name = "a.laz", .error = &error, .out = &none};
         taken t = {0, SOME};
-        assert_int_equal(laz_child_read(&child, &file, SOME, take, &t), rows[i].sentence == NULL);
+        assert_int_equal(laz_child_read_records(&child, &file, SOME, take, &t), rows[i].sentence == NULL);
         assert_string_equal(error.text, rows[i].sentence ? rows[i].sentence : "");
         assert_int_equal(t.count, rows[i].points);
     }
@@ -154,7 +154,7 @@ static void an_endless_reason_does_not_block(void **state)
     cloud none = {0};
     const cloud_file file = {.name = "a.laz", .error = &error, .out = &none};
     (void)state;
-    assert_false(laz_child_read(&child, &file, SOME, take, &(taken){0, SOME}));
+    assert_false(laz_child_read_records(&child, &file, SOME, take, &(taken){0, SOME}));
     assert_int_equal(strncmp(error.text, "a.laz: aaaaaaaa", 15), 0);
 }
 
@@ -167,7 +167,7 @@ static void refusing_a_record_ends_the_child(void **state)
     const cloud_file file = {.name = "a.laz", .error = &error, .out = &none};
     taken t = {0, 5};
     (void)state;
-    assert_false(laz_child_read(&child, &file, UINT64_MAX, take, &t));
+    assert_false(laz_child_read_records(&child, &file, UINT64_MAX, take, &t));
     assert_int_equal(t.count, 6);
     assert_string_equal(error.text, "");
 }

@@ -59,7 +59,7 @@ static cloud copy_cloud(const void *positions, size_t count)
 
 static octree_box world_of(const hostile *h)
 {
-    return point_world(h->positions, sizeof *h->positions, h->count);
+    return find_point_world(h->positions, sizeof *h->positions, h->count);
 }
 
 static void world_holds_every_point_and_is_valid_for_a_tree(void **state)
@@ -170,7 +170,7 @@ static void worlds_of_random_extents_hold_their_points(void **state)
                 positions[i][axis] = isfinite(x) ? x : offset;
             }
         }
-        const octree_box box = point_world(c.positions, sizeof *c.positions, c.count);
+        const octree_box box = find_point_world(c.positions, sizeof *c.positions, c.count);
         for (size_t i = 0; i < c.count; i++)
             assert_true(box_holds(&box, positions[i]));
         octree_destroy(make_tree(box, 1, OCTREE_MAX_DEPTH, OCTREE_GROW));

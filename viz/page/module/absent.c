@@ -30,7 +30,7 @@ bool cloud_read(const char *path, const cloud_watch *watch, cloud *out, octreel_
     return error_set(error, "%s: %s", path, no_files);
 }
 
-bool cloud_recognise(const unsigned char *bytes, size_t size)
+bool cloud_is_recognised(const unsigned char *bytes, size_t size)
 {
     (void)bytes;
     (void)size;
@@ -44,7 +44,7 @@ const char *cloud_describe_out_of_range(const size_t beyond[POINT_VALUE_KINDS], 
     return text;
 }
 
-size_t cloud_row(const cloud *c, size_t index)
+size_t cloud_row_number(const cloud *c, size_t index)
 {
     (void)c;
     return index;
