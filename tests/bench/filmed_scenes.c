@@ -21,7 +21,7 @@ const filmed_scene filmed_scenes[FILMED_SCENES] = {
 
 view filmed_view(const filmed_scene *scene)
 {
-    view v = view_default();
+    view v = view_make_default();
     v.width = 1280;
     v.height = 720;
     v.camera = scene->camera;

@@ -145,7 +145,7 @@ static bool film_parts(work *w)
     const playback_target target = {
         .frames = FRAMES_SHOW, .folder = w->order->folder, .every = 1, .renderer.fill = fill};
     setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
-    const bool open = folder_make(w->order->folder, &error) && playback_open(&p, w->session, NULL, &v, &error) &&
+    const bool open = folder_create(w->order->folder, &error) && playback_open(&p, w->session, NULL, &v, &error) &&
                       playback_film(&p, &target, &error);
     const bool ok = open ? film_in_parts(w, &p) : fail(w, error.text);
     if (open)
@@ -164,7 +164,7 @@ static bool film_naive_tick(work *w, naive *n, octree_game *game, scene *s)
     if (!tick_scene_build(s, &v, game, NULL, NULL) || !naive_draw(n, s))
         return fail(w, "the naive way cannot draw");
     const double drawn = worked();
-    char *path = path_join(w->order->folder, frame_name(tick, name));
+    char *path = path_join(w->order->folder, frame_print_name(tick, name));
     const bool written = path && naive_write(n, path);
     free(path);
     if (!written)
@@ -187,7 +187,7 @@ static bool film_naive(work *w)
     setenv("LP_NUM_THREADS", "0", 1);
     w->apart = 1;
     naive *n = naive_open(v.width, v.height, &why);
-    bool ok = n ? folder_make(w->order->folder, &error) || fail(w, error.text) : fail(w, why);
+    bool ok = n ? folder_create(w->order->folder, &error) || fail(w, error.text) : fail(w, why);
     ok = ok && (octree_game_create(w->session, &game) == OCTREE_OK || fail(w, "the session cannot be played"));
     for (uint64_t i = 0; ok && i < w->order->frames; i++) {
         ok = i == 0 || octree_game_advance(game) == OCTREE_OK || fail(w, "the session cannot be played");

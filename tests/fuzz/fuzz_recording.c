@@ -90,7 +90,7 @@ static void check(bool holds)
 
 static void film(const filmed *what, const char *folder)
 {
-    film_options options = {.folder = folder, .view = view_default()};
+    film_options options = {.folder = folder, .view = view_make_default()};
     film_summary summary;
     octreel_error error = {""};
     session_file file;

@@ -32,7 +32,7 @@ enum { LODS = sizeof lods / sizeof lods[0], SAMPLES = sizeof samples / sizeof sa
 /* Text is left out: it says how much is left out. */
 static view view_with(int aa, double lod)
 {
-    view v = view_default();
+    view v = view_make_default();
     v.width = 640;
     v.height = 360;
     v.layers &= ~(1u << LAYER_TEXT);

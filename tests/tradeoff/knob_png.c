@@ -185,7 +185,7 @@ static void measure(const run *r, table *t)
 {
     static const frame_kind kinds[] = {{"session", 0}, {"clusters-2000", 2000}, {"clusters-50000", 50000}};
     for (size_t i = 0; i < (r->quick ? 1 : sizeof kinds / sizeof kinds[0]); i++) {
-        const view v = view_default();
+        const view v = view_make_default();
         subject *s = subject_make(&kinds[i]);
         scene shown = {0};
         picture p;

@@ -53,7 +53,7 @@ typedef struct showing {
 
 static view view_by(const struct way *way, int height)
 {
-    view v = view_default();
+    view v = view_make_default();
     v.width = height * 16 / 9;
     v.height = height;
     v.camera = CAMERA_TOP;

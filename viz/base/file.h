@@ -21,10 +21,10 @@ char *path_parent_folder(const char *path);
 /* Returns the part of a path after its last slash. */
 const char *path_base_name(const char *path);
 
-/* Whether a file name ends in one of the endings of a list such as ".las.laz", in upper or lower case. */
+/* True if a file name ends in one of the endings of a list such as ".las.laz", in upper or lower case. */
 bool file_has_ending(const char *name, const char *endings);
 
-/* Whether the folder contains a file or folder of this name. "" is the current folder. */
+/* True if the folder contains a file or folder of this name. "" is the current folder. */
 bool folder_contains(const char *folder, const char *name);
 
 /* Returns the names in a folder, without "." and "..", in the order of strcmp(), with a null behind the last. The

@@ -38,7 +38,7 @@ static bool is_page(const char *path)
 /* A name without the ending of a file names a folder, as for the options of other commands. */
 static bool read_page(const command_option *option, const char *text, void *into)
 {
-    if (is_page(text) || is_folder(text) || name_kind_of(text) == NAME_OPEN)
+    if (is_page(text) || is_folder(text) || output_kind_of_name(text) == NAME_OPEN)
         return read_name(option, text, into);
     return refuse("--%s takes the name of an HTML file, such as report.html, or of a folder, not \"%s\"", option->name,
                   text);
@@ -120,7 +120,7 @@ static bool write_audit(const arguments *a, const char *path, audit_report *repo
         check_files(path, a->outputs, error) && audit_read(path, &a->limits, progress_show, &p, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_display_name(path), file_kind_of(path) == KIND_RECORDING, report};
-    if (!done || (a->folder && !folder_make(a->folder, error)) ||
+    if (!done || (a->folder && !folder_create(a->folder, error)) ||
         !write_file(a->outputs[HTML].path, audit_print_page, &verdict, error) ||
         !write_file(a->outputs[JUNIT].path, print_junit, &verdict, error))
         return false;

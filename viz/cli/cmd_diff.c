@@ -64,8 +64,8 @@ static bool refuse_layer(const command_option *option, const char *bad)
     char meant[HINT_TEXT];
     const size_t length = strcspn(bad, ",");
     hint h = hint_create(bad, length);
-    for (int i = 0; view_layer_at(i); i++)
-        hint_add_candidate(&h, view_layer_at(i));
+    for (int i = 0; view_layer_name(i); i++)
+        hint_add_candidate(&h, view_layer_name(i));
     return refuse("--%s: unknown layer \"%.*s\"%s%s record --help lists them", option->name, (int)length, bad,
                   hint_format(&h, "", meant), hint_program_name());
 }
@@ -107,7 +107,7 @@ static const command_option options[] = {
     {"ignore-layer", "LIST",
      "ignore pixels of recordings where these layers, such as nodes,points, are on top in either frame; octreel record "
      "--help lists the layers",
-     .read = read_layers, .names = view_layer_at},
+     .read = read_layers, .names = view_layer_name},
     {.help =
          "Why the frames differ. For two recordings, the causes are the members of their sessions and views that "
          "differ, the consequences in each tick, and the elements that are drawn at the different pixels. For other "

@@ -293,7 +293,7 @@ static int run(int argc, char **argv)
 {
     arguments a = {.outputs = {[PICTURE] = {"-o", NULL}, [NODES] = {"--nodes", NULL}},
                    .def = octree_def_default(),
-                   .view = view_default(),
+                   .view = view_make_default(),
                    .renderer.fill = DRAW_FILL_CHECKED};
     a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube, and few clouds fill a cube */

@@ -50,7 +50,7 @@ static bool is_recording_page(const char *path)
     char beside[PATH_MAX];
     const char *base = path_base_name(path);
     snprintf(beside, sizeof beside, "%.*srecording.json", (int)(base - path), path);
-    return folder_is_name(base) && access(beside, F_OK) == 0;
+    return folder_is_recording_file(base) && access(beside, F_OK) == 0;
 }
 
 /* Only a page that this command has written may be overwritten. */
@@ -148,7 +148,7 @@ static int play_session(arguments *a)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_default(), .progress = progress_show, .keep_going = has_no_stop_signal}};
+    arguments a = {.film = {.view = view_make_default(), .progress = progress_show, .keep_going = has_no_stop_signal}};
     char name[NAME_MAX + 1];
     const int status = command_read_arguments(&command_play, &a, argc, argv);
     if (status != COMMAND_GO_ON)

@@ -150,9 +150,9 @@ static int film_standard_input(arguments *a)
     progress_end(&p);
     if (*session_stream_note(stream))
         note("%s", session_stream_note(stream));
-    a->film.values = session_stream_values(stream);
+    a->film.values = session_stream_point_values(stream);
     if (how == FILM_STREAM_WHOLE && !is_quiet())
-        film_report_notes(stderr, &summary, &a->film, session_stream_start(stream));
+        film_report_notes(stderr, &summary, &a->film, session_stream_first_session(stream));
     const int status = report_stream_end(a, how, &summary, &p, &error);
     session_stream_close(stream);
     unblock_stop_signals();
@@ -236,7 +236,7 @@ static bool may_hold_frames(const char *folder)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_default(),
+    arguments a = {.film = {.view = view_make_default(),
                             .renderer.fill = DRAW_FILL_CHECKED,
                             .progress = progress_show,
                             .keep_going = has_no_stop_signal}};

@@ -154,13 +154,13 @@ bool is_folder(const char *path)
 
 bool fits_output_option(command_option_reader *reader, const char *path)
 {
-    const name_kind kind = name_kind_of(path);
+    const output_kind kind = output_kind_of_name(path);
     return reader == read_picture ? kind == NAME_PNG : kind == NAME_OPEN || (reader == read_file && kind == NAME_FILE);
 }
 
 bool read_folder(const command_option *option, const char *text, void *into)
 {
-    const name_kind kind = name_kind_of(text);
+    const output_kind kind = output_kind_of_name(text);
     if (file_is_standard_stream(text))
         return refuse("%s needs a folder, but \"-\" is standard output; for a folder named -, write ./-",
                       option_as_typed(option).text);
@@ -182,7 +182,7 @@ static bool read_file_name(const command_option *option, const char *text, void 
 
 bool read_picture(const command_option *option, const char *text, void *into)
 {
-    const name_kind kind = name_kind_of(text);
+    const output_kind kind = output_kind_of_name(text);
     if (file_is_standard_stream(text) && isatty(STDOUT_FILENO))
         return refuse("%s - would print a PNG on the terminal: name a file, or redirect the output with | or >",
                       option_as_typed(option).text);
@@ -193,7 +193,7 @@ bool read_picture(const command_option *option, const char *text, void *into)
 
 bool read_file(const command_option *option, const char *text, void *into)
 {
-    const name_kind kind = name_kind_of(text);
+    const output_kind kind = output_kind_of_name(text);
     return read_file_name(option, text, into) &&
            (kind == NAME_OPEN || kind == NAME_FILE ||
             refuse("%s writes text, but \"%s\" names a picture", option_as_typed(option).text, text));

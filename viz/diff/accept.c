@@ -18,7 +18,7 @@
 /* Check that the name of a new reference fits its kind: no folder "x.json", and no picture "golden". */
 static bool check_new_name(const accept_options *o, diff_kind kind, octreel_error *error)
 {
-    const name_kind name = name_kind_of(o->reference);
+    const output_kind name = output_kind_of_name(o->reference);
     if (kind == DIFF_BASELINE)
         return name == NAME_OPEN || name == NAME_FILE ||
                error_set(error, "%s: cannot create a baseline under the name of a picture or film; use NAME.txt",

@@ -116,7 +116,7 @@ static bool replace_files(const accepting *a, octreel_error *error)
 bool accept_pictures(accepting *a, octreel_error *error)
 {
     const bool makes = a->is_new && a->reference.kind != DIFF_PICTURE;
-    if (makes && !folder_prepare(a->reference.path, error))
+    if (makes && !folder_create_for_recording(a->reference.path, error))
         return false;
     const bool ok = replace_files(a, error);
     if (!ok && makes)

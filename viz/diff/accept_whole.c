@@ -95,7 +95,7 @@ static bool check_frames(const char *folder, const octree_session *session, uint
     const uint64_t last = octree_session_length(session);
     bool ok = true;
     for (uint64_t tick = 0; ok && every > 0 && tick <= last; tick += every)
-        ok = octree_session_gap(session, tick) || check_file(folder, frame_name(tick, name), error);
+        ok = octree_session_gap(session, tick) || check_file(folder, frame_print_name(tick, name), error);
     return ok;
 }
 

@@ -45,7 +45,7 @@ bool picture_store_add(const char *store, const char *picture, const frame_diges
     if (!ok) {
         char *slash = strrchr(path, '/');
         *slash = 0;
-        ok = folder_make(path, error);
+        ok = folder_create(path, error);
         *slash = '/';
         ok = ok && file_copy_unique(picture, path, error);
     }

@@ -95,7 +95,7 @@ static bool read_folder(diff_side *side, octreel_error *error)
 
 static bool read_file(diff_side *side, octreel_error *error)
 {
-    switch (file_kind_read(side->source)) {
+    switch (file_kind_of_input(side->source)) {
     case KIND_PNG:
         side->kind = DIFF_PICTURE;
         return diff_side_add_frame(side, base_name(side->source), (frame_digest){0}, error);

@@ -29,7 +29,7 @@ static size_t count_same_quads(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* Whether to keep a picture of the first `same` quads, of which the first `start` are drawn already. False if that
+/* True if to keep a picture of the first `same` quads, of which the first `start` are drawn already. False if that
  * saves too little, or when out of memory. */
 static bool is_worth_keeping(canvas *c, size_t start, size_t same, size_t pixels)
 {

@@ -114,7 +114,7 @@ static void *wait_for_all(void *lock)
     return NULL;
 }
 
-/* Whether this process can run this many more threads at the same time. */
+/* True if this process can run this many more threads at the same time. */
 static bool can_start_threads(unsigned wanted)
 {
     enum { MOST = 34 };

@@ -14,7 +14,7 @@ typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } dr
 /* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. */
 const char *draw_context_name(int kind);
 
-/* Whether this program was built with a kind. */
+/* True if this program was built with a kind. */
 bool draw_context_built(draw_context kind);
 
 /* What fills the quads of a frame. Both rasterizers give the same pixels. */

@@ -82,7 +82,7 @@ static interval interval_of(const scene_box *box, unsigned axis)
         .from = box->box.min[axis], .to = box->box.max[axis], .id = box->id, .style = box->style, .depth = box->depth};
 }
 
-/* Whether `by`, an earlier interval of the same line, covers this one, so that sweep_line() would emit nothing for it.
+/* True if `by`, an earlier interval of the same line, covers this one, so that sweep_line() would emit nothing for it.
  */
 static bool is_covered(const interval *it, const interval *by)
 {

@@ -104,7 +104,7 @@ static void advance_edge(edge_walk *w)
  * long. Every row (or column) then has the same number of pixels, and only one edge needs to be walked.
  */
 
-/* Whether the sides 0-3 and 1-2 are parallel to the axis `across` and equally long: a whole number of pixels. */
+/* True if the sides 0-3 and 1-2 are parallel to the axis `across` and equally long: a whole number of pixels. */
 static bool is_strip(const int32_t along[4], const int32_t across[4])
 {
     const int32_t width = across[3] - across[0];
@@ -152,7 +152,7 @@ static void fill_whole_strip(strip_walk w)
     }
 }
 
-/* Whether a strip stays inside the picture on the axis across. */
+/* True if a strip stays inside the picture on the axis across. */
 static bool is_strip_inside(const int32_t across[4], int size)
 {
     const int64_t end = (int64_t)size * QUAD_SUBPIXELS;

@@ -52,7 +52,7 @@ surface *surface_open(int width, int height, const renderer_choice *choice, octr
 
 /* ---- renderer.c ---------------------------------------------------------------------------------------------- */
 
-/* Whether a scene's picture has the renderer's size in samples; an error where it does not. */
+/* True if a scene's picture has the renderer's size in samples; an error where it does not. */
 bool renderer_fits(const renderer *r, const scene *s, octreel_error *error);
 
 /* Fill quads with the renderer's rasterizer, in this order on a background of zeros, and read a part of the result. */

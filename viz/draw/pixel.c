@@ -312,7 +312,7 @@ static void add_points(probe *p)
         add_sharing_points(p, from);
 }
 
-/* Whether a quad may cover a sample of the pixel: its bounding box reaches the pixel. */
+/* True if a quad may cover a sample of the pixel: its bounding box reaches the pixel. */
 static bool may_reach(const quad *q, const renderer_part *part)
 {
     const int32_t left = part->x * QUAD_SUBPIXELS, right = (part->x + part->width) * QUAD_SUBPIXELS;

@@ -33,7 +33,7 @@ static bool check_size(int width, int height, octreel_error *error)
                      VIEW_MAX_SIDE);
 }
 
-/* Whether GL draws every scene. */
+/* True if GL draws every scene. */
 static bool fills_by_gl(const renderer *r)
 {
     return r->choice.fill == DRAW_FILL_GL;

@@ -93,7 +93,7 @@ static bool place_disc(const splatter *with, const scene_marker *marker, splat_s
 
 /* ---- The nearest point --------------------------------------------------------------------------------------- */
 
-/* Whether point a is nearer than b, where their depths in units are equal. Equal points: the lower id. */
+/* True if point a is nearer than b, where their depths in units are equal. Equal points: the lower id. */
 static bool is_nearer(const scene *s, size_t a, size_t b)
 {
     double seen[2][3];
@@ -104,7 +104,7 @@ static bool is_nearer(const scene *s, size_t a, size_t b)
     return s->markers.items[a].id < s->markers.items[b].id;
 }
 
-/* Whether a sample is in a disc; `far` is the square of its distance from the centre in half samples. */
+/* True if a sample is in a disc; `far` is the square of its distance from the centre in half samples. */
 static bool is_in_disc(int side, int far)
 {
     return side <= 2 || far <= side * side;

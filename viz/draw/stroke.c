@@ -90,7 +90,7 @@ static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t
     quads_add_rectangle(list, &q, pixel_edge(x), pixel_edge(y), pixel_edge(x + width), pixel_edge(y + height));
 }
 
-/* Whether a segment is shorter than a sample on both axes, so that a parallelogram might cover no sample's centre. */
+/* True if a segment is shorter than a sample on both axes, so that a parallelogram might cover no sample's centre. */
 static bool is_speck(const piece *pieces, unsigned count)
 {
     const piece *first = &pieces[0], *last = &pieces[count - 1];

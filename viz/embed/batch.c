@@ -85,7 +85,7 @@ batch *batch_make_gaps(const gap_list *gaps)
 
 static bool copy_foreign(batch *b, const octree_foreign_tree *foreign)
 {
-    if (!foreign_tree_copy(foreign, &b->foreign))
+    if (!foreign_tree_duplicate(foreign, &b->foreign))
         return false;
     b->has_foreign = true;
     b->bytes += foreign->node_count * sizeof *foreign->nodes;

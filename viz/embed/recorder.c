@@ -62,7 +62,7 @@ static octreel_status report_losses(octreel_recorder *r, const losses *lost, uin
 
 octreel_recorder_def octreel_recorder_def_default(void)
 {
-    const view v = view_default();
+    const view v = view_make_default();
     return (octreel_recorder_def){.tree = octree_def_default(),
                                   .player = {.kind = OCTREE_PLAYER_NONE},
                                   .width = v.width,
@@ -141,7 +141,7 @@ static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *
                                       {"budget", budget},
                                       {"aa", aa}};
     for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
-        const view_option *option = view_option_named(options[i][0]);
+        const view_option *option = view_find_option(options[i][0]);
         if (!option->parse(option, options[i][1], v, &r->error))
             return OCTREEL_BAD_OPTION;
     }
@@ -182,7 +182,7 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
 
 static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *def)
 {
-    r->settings.film.view = view_default();
+    r->settings.film.view = view_make_default();
     r->never_wait = def->never_wait;
     r->ring.most = def->ring;
     if (!def->camera || !def->layers || !def->color_by || !def->show_tree || !def->color_points || !def->shade ||
@@ -202,8 +202,8 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
 /* An existing recording that is replaced stays until the first tick is written. */
 static bool check_folder(octreel_recorder *r, const char *folder)
 {
-    return r->settings.film.replace ? folder_make(folder, &r->error) && replacement_check(folder, &r->error)
-                                    : folder_prepare(folder, &r->error);
+    return r->settings.film.replace ? folder_create(folder, &r->error) && replacement_check(folder, &r->error)
+                                    : folder_create_for_recording(folder, &r->error);
 }
 
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
@@ -278,7 +278,7 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
 static bool keep_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
 {
     octree_foreign_tree copy;
-    if (!foreign_tree_copy(tree, &copy))
+    if (!foreign_tree_duplicate(tree, &copy))
         return false;
     foreign_tree_release(&r->kept);
     r->kept = copy;

@@ -32,7 +32,8 @@ static void check_session(recorded *r)
     uint64_t tick;
     r->frames_session = r->replay.session_digest;
     if (r->side->count > 0 && frame_parse_name(r->side->frames[0].name, &tick) &&
-        frame_session(r->side->path, tick, &r->frames_session) && r->frames_session != r->replay.session_digest)
+        frame_read_session_digest(r->side->path, tick, &r->frames_session) &&
+        r->frames_session != r->replay.session_digest)
         add_warning(r, "%s/session.json is not the session that was recorded", r->side->path);
 }
 
@@ -80,7 +81,7 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
     uint64_t scene = 0;
     if (!array_grow(&r->scenes, r->scene_count + 1, &r->scene_room, sizeof *r->scenes))
         return error_no_memory(error);
-    r->scenes[r->scene_count++] = tick_read_scene(r->lines.line, r->lines.size, tick, &scene) ? scene : 0;
+    r->scenes[r->scene_count++] = tick_read_scene_digest(r->lines.line, r->lines.size, tick, &scene) ? scene : 0;
     return true;
 }
 
@@ -91,9 +92,9 @@ static tick_extras extras_of(const recorded *r, const octree_tick *tick, char na
     uint64_t scene = 0;
     if (tick->gap || !frame_is_due(tick->number, r->view.every))
         return (tick_extras){0};
-    if (!frame_scene(r->side->path, tick->number, &scene))
+    if (!frame_read_scene_digest(r->side->path, tick->number, &scene))
         scene = recorded_scene(r, tick->number);
-    return (tick_extras){.frame = frame_name(tick->number, name), .scene_digest = scene};
+    return (tick_extras){.frame = frame_print_name(tick->number, name), .scene_digest = scene};
 }
 
 static bool check_line(recorded *r, const octree_game *game, octreel_error *error)

@@ -32,7 +32,7 @@ static const struct {
      KIND_PACKED},
 };
 
-/* Skip white space and then a word. Null if the word does not follow. */
+/* Skip white space and then a word. Returns null if the word does not follow. */
 static const char *skip_word(const char *at, const char *word)
 {
     at += strspn(at, " \t\r\n");
@@ -55,7 +55,7 @@ static file_kind find_json_kind(const char *text)
                                             : KIND_UNKNOWN;
 }
 
-static file_kind find_kind(const char *bytes, size_t size)
+static file_kind find_content_kind(const char *bytes, size_t size)
 {
     static const char byte_order_mark[] = "\xef\xbb\xbf";
     for (size_t i = 0; i < sizeof beginnings / sizeof beginnings[0]; i++)
@@ -67,7 +67,7 @@ static file_kind find_kind(const char *bytes, size_t size)
     return found != KIND_UNKNOWN || !cloud_is_recognised((const unsigned char *)bytes, size) ? found : KIND_CLOUD;
 }
 
-file_kind file_kind_read(const char *path)
+file_kind file_kind_of_input(const char *path)
 {
     char first[4096], ignored[FILE_REASON];
     FILE *file = file_open(path, NULL, ignored);
@@ -76,10 +76,10 @@ file_kind file_kind_read(const char *path)
     const size_t size = fread(first, 1, sizeof first - 1, file);
     fclose(file);
     first[size] = 0;
-    return find_kind(first, size);
+    return find_content_kind(first, size);
 }
 
-/* One file of a recording is enough: if others are missing, the command that reads the recording reports them. */
+/* One file of a recording is enough: if others are missing, the command that reads it reports them. */
 static file_kind find_folder_kind(const char *path)
 {
     for (size_t i = 0; recording_files[i]; i++)
@@ -97,14 +97,14 @@ file_kind file_kind_of(const char *path)
         return errno == ENOENT || errno == ENOTDIR ? KIND_MISSING : KIND_UNKNOWN;
     if (S_ISDIR(status.st_mode))
         return find_folder_kind(path);
-    return S_ISREG(status.st_mode) ? file_kind_read(path) : KIND_UNKNOWN;
+    return S_ISREG(status.st_mode) ? file_kind_of_input(path) : KIND_UNKNOWN;
 }
 
-name_kind name_kind_of(const char *path)
+output_kind output_kind_of_name(const char *path)
 {
     static const struct {
         const char *endings;
-        name_kind kind;
+        output_kind kind;
     } rows[] = {
         {".png", NAME_PNG},
         {".jpg.jpeg.gif.bmp.webp.tif.tiff.svg", NAME_PICTURE},

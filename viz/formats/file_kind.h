@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* file_kind.h - detects what kind of file or folder a path names, from its content and never from its name; and which
- * format the name of an output file asks for. */
+/* file_kind.h - detects the kind of a file or folder from its content, never from its name; and finds the format that
+ * the name of an output file requests. */
 #ifndef FORMATS_FILE_KIND_H
 #define FORMATS_FILE_KIND_H
 
@@ -28,7 +28,7 @@ typedef enum file_kind {
 #undef FILE_KIND_ENUM
 } file_kind;
 
-/* A set of kinds. Every set includes UNKNOWN: for unknown files the reader of the file reports the error. */
+/* A set of kinds. Every set includes UNKNOWN: the reader of an unknown file reports the error. */
 typedef unsigned file_kinds;
 #define FILE_KIND(kind) (1u << KIND_##kind)
 
@@ -36,9 +36,9 @@ typedef unsigned file_kinds;
  * standard input, "-", are not read. */
 file_kind file_kind_of(const char *path);
 
-/* Find the kind of a file that will be read in any case. This also reads from pipes and from standard input, "-", and
+/* Find the kind of a file that will be read. Unlike file_kind_of(), this also reads pipes and standard input ("-"), and
  * keeps the bytes for the next reader. */
-file_kind file_kind_read(const char *path);
+file_kind file_kind_of_input(const char *path);
 
 typedef struct file_kind_row {
     const char *name, *command, *use; /* the columns of FILE_KIND_MAP */
@@ -46,9 +46,9 @@ typedef struct file_kind_row {
 
 extern const file_kind_row file_kind_rows[];
 
-/* The kind of output that the suffix of a file name asks for. OPEN: the suffix is missing or unknown. */
-typedef enum name_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } name_kind;
-name_kind name_kind_of(const char *path);
+/* The format requested by the suffix of an output file's name. OPEN: the suffix is missing or unknown. */
+typedef enum output_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } output_kind;
+output_kind output_kind_of_name(const char *path);
 
 /* The first bytes of every baseline. */
 #define DIGEST_FILE_BEGINNING "octreel-digests "

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool make_folder(const char *path, octreel_error *error)
+static bool create_folder(const char *path, octreel_error *error)
 {
     struct stat status;
     if (mkdir(path, 0777) == 0)
@@ -20,7 +20,7 @@ static bool make_folder(const char *path, octreel_error *error)
     return S_ISDIR(status.st_mode) || error_set(error, "%s: cannot create the folder: a file has this name", path);
 }
 
-bool folder_make(const char *folder, octreel_error *error)
+bool folder_create(const char *folder, octreel_error *error)
 {
     if (!*folder)
         return error_set(error, "the folder's name is empty");
@@ -30,15 +30,15 @@ bool folder_make(const char *folder, octreel_error *error)
     bool ok = true;
     for (char *slash = strchr(path + 1, '/'); ok && slash; slash = strchr(slash + 1, '/')) {
         *slash = 0;
-        ok = make_folder(path, error);
+        ok = create_folder(path, error);
         *slash = '/';
     }
-    ok = ok && make_folder(path, error);
+    ok = ok && create_folder(path, error);
     free(path);
     return ok;
 }
 
-char *chunk_name(uint64_t first, uint64_t last, char name[CHUNK_NAME])
+char *chunk_print_name(uint64_t first, uint64_t last, char name[CHUNK_NAME])
 {
     snprintf(name, CHUNK_NAME, "ticks_%" PRIu64 "_%" PRIu64 ".jsonl", first, last);
     return name;
@@ -53,13 +53,13 @@ bool chunk_parse_name(const char *name, uint64_t *first, uint64_t *last)
     if (*end != '_')
         return false;
     *last = strtoull(end + 1, NULL, 10);
-    return *first < *last && strcmp(name, chunk_name(*first, *last, again)) == 0;
+    return *first < *last && strcmp(name, chunk_print_name(*first, *last, again)) == 0;
 }
 
 const char *const recording_files[] = {"recording.json", "session.json", "renderer.json",
                                        "ticks.jsonl",    "index.html",   NULL};
 
-bool folder_is_name(const char *name)
+bool folder_is_recording_file(const char *name)
 {
     uint64_t first, last;
     for (size_t i = 0; recording_files[i]; i++)
@@ -68,7 +68,7 @@ bool folder_is_name(const char *name)
     return strncmp(name, "frame_", 6) == 0 || strcmp(name, FOLDER_ASIDE) == 0 || chunk_parse_name(name, &first, &last);
 }
 
-static bool report_held_files(const char *folder, const char *first, octreel_error *error)
+static bool report_existing_files(const char *folder, const char *first, octreel_error *error)
 {
     if (folder_contains(folder, "recording.json") || folder_contains(folder, FOLDER_ASIDE))
         return error_set(error,
@@ -84,17 +84,17 @@ static bool check_empty(const char *folder, octreel_error *error)
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++)
-        ok = !folder_is_name(names[i]) || report_held_files(folder, names[i], error);
+        ok = !folder_is_recording_file(names[i]) || report_existing_files(folder, names[i], error);
     free(names);
     return ok;
 }
 
-bool folder_prepare(const char *folder, octreel_error *error)
+bool folder_create_for_recording(const char *folder, octreel_error *error)
 {
-    return folder_make(folder, error) && check_empty(folder, error);
+    return folder_create(folder, error) && check_empty(folder, error);
 }
 
-bool folder_write(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error)
+bool folder_write_file(const char *folder, const char *name, const char *bytes, size_t size, octreel_error *error)
 {
     char *path = path_join(folder, name);
     file_writer file;
@@ -107,7 +107,7 @@ bool folder_write(const char *folder, const char *name, const char *bytes, size_
     return ok;
 }
 
-void folder_abandon(const char *folder)
+void folder_remove_recording_files(const char *folder)
 {
     for (size_t i = 0; recording_files[i]; i++) {
         char *path = path_join(folder, recording_files[i]);
@@ -117,7 +117,7 @@ void folder_abandon(const char *folder)
     }
 }
 
-/* Whether a suffix marks an incomplete file: "part" while it is written; "live" for the session of a running program;
+/* True if a suffix marks an incomplete file: "part" while it is written; "live" for the session of a running program;
  * or the name of a chunk, with or without ".part", when several processes record chunks. */
 static bool is_unfinished_suffix(const char *ending)
 {
@@ -131,7 +131,7 @@ static bool is_unfinished_suffix(const char *ending)
     return chunk_parse_name(word, &first, &last);
 }
 
-bool folder_is_unfinished(const char *name)
+bool folder_is_unfinished_file(const char *name)
 {
     const char *end = strrchr(name, '.');
     if (strncmp(name, "frame_", 6) == 0)
@@ -144,7 +144,7 @@ bool folder_is_unfinished(const char *name)
     return false;
 }
 
-bool folder_remove(const char *folder, const char *name, octreel_error *error)
+bool folder_remove_file(const char *folder, const char *name, octreel_error *error)
 {
     char *path = path_join(folder, name);
     const bool removed = path && (remove(path) == 0 || errno == ENOENT);
@@ -152,14 +152,14 @@ bool folder_remove(const char *folder, const char *name, octreel_error *error)
     return removed || error_set(error, "%s/%s: cannot be removed: %s", folder, name, strerror(errno));
 }
 
-bool folder_sweep(const char *folder, octreel_error *error)
+bool folder_remove_leftovers(const char *folder, octreel_error *error)
 {
     uint64_t first, last;
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++)
-        if (folder_is_unfinished(names[i]) || chunk_parse_name(names[i], &first, &last))
-            ok = folder_remove(folder, names[i], error);
+        if (folder_is_unfinished_file(names[i]) || chunk_parse_name(names[i], &first, &last))
+            ok = folder_remove_file(folder, names[i], error);
     free(names);
     return ok;
 }

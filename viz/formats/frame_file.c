@@ -15,9 +15,9 @@ static const char tick_keyword[] = "octreel-tick", session_keyword[] = "octreel-
                   scene_keyword[] = FRAME_SCENE_KEYWORD, pixels_keyword[] = FRAME_PIXELS_KEYWORD,
                   left_out_keyword[] = "octreel-left-out";
 
-#define NUMBER_SIZE 24 /* size of a text: any number or digest fits */
+#define NUMBER_SIZE 24 /* size of a PNG text: any number or digest fits */
 
-char *frame_name(uint64_t tick, char name[FRAME_NAME])
+char *frame_print_name(uint64_t tick, char name[FRAME_NAME])
 {
     snprintf(name, FRAME_NAME, "frame_%06" PRIu64 ".png", tick);
     return name;
@@ -29,7 +29,7 @@ bool frame_parse_name(const char *name, uint64_t *tick)
     if (strncmp(name, "frame_", 6) != 0)
         return false;
     *tick = strtoull(name + 6, NULL, 10);
-    return strcmp(name, frame_name(*tick, again)) == 0;
+    return strcmp(name, frame_print_name(*tick, again)) == 0;
 }
 
 bool frame_is_due(uint64_t tick, uint64_t every)
@@ -37,17 +37,17 @@ bool frame_is_due(uint64_t tick, uint64_t every)
     return every > 0 && tick % every == 0;
 }
 
-bool frame_is_name(const char *name, uint64_t ticks, uint64_t every)
+bool frame_is_name_of_recording(const char *name, uint64_t ticks, uint64_t every)
 {
     uint64_t tick;
     return frame_parse_name(name, &tick) && tick < ticks && frame_is_due(tick, every);
 }
 
-/* The system refuses longer paths. */
-static bool make_path(const char *folder, uint64_t tick, char path[PATH_MAX], octreel_error *error)
+/* Fails if the path has PATH_MAX bytes or more, which the system would refuse. */
+static bool print_frame_path(const char *folder, uint64_t tick, char path[PATH_MAX], octreel_error *error)
 {
     char name[FRAME_NAME];
-    const int length = snprintf(path, PATH_MAX, "%s%s%s", folder, *folder ? "/" : "", frame_name(tick, name));
+    const int length = snprintf(path, PATH_MAX, "%s%s%s", folder, *folder ? "/" : "", frame_print_name(tick, name));
     return (length >= 0 && length < PATH_MAX) || error_set(error, "%s: the path is too long", folder);
 }
 
@@ -64,10 +64,10 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
         {left_out_keyword, left_out},
     };
     const size_t count = sizeof texts / sizeof texts[0] - (origin->left_out == 0);
-    return make_path(folder, origin->tick, path, error) && image_write_png(picture, path, texts, count, error);
+    return print_frame_path(folder, origin->tick, path, error) && image_write_png(picture, path, texts, count, error);
 }
 
-/* Parse the text with the number of a frame's tick. An error unless frame_write() would print the same text. */
+/* Parse a frame's text with the number of its tick. Fails unless frame_write() would print the same text. */
 static bool parse_tick(const char *path, const char *text, uint64_t *tick, octreel_error *error)
 {
     char again[NUMBER_SIZE];
@@ -77,14 +77,14 @@ static bool parse_tick(const char *path, const char *text, uint64_t *tick, octre
            error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
 }
 
-/* Read the text with a keyword that every frame has. */
+/* Read a frame's text with a keyword. A missing text is an error. */
 static bool read_text(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
 {
     return image_read_text(path, keyword, text, NUMBER_SIZE) ||
            error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
 }
 
-/* Check that the text with a keyword is the expected digest; `message` is the error if it is not. */
+/* Check that a frame's text with a keyword is the expected digest; otherwise the error is `message`. */
 static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *message,
                          octreel_error *error)
 {
@@ -96,7 +96,7 @@ static bool check_digest(const char *path, const char *keyword, uint64_t expecte
 static const char pixels_changed[] =
     "its pixels do not match its PNG text octreel-pixels: the file was changed after drawing";
 
-/* Read the digest that the frame states for its pixels. If the text is no digest, *kind is unchanged. */
+/* Read the digest of the pixels from a frame's text. If the text is no digest, *kind is unchanged. */
 static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
 {
     char text[NUMBER_SIZE];
@@ -124,7 +124,7 @@ static bool check_tick(const char *path, uint64_t expected, octreel_error *error
            (tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick));
 }
 
-/* The pixels are checked first: in a damaged file the texts mean nothing. */
+/* The pixels are checked first: if they are damaged, the texts may be, too. */
 bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error)
 {
     char text[NUMBER_SIZE];
@@ -162,15 +162,15 @@ static bool read_tick_digest(const char *folder, uint64_t tick, const char *keyw
 {
     octreel_error ignored;
     char path[PATH_MAX];
-    return make_path(folder, tick, path, &ignored) && read_digest(path, keyword, digest);
+    return print_frame_path(folder, tick, path, &ignored) && read_digest(path, keyword, digest);
 }
 
-bool frame_session(const char *folder, uint64_t tick, uint64_t *session)
+bool frame_read_session_digest(const char *folder, uint64_t tick, uint64_t *session)
 {
     return read_tick_digest(folder, tick, session_keyword, session);
 }
 
-bool frame_scene(const char *folder, uint64_t tick, uint64_t *scene)
+bool frame_read_scene_digest(const char *folder, uint64_t tick, uint64_t *scene)
 {
     return read_tick_digest(folder, tick, scene_keyword, scene);
 }
@@ -187,16 +187,16 @@ bool frame_read_origin(const char *path, frame_origin *origin)
            read_pixels(path, &origin->kind, &origin->pixels, &ignored);
 }
 
-bool frame_set_session(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)
+bool frame_replace_session_digest(const char *folder, uint64_t tick, uint64_t session, octreel_error *error)
 {
     char text[DIGEST_TEXT], path[PATH_MAX];
-    return make_path(folder, tick, path, error) &&
+    return print_frame_path(folder, tick, path, error) &&
            (image_replace_text(path, session_keyword, digest_print(session, text)) ||
             error_set(error, "%s: cannot be written", path));
 }
 
-bool frame_check(const char *folder, frame_origin *origin, octreel_error *error)
+bool frame_check_tick(const char *folder, frame_origin *origin, octreel_error *error)
 {
     char path[PATH_MAX];
-    return make_path(folder, origin->tick, path, error) && frame_check_file(path, origin, error);
+    return print_frame_path(folder, origin->tick, path, error) && frame_check_file(path, origin, error);
 }

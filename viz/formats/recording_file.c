@@ -16,7 +16,7 @@ typedef struct recorded {
     uint64_t every;
 } recorded;
 
-/* The members around the options of the view: two before them, the others after them. */
+/* The members before and after the options of the view: the first two come before. */
 static const json_member fixed_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
@@ -58,7 +58,7 @@ void recording_write(FILE *out, const view *v, uint64_t every)
     json_write_end_line(w);
 }
 
-static bool read_object(json_reader *r, json_t *object)
+static bool read_recording_object(json_reader *r, json_t *object)
 {
     json_member members[MOST_MEMBERS];
     list_members(members);
@@ -67,10 +67,10 @@ static bool read_object(json_reader *r, json_t *object)
 
 bool recording_parse(const char *name, const char *text, size_t size, view *v, uint64_t *every, octreel_error *error)
 {
-    recorded found = {.view = view_default(), .every = 1};
+    recorded found = {.view = view_make_default(), .every = 1};
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &found, .error = error};
     json_skip_to_object(&r);
-    const bool done = json_read_object(&r, true, read_object);
+    const bool done = json_read_object(&r, true, read_recording_object);
     *v = found.view;
     *every = found.every;
     return done;
@@ -90,7 +90,7 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
 
 /* ---- session.json --------------------------------------------------------------------------------------------- */
 
-/* `live`: ignore a last line that does not end in a newline, because its writer died while writing it. */
+/* `live`: ignore a last line without a newline; its writer died while writing it. */
 static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
                          octreel_error *error)
 {

@@ -12,15 +12,15 @@
 
 #include <stdio.h>
 
-/* The version that is written and read. Scene digests change with it, so no other version can be verified or continued.
- * 2: scene digests hash names. 3: frames name the kind of their pixel digest. 4: every option is written, "size" in
- * place of "width" and "height", and derived values in "derived". */
+/* The only version that is written and read. Scene digests change with the version, so recordings of other versions
+ * cannot be verified or continued. 2: scene digests hash names. 3: frames name the kind of their pixel digest. 4: every
+ * option is written, "size" replaces "width" and "height", and derived values are in "derived". */
 #define RECORDING_VERSION 4
 
-/* The view in which every option has its default, by the rows of view_options.c. */
-view view_default(void);
+/* Returns the view with the default of every option, from the rows of view_options.c. */
+view view_make_default(void);
 
-/* Write the file. I/O errors stay with the stream. */
+/* Write recording.json. The caller checks the stream for errors. */
 void recording_write(FILE *out, const view *v, uint64_t every);
 
 /* Read recording.json in a folder: its view, and its frame interval (--every). An option that is missing has its
@@ -29,7 +29,7 @@ void recording_write(FILE *out, const view *v, uint64_t every);
  */
 bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error *error);
 
-/* The same for a text in memory; errors name it `name`. */
+/* Read recording.json from memory; errors name it `name`. */
 bool recording_parse(const char *name, const char *text, size_t size, view *v, uint64_t *every, octreel_error *error);
 
 /* Read session.json in a folder, and compute the digest of its bytes. The caller releases *file. */

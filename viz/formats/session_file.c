@@ -13,8 +13,8 @@
 
 #define BODIES SESSION_LISTS
 
-/* The lists, and after them the bodies: the offset of the pointer to the items, which their count follows, and the size
- * of an item. An item of a list begins with its tick. */
+/* The lists, and after them the bodies: the offset of the pointer to the items in octree_session (their count follows
+ * it), and the size of an item. An item of a list begins with its tick. */
 static const struct {
     size_t at, size;
 } rows[SESSION_LISTS + 1] = {
@@ -26,21 +26,21 @@ static const struct {
     [BODIES] = {offsetof(octree_session, bodies), sizeof(octree_body)},
 };
 
-static json_counted_array get_list(const octree_session *session, int list)
+static json_counted_array get_session_list(const octree_session *session, int list)
 {
     return json_get_counted_array((const char *)session + rows[list].at);
 }
 
-static void set_list(octree_session *session, int list, const void *items, size_t count)
+static void set_session_list(octree_session *session, int list, const void *items, size_t count)
 {
     const json_counted_array value = {items, count};
     memcpy((char *)session + rows[list].at, &value, sizeof value);
 }
 
-static void set_lists(octree_session *session, const session_list lists[SESSION_LISTS])
+static void set_session_lists(octree_session *session, const session_list lists[SESSION_LISTS])
 {
     for (int i = 0; i < SESSION_LISTS; i++)
-        set_list(session, i, lists[i].items, lists[i].count);
+        set_session_list(session, i, lists[i].items, lists[i].count);
 }
 
 static const void *get_item(const json_counted_array *list, int kind, size_t index)
@@ -48,7 +48,7 @@ static const void *get_item(const json_counted_array *list, int kind, size_t ind
     return (const char *)list->items + index * rows[kind].size;
 }
 
-octree_input session_all_input(const octree_session *session)
+octree_input session_collect_input(const octree_session *session)
 {
     return (octree_input){.edits = session->edits,
                           .edit_count = session->edit_count,
@@ -67,7 +67,7 @@ static bool report_no_memory(octreel_error *error)
     return error_set(error, "out of memory for the session");
 }
 
-/* Replace *items by a copy; by null if there are none. False, and null, if there is no memory. */
+/* Replace *items by a copy, or by null if there are none. When out of memory, returns false and sets null. */
 static bool duplicate_items(const void **items, size_t count, size_t item_size)
 {
     const void *from = *items;
@@ -87,7 +87,7 @@ static bool duplicate_ids(const uint64_t **ids, size_t *count)
     return whole;
 }
 
-bool query_copy_ids(octree_query *query)
+bool query_duplicate_ids(octree_query *query)
 {
     bool whole = duplicate_ids(&query->answer, &query->answer_count);
     for (int met = 0; met < OCTREE_NODE_VISITS; met++)
@@ -102,8 +102,8 @@ void query_release_ids(octree_query *query)
         free((uint64_t *)query->visits[met].ids);
 }
 
-/* Free the memory that queries and foreign trees own, but not their arrays. */
-static void release_owned(const octree_session *session)
+/* Free the memory owned by queries and foreign trees, but not the arrays of both. */
+static void release_owned_memory(const octree_session *session)
 {
     for (size_t i = 0; i < session->query_count; i++)
         query_release_ids((octree_query *)&session->queries[i]);
@@ -111,14 +111,14 @@ static void release_owned(const octree_session *session)
         foreign_tree_release((octree_foreign_tree *)&session->foreign[i]);
 }
 
-/* After queries and foreign trees were copied bytewise: replace the memory that they own by copies. */
-static bool duplicate_owned(const octree_session *session)
+/* Replace the memory owned by queries and foreign trees, which were copied bytewise, by copies. */
+static bool duplicate_owned_memory(const octree_session *session)
 {
     bool whole = true;
     for (size_t i = 0; i < session->query_count; i++)
-        whole = query_copy_ids((octree_query *)&session->queries[i]) && whole;
+        whole = query_duplicate_ids((octree_query *)&session->queries[i]) && whole;
     for (size_t i = 0; i < session->foreign_count; i++)
-        whole = foreign_tree_copy(&session->foreign[i], (octree_foreign_tree *)&session->foreign[i]) && whole;
+        whole = foreign_tree_duplicate(&session->foreign[i], (octree_foreign_tree *)&session->foreign[i]) && whole;
     return whole;
 }
 
@@ -128,11 +128,11 @@ bool session_copy(const octree_session *from, session_file *out, octreel_error *
     *out = (session_file){.session = *from};
     out->session.keys = NULL;
     for (int i = 0; i <= BODIES; i++) {
-        json_counted_array list = get_list(from, i);
+        json_counted_array list = get_session_list(from, i);
         whole = duplicate_items(&list.items, list.count, rows[i].size) && whole;
-        set_list(&out->session, i, list.items, list.items ? list.count : 0);
+        set_session_list(&out->session, i, list.items, list.items ? list.count : 0);
     }
-    whole = duplicate_owned(&out->session) && whole;
+    whole = duplicate_owned_memory(&out->session) && whole;
     const bool done = whole ? !from->keys || session_set_keys(out, from->keys, error) : report_no_memory(error);
     if (!done)
         session_release(out);
@@ -153,9 +153,9 @@ bool session_set_keys(session_file *file, const char *keys, octreel_error *error
 
 void session_release(session_file *file)
 {
-    release_owned(&file->session);
+    release_owned_memory(&file->session);
     for (int i = 0; i <= BODIES; i++)
-        free((void *)get_list(&file->session, i).items);
+        free((void *)get_session_list(&file->session, i).items);
     free((char *)file->session.keys);
     point_values_release(&file->values);
     *file = (session_file){0};
@@ -168,7 +168,7 @@ bool session_read_header(json_reader *r, json_t *object)
     session_loader *s = r->context;
     if (!json_object_get(object, "octreel"))
         return json_fail(r, NULL, "is not a session: the first object has no \"octreel\": \"session\"");
-    return session_read_file_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
+    return session_find_file_world(r, object) && json_read_members(r, object, NULL, session_header_members, &s->header);
 }
 
 bool session_read_tick(json_reader *r, json_t *object)
@@ -181,7 +181,7 @@ bool session_read_tick(json_reader *r, json_t *object)
     return json_read_members(r, object, NULL, session_tick_members, &ignored);
 }
 
-bool session_check_text(json_reader *r)
+bool session_check_is_text(json_reader *r)
 {
     const size_t size = (size_t)(r->limit - r->at);
     if (size > INT_MAX)
@@ -194,12 +194,12 @@ bool session_check_text(json_reader *r)
     return json_fail_line(r, r->line, NULL, "holds a NUL byte, so it is not text");
 }
 
-static bool read_stream(json_reader *r)
+static bool read_objects(json_reader *r)
 {
-    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* some editors put it before UTF-8 */
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* some editors write a byte order mark before UTF-8 */
     if (r->limit - r->at >= 3 && memcmp(r->at, byte_order_mark, 3) == 0)
         r->at += 3;
-    if (!session_check_text(r))
+    if (!session_check_is_text(r))
         return false;
     if (!json_skip_to_object(r))
         return json_fail_line(r, r->line, NULL, "holds no session");
@@ -211,7 +211,7 @@ static bool read_stream(json_reader *r)
     return true;
 }
 
-/* Add the items of a list of the header to the list of single ticks: before its items or after them. */
+/* Add the header's items of a list to the items of single ticks: before or after them. */
 static bool append_header_list(json_reader *r, int list, bool before)
 {
     session_loader *s = r->context;
@@ -241,15 +241,15 @@ octree_session session_assemble(const session_loader *s, const session_list list
 {
     octree_session session = s->header.session;
     session.bodies = s->bodies;
-    set_lists(&session, lists);
+    set_session_lists(&session, lists);
     return session;
 }
 
 void session_clear_lists(session_list lists[SESSION_LISTS])
 {
     octree_session session = {.keys = NULL};
-    set_lists(&session, lists);
-    release_owned(&session);
+    set_session_lists(&session, lists);
+    release_owned_memory(&session);
     for (int i = 0; i < SESSION_LISTS; i++)
         lists[i].count = 0;
 }
@@ -264,15 +264,15 @@ void session_release_lists(session_list lists[SESSION_LISTS])
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
                    octreel_error *error)
 {
-    session_loader loader = {.folder = folder, .header = {.session = session_default_header()}};
+    session_loader loader = {.folder = folder, .header = {.session = session_make_default_header()}};
     loader.tick = OCTREE_EVERY_TICK;
     json_reader r = {.name = name, .at = text, .limit = text + size, .line = 1, .context = &loader, .error = error};
-    const bool done = read_stream(&r) && session_end_values(&r) && session_append_header_lists(&r);
+    const bool done = read_objects(&r) && session_merge_listed_values(&r) && session_append_header_lists(&r);
     *out = (session_file){.session = session_assemble(&loader, loader.lists), .values = loader.values.made};
     memcpy(out->note, loader.note, sizeof out->note);
     session_release_lists(loader.header_lists);
     cloud_release(&loader.points);
-    session_release_listed(&loader.values);
+    session_release_values(&loader.values);
     if (!done)
         session_release(out);
     return done;
@@ -301,19 +301,19 @@ static uint64_t get_tick(const json_counted_array *list, int kind, size_t index)
     return *(const uint64_t *)get_item(list, kind, index);
 }
 
-/* Queries and shapes of every tick are the last ones in the session's arrays. */
+/* Queries and shapes of every tick are at the end of the session's arrays. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
     octree_session every_tick = {.keys = NULL};
     for (int i = SESSION_QUERIES; i <= SESSION_SHAPES; i++) {
-        const json_counted_array all = get_list(session, i);
+        const json_counted_array all = get_session_list(session, i);
         size_t first = all.count;
         while (first > 0 && get_tick(&all, i, first - 1) == OCTREE_EVERY_TICK)
             first--;
         if (first < all.count)
-            set_list(&every_tick, i, get_item(&all, i, first), all.count - first);
+            set_session_list(&every_tick, i, get_item(&all, i, first), all.count - first);
     }
-    const session_header header = {*session, session_all_input(&every_tick), values};
+    const session_header header = {*session, session_collect_input(&every_tick), values};
     json_writer writer = {.out = out, .context = values};
     json_write_object(&writer, session_header_members, &header);
     json_write_end_line(&writer);
@@ -328,7 +328,7 @@ void session_write_tick(uint64_t tick, const octree_input *input, const point_va
     json_write_end_line(&writer);
 }
 
-/* Returns the lowest tick of the items that are not written yet; OCTREE_EVERY_TICK if no single tick has any. */
+/* Returns the first tick with items that are not written yet; OCTREE_EVERY_TICK if there is none. */
 static uint64_t find_next_tick(const json_counted_array unwritten[SESSION_LISTS])
 {
     uint64_t next = OCTREE_EVERY_TICK;
@@ -342,7 +342,7 @@ bool session_write(const octree_session *session, const point_values *values, FI
 {
     json_counted_array unwritten[SESSION_LISTS];
     for (int i = 0; i < SESSION_LISTS; i++)
-        unwritten[i] = get_list(session, i);
+        unwritten[i] = get_session_list(session, i);
     session_write_header(session, values, out);
     for (uint64_t tick; (tick = find_next_tick(unwritten)) != OCTREE_EVERY_TICK;) {
         octree_session now = {.keys = NULL}; /* the items of this tick */
@@ -351,11 +351,11 @@ bool session_write(const octree_session *session, const point_values *values, FI
             size_t count = 0;
             while (count < list->count && get_tick(list, i, count) == tick)
                 count++;
-            set_list(&now, i, list->items, count);
+            set_session_list(&now, i, list->items, count);
             if (count > 0)
                 *list = (json_counted_array){get_item(list, i, count), list->count - count};
         }
-        const octree_input input = session_all_input(&now);
+        const octree_input input = session_collect_input(&now);
         session_write_tick(tick, &input, values, out);
     }
     return fflush(out) == 0 && !ferror(out);

@@ -35,18 +35,18 @@ typedef struct session_file {
  * memory for files of points and samples. */
 bool session_read(const char *path, session_file *out, octreel_error *error);
 
-/* session_read() for text in memory. Errors call the text `name`. Relative paths of files of points start at `folder`,
- * "" for the current folder. A null folder is for the session.json of a recording, which lists its points: files of
- * points and samples are then refused, so that a text from a stranger cannot read other files or claim much memory. */
+/* Parse a session in memory. Errors call the text `name`. Relative paths of files of points start at `folder`, "" for
+ * the current folder. `folder` is null for the session.json of a recording, which lists its points: files of points and
+ * samples are then refused, so that an untrusted text can neither read other files nor claim much memory. */
 bool session_parse(const char *name, const char *folder, const char *text, size_t size, session_file *out,
                    octreel_error *error);
 
-/* Copy a session with all its arrays; the copy has no values of points. False if there is no memory or a key is
- * unknown; *out is then empty. */
+/* Copy a session with all its arrays, but without values of points. Returns false, and empties *out, if memory runs out
+ * or a key is unknown. */
 bool session_copy(const octree_session *from, session_file *out, octreel_error *error);
 
-/* Replace the keys of the session by a copy of `keys`. False if there is no memory or a key is unknown; the session is
- * then unchanged. */
+/* Replace the keys of the session by a copy of `keys`. Returns false, and changes nothing, if memory runs out or a key
+ * is unknown. */
 bool session_set_keys(session_file *file, const char *keys, octreel_error *error);
 
 /* Free the arrays and zero the structure; a zeroed structure is allowed. */
@@ -58,18 +58,18 @@ void session_release(session_file *file);
  * SESSION_LAST_TICK. The stream is flushed. False on an I/O error. Cost: O(size). */
 bool session_write(const octree_session *session, const point_values *values, FILE *out);
 
-/* Replace the lists of ids of a query, or the nodes of a foreign tree, by copies that the caller releases. False if
- * there is no memory; the caller then still releases the copies that were made. */
-bool query_copy_ids(octree_query *query);
+/* Replace the lists of ids of a query, or the nodes of a foreign tree, by copies that the caller releases. If memory
+ * runs out, returns false; the caller must then also release them. */
+bool query_duplicate_ids(octree_query *query);
 void query_release_ids(octree_query *query);
-bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to);
+bool foreign_tree_duplicate(const octree_foreign_tree *from, octree_foreign_tree *to);
 void foreign_tree_release(octree_foreign_tree *tree);
 
-/* The number of ticks of a session whose end is not known yet; its header is written without "ticks". */
+/* The number of ticks of a session without a known end; its header is written without "ticks". */
 #define SESSION_ENDLESS UINT64_MAX
 
-/* Write a session piece by piece while it is made: its header, and the object of one tick; nothing for a tick in which
- * nothing happens. The caller checks the stream for errors. */
+/* Write the header of a session, then the object of each tick, while the session is being made. Nothing is written for
+ * a tick without input. The caller checks the stream for errors. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out);
 void session_write_tick(uint64_t tick, const octree_input *input, const point_values *values, FILE *out);
 

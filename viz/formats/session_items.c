@@ -14,7 +14,8 @@ struct session_items {
     int list;          /* index in session_loader.lists */
     const char *words; /* for errors: "a list of edits" */
     json_name *kinds;
-    const json_member (*members)[2]; /* of each kind, the naming member first; null: list_query_members() lists them */
+    const json_member (*members)[2]; /* the members of each kind, beginning with the one that names it; null:
+                                        list_query_members() lists them */
     size_t size, kind;               /* the size of an item, and the offset of its kind */
 };
 
@@ -32,20 +33,20 @@ static const json_member edit_members[][2] = {
     [OCTREE_EDIT_MOVE] = {{"move", &json_structure, offsetof(octree_edit, body), .members = move_members}},
 };
 
-static const char *edit_name(int n)
+static const char *edit_kind_name(int n)
 {
     return (size_t)n < sizeof edit_members / sizeof edit_members[0] ? edit_members[n][0].name : NULL;
 }
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-static bool is_player(const json_t *value)
+static bool is_player_word(const json_t *value)
 {
     return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
 }
 
 /* Read "player" in place of a position. The session must have a player. */
-static bool read_player(json_reader *r, const json_place *at, octree_query *query)
+static bool read_player_target(json_reader *r, const json_place *at, octree_query *query)
 {
     const session_loader *s = r->context;
     query->at_player = true;
@@ -56,8 +57,8 @@ static bool read_player(json_reader *r, const json_place *at, octree_query *quer
 static bool read_target(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     octree_query *query = into;
-    if (is_player(value))
-        return read_player(r, at, query);
+    if (is_player_word(value))
+        return read_player_target(r, at, query);
     if (!json_is_array(value))
         return json_fail_expected(r, value, at, "\"player\" or three numbers [x, y, z]");
     return json_read_vector(r, value, at, query->target);
@@ -72,12 +73,12 @@ static void write_target(json_writer *w, const void *from)
         json_write_numbers(w, query->target, 3);
 }
 
-static bool read_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_box_at_player(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return is_player(value) ? read_player(r, at, into) : json_fail_expected(r, value, at, "\"player\"");
+    return is_player_word(value) ? read_player_target(r, at, into) : json_fail_expected(r, value, at, "\"player\"");
 }
 
-/* "skip" is an id, or this word for all points exactly at the target. */
+/* "skip" is an id, or this word, which skips all points exactly at the target. */
 static const char coincident[] = "coincident";
 
 static bool read_skip(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -108,7 +109,7 @@ static bool uses_precision(const octree_query *query)
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
-/* "answer" and "pruned" come before the mode in the table, so they have been read. */
+/* "answer" and "pruned" precede the mode in the table, so they have been read. */
 static bool check_mode(json_reader *r, const json_place *at, void *structure)
 {
     return uses_precision(structure) ||
@@ -120,7 +121,7 @@ static bool has_mode(const void *structure)
     return uses_precision(structure) && ((const octree_query *)structure)->precision != OCTREE_DOUBLES;
 }
 
-/* An epsilon of -0 is left out, too. */
+/* An epsilon of -0 is not written either. */
 static bool has_epsilon(const void *structure)
 {
     return ((const octree_query *)structure)->epsilon > 0;
@@ -128,8 +129,8 @@ static bool has_epsilon(const void *structure)
 
 JSON_NAMES(query_name, octree_query_name, octree_query_kind)
 
-/* Make the row of a query's member. A target may also be "player". */
-static json_member query_member(const octree_query_member_traits *member)
+/* Make the table row of a query's member. A target may also be "player". */
+static json_member make_query_member(const octree_query_member_traits *member)
 {
     static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_box,
                                                [OCTREE_MEMBER_POSITION] = &json_vector,
@@ -144,7 +145,7 @@ static json_member query_member(const octree_query_member_traits *member)
     return row;
 }
 
-static const json_member box_at_player = {"at", JSON_CODEC(read_at_player, write_target),
+static const json_member box_at_player = {"at", JSON_CODEC(read_box_at_player, write_target),
                                           JSON_IF(octree_query, at_player)};
 
 JSON_NAMES(precision_name, octree_precision_name, octree_precision)
@@ -175,10 +176,10 @@ static void list_query_members(int kind, json_member table[MOST_MEMBERS])
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
         const octree_query_member_traits *member = octree_query_member_at(i);
         if (member->bit == about->named_by) {
-            table[0] = query_member(member);
+            table[0] = make_query_member(member);
             table[0].name = about->name;
         } else if (about->members & member->bit) {
-            table[count++] = query_member(member);
+            table[count++] = make_query_member(member);
         }
     }
     if (about->members & OCTREE_QUERY_HAS_BOX && !(about->members & OCTREE_QUERY_HAS_TARGET))
@@ -206,7 +207,7 @@ static void write_segment(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* The members of each kind of shape, the naming member first. `at` and `to` are the corners of a box. */
+/* The members of each kind of shape, beginning with the one that names it. `at` and `to` are the corners of a box. */
 _Static_assert(offsetof(octree_shape, to) - offsetof(octree_shape, at) == offsetof(octree_box, max), "not like a box");
 static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
     [OCTREE_SHAPE_BOX] = {{"box", &json_box, offsetof(octree_shape, at), .required = true}},
@@ -223,12 +224,12 @@ JSON_NAMES(shape_name, octree_shape_name, octree_shape_kind)
 
 #define ITEM(type) sizeof(type), offsetof(type, kind)
 
-const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_name, edit_members, ITEM(octree_edit)};
+const session_items session_edits = {SESSION_EDITS, "a list of edits", edit_kind_name, edit_members, ITEM(octree_edit)};
 const session_items session_queries = {SESSION_QUERIES, "a list of queries", query_name, NULL, ITEM(octree_query)};
 const session_items session_shapes = {SESSION_SHAPES, "a list of shapes", shape_name, shape_members,
                                       ITEM(octree_shape)};
 
-static void list_members(const session_items *type, int kind, json_member table[MOST_MEMBERS])
+static void list_item_members(const session_items *type, int kind, json_member table[MOST_MEMBERS])
 {
     if (type->members)
         memcpy(table, type->members[kind], sizeof type->members[kind]);
@@ -236,7 +237,7 @@ static void list_members(const session_items *type, int kind, json_member table[
         list_query_members(kind, table);
 }
 
-void *session_append(json_reader *r, const json_place *at, session_list *list, size_t item_size)
+void *session_append_item(json_reader *r, const json_place *at, session_list *list, size_t item_size)
 {
     if (!array_grow(&list->items, list->count + 1, &list->room, item_size)) {
         json_fail(r, at, "out of memory after %zu items", list->count);
@@ -252,13 +253,13 @@ static bool read_item(json_reader *r, json_t *value, const json_place *at, void 
     session_list *list = s->tick == OCTREE_EVERY_TICK ? &s->header_lists[type->list] : &s->lists[type->list];
     json_member table[MOST_MEMBERS] = {0};
     const int kind = json_read_kind(r, value, at, type->kinds);
-    char *item = kind < 0 ? NULL : session_append(r, at, list, type->size);
+    char *item = kind < 0 ? NULL : session_append_item(r, at, list, type->size);
     if (!item)
         return false;
     memset(item, 0, type->size);
     memcpy(item, &s->tick, sizeof s->tick);
     memcpy(item + type->kind, &kind, sizeof kind);
-    list_members(type, kind, table);
+    list_item_members(type, kind, table);
     return json_read_members(r, value, at, table, item);
 }
 
@@ -282,7 +283,7 @@ static void write_items(json_writer *w, const void *from)
         json_member table[MOST_MEMBERS] = {0};
         int kind;
         memcpy(&kind, item + type->kind, sizeof kind);
-        list_members(type, kind, table);
+        list_item_members(type, kind, table);
         json_write_object(w, table, item);
     }
     json_write_end_array(w);

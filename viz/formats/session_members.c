@@ -14,12 +14,12 @@ static session_loader *get_loader(const json_reader *r)
 
 /* ---- World and tree ----------------------------------------------------------------------------------------- */
 
-static double default_box_size(double step)
+static double find_default_box_size(double step)
 {
     return 0.6 * step;
 }
 
-/* Put the player into the centre of the world. Halving before adding avoids overflow in any world, and the rounded sum
+/* Place the player at the centre of the world. Halving before adding avoids overflow in any world, and the rounded sum
  * of the halves still lies in the world. */
 static void set_default_player(octree_player *player, const octree_box *world)
 {
@@ -30,7 +30,7 @@ static void set_default_player(octree_player *player, const octree_box *world)
         player->position[i] = world->min[i] / 2 + world->max[i] / 2;
     }
     player->step = longest / 20;
-    player->box_size = default_box_size(player->step);
+    player->box_size = find_default_box_size(player->step);
 }
 
 void session_set_world(session_loader *s, const octree_box *world)
@@ -51,7 +51,7 @@ static bool check_world(json_reader *r, const json_place *at, void *structure)
     return true;
 }
 
-static const char *full_leaf_name(int n)
+static const char *full_leaf_rule_name(int n)
 {
     static const char *const names[] = {[OCTREE_REFUSE] = "refuse", [OCTREE_GROW] = "grow"};
     return (size_t)n < sizeof names / sizeof names[0] ? names[n] : NULL;
@@ -60,7 +60,7 @@ static const char *full_leaf_name(int n)
 static const json_member tree_members[] = {
     {"capacity", &json_size, offsetof(octree_def, leaf_capacity), .min = 1, .max = UINT32_MAX},
     {"depth", &json_size, offsetof(octree_def, max_depth), .max = OCTREE_MAX_DEPTH},
-    {"full", &json_choice, offsetof(octree_def, full_leaf), .names = full_leaf_name},
+    {"full", &json_choice, offsetof(octree_def, full_leaf), .names = full_leaf_rule_name},
     {0},
 };
 
@@ -83,17 +83,17 @@ static bool set_default_box_size(json_reader *r, const json_place *at, void *str
 {
     octree_player *player = structure;
     (void)r, (void)at;
-    player->box_size = default_box_size(player->step);
+    player->box_size = find_default_box_size(player->step);
     return true;
 }
 
-static bool read_is_body(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_player_is_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     *(octree_player_kind *)into = json_is_true(value) ? OCTREE_PLAYER_BODY : OCTREE_PLAYER_KEYS;
     return json_is_boolean(value) || json_fail_expected(r, value, at, "true or false");
 }
 
-static void write_is_body(json_writer *w, const void *from)
+static void write_player_is_body(json_writer *w, const void *from)
 {
     (void)from;
     json_write_bool(w, true);
@@ -101,12 +101,12 @@ static void write_is_body(json_writer *w, const void *from)
 
 #define ID "id", &json_uint64, offsetof(octree_player, id), .max = JSON_LARGEST_WHOLE
 #define BODY                                                                                                           \
-    "body", JSON_CODEC(read_is_body, write_is_body), .offset = offsetof(octree_player, kind),                          \
-                                                     JSON_IF(octree_player, kind)
+    "body", JSON_CODEC(read_player_is_body, write_player_is_body), .offset = offsetof(octree_player, kind),            \
+                                                                   JSON_IF(octree_player, kind)
 #define BOX_SIZE "box_size", &json_nonnegative, .offset = offsetof(octree_player, box_size)
 #define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep), JSON_IF(octree_player, sweep)
 
-/* A player that is a body has no position and step: it is the point with its id. */
+/* A player that is a body has no position and step of its own: it is the point with its id. */
 static const json_member body_player_members[] = {{ID}, {BODY}, {BOX_SIZE}, {SWEEP}, {0}};
 static const json_member player_members[] = {
     {ID},
@@ -163,24 +163,23 @@ static bool read_keys(json_reader *r, json_t *value, const json_place *at, void 
     return *copy || json_fail(r, at, "out of memory");
 }
 
-static bool mark_end_known(json_reader *r, const json_place *at, void *structure)
+static bool mark_tick_count_known(json_reader *r, const json_place *at, void *structure)
 {
     (void)at, (void)structure;
     get_loader(r)->ends = true;
     return true;
 }
 
-static bool has_end(const void *structure)
+static bool has_tick_count(const void *structure)
 {
     return ((const session_header *)structure)->session.ticks != SESSION_ENDLESS;
 }
 
-/* The most ticks from one object to the next. All ticks between them are played and filmed, and a greater distance is
- * more likely a wrong number. */
+/* The largest distance of ticks between two objects. All ticks between them are played and filmed, so a larger distance
+ * is probably a wrong number. */
 #define MOST_TICKS_BETWEEN 1000000
 
-/* Whether a tick is too far after the last object. It is not if the session reaches it anyway, by "keys" or "ticks".
- */
+/* True if a tick is too far after the last object. No tick up to the end of "keys" or "ticks" is too far. */
 static bool is_too_far_ahead(const session_loader *s, uint64_t tick)
 {
     const char *keys = s->header.session.keys;
@@ -188,7 +187,7 @@ static bool is_too_far_ahead(const session_loader *s, uint64_t tick)
     return !s->ends && tick > last && tick - last > MOST_TICKS_BETWEEN && tick > (keys ? strlen(keys) : 0);
 }
 
-static bool check_number(json_reader *r, const json_place *at, void *structure)
+static bool check_tick(json_reader *r, const json_place *at, void *structure)
 {
     session_loader *s = get_loader(r);
     const uint64_t tick = ((const session_tick *)structure)->tick;
@@ -210,7 +209,7 @@ static bool check_number(json_reader *r, const json_place *at, void *structure)
 static bool read_gap(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = get_loader(r);
-    octree_gap *gap = session_append(r, at, &s->lists[SESSION_GAPS], sizeof *gap);
+    octree_gap *gap = session_append_item(r, at, &s->lists[SESSION_GAPS], sizeof *gap);
     (void)into;
     if (!gap)
         return false;
@@ -226,7 +225,7 @@ static void write_gap(json_writer *w, const void *from)
 
 /* ---- The objects of a file ---------------------------------------------------------------------------------- */
 
-octree_session session_default_header(void)
+octree_session session_make_default_header(void)
 {
     octree_session session = {.tree = octree_def_default()};
     session.tree.leaf_capacity = 8;
@@ -245,8 +244,8 @@ const json_member session_header_members[] = {
     {"tree", &json_structure, HEADER(session.tree), .members = tree_members},
     {"player", JSON_CODEC(read_player, write_player), HEADER(session.player)},
     {"keys", JSON_CODEC(read_keys, json_write_text), HEADER(session.keys), JSON_IF(session_header, session.keys)},
-    {"ticks", &json_uint64, HEADER(session.ticks), .max = SESSION_LAST_TICK, .is_set = has_end,
-     .check = mark_end_known},
+    {"ticks", &json_uint64, HEADER(session.ticks), .max = SESSION_LAST_TICK, .is_set = has_tick_count,
+     .check = mark_tick_count_known},
     {"unplayed", &json_uint64, HEADER(session.unplayed), .max = SESSION_LAST_TICK,
      JSON_IF(session_header, session.unplayed)},
     {"queries", &session_items_codec, HEADER(every_tick.queries), .about = &session_queries,
@@ -265,7 +264,7 @@ const json_member session_header_members[] = {
 #define TICK(where) .offset = offsetof(session_tick, where)
 
 const json_member session_tick_members[] = {
-    {"tick", &json_uint64, TICK(tick), .required = true, .max = SESSION_LAST_TICK, .check = check_number},
+    {"tick", &json_uint64, TICK(tick), .required = true, .max = SESSION_LAST_TICK, .check = check_tick},
     {"edits", &session_items_codec, TICK(input.edits), .about = &session_edits,
      JSON_IF(session_tick, input.edit_count)},
     {"queries", &session_items_codec, TICK(input.queries), .about = &session_queries,

@@ -17,7 +17,7 @@ static octree_foreign_node *allocate_nodes(size_t nodes, size_t ids)
                                                : NULL;
 }
 
-bool foreign_tree_copy(const octree_foreign_tree *from, octree_foreign_tree *to)
+bool foreign_tree_duplicate(const octree_foreign_tree *from, octree_foreign_tree *to)
 {
     const octree_foreign_node *source = from->nodes; /* from and to may be the same */
     const size_t count = from->node_count;
@@ -72,8 +72,8 @@ static size_t count_ids(const json_t *nodes)
     return ids;
 }
 
-/* Check that the nodes form trees. False with an error that names the wrong node. */
-static bool check_tree(json_reader *r, const octree_foreign_tree *tree, const json_place *at)
+/* Check that the nodes form trees. Otherwise returns false, with an error that names the wrong node. */
+static bool check_foreign_tree(json_reader *r, const octree_foreign_tree *tree, const json_place *at)
 {
     size_t wrong;
     const octree_status status = octree_foreign_check(tree, &wrong);
@@ -91,7 +91,7 @@ static bool check_tree(json_reader *r, const octree_foreign_tree *tree, const js
     return json_fail(r, &place, "%s", octree_status_text(status));
 }
 
-static bool read_tree(json_reader *r, json_t *value, const json_place *at, octree_foreign_tree *tree)
+static bool read_foreign_tree(json_reader *r, json_t *value, const json_place *at, octree_foreign_tree *tree)
 {
     const size_t count = json_array_size(value);
     octree_foreign_node *nodes = allocate_nodes(count, count_ids(value));
@@ -106,11 +106,11 @@ static bool read_tree(json_reader *r, json_t *value, const json_place *at, octre
             return false;
         room += nodes[i].points.count;
     }
-    return check_tree(r, tree, at);
+    return check_foreign_tree(r, tree, at);
 }
 
 /* Read the nodes of the header, which apply from tick 0 on, or of a tick. */
-static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_foreign_nodes(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = r->context;
     const bool header = s->tick == OCTREE_EVERY_TICK;
@@ -120,15 +120,15 @@ static bool read_nodes(json_reader *r, json_t *value, const json_place *at, void
         return json_fail_expected(r, value, at, "a list of nodes");
     if (s->tick == 0 && s->header_lists[SESSION_FOREIGN].count > 0)
         return json_fail(r, at, "the header already has the nodes of tick 0");
-    octree_foreign_tree *tree = session_append(r, at, list, sizeof *tree);
+    octree_foreign_tree *tree = session_append_item(r, at, list, sizeof *tree);
     if (!tree)
         return false;
     *tree = (octree_foreign_tree){.tick = header ? 0 : s->tick};
-    return read_tree(r, value, at, tree);
+    return read_foreign_tree(r, value, at, tree);
 }
 
 /* Nodes that apply from tick 0 on are written in the object of tick 0, not in the header. */
-static void write_nodes(json_writer *w, const void *from)
+static void write_foreign_nodes(json_writer *w, const void *from)
 {
     const octree_foreign_tree *tree = *(const octree_foreign_tree *const *)from;
     json_write_begin_array(w);
@@ -137,4 +137,4 @@ static void write_nodes(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-const json_codec session_nodes_codec = {read_nodes, write_nodes};
+const json_codec session_nodes_codec = {read_foreign_nodes, write_foreign_nodes};

@@ -20,14 +20,14 @@ uint32_t session_find_body(const session_loader *s, uint64_t id)
     return hash_map_find(&s->values.body_ids, &by_id, s->bodies, &id);
 }
 
-/* Whether the player is separate from the session's points; then no point may have its id. */
+/* True if the player is not one of the session's points. No point may then have the player's id. */
 static bool is_player_separate(const octree_player *player)
 {
     return player->kind == OCTREE_PLAYER_KEYS;
 }
 
-/* The default id of a point: its index counted from 1, and one more from the player's id on. */
-static uint64_t default_id(const session_loader *s, size_t place)
+/* Returns the default id of a point: its index counted from 1, plus one from the player's id on. */
+static uint64_t find_default_id(const session_loader *s, size_t place)
 {
     const octree_player *player = &s->header.session.player;
     const uint64_t id = (uint64_t)place + 1;
@@ -35,7 +35,7 @@ static uint64_t default_id(const session_loader *s, size_t place)
 }
 
 /* Allocate the bodies of all points. */
-static bool make_bodies(json_reader *r, const json_place *at, size_t count)
+static bool allocate_bodies(json_reader *r, const json_place *at, size_t count)
 {
     session_loader *s = r->context;
     s->bodies = calloc(count > 0 ? count : 1, sizeof *s->bodies);
@@ -47,8 +47,8 @@ static bool make_bodies(json_reader *r, const json_place *at, size_t count)
 
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
-/* Read [x, y, z] or [x, y, z, id], which values may follow, one for each column. */
-static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
+/* Read [x, y, z] or [x, y, z, id], followed by one value for each column. */
+static bool read_point_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
 {
     const session_values *values = &((const session_loader *)r->context)->values;
     const size_t size = json_array_size(row);
@@ -61,8 +61,8 @@ static bool read_row(json_reader *r, json_t *row, const json_place *at, octree_b
     if (!json_read_numbers(r, row, at, 0, 3, body->position) || (size > 3 && !json_read_id(r, row, at, 3, &body->id)))
         return false;
     for (size_t i = 4; i < size; i++)
-        if (!session_read_column(r, json_array_get(row, i), &(json_place){at, NULL, i},
-                                 (point_value_kind)values->columns[i - 4], &value))
+        if (!session_read_column_value(r, json_array_get(row, i), &(json_place){at, NULL, i},
+                                       (point_value_kind)values->columns[i - 4], &value))
             return false;
     return session_set_value(r, at, body->id, &value);
 }
@@ -71,9 +71,9 @@ static bool read_point(json_reader *r, json_t *value, const json_place *at, void
 {
     const session_loader *s = r->context;
     octree_body *body = (octree_body *)into + at->index;
-    body->id = default_id(s, at->index);
+    body->id = find_default_id(s, at->index);
     if (json_is_array(value))
-        return read_row(r, value, at, body);
+        return read_point_row(r, value, at, body);
     if (json_is_object(value))
         return session_body_codec.read(r, value, at, body);
     return json_fail_expected(r, value, at, "a point [x, y, z], [x, y, z, id] or {\"id\": ..., \"position\": ...}");
@@ -103,30 +103,30 @@ bool session_map_bodies(json_reader *r, const json_place *at)
            json_fail(r, &(json_place){at, NULL, clash}, "id %" PRIu64 " already belongs to the player", player->id);
 }
 
-static bool read_list(json_reader *r, json_t *list, const json_place *at)
+static bool read_point_list(json_reader *r, json_t *list, const json_place *at)
 {
     session_loader *s = r->context;
-    return make_bodies(r, at, json_array_size(list)) &&
+    return allocate_bodies(r, at, json_array_size(list)) &&
            json_read_elements(r, list, at, "a list of points", read_point, s->bodies) && session_map_bodies(r, at);
 }
 
 /* ---- Files of points and samples ---------------------------------------------------------------------------- */
 
 /* Make bodies of the points of a cloud. Default ids count the rows of its file. */
-static bool copy_points(json_reader *r, const json_place *at, const cloud *from)
+static bool copy_cloud_points(json_reader *r, const json_place *at, const cloud *from)
 {
     session_loader *s = r->context;
-    if (!make_bodies(r, at, from->count))
+    if (!allocate_bodies(r, at, from->count))
         return false;
     for (size_t i = 0; i < from->count; i++) {
-        s->bodies[i].id = default_id(s, cloud_row_number(from, i));
+        s->bodies[i].id = find_default_id(s, cloud_row_number(from, i));
         memcpy(s->bodies[i].position, from->positions[i], sizeof from->positions[i]);
     }
     return true;
 }
 
-/* The path of a file that the session names; the caller frees it. "-" is a file here, not standard input. */
-static char *path_in_folder(const char *folder, const char *file)
+/* Returns the path of a file named in the session; the caller frees it. "-" is a file here, not standard input. */
+static char *join_file_path(const char *folder, const char *file)
 {
     if (!*folder && file_is_standard_stream(file))
         folder = "./";
@@ -148,7 +148,7 @@ static void write_values_note(session_loader *s, const char *name)
         snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, columns, *columns && *beyond ? "; " : "", beyond);
 }
 
-/* Refuse files and samples in a recording: they would be read or generated by anyone who opens the recording. */
+/* Refuse files and samples in a recording: whoever opens the recording would read or generate them. */
 static bool check_files_allowed(json_reader *r, const json_place *at)
 {
     const session_loader *s = r->context;
@@ -156,15 +156,15 @@ static bool check_files_allowed(json_reader *r, const json_place *at)
            json_fail(r, at, "the session of a recording must list its points; files and samples are not allowed");
 }
 
-/* Read the file of points into the loader, unless it was read for the world. */
-static bool load_file(json_reader *r, const json_t *value, const json_place *at)
+/* Read the file of points into the loader, unless it was already read for the world. */
+static bool load_point_file(json_reader *r, const json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
     if (s->points.count > 0)
         return true;
     if (!check_files_allowed(r, at))
         return false;
-    char *path = path_in_folder(s->folder, json_string_value(value));
+    char *path = join_file_path(s->folder, json_string_value(value));
     if (!path)
         return json_fail(r, at, "out of memory");
     octreel_error why;
@@ -179,7 +179,7 @@ static bool load_file(json_reader *r, const json_t *value, const json_place *at)
     return true;
 }
 
-static bool is_file_name(const json_t *value)
+static bool is_point_file(const json_t *value)
 {
     return json_is_string(value) && json_string_length(value) > 0;
 }
@@ -200,27 +200,27 @@ static bool set_file_values(json_reader *r, const json_place *at)
     return true;
 }
 
-static bool read_file(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_point_file(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = r->context;
     (void)into;
-    if (!is_file_name(value))
+    if (!is_point_file(value))
         return json_fail_expected(r, value, at, "the name of a file");
-    const bool done = load_file(r, value, at) && copy_points(r, at, &s->points) && set_file_values(r, at);
+    const bool done = load_point_file(r, value, at) && copy_cloud_points(r, at, &s->points) && set_file_values(r, at);
     cloud_release(&s->points);
     return done;
 }
 
 /* The player needs the world, and "points" is read after the player, so the file of points is read early. Mistakes in
  * "points" are reported later, when the member is read. */
-bool session_read_file_world(json_reader *r, json_t *header)
+bool session_find_file_world(json_reader *r, json_t *header)
 {
     session_loader *s = r->context;
     const json_t *wanted = json_object_get(header, "points"), *file = json_object_get(wanted, "file");
-    if (json_object_get(header, "world") || !is_file_name(file) || json_object_size(wanted) != 1)
+    if (json_object_get(header, "world") || !is_point_file(file) || json_object_size(wanted) != 1)
         return true;
     const json_place points = {NULL, "points", 0};
-    if (!load_file(r, file, &(json_place){&points, "file", 0}))
+    if (!load_point_file(r, file, &(json_place){&points, "file", 0}))
         return false;
     const octree_box world = find_point_world(s->points.positions, sizeof *s->points.positions, s->points.count);
     session_set_world(s, &world);
@@ -250,7 +250,7 @@ const json_member session_sampled_members[] = {
     {0},
 };
 
-static bool read_sample(json_reader *r, json_t *value, const json_place *at)
+static bool read_point_sample(json_reader *r, json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
     octree_sampled wanted = {.points.seed = 1, .by_points = true, .known = true};
@@ -263,7 +263,7 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
         return json_fail(r, at, "out of memory for %zu points", count);
     const octree_status status =
         octree_sample(wanted.points.kind, wanted.points.seed, &s->header.session.tree.world, count, positions);
-    const bool done = status == OCTREE_OK ? copy_points(r, at, &(cloud){.positions = positions, .count = count})
+    const bool done = status == OCTREE_OK ? copy_cloud_points(r, at, &(cloud){.positions = positions, .count = count})
                                           : json_fail(r, at, "%s", octree_status_text(status));
     free(positions);
     return done;
@@ -272,23 +272,23 @@ static bool read_sample(json_reader *r, json_t *value, const json_place *at)
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
 static const json_member file_members[] = {
-    {"file", JSON_CODEC(read_file, NULL), .required = true},
+    {"file", JSON_CODEC(read_point_file, NULL), .required = true},
     {0},
 };
 
 static bool read_points(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     if (json_is_array(value))
-        return read_list(r, value, at);
+        return read_point_list(r, value, at);
     if (json_object_get(value, "file"))
         return json_read_members(r, value, at, file_members, into);
     if (json_object_get(value, "sample"))
-        return read_sample(r, value, at);
+        return read_point_sample(r, value, at);
     return json_fail(r, at,
                      "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }
 
-/* Points without velocity are written short; -0 counts as a velocity. */
+/* Points without velocity are written as short rows; -0 counts as a velocity. */
 static void write_point(json_writer *w, const octree_body *body)
 {
     if (json_has_nonzero_byte(body->velocity, sizeof body->velocity)) {
@@ -298,7 +298,7 @@ static void write_point(json_writer *w, const octree_body *body)
     json_write_begin_array(w);
     json_write_elements(w, body->position, 3);
     json_write_integer(w, body->id);
-    session_write_columns(w, body->id);
+    session_write_column_values(w, body->id);
     json_write_end_array(w);
 }
 

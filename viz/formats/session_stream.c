@@ -15,7 +15,7 @@ struct session_stream {
     session_loader loader;
     octree_session start;
     session_stream_state first;  /* the state after the object that follows the header */
-    bool has_pending;            /* session_stream_next() still has to return `first` and its object */
+    bool has_pending;            /* session_stream_read_tick() still has to return `first` and its object */
     octreel_error pending_error; /* the error of `first`, if it is SESSION_STREAM_BROKEN */
 };
 
@@ -26,7 +26,7 @@ session_stream *session_stream_open(int file, const char *name, bool (*keep_goin
         return NULL;
     s->objects = (json_stream){.file = file, .keep_going = keep_going, .context = context};
     s->loader = (session_loader){.folder = "", .tick = OCTREE_EVERY_TICK};
-    s->loader.header.session = session_default_header();
+    s->loader.header.session = session_make_default_header();
     s->reader = (json_reader){.name = name, .line = 1, .context = &s->loader};
     return s;
 }
@@ -40,7 +40,7 @@ void session_stream_close(session_stream *s)
     session_release_lists(s->loader.header_lists);
     cloud_release(&s->loader.points);
     point_values_release(&s->loader.values.made);
-    session_release_listed(&s->loader.values);
+    session_release_values(&s->loader.values);
     free(s->loader.bodies);
     free((char *)s->loader.header.session.keys);
     free(s);
@@ -52,19 +52,19 @@ static session_stream_state read_object(session_stream *s, json_object_reader *r
 {
     s->reader.error = error;
     const session_stream_state state = (session_stream_state)json_stream_read_object(&s->objects, &s->reader);
-    const bool done =
-        state != SESSION_STREAM_TICK ||
-        (session_check_text(&s->reader) && json_read_object(&s->reader, false, read) && session_end_values(&s->reader));
+    const bool done = state != SESSION_STREAM_TICK ||
+                      (session_check_is_text(&s->reader) && json_read_object(&s->reader, false, read) &&
+                       session_merge_listed_values(&s->reader));
     return done ? state : SESSION_STREAM_BROKEN;
 }
 
-static octree_input make_input(const session_loader *s)
+static octree_input make_tick_input(const session_loader *s)
 {
     const octree_session all = session_assemble(s, s->lists);
-    return session_all_input(&all);
+    return session_collect_input(&all);
 }
 
-/* Check the object here and not only in the game, because only here the line is known. */
+/* The object is checked here as well as in the game, because only here its line is known. */
 static session_stream_state read_tick(session_stream *s, octreel_error *error)
 {
     const size_t line = s->reader.line;
@@ -72,7 +72,7 @@ static session_stream_state read_tick(session_stream *s, octreel_error *error)
     const session_stream_state state = read_object(s, session_read_tick, error);
     if (state != SESSION_STREAM_TICK)
         return state;
-    const octree_input input = make_input(&s->loader);
+    const octree_input input = make_tick_input(&s->loader);
     const octree_status status = octree_input_check(&input);
     if (status == OCTREE_OK)
         return state;
@@ -83,7 +83,7 @@ static session_stream_state read_tick(session_stream *s, octreel_error *error)
 
 /* ---- Tick 0 ------------------------------------------------------------------------------------------------- */
 
-static bool set_keys(session_stream *s, const char *keys, octreel_error *error)
+static bool replace_keys(session_stream *s, const char *keys, octreel_error *error)
 {
     session_file file = {.session = {.keys = s->loader.header.session.keys}};
     const bool done = !keys || session_set_keys(&file, keys, error);
@@ -91,7 +91,7 @@ static bool set_keys(session_stream *s, const char *keys, octreel_error *error)
     return done;
 }
 
-static bool assemble_start(session_stream *s)
+static bool assemble_first_session(session_stream *s)
 {
     session_loader *l = &s->loader;
     const bool has_tick_0 = s->first == SESSION_STREAM_TICK && l->tick == 0;
@@ -104,26 +104,26 @@ static bool assemble_start(session_stream *s)
     return true;
 }
 
-session_stream_state session_stream_begin(session_stream *s, const char *keys, octreel_error *error)
+session_stream_state session_stream_read_start(session_stream *s, const char *keys, octreel_error *error)
 {
     const session_stream_state state = read_object(s, session_read_header, error);
     if (state == SESSION_STREAM_END)
         json_fail_line(&s->reader, s->reader.line, NULL, "holds no session");
     if (state != SESSION_STREAM_TICK)
         return state == SESSION_STREAM_STOPPED ? state : SESSION_STREAM_BROKEN;
-    if (!set_keys(s, keys, error))
+    if (!replace_keys(s, keys, error))
         return SESSION_STREAM_BROKEN;
     s->first = read_tick(s, &s->pending_error);
     s->reader.error = error;
-    return assemble_start(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
+    return assemble_first_session(s) ? SESSION_STREAM_TICK : SESSION_STREAM_BROKEN;
 }
 
-const octree_session *session_stream_start(const session_stream *s)
+const octree_session *session_stream_first_session(const session_stream *s)
 {
     return &s->start;
 }
 
-const point_values *session_stream_values(const session_stream *s)
+const point_values *session_stream_point_values(const session_stream *s)
 {
     return &s->loader.values.made;
 }
@@ -135,7 +135,7 @@ const char *session_stream_note(const session_stream *s)
 
 /* ---- Further ticks ------------------------------------------------------------------------------------------ */
 
-session_stream_state session_stream_next(session_stream *s, session_stream_tick *tick, octreel_error *error)
+session_stream_state session_stream_read_tick(session_stream *s, session_stream_tick *tick, octreel_error *error)
 {
     session_stream_state state = s->first;
     if (!s->has_pending)
@@ -144,11 +144,11 @@ session_stream_state session_stream_next(session_stream *s, session_stream_tick 
         *error = s->pending_error;
     s->has_pending = false;
     if (state == SESSION_STREAM_TICK)
-        *tick = (session_stream_tick){s->loader.tick, make_input(&s->loader)};
+        *tick = (session_stream_tick){s->loader.tick, make_tick_input(&s->loader)};
     return state;
 }
 
-uint64_t session_stream_ticks(const session_stream *s)
+uint64_t session_stream_tick_count(const session_stream *s)
 {
     return s->loader.header.session.ticks;
 }

@@ -69,13 +69,13 @@ static void write_class(json_writer *w, const void *from)
 static const hash_map_item_type listed_by_id = {sizeof(point_entry), hash_map_hash_id, hash_map_ids_equal};
 static const hash_map_item_type plain_by_id = {sizeof(uint64_t), hash_map_hash_id, hash_map_ids_equal};
 
-static point_value find_value(const session_values *s, uint64_t id)
+static point_value find_point_value(const session_values *s, uint64_t id)
 {
     const uint32_t listed = hash_map_find(&s->ids, &listed_by_id, s->listed, &id);
     return listed == HASH_MAP_NONE ? point_values_get(&s->made, id) : s->listed[listed].value;
 }
 
-static bool add_listed(session_values *s, uint64_t id, const point_value *value)
+static bool add_listed_value(session_values *s, uint64_t id, const point_value *value)
 {
     if (!array_grow(&s->listed, s->ids.count + 1, &s->room, sizeof *s->listed))
         return false;
@@ -88,9 +88,9 @@ bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const 
     session_values *s = &((session_loader *)r->context)->values;
     if (!point_value_is_set(value))
         return true;
-    const point_value before = find_value(s, id);
+    const point_value before = find_point_value(s, id);
     if (!point_value_is_set(&before))
-        return add_listed(s, id, value) || json_fail(r, at, "out of memory");
+        return add_listed_value(s, id, value) || json_fail(r, at, "out of memory");
     return point_value_same(&before, value) ||
            json_fail(r, at,
                      "the point with the id %" PRIu64 " had another color, intensity or class before; an id keeps its "
@@ -98,8 +98,8 @@ bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const 
                      id);
 }
 
-/* Note the id of a point that was inserted without values. */
-static bool add_plain_id(session_values *s, uint64_t id)
+/* Record the id of a point that was inserted without values. */
+static bool add_valueless_id(session_values *s, uint64_t id)
 {
     if (hash_map_find(&s->plain_ids, &plain_by_id, s->plain, &id) != HASH_MAP_NONE)
         return true;
@@ -109,17 +109,17 @@ static bool add_plain_id(session_values *s, uint64_t id)
     return hash_map_add(&s->plain_ids, &plain_by_id, s->plain);
 }
 
-/* Set the values of an inserted point. An id that occurred without values cannot have any later: a session that is
- * filmed while it is written shows a tick before the next one is read, and a later tick must not change it. */
+/* Set the values of an inserted point. An id that occurred without values cannot get any later: if a session is filmed
+ * while it is written, a tick's frame is drawn before the next tick is read, so a later tick must not change it. */
 static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
 {
     session_loader *s = r->context;
     session_values *values = &s->values;
-    const point_value before = find_value(values, id);
+    const point_value before = find_point_value(values, id);
     if (point_value_is_set(&before))
         return session_set_value(r, at, id, value);
     if (!point_value_is_set(value))
-        return add_plain_id(values, id) || json_fail(r, at, "out of memory");
+        return add_valueless_id(values, id) || json_fail(r, at, "out of memory");
     if (!session_map_bodies(r, at))
         return false;
     if (session_find_body(s, id) != HASH_MAP_NONE ||
@@ -132,7 +132,7 @@ static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id
     return session_set_value(r, at, id, value);
 }
 
-bool session_end_values(json_reader *r)
+bool session_merge_listed_values(json_reader *r)
 {
     session_values *s = &((session_loader *)r->context)->values;
     if (s->ids.count == 0)
@@ -143,7 +143,7 @@ bool session_end_values(json_reader *r)
     return true;
 }
 
-void session_release_listed(session_values *values)
+void session_release_values(session_values *values)
 {
     free(values->listed);
     free(values->plain);
@@ -178,7 +178,8 @@ const json_member session_body_members[] = {
 
 typedef bool value_setter(json_reader *r, const json_place *at, uint64_t id, const point_value *value);
 
-static bool read_valued(json_reader *r, json_t *value, const json_place *at, value_setter *set_value, octree_body *body)
+static bool read_body_with_values(json_reader *r, json_t *value, const json_place *at, value_setter *set_value,
+                                  octree_body *body)
 {
     valued_body valued = {.body = *body};
     if (!json_read_members(r, value, at, session_body_members, &valued))
@@ -189,14 +190,14 @@ static bool read_valued(json_reader *r, json_t *value, const json_place *at, val
 
 static bool read_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
-    return read_valued(r, value, at, session_set_value, into);
+    return read_body_with_values(r, value, at, session_set_value, into);
 }
 
-static bool read_insert(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_inserted_body(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     if (json_is_object(value) && !json_object_get(value, "id"))
         return json_fail(r, at, "the member \"id\" is missing");
-    return read_valued(r, value, at, set_inserted_value, into);
+    return read_body_with_values(r, value, at, set_inserted_value, into);
 }
 
 static void write_body(json_writer *w, const void *from)
@@ -207,11 +208,11 @@ static void write_body(json_writer *w, const void *from)
 }
 
 const json_codec session_body_codec = {read_body, write_body};
-const json_codec session_insert_codec = {read_insert, write_body};
+const json_codec session_insert_codec = {read_inserted_body, write_body};
 
 /* ---- Points as rows ----------------------------------------------------------------------------------------- */
 
-static const char *kind_name(int n)
+static const char *value_kind_name(int n)
 {
     return n < POINT_VALUE_KINDS ? session_body_members[FIRST_VALUE + n].name : NULL;
 }
@@ -227,11 +228,11 @@ static bool read_columns(json_reader *r, json_t *list, const json_place *at, voi
     for (size_t i = 0; i < count; i++) {
         json_t *name = json_array_get(list, i);
         const json_place place = {at, NULL, i};
-        const int kind = json_find_name(kind_name, json_string_value(name));
+        const int kind = json_find_name(value_kind_name, json_string_value(name));
         if (kind < 0)
             return json_fail_expected(r, name, &place, "one of \"color\", \"intensity\" and \"class\"");
         if (seen >> kind & 1)
-            return json_fail(r, &place, "\"%s\" occurs twice", kind_name(kind));
+            return json_fail(r, &place, "\"%s\" occurs twice", value_kind_name(kind));
         seen |= 1U << kind;
         values->columns[values->column_count++] = kind;
     }
@@ -244,7 +245,7 @@ static void write_columns(json_writer *w, const void *from)
     json_write_begin_array(w);
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
         if (point_values_kinds(w->context) >> kind & 1)
-            json_write_string(w, kind_name(kind));
+            json_write_string(w, value_kind_name(kind));
     json_write_end_array(w);
 }
 
@@ -255,7 +256,8 @@ bool session_has_columns(const void *header)
 
 const json_codec session_columns_codec = {read_columns, write_columns};
 
-bool session_read_column(json_reader *r, json_t *value, const json_place *at, point_value_kind kind, point_value *into)
+bool session_read_column_value(json_reader *r, json_t *value, const json_place *at, point_value_kind kind,
+                               point_value *into)
 {
     const json_member *row = &session_body_members[FIRST_VALUE + kind];
     if (json_is_null(value))
@@ -265,7 +267,7 @@ bool session_read_column(json_reader *r, json_t *value, const json_place *at, po
 }
 
 /* A point without values has a short row. */
-void session_write_columns(json_writer *w, uint64_t id)
+void session_write_column_values(json_writer *w, uint64_t id)
 {
     const unsigned kinds = point_values_kinds(w->context);
     const point_value value = kinds ? point_values_get(w->context, id) : (point_value){0};

@@ -16,7 +16,7 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
     return text;
 }
 
-/* Members that are only written have a codec without a reader. */
+/* Members that are written but never read have a codec without a reader. */
 #define WRITE(how) JSON_CODEC(NULL, how)
 
 JSON_NAMES(precision_name, octree_precision_name, octree_precision)
@@ -24,7 +24,7 @@ JSON_NAMES(status_name, octree_status_name, octree_status)
 JSON_NAMES(wrong_name, octree_wrong_name, octree_wrong_kind)
 JSON_NAMES(wrong_node_name, octree_wrong_node_name, octree_wrong_node_kind)
 
-static const char *event_name(int n)
+static const char *event_kind_name(int n)
 {
     return octree_event_name(1u << n);
 }
@@ -38,7 +38,7 @@ static void write_digest(json_writer *w, const void *from)
 }
 
 /* Write the ids of points. */
-static void write_points(json_writer *w, const void *from)
+static void write_point_ids(json_writer *w, const void *from)
 {
     const json_counted_array points = json_get_counted_array(from);
     json_write_begin_array(w);
@@ -100,7 +100,7 @@ static const json_member refusal_members[] = {
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-static bool has_wrong_id(const void *structure)
+static bool has_wrong_point(const void *structure)
 {
     const octree_judgement *judgement = &((const octree_answer *)structure)->judgement;
     return judgement->wrong && judgement->wrong <= OCTREE_WRONG_SKIPPED;
@@ -119,10 +119,10 @@ static const json_member judgement_members[] = {
     {"mode", &json_choice, .offset = offsetof(octree_answer, precision), .names = precision_name,
      JSON_IF(octree_answer, precision)},
     {"wrong", &json_choice, JUDGED(wrong), .names = wrong_name},
-    {"wrong_id", &json_uint64, JUDGED(wrong_id), .is_set = has_wrong_id},
+    {"wrong_id", &json_uint64, JUDGED(wrong_id), .is_set = has_wrong_point},
     {"expected", &json_size, JUDGED(expected)},
-    {"missing", WRITE(write_points), JUDGED(missing), JSON_IF(octree_answer, judgement.missing_count)},
-    {"extra", WRITE(write_points), JUDGED(extra), JSON_IF(octree_answer, judgement.extra_count)},
+    {"missing", WRITE(write_point_ids), JUDGED(missing), JSON_IF(octree_answer, judgement.missing_count)},
+    {"extra", WRITE(write_point_ids), JUDGED(extra), JSON_IF(octree_answer, judgement.extra_count)},
     {"rank", &json_size, JUDGED(rank), JSON_IF(octree_answer, judgement.rank)},
     {"ratio", &json_number, JUDGED(ratio), .is_set = has_neighbors},
     {0},
@@ -135,14 +135,14 @@ static const json_member last_answer_members[] = {
     {0},
 };
 
-/* If the query asks for several neighbours, they are a list; otherwise the members of the one neighbour are members of
- * the answer, or "id" is null if there is none. */
+/* Several neighbours are written as a list. A single neighbour is written as members of the answer, with "id" null if
+ * there is none. */
 static void write_result(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
     static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
     if (!about->neighbors) {
         json_write_key(w, "ids");
-        write_points(w, &(json_counted_array){answer->points, answer->count});
+        write_point_ids(w, &(json_counted_array){answer->points, answer->count});
     } else if (about->members & OCTREE_QUERY_HAS_K) {
         json_write_key(w, "neighbors");
         w->row = &list;
@@ -154,7 +154,7 @@ static void write_result(json_writer *w, const octree_answer *answer, const octr
     }
 }
 
-void tick_write_parameters(json_writer *w, const octree_answer *answer)
+void tick_write_query_parameters(json_writer *w, const octree_answer *answer)
 {
     static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_vector,
                                                [OCTREE_MEMBER_POSITION] = &json_vector,
@@ -183,7 +183,7 @@ void tick_write_answer(json_writer *w, const octree_answer *answer)
     const octree_query_traits *about = octree_query_about(answer->kind);
     json_write_begin_object(w);
     json_begin_object_member(w, about->name);
-    tick_write_parameters(w, answer);
+    tick_write_query_parameters(w, answer);
     if (answer->skip == OCTREE_SKIP_ID)
         json_write_integer_member(w, "skip", answer->skip_id);
     if (answer->skip == OCTREE_SKIP_COINCIDENT)
@@ -207,18 +207,18 @@ static void write_answers(json_writer *w, const void *from)
 
 /* ---- Foreign nodes ----------------------------------------------------------------------------------------- */
 
-static bool names_node(const void *structure)
+static bool has_node(const void *structure)
 {
     return ((const octree_wrong_node *)structure)->kind != OCTREE_NODE_LOST_POINT;
 }
 
-static bool names_point(const void *structure)
+static bool has_point(const void *structure)
 {
     const octree_wrong_node_kind kind = ((const octree_wrong_node *)structure)->kind;
     return kind != OCTREE_NODE_OUTSIDE_PARENT && kind != OCTREE_NODE_UNKNOWN_NODE;
 }
 
-static bool names_answer(const void *structure)
+static bool has_foreign_answer(const void *structure)
 {
     const octree_wrong_node_kind kind = ((const octree_wrong_node *)structure)->kind;
     return kind == OCTREE_NODE_PRUNED_POINT || kind == OCTREE_NODE_UNKNOWN_NODE;
@@ -226,13 +226,13 @@ static bool names_answer(const void *structure)
 
 static const json_member wrong_node_members[] = {
     {"wrong", &json_choice, .offset = offsetof(octree_wrong_node, kind), .names = wrong_node_name},
-    {"node", &json_uint64, .offset = offsetof(octree_wrong_node, node), .is_set = names_node},
-    {"point", &json_uint64, .offset = offsetof(octree_wrong_node, point), .is_set = names_point},
-    {"answer", &json_size, .offset = offsetof(octree_wrong_node, answer), .is_set = names_answer},
+    {"node", &json_uint64, .offset = offsetof(octree_wrong_node, node), .is_set = has_node},
+    {"point", &json_uint64, .offset = offsetof(octree_wrong_node, point), .is_set = has_point},
+    {"answer", &json_size, .offset = offsetof(octree_wrong_node, answer), .is_set = has_foreign_answer},
     {0},
 };
 
-/* Write the number of wrong findings, in total and of each kind, and the first of them. */
+/* Write the number of wrong nodes, in total and of each kind, and the first few. */
 static void write_wrong_nodes(json_writer *w, const void *from)
 {
     const octree_foreign_state *foreign = from;
@@ -275,7 +275,8 @@ static void write_key(json_writer *w, const void *from)
 
 #define TICK(member) .offset = offsetof(octree_tick, member)
 
-/* The numbers of nodes that all queries of the tick visited, took whole and pruned, and of leaves with points found. */
+/* The numbers of nodes that all queries of the tick visited, accepted whole and pruned, and of leaves with points
+ * found. */
 static const json_member visit_members[] = {
     {"visited", &json_size, TICK(touched[OCTREE_TRACE_VISITED])},
     {"taken", &json_size, TICK(touched[OCTREE_TRACE_TAKEN])},
@@ -295,10 +296,10 @@ static const json_member line_members[] = {
     {"tick", &json_uint64, TICK(number)},
     {"key", WRITE(write_key), TICK(key)},
     {"player", &json_vector, TICK(player), .given = offsetof(octree_tick, has_player), .nullable = true},
-    {"events", &json_set, TICK(events), .names = event_name},
+    {"events", &json_set, TICK(events), .names = event_kind_name},
     {"from", &json_vector, TICK(from), .given = offsetof(octree_tick, swept)},
     {"attempt", &json_vector, TICK(attempt), .given = offsetof(octree_tick, has_player), .nullable = true},
-    {"hits", WRITE(write_points), TICK(hits)},
+    {"hits", WRITE(write_point_ids), TICK(hits)},
     {"hit_cost", &json_structure, TICK(hit_cost), .members = cost_members},
     {"answers", WRITE(write_answers), .offset = 0},
     {"visits", &json_structure, .offset = 0, .members = visit_members},
@@ -332,7 +333,7 @@ void tick_write(FILE *out, const octree_tick *tick, const tick_extras *extras)
     json_write_end_line(w);
 }
 
-bool tick_read_scene(const char *line, size_t size, uint64_t tick, uint64_t *scene)
+bool tick_read_scene_digest(const char *line, size_t size, uint64_t tick, uint64_t *scene)
 {
     char name[FRAME_NAME], expected[FRAME_NAME + DIGEST_TEXT + 32];
     const size_t tail = strlen("0123456789abcdef\"}\n");
@@ -341,6 +342,6 @@ bool tick_read_scene(const char *line, size_t size, uint64_t tick, uint64_t *sce
     *scene = strtoull(line + size - tail, NULL, 16);
     const size_t length =
         (size_t)snprintf(expected, sizeof expected, "\"frame\": \"%s\", \"scene\": \"%016" PRIx64 "\"}\n",
-                         frame_name(tick, name), *scene);
+                         frame_print_name(tick, name), *scene);
     return size > length && memcmp(line + size - length, expected, length) == 0;
 }

@@ -14,12 +14,12 @@
 
 /* ---- Names to choose from ----------------------------------------------------------------------------------- */
 
-const char *view_layer_at(int n)
+const char *view_layer_name(int n)
 {
     return n < LAYER_COUNT ? layer_rows[n].name : NULL;
 }
 
-static const char *layer_words_at(int n)
+static const char *layer_description(int n)
 {
     return n < LAYER_COUNT ? layer_rows[n].help : NULL;
 }
@@ -30,18 +30,18 @@ static const char *const fits[][2] = {
     [FIT_POINTS] = {"points", "the points shown at tick 0, the default of inspect"},
 };
 
-static const char *fit_at(int n)
+static const char *fit_name(int n)
 {
     return (size_t)n < sizeof fits / sizeof fits[0] ? fits[n][0] : NULL;
 }
 
-static const char *fit_words_at(int n)
+static const char *fit_description(int n)
 {
     return (size_t)n < sizeof fits / sizeof fits[0] ? fits[n][1] : NULL;
 }
 
-/* Write: there is no camera "iss", did you mean iso? there are iso, top, ... */
-static bool refuse_name(const view_option *option, const char *text, size_t length, octreel_error *error)
+/* Report, for example: there is no camera "iss", did you mean iso? there are iso, top, ... */
+static bool report_unknown_name(const view_option *option, const char *text, size_t length, octreel_error *error)
 {
     char known[320], meant[HINT_TEXT];
     json_name *names = option->member.names;
@@ -54,12 +54,12 @@ static bool refuse_name(const view_option *option, const char *text, size_t leng
 
 /* ---- Values of each type ------------------------------------------------------------------------------------ */
 
-static bool refuse_value(const view_option *option, const char *text, octreel_error *error)
+static bool report_wrong_value(const view_option *option, const char *text, octreel_error *error)
 {
     return error_set(error, "--%s takes %s, not \"%.200s\"", option->name, option->takes, text);
 }
 
-static void *value_of(const view_option *option, view *v)
+static void *option_address(const view_option *option, view *v)
 {
     return (char *)v + option->member.offset;
 }
@@ -68,36 +68,36 @@ static bool parse_choice(const view_option *option, const char *text, view *v, o
 {
     const int found = json_find_name(option->member.names, text);
     if (found < 0)
-        return refuse_name(option, text, strlen(text), error);
-    *(int *)value_of(option, v) = found;
+        return report_unknown_name(option, text, strlen(text), error);
+    *(int *)option_address(option, v) = found;
     return true;
 }
 
-/* A switch takes no value on the command line: giving it sets the opposite of its default. */
+/* On the command line a switch takes no value: giving it sets the opposite of its default. */
 static bool parse_switch(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     (void)error;
-    *(bool *)value_of(option, v) = *text ? strcmp(text, "on") == 0 : strcmp(option->standard, "off") == 0;
+    *(bool *)option_address(option, v) = *text ? strcmp(text, "on") == 0 : strcmp(option->standard, "off") == 0;
     return true;
 }
 
 static bool parse_whole(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *at = text;
-    if (!whole_number_parse(&at, (uint64_t)option->member.max, value_of(option, v)) || *at != 0)
-        return refuse_value(option, text, error);
+    if (!whole_number_parse(&at, (uint64_t)option->member.max, option_address(option, v)) || *at != 0)
+        return report_wrong_value(option, text, error);
     return true;
 }
 
-/* Read numbers separated by commas. The limits of the member, if it has any, hold for a single number. */
+/* Read numbers separated by commas. The limits of the member apply to a single number only. */
 static bool parse_numbers(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const json_member *m = &option->member;
     const size_t count = m->size ? m->size : 1;
     double numbers[3];
     if (!numbers_parse(text, numbers, count) || (m->min < m->max && !(*numbers >= m->min && *numbers <= m->max)))
-        return refuse_value(option, text, error);
-    memcpy(value_of(option, v), numbers, count * sizeof *numbers);
+        return report_wrong_value(option, text, error);
+    memcpy(option_address(option, v), numbers, count * sizeof *numbers);
     if (m->given)
         *(bool *)((char *)v + m->given) = true;
     return true;
@@ -111,7 +111,7 @@ static bool parse_size(const view_option *option, const char *text, view *v, oct
     uint64_t width, height;
     if (!whole_number_parse(&at, INT32_MAX, &width) || *at++ != 'x' || !whole_number_parse(&at, INT32_MAX, &height) ||
         *at != 0)
-        return refuse_value(option, text, error);
+        return report_wrong_value(option, text, error);
     v->width = (int)width;
     v->height = (int)height;
     return true;
@@ -133,7 +133,7 @@ static bool parse_camera_from(const view_option *option, const char *text, view 
 
 static void write_fit(json_writer *w, const void *from)
 {
-    json_write_string(w, fit_at(*(const view_fit *)from == FIT_WORLD ? FIT_WORLD : FIT_POINTS));
+    json_write_string(w, fit_name(*(const view_fit *)from == FIT_WORLD ? FIT_WORLD : FIT_POINTS));
 }
 
 #define MOST_TURN 360 /* degrees */
@@ -147,7 +147,7 @@ static bool parse_look(const view_option *option, const char *text, view *v, oct
 {
     double look[2];
     return numbers_parse(text, look, 2) && is_valid_look(look[0], look[1]) ? parse_numbers(option, text, v, error)
-                                                                           : refuse_value(option, text, error);
+                                                                           : report_wrong_value(option, text, error);
 }
 
 static bool check_look(json_reader *r, const json_place *at, void *structure)
@@ -159,7 +159,7 @@ static bool check_look(json_reader *r, const json_place *at, void *structure)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* The point scale depends on the colouring: drop the scale that --camera-from has read. */
+/* The point scale depends on the colouring: discard the scale that --camera-from has read. */
 static bool parse_point_color(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     v->point_scale.given = false;
@@ -171,7 +171,7 @@ static bool parse_point_color(const view_option *option, const char *text, view 
 static bool parse_layers(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *bad;
-    return view_layers_parse(text, &v->layers, &bad) || refuse_name(option, bad, strcspn(bad, ","), error);
+    return view_layers_parse(text, &v->layers, &bad) || report_unknown_name(option, bad, strcspn(bad, ","), error);
 }
 
 /* ---- Parts of the tree -------------------------------------------------------------------------------------- */
@@ -179,7 +179,7 @@ static bool parse_layers(const view_option *option, const char *text, view *v, o
 static bool parse_slice(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] < 'x' || text[0] > 'z' || text[1] != '=' || !numbers_parse(text + 2, &v->filter.slice_at, 1))
-        return refuse_value(option, text, error);
+        return report_wrong_value(option, text, error);
     v->filter.slice = text[0];
     return true;
 }
@@ -212,7 +212,7 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
     const bool ends = open && whole_number_parse(&at, OCTREE_MAX_DEPTH, &to);
     to = open ? to : from;
     if (*at != 0 || from > to || !(begins || ends))
-        return refuse_value(option, text, error);
+        return report_wrong_value(option, text, error);
     v->filter.by_depth = true;
     v->filter.min_depth = (unsigned)from;
     v->filter.max_depth = (unsigned)to;
@@ -229,7 +229,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 {
     double corners[6];
     if (!numbers_parse(text, corners, 6))
-        return refuse_value(option, text, error);
+        return report_wrong_value(option, text, error);
     for (int i = 0; i < 3; i++)
         if (corners[i] > corners[i + 3])
             return error_set(error, "--region: min must not be above max on any axis, but %c is in \"%.200s\"",
@@ -244,7 +244,7 @@ static bool parse_region(const view_option *option, const char *text, view *v, o
 static bool parse_aa(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     if (text[0] == 0 || text[1] != 0 || !strchr("124", text[0]))
-        return refuse_value(option, text, error);
+        return report_wrong_value(option, text, error);
     v->aa = text[0] - '0';
     return true;
 }
@@ -273,7 +273,7 @@ static bool has_focus(const void *structure)
     return ((const view *)structure)->fit == FIT_BOX;
 }
 
-static bool check_scale(json_reader *r, const json_place *at, void *structure)
+static bool check_point_scale(json_reader *r, const json_place *at, void *structure)
 {
     const point_scale *s = &((const view *)structure)->point_scale.of;
     for (int i = 0; i < 3; i++)
@@ -286,7 +286,7 @@ static bool check_scale(json_reader *r, const json_place *at, void *structure)
 const json_member view_derived_members[] = {
     {"focus", &json_box, offsetof(view, focus), .is_set = has_focus, .check = check_focus},
     {"point_scale", &json_numbers, offsetof(view, point_scale.of), .given = offsetof(view, point_scale.given),
-     .size = sizeof(point_scale) / sizeof(double), .check = check_scale,
+     .size = sizeof(point_scale) / sizeof(double), .check = check_point_scale,
      .about = "eleven numbers: the lowest and the highest corner, the ranges of ids and of intensities, and a spacing"},
     {0},
 };
@@ -295,10 +295,10 @@ const json_member view_derived_members[] = {
 
 #define MOST_PIXELS NUMBER_DIGITS(VIEW_MAX_SIDE)
 
-/* A member of recording.json: its name, its codec, and the offset in `view` that its codec works on. */
+/* A member of recording.json: its name, its codec, and the offset of its value in `view`. */
 #define MEMBER(text, how, field) .member.name = text, .member.codec = how, .member.offset = offsetof(view, field)
 
-/* Recordings write null for the option until a user gives it a value, which sets a bool of the view. */
+/* null is written until the user sets the option, which also sets this bool of the view. */
 #define UNSET_UNTIL(flag) .member.nullable = true, .member.given = offsetof(view, flag)
 
 static const view_option rows[] = {
@@ -311,8 +311,8 @@ static const view_option rows[] = {
      MEMBER("camera", &json_choice, camera), .standard = "iso", .member.names = view_camera_name,
      .words = view_camera_words},
     {"fit", "WHAT", "fit", "what the camera frames: one of", parse_choice,
-     MEMBER("fit", JSON_CODEC(json_read_choice, write_fit), fit), .standard = "world", .member.names = fit_at,
-     .words = fit_words_at},
+     MEMBER("fit", JSON_CODEC(json_read_choice, write_fit), fit), .standard = "world", .member.names = fit_name,
+     .words = fit_description},
     {"look", "AZ,EL", "an azimuth from -360 to 360 and an elevation from -90 to 90 as in 30,22",
      "direction from the centre to the eye, in degrees: azimuth from -y towards +x, elevation (iso: 30,22)", parse_look,
      MEMBER("look", &json_numbers, look.azimuth), .member.size = 2, UNSET_UNTIL(look.given), .member.check = check_look,
@@ -327,8 +327,8 @@ static const view_option rows[] = {
      "layers to draw (default: all but the heat layers; -text removes a layer from them, default,visit-heat adds one): "
      "of",
      parse_layers, MEMBER("layers", &json_set, layers), .standard = "default", .member.about = "a list of layers",
-     .member.advice = "the name of a layer", .member.names = view_layer_at, .words = layer_words_at, .noun = "layer",
-     .by_element = true},
+     .member.advice = "the name of a layer", .member.names = view_layer_name, .words = layer_description,
+     .noun = "layer", .by_element = true},
     {"color-by", "MODE", "colour mode", "meaning of a node's colour (default depth): one of", parse_choice,
      MEMBER("color_by", &json_choice, coloring), .standard = "depth", .member.names = view_coloring_name,
      .words = view_coloring_words, .noun = "colouring"},
@@ -368,7 +368,7 @@ static const view_option rows[] = {
      MEMBER("region", &json_box, filter.region), UNSET_UNTIL(filter.by_region)},
     {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes that have room for them", parse_switch,
      MEMBER("labels", &json_bool, labels), .standard = "off", .noun = "rule for labels"},
-    /* At 100,000 points frames with any lod up to 4 look the same: smaller boxes are specks. */
+    /* With 100,000 points, frames with any lod up to 4 look the same: smaller boxes are specks. */
     {"lod", "PX", "pixels from 0 to " MOST_PIXELS,
      "leave out boxes smaller than PX pixels if an ancestor's box is drawn (default 2; 0: draw all)", parse_numbers,
      MEMBER("lod", &json_number, lod), .standard = "2", .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
@@ -388,7 +388,7 @@ const view_option *view_option_at(size_t n)
     return n < sizeof rows / sizeof rows[0] ? &rows[n] : NULL;
 }
 
-const view_option *view_option_named(const char *name)
+const view_option *view_find_option(const char *name)
 {
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (strcmp(rows[i].name, name) == 0)
@@ -396,7 +396,7 @@ const view_option *view_option_named(const char *name)
     return NULL;
 }
 
-view view_default(void)
+view view_make_default(void)
 {
     view v = {0};
     octreel_error ignored;

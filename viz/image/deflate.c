@@ -125,7 +125,7 @@ static void add_literals(deflater *d, size_t count)
     d->at += count;
 }
 
-/* Whether the next `size` bytes repeat the pixel before them: the repeat that takes the fewest bits. */
+/* True if the next `size` bytes repeat the pixel before them: the repeat that takes the fewest bits. */
 static inline bool repeats_last_pixel(const deflater *d, size_t size)
 {
     const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;

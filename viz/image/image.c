@@ -54,7 +54,7 @@ image_color image_color_at(const image *image, int x, int y)
 
 /* ---- Shrinking ---------------------------------------------------------------------------------------------- */
 
-/* Whether all pixels of a square have the same colour of the palette: the common case, which needs no mean. */
+/* True if all pixels of a square have the same colour of the palette: the common case, which needs no mean. */
 static bool is_flat(const image *of, size_t corner, int side)
 {
     const uint8_t *at = of->pixels + corner;

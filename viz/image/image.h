@@ -52,7 +52,7 @@ void image_release(image *image);
 /* The colour of the pixel (x, y), which must be inside the image. Samples of 16 bits are rounded to 8. */
 image_color image_color_at(const image *image, int x, int y);
 
-/* Whether every index of an indexed image is inside its palette. */
+/* True if every index of an indexed image is inside its palette. */
 bool image_indices_are_valid(const image *image);
 
 /* Fill the RGB image `small` from an indexed image whose sides are `factor` (1 to 16) times as long. Each pixel becomes

@@ -168,7 +168,7 @@ static bool is_on_edge(const image *of, const image *other, int x, int y)
             (is_in_patch(of, brightest.x, brightest.y) && is_in_patch(other, brightest.x, brightest.y)));
 }
 
-/* Whether the pixel lies on an anti-aliased edge of either image; both have the same size. Reads 5 x 5 pixels. */
+/* True if the pixel lies on an anti-aliased edge of either image; both have the same size. Reads 5 x 5 pixels. */
 static bool is_antialiased(const image *a, const image *b, int x, int y)
 {
     return is_on_edge(a, b, x, y) || is_on_edge(b, a, x, y);
@@ -182,7 +182,7 @@ typedef struct rows {
     int first; /* the y of the band's first row */
 } rows;
 
-/* Whether equal bytes mean equal colours. Palettes can be compared as a whole because unused entries are zero. */
+/* True if equal bytes mean equal colours. Palettes can be compared as a whole because unused entries are zero. */
 static bool are_stored_alike(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)

@@ -24,7 +24,7 @@ typedef struct image_tolerance {
     const uint8_t *ignored_mask; /* one byte per pixel; pixels with a non-zero byte are not compared. May be null */
 } image_tolerance;
 
-/* Whether the pixel (x, y) of an image of this width is excluded from the comparison. */
+/* True if the pixel (x, y) of an image of this width is excluded from the comparison. */
 static inline bool image_is_ignored(const image_tolerance *tolerance, int width, int x, int y)
 {
     if (tolerance->ignored_mask && tolerance->ignored_mask[(size_t)y * (size_t)width + (size_t)x])

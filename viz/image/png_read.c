@@ -242,7 +242,7 @@ static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-/* Whether 8 bits hold each of these 16-bit samples without loss: both bytes are equal, a multiple of 257. */
+/* True if 8 bits hold each of these 16-bit samples without loss: both bytes are equal, a multiple of 257. */
 static bool fits_bytes(const uint8_t *samples, size_t count)
 {
     for (size_t i = 0; i < count; i++)

@@ -51,8 +51,8 @@ static film_stream_end film_object(streaming *s, const session_stream_tick *tick
 /* At the end of the stream the number of ticks is known, and keys may be left that have no object. */
 static film_stream_end film_rest(streaming *s)
 {
-    octree_session session = *session_stream_start(s->from);
-    session.ticks = session_stream_ticks(s->from);
+    octree_session session = *session_stream_first_session(s->from);
+    session.ticks = session_stream_tick_count(s->from);
     s->end = octree_session_length(&session);
     return film_up_to(s, s->end);
 }
@@ -61,7 +61,7 @@ static film_stream_end film_ticks(streaming *s)
 {
     for (session_stream_tick tick;;) {
         film_stream_end how = FILM_STREAM_WHOLE;
-        switch (session_stream_next(s->from, &tick, s->error)) {
+        switch (session_stream_read_tick(s->from, &tick, s->error)) {
         case SESSION_STREAM_TICK:
             how = film_object(s, &tick);
             break;
@@ -83,19 +83,19 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
     octreel_error late;
     streaming s = {.from = from, .options = options, .error = error};
     *summary = (film_summary){0};
-    const session_stream_state header = session_stream_begin(from, keys, error);
+    const session_stream_state header = session_stream_read_start(from, keys, error);
     if (header != SESSION_STREAM_TICK)
         return header == SESSION_STREAM_STOPPED ? FILM_STREAM_STOPPED : FILM_STREAM_BROKEN;
-    const octree_session *start = session_stream_start(from);
+    const octree_session *start = session_stream_first_session(from);
     s.end = octree_session_length(start);
     film_options with_values = *options;
-    with_values.values = session_stream_values(from);
+    with_values.values = session_stream_point_values(from);
     s.live = live_open(start, &with_values, error);
     if (!s.live)
         return FILM_STREAM_BROKEN;
     const bool begun = live_begin(s.live, error) && live_first(s.live, error);
     film_stream_end how = begun ? film_ticks(&s) : FILM_STREAM_BROKEN;
-    if (!live_close(s.live, session_stream_ticks(from), summary, how == FILM_STREAM_BROKEN ? &late : error))
+    if (!live_close(s.live, session_stream_tick_count(from), summary, how == FILM_STREAM_BROKEN ? &late : error))
         how = FILM_STREAM_BROKEN;
     return how;
 }

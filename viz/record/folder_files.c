@@ -52,7 +52,7 @@ static bool write_once(const folder_place *place, const char *name, const char *
     char own_name[NAME_MAX + 1];
     snprintf(own_name, sizeof own_name, "%s.%s", name, place->writer);
     char *own = path_join(place->folder, own_name);
-    bool ok = own ? folder_write(place->folder, own_name, bytes, size, error) : error_no_memory(error);
+    bool ok = own ? folder_write_file(place->folder, own_name, bytes, size, error) : error_no_memory(error);
     ok = ok && publish_file(own, path, error);
     free(own);
     return ok;
@@ -79,7 +79,7 @@ static bool write_file(const folder_place *place, const char *name, const char *
                        octreel_error *error)
 {
     return place->writer || place->dry_run ? write_shared(place, name, bytes, size, unlike, error)
-                                           : folder_write(place->folder, name, bytes, size, error);
+                                           : folder_write_file(place->folder, name, bytes, size, error);
 }
 
 /* ---- Written ------------------------------------------------------------------------------------------------ */
@@ -205,7 +205,7 @@ static bool is_empty(const char *folder, const char *name)
  * recording.json, session.json and an empty ticks.jsonl. */
 static bool is_past_start(const char *folder, const char *name)
 {
-    return folder_is_name(name) && !folder_is_unfinished(name) && strcmp(name, "recording.json") != 0 &&
+    return folder_is_recording_file(name) && !folder_is_unfinished_file(name) && strcmp(name, "recording.json") != 0 &&
            strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
 }
 
@@ -241,7 +241,7 @@ static bool check_known(const char *folder, const char *past, uint64_t session_d
 static bool check_session(const char *folder, const char *frame, uint64_t session_digest, octreel_error *error)
 {
     uint64_t tick, session;
-    return !frame_parse_name(frame, &tick) || !frame_session(folder, tick, &session) || session == 0 ||
+    return !frame_parse_name(frame, &tick) || !frame_read_session_digest(folder, tick, &session) || session == 0 ||
            session == session_digest ||
            error_set(error,
                      "%s/%s: shows another session than session.json; restore the original session.json, or choose "
@@ -261,7 +261,7 @@ bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks
         if (strncmp(names[i], "frame_", 6) != 0)
             continue;
         frame = *frame ? frame : names[i];
-        if (!frame_is_name(names[i], ticks, every))
+        if (!frame_is_name_of_recording(names[i], ticks, every))
             ok = error_set(error, "%s/%s: not a frame of this recording; remove it, or choose another folder", folder,
                            names[i]);
     }

@@ -60,7 +60,7 @@ static bool add_entry(joining *j, const char *name, octreel_error *error)
 {
     uint64_t tick;
     chunk c = {.last = j->summary->total};
-    if (frame_parse_name(name, &tick) && !frame_is_name(name, j->summary->total, j->options->every))
+    if (frame_parse_name(name, &tick) && !frame_is_name_of_recording(name, j->summary->total, j->options->every))
         return error_set(error, "%s/%s: not a frame of this recording", j->options->folder, name);
     if (!chunk_parse_name(name, &c.first, &c.last) && strcmp(name, "ticks.jsonl") != 0)
         return true;
@@ -92,10 +92,10 @@ static bool check_frame(joining *j, uint64_t scene, octreel_error *error)
 {
     frame_origin origin = {.tick = j->summary->ticks, .session = j->session_digest, .scene = scene};
     char name[FRAME_NAME];
-    if (!folder_contains(j->options->folder, frame_name(origin.tick, name)))
+    if (!folder_contains(j->options->folder, frame_print_name(origin.tick, name)))
         return error_set(error, "%s: %s is missing; complete the recording with %s record --resume", j->options->folder,
                          name, hint_program_name());
-    if (!frame_check(j->options->folder, &origin, error))
+    if (!frame_check_tick(j->options->folder, &origin, error))
         return false;
     j->summary->frames++;
     j->summary->left_out += origin.left_out;
@@ -110,7 +110,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     const uint64_t tick = j->summary->ticks;
     const bool gap = octree_session_gap(j->session, tick), filmed = !gap && frame_is_due(tick, j->options->every);
     const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
-    if (strncmp(j->line, begin, (size_t)length) != 0 || tick_read_scene(j->line, size, tick, &scene) != filmed)
+    if (strncmp(j->line, begin, (size_t)length) != 0 || tick_read_scene_digest(j->line, size, tick, &scene) != filmed)
         return error_set(error, "%s/%s: no line of tick %" PRIu64 " where it belongs", j->options->folder, c->name,
                          tick);
     if (filmed && !check_frame(j, scene, error))
@@ -207,7 +207,7 @@ bool join_chunks(film_options *options, film_summary *summary, octreel_error *er
     bool ok = (options->every == 0 || check_renderer_file(options->folder, error)) && find_chunks(&j, error) &&
               write_ticks(&j, error);
     if (ok && summary->ticks == summary->total)
-        ok = page_write(options->folder, error) && folder_sweep(options->folder, error);
+        ok = page_write(options->folder, error) && folder_remove_leftovers(options->folder, error);
     session_release(&file);
     free(j.chunks);
     free(j.line);

@@ -176,7 +176,7 @@ static bool sign_frames(const live_recording *live, uint64_t digest, octreel_err
     for (uint64_t tick = 0; live->options.every && tick < live->summary.ticks; tick += live->options.every)
         if (gap < live->gap_count && live->gaps[gap] == tick)
             gap++;
-        else if (!frame_set_session(live->folder, tick, digest, error))
+        else if (!frame_replace_session_digest(live->folder, tick, digest, error))
             return false;
     return true;
 }
@@ -253,7 +253,7 @@ static void abandon(live_recording *live)
     octreel_error late;
     tick_log_close(&live->recording.log, false, &late);
     remove_live_file(live);
-    folder_abandon(live->folder);
+    folder_remove_recording_files(live->folder);
     replacement_undo(&live->recording.replaced);
 }
 

@@ -118,7 +118,7 @@ static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
     const renderer_choice *renderer = &p->target.renderer;
     if (renderer->fill != DRAW_FILL_CHECKED || renderer->any_renderer || share->index != 0 || *p->checks.reason.text)
         return true;
-    frame_name(tick, p->unchecked);
+    frame_print_name(tick, p->unchecked);
     return (p->checks.count > 0 && !is_checked(share, tick / p->target.every, p->target.every)) ||
            playback_check_last(p, error);
 }
@@ -128,7 +128,7 @@ static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_er
     octreel_error unlike;
     const playback_target *target = &p->target;
     origin->session = target->frames == FRAMES_KEEP ? find_session_digest(p) : 0;
-    *kept = target->frames == FRAMES_KEEP && frame_check(target->folder, origin, &unlike);
+    *kept = target->frames == FRAMES_KEEP && frame_check_tick(target->folder, origin, &unlike);
     if (*kept)
         return true;
     if (!picture_draw(&p->picture, &p->scene, error))
@@ -177,7 +177,7 @@ bool playback_tick(playback *p, film_step *step, octreel_error *error)
                         .gap = tick->gap,
                         .foreign_nodes = tick->foreign.given,
                         .filmed = !tick->gap && frame_is_due(tick->number, p->target.every)};
-    p->extras.frame = step->filmed ? frame_name(tick->number, name) : NULL;
+    p->extras.frame = step->filmed ? frame_print_name(tick->number, name) : NULL;
     return (!step->filmed || film_frame(p, step, error)) && make_line(p, step, error);
 }
 

@@ -41,7 +41,7 @@ static bool open_log(recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME] = "ticks.jsonl";
     if (is_chunk(r))
-        chunk_name(r->share.first, r->share.last, name);
+        chunk_print_name(r->share.first, r->share.last, name);
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
@@ -51,7 +51,8 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
     octreel_error late;
-    if (r->options->replace ? !replacement_begin(&r->replaced, folder, error) : !folder_prepare(folder, error))
+    if (r->options->replace ? !replacement_begin(&r->replaced, folder, error)
+                            : !folder_create_for_recording(folder, error))
         return false;
     if (!open_log(r, error)) {
         replacement_undo(&r->replaced);
@@ -61,7 +62,7 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
     if (write_files(r, &place, b, error))
         return true;
     tick_log_close(&r->log, false, &late);
-    folder_abandon(folder);
+    folder_remove_recording_files(folder);
     replacement_undo(&r->replaced);
     return false;
 }
@@ -70,7 +71,7 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
-    return !folder_contains(r->options->folder, chunk_name(r->share.first, r->share.last, name)) ||
+    return !folder_contains(r->options->folder, chunk_print_name(r->share.first, r->share.last, name)) ||
            error_set(error, "%s: already holds this chunk (%s); use --resume to complete it", r->options->folder, name);
 }
 
@@ -82,8 +83,8 @@ static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
     const film_options *o = r->options;
     const uint64_t ticks = octree_session_length(r->session) + 1;
     const folder_place dry_run = {.folder = o->folder, .dry_run = true},
-                       place = {.folder = o->folder, .writer = chunk_name(r->share.first, r->share.last, writer)};
-    return folder_make(o->folder, error) && (o->resume || check_new_chunk(r, error)) &&
+                       place = {.folder = o->folder, .writer = chunk_print_name(r->share.first, r->share.last, writer)};
+    return folder_create(o->folder, error) && (o->resume || check_new_chunk(r, error)) &&
            write_files(r, &dry_run, b, error) && check_resumable(o->folder, r->bytes.digest, ticks, o->every, error) &&
            write_files(r, &place, b, error) && open_log(r, error);
 }
@@ -141,5 +142,5 @@ bool recording_end(recording *r, bool ok, octreel_error *error)
         return ok;
     if (whole && r->options->resume)
         replacement_sweep(folder);
-    return page_write(folder, error) && (!whole || !r->options->resume || folder_sweep(folder, error));
+    return page_write(folder, error) && (!whole || !r->options->resume || folder_remove_leftovers(folder, error));
 }

@@ -50,7 +50,7 @@ static bool is_recording_file(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
         return is_frame(name);
-    return strcmp(name, FOLDER_ASIDE) != 0 && (folder_is_name(name) || folder_is_unfinished(name));
+    return strcmp(name, FOLDER_ASIDE) != 0 && (folder_is_recording_file(name) || folder_is_unfinished_file(name));
 }
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
@@ -82,7 +82,7 @@ static bool check_entry(const char *folder, const char *name, bool *past, octree
 {
     struct stat status;
     if (!is_recording_file(name))
-        return !folder_is_name(name) || strcmp(name, FOLDER_ASIDE) == 0 ||
+        return !folder_is_recording_file(name) || strcmp(name, FOLDER_ASIDE) == 0 ||
                error_set(error,
                          "%s/%s: not a file of a recording, but has the name of one; move it away, or choose "
                          "another folder (-o)",
@@ -224,7 +224,7 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
 {
     *r = (replacement){.folder = strdup(folder), .aside = path_join(folder, FOLDER_ASIDE), .lock = -1};
     bool ok = (r->folder && r->aside) || error_no_memory(error);
-    ok = ok && folder_make(folder, error) && replacement_check(folder, error);
+    ok = ok && folder_create(folder, error) && replacement_check(folder, error);
     ok = ok && make_aside(r, error) && replacement_check(folder, error); /* another process may have been faster */
     ok = ok && recover(r, error) && set_aside(r, error);
     if (!ok)

@@ -199,7 +199,7 @@ static void write_answer(json_writer *w, const shown_answer *shown)
     char note[NOTE_TEXT];
     json_write_begin_object(w);
     json_write_text_member(w, "query", shown->about->name);
-    tick_write_parameters(w, shown->answer);
+    tick_write_query_parameters(w, shown->answer);
     if (shown->about->neighbors && !(shown->about->members & OCTREE_QUERY_HAS_K))
         json_write_integer_member(w, "k", shown->answer->k);
     write_points(w, shown);

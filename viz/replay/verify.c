@@ -46,7 +46,7 @@ static verify_finding *add_finding(verifying *v, verify_kind kind, uint64_t tick
 
 static void check_session(verifying *v)
 {
-    if (!frame_session(v->folder, 0, &v->filmed_session) || v->filmed_session == v->replay.session_digest)
+    if (!frame_read_session_digest(v->folder, 0, &v->filmed_session) || v->filmed_session == v->replay.session_digest)
         return;
     add_finding(v, VERIFY_SESSION, 0,
                 "session.json is not the session that was filmed: its digest is %016" PRIx64
@@ -80,7 +80,7 @@ static bool is_file(const char *path)
  * errors of this frame are found at its tick. */
 static bool check_first_frame(verifying *v, octreel_error *error)
 {
-    char name[FRAME_NAME], *path = path_join(v->folder, frame_name(0, name));
+    char name[FRAME_NAME], *path = path_join(v->folder, frame_print_name(0, name));
     if (!path)
         return error_no_memory(error);
     errno = 0;
@@ -101,7 +101,7 @@ static bool check_line(verifying *v, const film_step *step, octreel_error *error
 {
     const playback *p = &v->replay.playback;
     char name[FRAME_NAME];
-    const tick_extras extras = {.frame = step->filmed ? frame_name(step->tick, name) : NULL,
+    const tick_extras extras = {.frame = step->filmed ? frame_print_name(step->tick, name) : NULL,
                                 .scene_digest = p->extras.scene_digest};
     const expected_line expected = {step->line, step->size, octree_game_tick(p->game), &extras};
     const line_state state = lines_next(&v->lines, line_limit(&expected));
@@ -169,7 +169,7 @@ static bool is_drawn(const verifying *v, const frame_origin *origin)
 
 static bool check_frame(verifying *v, const film_step *step, octreel_error *error)
 {
-    char name[FRAME_NAME], *path = path_join(v->folder, frame_name(step->tick, name));
+    char name[FRAME_NAME], *path = path_join(v->folder, frame_print_name(step->tick, name));
     frame_origin origin = {
         .tick = step->tick, .session = v->filmed_session, .scene = v->replay.playback.extras.scene_digest};
     octreel_error unlike;
@@ -183,7 +183,7 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
         add_finding(v, VERIFY_FRAME, step->tick, "%s is not a regular file", name);
     else if (!check_readable(path, error))
         v->stopped = ok = false;
-    else if (!frame_check(v->folder, &origin, &unlike))
+    else if (!frame_check_tick(v->folder, &origin, &unlike))
         report_frame(v, unlike.text, step->tick, is_drawn(v, &origin));
     else if (!is_drawn(v, &origin))
         report_pixels(v, path, step->tick);
@@ -230,7 +230,7 @@ static bool is_extra_frame(const verifying *v, const char *name)
 {
     uint64_t tick;
     return strncmp(name, "frame_", 6) == 0 &&
-           (!frame_is_name(name, v->replay.ticks, v->replay.film.every) ||
+           (!frame_is_name_of_recording(name, v->replay.ticks, v->replay.film.every) ||
             (frame_parse_name(name, &tick) && octree_session_gap(&v->replay.session.session, tick)));
 }
 

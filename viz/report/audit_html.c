@@ -104,7 +104,7 @@ static void write_url(FILE *out, const char *path)
 static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
 {
     char name[FRAME_NAME];
-    if (!p->base || !folder_contains(p->verdict->path, frame_name(tick, name)))
+    if (!p->base || !folder_contains(p->verdict->path, frame_print_name(tick, name)))
         return false;
     fprintf(p->out, "%s<a href=\"", before);
     write_url(p->out, p->base);

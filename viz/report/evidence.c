@@ -118,7 +118,7 @@ static bool has_marker(const char *folder)
 static bool clear_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
     if (marked)
-        return !evidence_is_name(name) || folder_remove(folder, name, error);
+        return !evidence_is_name(name) || folder_remove_file(folder, name, error);
     return strcmp(name, MARKER ".part") == 0 ||
            error_set(error, "%s: contains %s but no evidence of octreel diff; choose a new or empty folder", folder,
                      name);
@@ -138,8 +138,8 @@ static bool clear_folder(const char *folder, octreel_error *error)
 bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b, octreel_error *error)
 {
     return check_folder_is_not_side(folder, a, error) && check_folder_is_not_side(folder, b, error) &&
-           folder_make(folder, error) && clear_folder(folder, error) &&
-           folder_write(folder, MARKER, marker_text, sizeof marker_text - 1, error);
+           folder_create(folder, error) && clear_folder(folder, error) &&
+           folder_write_file(folder, MARKER, marker_text, sizeof marker_text - 1, error);
 }
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */

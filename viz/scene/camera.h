@@ -93,7 +93,7 @@ bool camera_pixel(const camera *c, const double position[3], double pixel[2]);
  * Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
 double camera_box_pixels(const camera *c, const octree_box *box);
 
-/* Whether camera_box_pixels() is below `pixels`. Faster than computing it, unless the size is close to `pixels`. */
+/* True if camera_box_pixels() is below `pixels`. Faster than computing it, unless the size is close to `pixels`. */
 bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
 
 /* If the view has FIT_POINTS, replace that by FIT_BOX with the box of the points that the view shows in the tree of

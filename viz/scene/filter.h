@@ -30,13 +30,13 @@ typedef struct view_filter {
     octree_box region;
 } view_filter;
 
-/* Whether a node's box is shown. `world` is the tree's. */
+/* True if a node's box is shown. `world` is the tree's. */
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* Whether a node or anything below it may be shown: slice and region cut off whole branches. */
+/* True if a node or anything below it may be shown: slice and region cut off whole branches. */
 bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* Whether a foreign node's box is shown. Unlike nodes of the tree, its box is closed and may be flat: the slice's plane
+/* True if a foreign node's box is shown. Unlike nodes of the tree, its box is closed and may be flat: the slice's plane
  * must meet the closed box. A range of depths that ends at OCTREE_MAX_DEPTH includes all greater depths. */
 bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf);
 
@@ -44,7 +44,7 @@ bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned dept
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 
-/* Whether any part of the filter is set. */
+/* True if any part of the filter is set. */
 bool filter_is_on(const view_filter *f);
 
 /* Returns null if the filter can show some node of a tree with this world and depth; otherwise a sentence, in `text`,

@@ -49,7 +49,7 @@ static octree_walk_order add_points(const octree_node *node, void *context)
     return cell ? OCTREE_WALK_ON : OCTREE_WALK_STOP;
 }
 
-/* Whether an address is that of a node or of one of its descendants. */
+/* True if an address is that of a node or of one of its descendants. */
 static bool is_within(octree_address address, octree_address node)
 {
     while (address > node)

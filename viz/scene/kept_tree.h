@@ -89,7 +89,7 @@ void kept_tree_open(kept_tree *k, octree_address address, const scene *s);
 bool kept_tree_add_node(kept_tree *k, const scene_box *box);
 bool kept_tree_close(kept_tree *k, const scene *s);
 
-/* Whether a node belongs to the subtree that is being collected. */
+/* True if a node belongs to the subtree that is being collected. */
 bool kept_tree_collects(const kept_tree *k, const octree_node *node);
 
 /* Note the digest of elements that were copied to the scene, starting at element `first`. */

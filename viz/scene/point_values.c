@@ -87,7 +87,7 @@ static bool build(point_values *v, const point_entry *entries, size_t count)
     return ok;
 }
 
-/* Whether the entries have the next ids after the last row, as in a stream of points. */
+/* True if the entries have the next ids after the last row, as in a stream of points. */
 static bool are_next(const point_values *v, const point_entry *entries, size_t count)
 {
     bool next = v->count > 0 && !v->ids;

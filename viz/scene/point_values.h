@@ -48,7 +48,7 @@ static inline unsigned point_values_kinds(const point_values *v)
     return v ? v->kinds : 0;
 }
 
-/* Whether a point has any value. */
+/* True if a point has any value. */
 bool point_value_is_set(const point_value *value);
 bool point_value_same(const point_value *a, const point_value *b);
 

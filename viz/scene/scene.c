@@ -56,7 +56,7 @@ static bool all_finite(const double *values, size_t count)
     return true;
 }
 
-/* Whether an element may be added: its layer is shown and its geometry finite. Counts elements that are not finite. */
+/* True if an element may be added: its layer is shown and its geometry finite. Counts elements that are not finite. */
 static bool is_accepted(scene *s, scene_style style, bool finite)
 {
     if (!view_shows(&s->view, style.layer))

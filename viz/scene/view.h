@@ -127,7 +127,7 @@ int view_height_in_wide(const view *v);
  * below 640, 2 from 640 on, 6 at 2160. */
 int view_unit(const view *v);
 
-/* Whether points are painted one by one in RGB colours, instead of as markers in colours of the theme. */
+/* True if points are painted one by one in RGB colours, instead of as markers in colours of the theme. */
 static inline bool view_paints_points(const view *v)
 {
     return v->point_color != POINTS_BY_PLAIN || v->shade != SHADE_BANDS;
@@ -139,7 +139,7 @@ static inline int view_samples(const view *v)
     return v->aa > 1 ? v->aa : 1;
 }
 
-/* Whether the frames are RGB, because they need colours that the table of the theme lacks. */
+/* True if the frames are RGB, because they need colours that the table of the theme lacks. */
 static inline bool view_is_rgb(const view *v)
 {
     return view_samples(v) > 1 || view_paints_points(v);

@@ -236,7 +236,7 @@ bool golden_is_played(const golden_frame *frame)
 
 bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *error)
 {
-    const view_option *camera = view_option_named("camera"), *layers = view_option_named("layers");
+    const view_option *camera = view_find_option("camera"), *layers = view_find_option("layers");
     play->session = session_of(frame, play->bodies);
     play->view = view_of_frame(frame);
     if (!camera->parse(camera, frame->camera, &play->view, error) ||

@@ -17,7 +17,7 @@
 
 film_options small_film(const char *folder)
 {
-    film_options options = {.folder = folder, .view = view_default(), .every = 1};
+    film_options options = {.folder = folder, .view = view_make_default(), .every = 1};
     options.view.width = SMALL_WIDTH;
     options.view.height = SMALL_HEIGHT;
     return options;
@@ -53,7 +53,7 @@ film_options stopped_after(film_options options, uint64_t *ticks)
 place frame_place(const char *folder, uint64_t tick)
 {
     char name[FRAME_NAME];
-    return place_below(folder, frame_name(tick, name));
+    return place_below(folder, frame_print_name(tick, name));
 }
 
 film_summary assert_filmed(const octree_session *session, const film_options *options)

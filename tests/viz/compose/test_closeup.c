@@ -46,7 +46,7 @@ static void a_close_up_follows_the_player_and_is_fixed_in_the_picture(void **sta
     const octree_session session = octree_session_default();
     for (view_camera camera = 0; camera < CAMERA_COUNT; camera++) {
         octree_game *game = open_game(&session);
-        view v = view_default();
+        view v = view_make_default();
         scene s = {.refused = 0};
         double times = 0;
         v.camera = camera;
@@ -78,7 +78,7 @@ static void everything_is_enlarged_by_the_printed_factor(void **state)
     octree_game *game = open_game(&session);
     const octree_box box = cube(-30, 30);
     scene s = {.refused = 0};
-    const view v = view_default();
+    const view v = view_make_default();
     build_tick(&s, &v, game);
     const double before = camera_box_pixels(&s.camera, &box), after = camera_box_pixels(&s.closeup->camera, &box);
     assert_true(fabs(after / before - s.closeup->times) < 1e-9 && after > 60 && before < 40);
@@ -102,21 +102,21 @@ static void large_or_unwanted_subject_has_no_close_up(void **state)
 {
     (void)state;
     octree_session session = octree_session_default();
-    view v = view_default();
+    view v = view_make_default();
     assert_true(has_closeup(&session, &v));
     v.closeup = false;
     assert_false(has_closeup(&session, &v));
-    v = view_default();
+    v = view_make_default();
     v.diagram = DIAGRAM_ONLY;
     assert_false(has_closeup(&session, &v));
-    v = view_default();
+    v = view_make_default();
     v.width = 200;
     v.height = 120;
     assert_false(has_closeup(&session, &v));
-    v = view_default();
+    v = view_make_default();
     v.zoom = 10;
     assert_false(has_closeup(&session, &v));
-    v = view_default();
+    v = view_make_default();
     session.player.box_size = 200;
     assert_false(has_closeup(&session, &v));
     session.player.box_size = 0; /* its step is long */
@@ -136,7 +136,7 @@ static void close_up_overlaps_nothing_else(void **state)
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
     for (int i = 0; i < 24; i++) {
-        view v = view_default();
+        view v = view_make_default();
         v.width = sizes[i % 6][0];
         v.height = sizes[i % 6][1];
         v.diagram = i / 6 % 2 ? DIAGRAM_BESIDE : DIAGRAM_NONE;
@@ -185,7 +185,7 @@ static void close_up_shows_only_the_players_surroundings(void **state)
     session.tree.full_leaf = OCTREE_GROW;
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
-    view v = view_default();
+    view v = view_make_default();
     v.lod = 30;
     build_tick(&s, &v, game);
     const octree_box *region = &s.closeup->view.filter.region;
@@ -223,7 +223,7 @@ static void enlarged_area_is_outlined_however_small(void **state)
     session.player.step = session.player.box_size = 1e-5;
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
-    const view v = view_default();
+    const view v = view_make_default();
     build_tick(&s, &v, game);
     size_t lines = 0;
     for (size_t i = 0; i < s.segments.count; i++) {
@@ -241,7 +241,7 @@ static void close_up_is_the_same_at_every_scale_of_the_world(void **state)
 {
     (void)state;
     static const double scales[] = {1e-300, 1e-12, 1, 1e12, 1e300};
-    const view v = view_default();
+    const view v = view_make_default();
     for (size_t i = 0; i < sizeof scales / sizeof scales[0]; i++) {
         scaled_session made;
         scene s = {.refused = 0};
@@ -260,7 +260,7 @@ static void close_up_is_the_same_at_every_scale_of_the_world(void **state)
 static void every_world_has_a_close_up_of_finite_numbers(void **state)
 {
     (void)state;
-    const view v = view_default();
+    const view v = view_make_default();
     for (size_t row = 0; row < world_count; row++) {
         octree_session session = octree_session_default();
         session.tree.world = world_of(row);
@@ -286,7 +286,7 @@ static void scene_digest_covers_the_close_up(void **state)
     const octree_session session = octree_session_default();
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
-    const view v = view_default();
+    const view v = view_make_default();
     build_tick(&s, &v, game);
     const uint64_t with = scene_digest(&s);
     s.closeup->place[0]++;
@@ -307,7 +307,7 @@ static void close_up_elements_are_numbered_after_the_scene(void **state)
     const octree_session session = octree_session_default();
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
-    const view v = view_default();
+    const view v = view_make_default();
     build_tick(&s, &v, game);
     const uint32_t all = (uint32_t)(scene_count(&s) + scene_count(s.closeup));
     for (uint32_t number = 1; number <= all; number++) {
@@ -328,7 +328,7 @@ static void close_up_respects_the_region_filter(void **state)
     const octree_session session = octree_session_default();
     octree_game *game = open_game(&session);
     scene s = {.refused = 0};
-    view v = view_default();
+    view v = view_make_default();
     build_tick(&s, &v, game);
     const octree_box whole = s.closeup->view.filter.region;
     for (int axis = 0; axis < 3; axis++) {

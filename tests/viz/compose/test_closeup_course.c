@@ -39,7 +39,7 @@ static void build_next(film *f)
 
 static void film_begin(film *f, const octree_session *session)
 {
-    *f = (film){.session = *session, .view = view_default()};
+    *f = (film){.session = *session, .view = view_make_default()};
     f->game = start_game(&f->session);
     build_next(f);
 }
@@ -285,7 +285,7 @@ static void close_up_of_a_tree_shows_its_queries(void **state)
     const octree_query queries[] = {ball(0, 100, 200, 300, 900), ball(0, 100, 200, 300, 8), ball(0, 103, 200, 300, 5)};
     scene s = {.refused = 0};
     for (int i = 0; i < 4 * CAMERA_COUNT; i++) {
-        view v = view_default();
+        view v = view_make_default();
         v.camera = (view_camera)(i / 4);
         v.width = sizes[i % 4][0];
         v.height = sizes[i % 4][1];
@@ -321,7 +321,7 @@ static void close_up_of_a_tree_shows_the_requested_node(void **state)
 {
     (void)state;
     octree *tree = sampled_tree(cube(-1000, 1000), 2000);
-    const view v = view_default();
+    const view v = view_make_default();
     octree_node node = {0};
     scene s = {.refused = 0};
     double middle[3];
@@ -339,7 +339,7 @@ static void close_up_of_a_tree_shows_the_requested_node(void **state)
 static void close_ups_of_extreme_worlds_are_finite(void **state)
 {
     (void)state;
-    const view v = view_default();
+    const view v = view_make_default();
     size_t found = 0;
     for (size_t row = 0; row < world_count; row++) {
         const octree_box world = world_of(row);

@@ -239,7 +239,7 @@ static void every_tick_shows_each_node_once_and_the_path_to_the_player(void **st
     const octree_session session = octree_session_default();
     octree_game *game = start_game(&session);
     scene s = {0};
-    view v = view_default();
+    view v = view_make_default();
     for (int tick = 0;; tick++) {
         v.diagram = tick % 2 ? DIAGRAM_ONLY : DIAGRAM_BESIDE;
         v.coloring = (view_coloring)(tick % COLORING_COUNT);
@@ -342,7 +342,7 @@ static void filling_an_empty_octant_moves_nothing(void **state)
     octree *after = make_tree(cube(-1000, 1000), 1, 5, OCTREE_REFUSE);
     insert_all(before, first, 4);
     insert_all(after, first, 4);
-    view v = view_default();
+    view v = view_make_default();
     v.diagram = DIAGRAM_BESIDE;
     for (size_t i = 0; i < 4; i++) {
         assert_int_equal(octree_insert(after, more[i], 10 + i), OCTREE_OK);
@@ -372,7 +372,7 @@ static void filtered_nodes_are_grey(void **state)
 {
     (void)state;
     octree *tree = sampled(OCTREE_SAMPLE_UNIFORM, 40, 4);
-    view v = view_default();
+    view v = view_make_default();
     v.diagram = DIAGRAM_ONLY;
     v.filter.leaves = true;
     scene s = look_at(&v, tree, 0);
@@ -388,7 +388,7 @@ static void diagram_only_view_has_only_diagram_and_panel(void **state)
     const octree_session session = session_with_all_layers();
     octree_game *game = start_game(&session);
     scene s = {0};
-    view v = view_default();
+    view v = view_make_default();
     v.diagram = DIAGRAM_ONLY;
     build_tick(&s, &v, game);
     for (int layer = 0; layer < LAYER_TEXT; layer++) {
@@ -412,7 +412,7 @@ static void space_view_beside_the_diagram_has_all_its_elements(void **state)
     const octree_session session = session_with_all_layers();
     octree_game *game = start_game(&session);
     scene alone = {0}, beside = {0};
-    view v = view_default();
+    view v = view_make_default();
     build_tick(&alone, &v, game);
     v.diagram = DIAGRAM_BESIDE;
     build_tick(&beside, &v, game);

@@ -56,7 +56,7 @@ static void panel_shows_every_ticks_number_and_events(void **state)
 static void panel_shows_a_swept_test(void **state)
 {
     (void)state;
-    const view v = view_default();
+    const view v = view_make_default();
     for (int sweep = 0; sweep < 2; sweep++) {
         octree_session session = small_session(NULL, 0);
         session.player.sweep = sweep;
@@ -85,7 +85,7 @@ static void panel_shows_answers(void **state)
     octree_session session = small_session(bodies, 4);
     session.queries = queries;
     session.query_count = 4;
-    const view v = view_default();
+    const view v = view_make_default();
     octree_game *game = start_game(&session);
     scene s = {0};
     build_tick(&s, &v, game);
@@ -169,7 +169,7 @@ static void ids_without_room_are_counted(void **state)
                  {1007, 12, "#1007 +11"},
                  {10007, 12, ""},
                  {UINT64_MAX - 20, 12, ""}};
-    const view v = view_default();
+    const view v = view_make_default();
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         octree_body bodies[12];
         for (size_t j = 0; j < cases[i].count; j++)
@@ -240,11 +240,11 @@ static void texts_of_any_length_stay_within_bounds(void **state)
     session.keys = "dddd";
     octree_game *game = start_game(&session);
     scene s = {0};
-    for (view v = view_default(); !octree_game_over(game); play_tick(game)) {
+    for (view v = view_make_default(); !octree_game_over(game); play_tick(game)) {
         build_tick(&s, &v, game);
         assert_inside_column(&s);
     }
-    const view v = view_default();
+    const view v = view_make_default();
     char title[500];
     memset(title, 'W', sizeof title);
     title[sizeof title - 1] = 0;

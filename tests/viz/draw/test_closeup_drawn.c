@@ -15,7 +15,7 @@ static scene close_scene(view_camera camera, int aa, int ticks)
     const octree_session session = octree_session_default();
     octree_game *game;
     scene s = {.refused = 0};
-    view v = view_default();
+    view v = view_make_default();
     v.width = 640;
     v.height = 360;
     v.camera = camera;

@@ -20,7 +20,7 @@ static const scene_style kinds[KINDS] = {
 
 static scene random_boxes(uint64_t seed, size_t count)
 {
-    scene s = {.view = view_default()};
+    scene s = {.view = view_make_default()};
     for (size_t i = 0; i < count; i++) {
         scene_box box = {.id = i + 1, .depth = (uint8_t)random_below(&seed, 4)};
         box.style = kinds[random_below(&seed, KINDS)];
@@ -193,7 +193,7 @@ static void long_line_is_merged_in_any_order(void **state)
     enum { ROW = 300 };
     edge_list first = {0}, other = {0};
     uint64_t random = 1;
-    scene s = {.view = view_default()};
+    scene s = {.view = view_make_default()};
     for (uint64_t i = 0; i < ROW; i++) {
         const double at = (double)i;
         scene_box box = {.id = i + 1, .depth = 2, .box = {{at, 0, 0}, {at + 1, 1, 1}}, .style = kinds[0]};
@@ -265,7 +265,7 @@ static void boxes_that_come_and_go_leave_no_edges(void **state)
     uint64_t random = 11;
     edge_list used = {0};
     for (uint64_t seed = 1; seed <= 10; seed++) {
-        scene all = random_boxes(seed, 200), s = {.view = view_default()};
+        scene all = random_boxes(seed, 200), s = {.view = view_make_default()};
         for (int frame = 0; frame < 30; frame++) {
             const uint64_t shown = random_below(&random, 101), moved = frame % 10 == 9 ? GRID * (uint64_t)frame : 0;
             edge_list fresh = {0};
@@ -330,7 +330,7 @@ static void full_subdivision_has_one_edge_for_each_grid_line(void **state)
     edge_list list = {0};
     for (size_t world = 0; world < sizeof worlds / sizeof worlds[0]; world++) {
         for (unsigned deepest = 0; deepest <= 4; deepest++) {
-            scene s = {.view = view_default()};
+            scene s = {.view = view_make_default()};
             add_nodes(&s, &worlds[world], OCTREE_ROOT, 0, deepest);
             const size_t lines = ((size_t)1 << deepest) + 1;
             assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
@@ -349,7 +349,7 @@ static void full_subdivision_has_one_edge_for_each_grid_line(void **state)
 static void gap_between_boxes_stays_a_gap(void **state)
 {
     (void)state;
-    scene s = {.view = view_default()};
+    scene s = {.view = view_make_default()};
     edge_list list = {0};
     scene_add_box(&s, (scene_box){.id = 1, .box = {{0, 0, 0}, {1, 1, 1}}});
     scene_add_box(&s, (scene_box){.id = 2, .box = {{2, 0, 0}, {3, 1, 1}}});
@@ -362,7 +362,7 @@ static void gap_between_boxes_stays_a_gap(void **state)
 static void no_boxes_have_no_edges(void **state)
 {
     (void)state;
-    scene s = {.view = view_default()};
+    scene s = {.view = view_make_default()};
     edge_list list = {0};
     assert_true(edges_merge(&list, &s, 0, LAYER_DIAGRAM + 1));
     assert_int_equal(list.now.count, 0);
@@ -375,7 +375,7 @@ static void box_without_extent_keeps_an_edge(void **state)
     (void)state;
     edge_list list = {0};
     for (unsigned flat = 1; flat < 8; flat++) {
-        scene s = {.view = view_default()};
+        scene s = {.view = view_make_default()};
         octree_box box = cube(1, 2);
         for (int axis = 0; axis < 3; axis++)
             box.max[axis] = flat >> axis & 1 ? box.min[axis] : box.max[axis];

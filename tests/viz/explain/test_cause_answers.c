@@ -123,7 +123,7 @@ static size_t view_groups(const char *answers)
     told t;
     cause c;
     octreel_error error;
-    cause_view views[2] = {{view_default(), 1}, {view_default(), 1}};
+    cause_view views[2] = {{view_make_default(), 1}, {view_make_default(), 1}};
     views[0].view.layers &= ~(1u << LAYER_WRONG);
     tell(&t, answers);
     assert_true(cause_find(&(session_file){.session = t.session}, &(session_file){.session = t.session}, views,

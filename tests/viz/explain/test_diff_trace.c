@@ -176,7 +176,7 @@ static void every_layer_has_a_description(void **state)
 static void assert_told(const comparison_of *made, uint64_t tick, int layer, const char *words)
 {
     char name[FRAME_NAME];
-    const char *cause = find_cause_text(made, frame_name(tick, name));
+    const char *cause = find_cause_text(made, frame_print_name(tick, name));
     const trace *t = trace_of(made, tick);
     bool found = false;
     for (size_t i = 0; i < t->count; i++)

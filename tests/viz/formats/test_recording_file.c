@@ -132,7 +132,7 @@ static void every_view_option_is_written(void **state)
     };
     const temp_folder *folder = *state;
     char unchanged[2048], written[2048], again[2048];
-    const view usual = view_default();
+    const view usual = view_make_default();
     write_text(&usual, unchanged);
     for (size_t i = 0; view_option_at(i); i++) {
         const char *name = view_option_at(i)->name;
@@ -163,7 +163,7 @@ static void missing_option_has_its_default(void **state)
     view read;
     uint64_t every;
     octreel_error error = {""};
-    view expected = view_default();
+    view expected = view_make_default();
     expected.width = 160;
     expected.height = 90;
     expected.camera = CAMERA_TOP;

@@ -145,13 +145,13 @@ static session_stream_state read_stream(const char *path, size_t *count, octreel
     const int file = open(path, O_RDONLY);
     session_stream_tick tick;
     session_stream *s = session_stream_open(file, "s.json", NULL, NULL);
-    session_stream_state state = s ? session_stream_begin(s, NULL, error) : SESSION_STREAM_BROKEN;
+    session_stream_state state = s ? session_stream_read_start(s, NULL, error) : SESSION_STREAM_BROKEN;
     *count = 0;
     if (!s)
         strcpy(error->text, "out of memory");
     else if (state == SESSION_STREAM_TICK)
-        for (*count = session_stream_start(s)->body_count; state == SESSION_STREAM_TICK; ++*count)
-            state = session_stream_next(s, &tick, error);
+        for (*count = session_stream_first_session(s)->body_count; state == SESSION_STREAM_TICK; ++*count)
+            state = session_stream_read_tick(s, &tick, error);
     if (s)
         session_stream_close(s);
     close(file);

@@ -116,7 +116,7 @@ static void copy_ignores_points_without_has_points(void **state)
     const octree_foreign_tree tree = {.tick = 4, .nodes = &node, .node_count = 1};
     octree_foreign_tree copy;
     assert_int_equal(octree_foreign_check(&tree, NULL), OCTREE_OK);
-    assert_true(foreign_tree_copy(&tree, &copy));
+    assert_true(foreign_tree_duplicate(&tree, &copy));
     assert_true(copy.tick == 4 && copy.node_count == 1 && copy.nodes[0].points.count == 0);
     foreign_tree_release(&copy);
 }

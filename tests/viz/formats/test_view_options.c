@@ -24,11 +24,11 @@ static void every_row_is_complete_and_found_by_its_name(void **state)
         const view_option *option = view_option_at(i);
         assert_non_null(option->name);
         assert_true(!option->member.name || (option->member.codec->read && option->member.codec->write));
-        assert_ptr_equal(view_option_named(option->name), option);
+        assert_ptr_equal(view_find_option(option->name), option);
         assert_non_null(option->help);
         assert_non_null(option->parse);
     }
-    assert_null(view_option_named("camera-at"));
+    assert_null(view_find_option("camera-at"));
 }
 
 /* The help describes the default in words; `standard` in the row is its value. */
@@ -51,7 +51,7 @@ static void help_names_the_default_of_every_row(void **state)
 static void every_default_is_a_value_of_its_option(void **state)
 {
     (void)state;
-    const view usual = view_default();
+    const view usual = view_make_default();
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
         view v = usual;
@@ -70,7 +70,7 @@ static void every_choice_is_read_by_its_name(void **state)
     (void)state;
     for (size_t i = 0; view_option_at(i); i++) {
         const view_option *option = view_option_at(i);
-        view v = view_default();
+        view v = view_make_default();
         if (!option->member.names || strcmp(option->name, "layers") == 0)
             continue;
         const int *chosen = (const int *)((const char *)&v + option->member.offset);
@@ -117,8 +117,8 @@ static void values_out_of_range_are_refused(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        view v = view_default();
-        assert_false(parses(view_option_named(rows[i][0]), rows[i][1], &v, rows[i][2]));
+        view v = view_make_default();
+        assert_false(parses(view_find_option(rows[i][0]), rows[i][1], &v, rows[i][2]));
     }
 }
 
@@ -129,8 +129,8 @@ static void limits_of_each_range_are_accepted(void **state)
                                           {"depths", "21"},    {"depths", "4:4"},    {"size", "1x16384"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        view v = view_default();
-        if (!parses(view_option_named(rows[i][0]), rows[i][1], &v, ""))
+        view v = view_make_default();
+        if (!parses(view_find_option(rows[i][0]), rows[i][1], &v, ""))
             fail_msg("--%s %s is refused", rows[i][0], rows[i][1]);
     }
 }

@@ -192,7 +192,7 @@ static void every_sentence_of_the_validator_is_shown_whole(void **state)
     octree_game *game = start_game(&session);
     scene s = {0};
     for (size_t i = 0; i < sizeof sentences / sizeof sentences[0]; i++) {
-        const view v = view_default();
+        const view v = view_make_default();
         const layer_source in = {.view = &v,
                                  .tree = octree_game_tree(game),
                                  .world = session.tree.world,

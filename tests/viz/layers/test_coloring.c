@@ -58,7 +58,7 @@ static void node_colour_shows_depth_or_occupancy_or_nothing(void **state)
     brute_sample(&points, OCTREE_SAMPLE_CLUSTERED, 2, &world, 700);
     octree *tree = brute_tree(&points, world, CAPACITY, 21);
     for (int coloring = 0; coloring < COLORING_COUNT; coloring++) {
-        view v = view_default();
+        view v = view_make_default();
         scene s = {0};
         uint32_t used = 0;
         v.coloring = (view_coloring)coloring;

@@ -196,7 +196,7 @@ static void labels_are_off_by_default(void **state)
     build_tree(&s, &v, tree, "none");
     assert_int_equal(s.tally.labels, 0);
     assert_false(has_text(&s, "root"));
-    v = view_default();
+    v = view_make_default();
     build_tree(&s, &v, tree, "none");
     assert_false(has_text(&s, "root"));
     scene_release(&s);

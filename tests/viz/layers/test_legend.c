@@ -151,7 +151,7 @@ static void legend_lists_queries_of_every_tick_but_no_later_ones(void **state)
 {
     (void)state;
     static const theme_role roles[OCTREE_QUERY_KINDS] = {ROLE_RANGE, ROLE_NEAREST, ROLE_KNEAREST, ROLE_RADIUS};
-    const view v = view_default();
+    const view v = view_make_default();
     scene s = {0};
     for (int kind = -1; kind < OCTREE_QUERY_KINDS; kind++) {
         const octree_query asked[] = {
@@ -174,7 +174,7 @@ static void legend_lists_queries_of_every_tick_but_no_later_ones(void **state)
 static void legend_without_a_player_lists_queries_asked_so_far(void **state)
 {
     (void)state;
-    const view v = view_default();
+    const view v = view_make_default();
     const octree_query late = {.tick = 2, .kind = OCTREE_QUERY_RADIUS, .target = {1, 1, 1}, .radius = 1};
     for (octree_player_kind kind = OCTREE_PLAYER_BODY; kind <= OCTREE_PLAYER_NONE; kind++) {
         octree_session session = small_session(NULL, 0);
@@ -210,7 +210,7 @@ static void legend_lists_the_elements_of_the_diagram(void **state)
     all.count = 40;
     octree *small = brute_tree(&all, world, 4, OCTREE_MAX_DEPTH);
     for (int i = 0; i < 16; i++) {
-        view v = view_default();
+        view v = view_make_default();
         scene s = {0};
         v.diagram = i & 1 ? DIAGRAM_ONLY : DIAGRAM_BESIDE;
         v.filter.leaves = i & 2;

@@ -22,7 +22,7 @@ static painted paint_points(view_point_color color, const point_values *values)
 {
     const octree_box world = cube(-987, 1003);
     brute points = {0};
-    painted p = {.view = view_default()};
+    painted p = {.view = view_make_default()};
     brute_sample(&points, OCTREE_SAMPLE_UNIFORM, 2, &world, POINTS);
     p.tree = brute_tree(&points, world, 16, 21);
     p.view.point_color = color;
@@ -105,7 +105,7 @@ static void numbers_stand_under_the_middle_of_their_marks(void **state)
 static void leaves_beside_each_other_are_dark_and_light(void **state)
 {
     (void)state;
-    view v = view_default();
+    view v = view_make_default();
     octree_def def = octree_def_default();
     octree *tree;
     scene s = {0};

@@ -266,7 +266,7 @@ static void budget_thins_a_hundred_thousand_arrows_and_reports_it(void **state)
     }
     octree_game *game = start_game(&session);
     scene last = {0};
-    for (uint64_t budget = view_default().budget; budget > 20000; budget /= 3) {
+    for (uint64_t budget = view_make_default().budget; budget > 20000; budget /= 3) {
         view v = view_of(1280, 1440, CAMERA_ISO, VIEW_DEFAULT_LAYERS & ~(1u << LAYER_NODES | 1u << LAYER_POINTS));
         scene s = {0};
         char text[SCENE_TEXT];

@@ -27,7 +27,7 @@ static film_summary film_default(const char *folder)
     return assert_filmed(&session, &options);
 }
 
-static void frame_name(char text[32], uint64_t tick)
+static void frame_print_name(char text[32], uint64_t tick)
 {
     snprintf(text, 32, "frame_%06u.png", (unsigned)tick);
 }
@@ -45,7 +45,7 @@ static void default_session_makes_253_whole_frames_and_nothing_else(void **state
     assert_int_equal(names.count, DEFAULT_FRAMES + 5);
     for (size_t i = 0; i < names.count; i++) {
         char expected[32];
-        frame_name(expected, i);
+        frame_print_name(expected, i);
         assert_string_equal(names.names[i], i < DEFAULT_FRAMES ? expected : others[i - DEFAULT_FRAMES]);
     }
     listing_release(&names);
@@ -71,7 +71,7 @@ static void assert_frame_traced(const char *line, size_t number, void *context)
     const traced *t = context;
     char name[32], text[64], session[DIGEST_TEXT], pixels[IMAGE_DIGEST_TEXT];
     json_t *tick = json_read(line);
-    frame_name(name, number);
+    frame_print_name(name, number);
     assert_string_equal(json_string_value(json_member(tick, "frame")), name);
     const place path = place_below(t->folder, name);
     image frame = assert_whole_frame(path.path, SMALL_WIDTH, SMALL_HEIGHT);
@@ -154,7 +154,7 @@ static void assert_sixtieth(const char *line, size_t number, void *context)
     json_t *tick = json_read(line);
     char name[32];
     (void)context;
-    frame_name(name, number);
+    frame_print_name(name, number);
     if (number % 60 == 0)
         assert_string_equal(json_string_value(json_member(tick, "frame")), name);
     else
@@ -176,7 +176,7 @@ static void every_option_draws_the_same_frames_of_fewer_ticks(void **state)
     assert_replayed(part.path, &session);
     for (uint64_t tick = 0; tick < DEFAULT_TICKS; tick++) {
         char name[32];
-        frame_name(name, tick);
+        frame_print_name(name, tick);
         assert_int_equal(file_exists(place_below(part.path, name).path), tick % 60 == 0);
         if (tick % 60 != 0)
             remove(place_below(whole.path, name).path);

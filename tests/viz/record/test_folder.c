@@ -16,7 +16,7 @@ enum { NOBODY = 65534 };
 static void assert_prepared(const char *folder)
 {
     octreel_error error = {""};
-    if (!folder_prepare(folder, &error))
+    if (!folder_create_for_recording(folder, &error))
         fail_msg("%s", error.text);
 }
 
@@ -24,7 +24,7 @@ static void assert_prepared(const char *folder)
 static void assert_unprepared(const char *folder, const char *reason)
 {
     octreel_error error = {""};
-    assert_false(folder_prepare(folder, &error));
+    assert_false(folder_create_for_recording(folder, &error));
     if (strstr(error.text, folder) == NULL || strstr(error.text, reason) == NULL)
         fail_msg("\"%s\" does not contain both %s and \"%s\"", error.text, folder, reason);
 }
@@ -99,7 +99,7 @@ static void file_with_the_name_of_the_folder_is_refused(void **state)
     file_write_text(file.path, "mine");
     assert_unprepared(file.path, "cannot create the folder");
     octreel_error error = {""};
-    assert_false(folder_prepare(place_below(file.path, "x/y").path, &error));
+    assert_false(folder_create_for_recording(place_below(file.path, "x/y").path, &error));
     assert_non_null(strstr(error.text, file.path));
     char *text = file_read(file.path, NULL);
     assert_string_equal(text, "mine");
@@ -110,7 +110,7 @@ static void empty_name_and_folder_that_cannot_be_made_are_refused(void **state)
 {
     octreel_error error = {""};
     (void)state;
-    assert_false(folder_prepare("", &error));
+    assert_false(folder_create_for_recording("", &error));
     assert_non_null(strstr(error.text, "empty"));
     assert_unprepared("/proc/no_such_folder", "cannot create the folder");
 }
@@ -126,7 +126,7 @@ static void folder_without_permission_is_refused_with_the_reason(void **state)
     if (root && seteuid(NOBODY) != 0)
         skip(); /* root can write everything, and this container has no other user */
     octreel_error error = {""};
-    const bool prepared = folder_prepare(film.path, &error);
+    const bool prepared = folder_create_for_recording(film.path, &error);
     if (root)
         assert_int_equal(seteuid(0), 0);
     assert_false(prepared);
@@ -148,7 +148,7 @@ static void reason_is_not_cut_after_a_long_path(void **state)
     const place folder = place_in(*state, name);
     assert_prepared(folder.path);
     file_write_text(place_below(folder.path, "ticks.jsonl").path, "");
-    assert_false(folder_prepare(folder.path, &error));
+    assert_false(folder_create_for_recording(folder.path, &error));
     if (strstr(error.text, "already holds ticks.jsonl") == NULL)
         fail_msg("\"%s\" has no reason", error.text);
 }
@@ -156,7 +156,7 @@ static void reason_is_not_cut_after_a_long_path(void **state)
 static void assert_written(const char *folder, const char *name, const char *text)
 {
     octreel_error error = {""};
-    if (!folder_write(folder, name, text, strlen(text), &error))
+    if (!folder_write_file(folder, name, text, strlen(text), &error))
         fail_msg("%s", error.text);
     size_t size;
     char *back = file_read(place_below(folder, name).path, &size);
@@ -181,7 +181,7 @@ static void unwritable_file_leaves_the_old_file_and_no_part(void **state)
     octreel_error error = {""};
     assert_written(folder->name, "x.json", "mine");
     limit_file_size(3);
-    assert_false(folder_write(folder->name, "x.json", "second", 6, &error));
+    assert_false(folder_write_file(folder->name, "x.json", "second", 6, &error));
     limit_file_size(SIZE_MAX);
     assert_non_null(strstr(error.text, "x.json"));
     assert_non_null(strstr(error.text, "File too large"));
@@ -195,7 +195,7 @@ static void file_without_its_folder_is_an_error(void **state)
 {
     octreel_error error = {""};
     const place nowhere = place_in(*state, "nowhere");
-    assert_false(folder_write(nowhere.path, "x.json", "a", 1, &error));
+    assert_false(folder_write_file(nowhere.path, "x.json", "a", 1, &error));
     assert_non_null(strstr(error.text, nowhere.path));
     assert_non_null(strstr(error.text, "No such file or directory"));
 }
@@ -205,7 +205,7 @@ static void folder_with_the_name_of_a_file_is_an_error_and_leaves_no_part(void *
     const temp_folder *folder = *state;
     octreel_error error = {""};
     assert_int_equal(mkdir(place_in(folder, "x.json").path, 0777), 0);
-    assert_false(folder_write(folder->name, "x.json", "a", 1, &error));
+    assert_false(folder_write_file(folder->name, "x.json", "a", 1, &error));
     assert_non_null(strstr(error.text, "x.json"));
     assert_int_equal(temp_folder_count(folder), 1);
 }

@@ -24,7 +24,7 @@ static void check_scene(replay *r, const place *folder, uint64_t tick)
         fail_msg("%s", error.text);
     assert_int_equal(octree_game_tick(r->playback.game)->number, tick);
     frame_origin origin = {.tick = tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
-    if (!frame_check(folder->path, &origin, &error))
+    if (!frame_check_tick(folder->path, &origin, &error))
         fail_msg("%s", error.text);
 }
 

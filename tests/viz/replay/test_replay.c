@@ -118,7 +118,7 @@ static row digest_tick(const char *session, const octree_game *game, scene *s)
         digests[i] = OCTREE_DIGEST_START;
     digests[LINE] = digest_line(game);
     for (int i = 0; i < CAMERA_COUNT; i++) {
-        view v = view_default();
+        view v = view_make_default();
         v.camera = (view_camera)i;
         assert_true(tick_scene_build(s, &v, game, NULL, NULL));
         for (int column = VIEW; column < COLUMNS; column++)

@@ -127,7 +127,7 @@ static bool has_count(const scene *s, const char *noun, size_t count)
  * numbers. Returns the number of nodes. */
 static size_t check_filter(const known_tree *t, const view_filter *f)
 {
-    view v = view_default();
+    view v = view_make_default();
     scene s = {0};
     size_t nodes = 0, points = 0;
     v.filter = *f;
@@ -227,7 +227,7 @@ static void an_empty_tree_shows_its_root_if_the_filter_reaches_it(void **state)
 {
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
-    view v = view_default();
+    view v = view_make_default();
     scene s = {0};
     v.filter = (view_filter){.slice = 'x', .slice_at = 1, .leaves = true};
     build_tree(&s, &v, tree, "empty");
@@ -245,7 +245,7 @@ static void the_slice_and_the_region_are_outlined(void **state)
 {
     (void)state;
     known_tree t = known(OCTREE_SAMPLE_UNIFORM, 10, 4, 21);
-    view v = view_default();
+    view v = view_make_default();
     scene s = {0};
     v.filter = (view_filter){.slice = 'y', .slice_at = 7, .by_region = true, .region = cube(-5, 50)};
     build_tree(&s, &v, t.tree, "outlines");

@@ -12,7 +12,7 @@
 
 static view painting_view(void)
 {
-    view v = view_default();
+    view v = view_make_default();
     v.point_color = POINTS_BY_HEIGHT;
     return v;
 }
@@ -123,7 +123,7 @@ static void the_range_of_many_points_does_not_depend_on_the_tree(void **state)
 static void the_scale_is_computed_once_and_only_for_painted_points(void **state)
 {
     (void)state;
-    view plain = view_default(), given = painting_view();
+    view plain = view_make_default(), given = painting_view();
     octree *tree = make_plane(1);
     given.point_scale.given = true;
     assert_true(point_scale_fit(&plain, tree, NULL) && point_scale_fit(&given, tree, NULL));

@@ -327,7 +327,7 @@ static void elements_with_infinite_positions_are_counted_and_left_out(void **sta
 {
     (void)state;
     static const double wrong[] = {NAN, INFINITY, -INFINITY};
-    scene s = {.view = view_default()};
+    scene s = {.view = view_make_default()};
     size_t refused = 0;
     for (size_t w = 0; w < 3; w++) {
         for (int i = 0; i < 6; i++) {

@@ -144,7 +144,7 @@ static void a_box_is_not_a_segment_between_its_corners(void **state)
 {
     (void)state;
     const octree_box box = cube(-1, 1);
-    const view v = view_default();
+    const view v = view_make_default();
     scene a = empty_scene(&v, &box), b = empty_scene(&v, &box);
     scene_add_box(&a, (scene_box){.id = 1, .box = box});
     scene_add_segment(&b, (scene_segment){.id = 1, .ends = {{-1, -1, -1}, {1, 1, 1}}});

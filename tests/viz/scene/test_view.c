@@ -74,7 +74,7 @@ static void unknown_layers_are_reported_and_change_nothing(void **state)
 static void the_default_view_shows_all_but_heat_and_has_even_sides(void **state)
 {
     (void)state;
-    const view v = view_default();
+    const view v = view_make_default();
     assert_true(v.width == 1280 && v.height == 720);
     assert_int_equal(v.camera, CAMERA_ISO);
     for (int i = 0; i < LAYER_COUNT; i++)
@@ -91,7 +91,7 @@ static void unit_is_a_whole_number_of_pixels_and_grows_with_the_picture(void **s
         assert_int_equal(view_unit(&slit), 1);
         last = view_unit(&wide);
     }
-    const view usual = view_default(), film = view_of(3840, 2160, CAMERA_ISO, 0);
+    const view usual = view_make_default(), film = view_of(3840, 2160, CAMERA_ISO, 0);
     assert_int_equal(view_unit(&usual), 2);
     assert_int_equal(view_unit(&film), 6);
 }
