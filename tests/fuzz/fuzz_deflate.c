@@ -63,7 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (size_t y = 0; y < rows; y++) {
         expected[y * (row + 1)] = 0;
         memcpy(expected + y * (row + 1) + 1, pixels + y * row, row);
-        deflater_add(d, pixels + y * row);
+        deflater_add_row(d, pixels + y * row);
     }
     deflater_finish(d);
     deflater_close(d);

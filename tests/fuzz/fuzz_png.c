@@ -124,12 +124,12 @@ static const char *save(const file *f)
 static bool read_rows(image_source *source, int rows, const image *whole)
 {
     int y = 0;
-    for (image band; image_source_next(source, rows, &band); y += band.height) {
+    for (image band; image_source_read_band(source, rows, &band); y += band.height) {
         const size_t size = (size_t)band.width * image_pixel_size(&band);
         check(!whole->pixels || image_pixel_size(&band) == image_pixel_size(whole));
         check(!whole->pixels || memcmp(band.pixels, whole->pixels + (size_t)y * size, size * (size_t)band.height) == 0);
     }
-    return !image_source_failed(source) && y == image_source_image(source)->height;
+    return !image_source_has_failed(source) && y == image_source_description(source)->height;
 }
 
 /* Reading row by row must succeed or fail exactly like reading the whole file. */
@@ -156,7 +156,7 @@ static void check_image(const image *read, size_t file_size)
 {
     const size_t pixels = (size_t)read->width * (size_t)read->height;
     check(read->width >= 1 && read->width <= IMAGE_MAX_SIDE && read->height >= 1 && read->height <= IMAGE_MAX_SIDE);
-    check(read->channels == 3 || (read->channels == 1 && !read->wide && image_indices_are_valid(read)));
+    check(read->channels == 3 || (read->channels == 1 && !read->wide && image_has_valid_indices(read)));
     check(pixels <= 8300 * file_size);
 }
 
@@ -173,7 +173,7 @@ static void check_twin(const image *read)
         }
     }
     const image_difference difference = image_compare(read, &twin);
-    check(read->wide || image_is_same(&difference));
+    check(read->wide || image_has_no_difference(&difference));
     check(read->wide || image_digest(read) == image_digest(&twin));
     image_release(&twin);
 }

@@ -173,7 +173,7 @@ static bool read_acceptance(diff_side *side, char *line, size_t number, octreel_
         return fail_line(side, number, error);
     char *at = line + size;
     const size_t kind = strcspn(at, " ");
-    a.kind = image_digest_kind_find(at, kind);
+    a.kind = image_find_digest_kind(at, kind);
     if (a.kind == IMAGE_DIGEST_KINDS)
         return error_set(error, "%s:%zu: unknown kind of digest \"%.*s\"; a newer octreel may have written it",
                          side->path, number, kind < 40 ? (int)kind : 40, at);

@@ -162,7 +162,7 @@ static bool compare_bytes(diff_pair *pair)
 {
     frame_digest about = {0};
     if (!pair->a->path || !pair->b->path || !have_same_bytes(pair->a->path, pair->b->path) ||
-        !image_png_size(pair->a->path, &about.width, &about.height))
+        !image_read_png_size(pair->a->path, &about.width, &about.height))
         return false; /* equal but damaged files: the PNG reader reports what is wrong */
     pair->about[0] = pair->about[1] = about;
     pair->finding = FOUND_SAME_BYTES;
@@ -192,18 +192,18 @@ static void open_reading(reading *r, const char *path, const diff_options *optio
     r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
     if (!r->source)
         return;
-    const image *about = image_source_image(r->source);
-    r->rows = options->tolerance.antialias ? about->height : image_band_rows(about);
+    const image *about = image_source_description(r->source);
+    r->rows = options->tolerance.antialias ? about->height : image_find_band_height(about);
 }
 
 static bool has_failed(const reading *r)
 {
-    return !r->source || image_source_failed(r->source);
+    return !r->source || image_source_has_failed(r->source);
 }
 
 static bool read_next_rows(reading *r, image *band)
 {
-    return r->source && image_source_next(r->source, r->rows, band);
+    return r->source && image_source_read_band(r->source, r->rows, band);
 }
 
 /* Compare two pictures. Both are read to the end even if their sizes differ, since an error may come late. An error in
@@ -215,30 +215,31 @@ static image_difference compare_rows(reading of[2], const image_tolerance *toler
     image bands[2];
     bool more[2] = {true, true};
     if (opened)
-        c = image_comparison_begin(image_source_image(of[0].source), image_source_image(of[1].source), tolerance);
+        c = image_begin_comparison(image_source_description(of[0].source), image_source_description(of[1].source),
+                                   tolerance);
     while (!has_failed(&of[0]) && (more[0] || more[1])) {
         for (int i = 0; i < 2; i++)
             more[i] = read_next_rows(&of[i], &bands[i]);
         if (opened && c.difference.same_size && more[0] && more[1])
-            image_comparison_add(&c, &bands[0], &bands[1]);
+            image_compare_band(&c, &bands[0], &bands[1]);
     }
-    return image_comparison_end(&c);
+    return image_end_comparison(&c);
 }
 
 static void set_finding(diff_pair *pair, const reading of[2], const image_tolerance *tolerance)
 {
     for (int i = 0; i < 2; i++) {
-        const image *about = image_source_image(of[i].source);
+        const image *about = image_source_description(of[i].source);
         pair->about[i] = (frame_digest){.width = about->width, .height = about->height};
         pair->transparent = pair->transparent || about->transparent;
     }
     pair->other_color_space =
-        image_source_image(of[0].source)->color_space != image_source_image(of[1].source)->color_space;
+        image_source_description(of[0].source)->color_space != image_source_description(of[1].source)->color_space;
     if (!pair->difference.same_size)
         pair->finding = FOUND_SIZE;
-    else if (image_is_same(&pair->difference))
+    else if (image_has_no_difference(&pair->difference))
         pair->finding = FOUND_SAME_PIXELS;
-    else if (image_is_within(&pair->difference, tolerance))
+    else if (image_is_within_tolerance(&pair->difference, tolerance))
         pair->finding = FOUND_WITHIN;
     else
         pair->finding = FOUND_PIXELS;

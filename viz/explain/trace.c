@@ -163,7 +163,7 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
     for (int y = 0; y < frames[0].height; y++)
         for (int x = 0; x < frames[0].width; x++) {
             const image_color a = image_color_at(&frames[0], x, y), b = image_color_at(&frames[1], x, y);
-            if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_ignored(tolerance, frames[0].width, x, y))
+            if ((a.r == b.r && a.g == b.g && a.b == b.b) || image_is_pixel_ignored(tolerance, frames[0].width, x, y))
                 continue;
             const trace_part part = part_at(t, (size_t)x, (size_t)y);
             if (!count_part(t, &part))

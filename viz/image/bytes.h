@@ -7,14 +7,14 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Load eight bytes, little-endian on every machine. Compilers turn it into one load. */
-static inline uint64_t bytes_load(const uint8_t *at)
+/* Load eight bytes as a little-endian word on every machine. Compilers turn this into one load. */
+static inline uint64_t bytes_load_word(const uint8_t *at)
 {
     return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
            (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 | (uint64_t)at[7] << 56;
 }
 
-static inline void bytes_store(uint8_t *to, uint64_t word)
+static inline void bytes_store_word(uint8_t *to, uint64_t word)
 {
     to[0] = (uint8_t)word;
     to[1] = (uint8_t)(word >> 8);
@@ -26,8 +26,8 @@ static inline void bytes_store(uint8_t *to, uint64_t word)
     to[7] = (uint8_t)(word >> 56);
 }
 
-/* The number of zero bytes before the first non-zero byte of a non-zero word. */
-static inline size_t bytes_count_leading_zeros(uint64_t word)
+/* Returns the number of zero bytes at the start of a word that is not zero: its lowest bytes. */
+static inline size_t bytes_count_zeros_at_start(uint64_t word)
 {
 #ifdef __GNUC__
     return (size_t)__builtin_ctzll(word) / 8;
@@ -39,21 +39,21 @@ static inline size_t bytes_count_leading_zeros(uint64_t word)
 #endif
 }
 
-/* A word with the highest bit set in each byte that is zero in `word`. */
-static inline uint64_t bytes_mark_zeros(uint64_t word)
+/* Returns a word with the highest bit set in each byte that is zero in `word`. */
+static inline uint64_t bytes_mark_zero_bytes(uint64_t word)
 {
     const uint64_t low = UINT64_C(0x7f7f7f7f7f7f7f7f);
     return ~(((word & low) + low) | word | low);
 }
 
-/* The length of the common prefix of a and b, at most `size`. */
-static inline size_t bytes_common_prefix(const uint8_t *a, const uint8_t *b, size_t size)
+/* Returns the length of the common prefix of a and b, at most `size`. */
+static inline size_t bytes_common_prefix_length(const uint8_t *a, const uint8_t *b, size_t size)
 {
     size_t at = 0;
     for (; at + 8 <= size; at += 8) {
-        const uint64_t unlike = bytes_load(a + at) ^ bytes_load(b + at);
+        const uint64_t unlike = bytes_load_word(a + at) ^ bytes_load_word(b + at);
         if (unlike != 0)
-            return at + bytes_count_leading_zeros(unlike);
+            return at + bytes_count_zeros_at_start(unlike);
     }
     while (at < size && a[at] == b[at])
         at++;

@@ -9,7 +9,7 @@
  * the next position has a clearly better repeat, one literal is written first (lazy matching, as in zlib).
  *
  * The Adler-32 checksum costs nothing for bytes that equal the row above: both of its sums are linear in the bytes, so
- * only the change from one row to the next is added; see end_row_sums().
+ * only the change from one row to the next is added; see add_row_to_sums().
  *
  * Cost: O(bytes). Result: smaller than zlib level 6 and faster than level 1 on indexed line drawings.
  */
@@ -24,7 +24,7 @@ enum {
     CHUNK = 32 << 10, /* bytes collected before they are encoded: they fit the L1 cache */
     WORD = 8,         /* readable bytes after the window's end; their values do not matter */
 
-    /* Estimated sizes in bits, used to choose among repeats: of a literal, and of a repeat of the pixel before, of the
+    /* Estimated sizes in bits, used to choose among repeats: of a literal, and of a repeat of the last pixel, of the
      * row above, and at any other distance. */
     BYTE_BITS = 3,
     RUN_BITS = 6,
@@ -47,7 +47,7 @@ struct deflater {
     bool above;            /* the row above is near enough to be repeated */
     size_t block;          /* where the current block's bytes begin in the window */
     bool block_whole;      /* all bytes of the current block are still in the window */
-    size_t unsummed;       /* the first byte whose change is not in the sums */
+    size_t unsummed;       /* the first byte whose change is not yet in the sums */
     size_t row;            /* where the row of `unsummed` begins */
     size_t rows_left;      /* the number of rows from that row on, itself included */
     int64_t row_change;    /* sum of (byte - byte above) over the summed part of that row */
@@ -60,11 +60,11 @@ struct deflater {
 
 /* ---- Adler-32 ------------------------------------------------------------------------------------------------ */
 
-/* Both sums of Adler-32 are linear in the bytes, so that a byte equal to the byte above costs nothing. A change c from
- * the byte above, at column x, persists through the remaining m rows (this one included). It adds m * c to the first
- * sum and (m * (m + 1) / 2 * stride - m * x) * c to the second, which weights each byte by its distance from the end.
- */
-static void end_row_sums(deflater *d)
+/* Add the changes of a row to the two sums of Adler-32. Both sums are linear in the bytes, so a byte equal to the byte
+ * above costs nothing. A change c from the byte above, at column x, persists through the remaining m rows (this one
+ * included). It adds m * c to the first sum and (m * (m + 1) / 2 * stride - m * x) * c to the second, which weights
+ * each byte by its distance from the end. */
+static void add_row_to_sums(deflater *d)
 {
     const int64_t m = (int64_t)d->rows_left--, plain = d->row_change % ADLER_BASE;
     const int64_t twice = m * (m + 1) / 2 % ADLER_BASE * (int64_t)d->stride % ADLER_BASE;
@@ -74,7 +74,7 @@ static void end_row_sums(deflater *d)
     d->row += d->stride;
 }
 
-static void add_change(deflater *d, size_t from, size_t end)
+static void add_span_changes(deflater *d, size_t from, size_t end)
 {
     const uint8_t *bytes = d->window + from, *above = bytes - d->stride;
     int32_t plain = 0, by_place = 0;
@@ -87,23 +87,23 @@ static void add_change(deflater *d, size_t from, size_t end)
     d->row_by_column += by_place + (int64_t)(from - d->row) * plain;
 }
 
-/* Sum the changes of all bytes up to `end` that were not skipped as repeats of the row above. */
+/* Sum the changes of all bytes up to `end`, except bytes skipped as repeats of the row above. */
 static void add_changes(deflater *d, size_t end)
 {
     enum { MOST = 256 }; /* the sum of this many products fits 32 bits */
     for (size_t at = d->unsummed, next; at < end; at = next) {
         while (at - d->row >= d->stride)
-            end_row_sums(d);
+            add_row_to_sums(d);
         next = d->row + d->stride < end ? d->row + d->stride : end;
         next = next - at < MOST ? next : at + MOST;
-        add_change(d, at, next);
+        add_span_changes(d, at, next);
     }
     d->unsummed = end;
 }
 
-static uint32_t find_adler32(deflater *d)
+static uint32_t finish_adler32(deflater *d)
 {
-    end_row_sums(d);
+    add_row_to_sums(d);
     const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE; /* the first sum's initial 1, added per byte */
     const int64_t first = (d->sums[0] + 1 + ADLER_BASE) % ADLER_BASE;
     const int64_t second = (d->sums[1] + each + ADLER_BASE) % ADLER_BASE;
@@ -121,11 +121,11 @@ static void end_block(deflater *d, bool last)
 
 static void add_literals(deflater *d, size_t count)
 {
-    deflate_add_bytes(&d->blocks, d->window + d->at, count);
+    deflate_add_literals(&d->blocks, d->window + d->at, count);
     d->at += count;
 }
 
-/* True if the next `size` bytes repeat the pixel before them: the repeat that takes the fewest bits. */
+/* True if the next `size` bytes repeat the pixel before them; such a repeat takes the fewest bits. */
 static inline bool repeats_last_pixel(const deflater *d, size_t size)
 {
     const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;
@@ -145,20 +145,21 @@ static void add_repeat(deflater *d, size_t length, size_t distance)
         deflate_add_repeat(&d->blocks, part, repeats_last_pixel(d, part) ? d->pixel : distance);
         d->at += part;
         length -= part;
-        if (deflate_is_full(&d->blocks))
+        if (deflate_is_block_full(&d->blocks))
             end_block(d, false);
     }
 }
 
-/* The number of literals, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin. */
+/* Returns the number of literals, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin.
+ * */
 static inline size_t count_literals(const deflater *d)
 {
     const uint8_t *at = d->window + d->at;
-    const uint64_t word = bytes_load(at);
-    const uint64_t run = bytes_mark_zeros(word ^ bytes_load(at - d->pixel));
-    const uint64_t above = d->above ? bytes_mark_zeros(word ^ bytes_load(at - d->stride)) : 0;
+    const uint64_t word = bytes_load_word(at);
+    const uint64_t run = bytes_mark_zero_bytes(word ^ bytes_load_word(at - d->pixel));
+    const uint64_t above = d->above ? bytes_mark_zero_bytes(word ^ bytes_load_word(at - d->stride)) : 0;
     const uint64_t three = (run & run >> 8 & run >> 16) | (above & above >> 8 & above >> 16);
-    const size_t count = bytes_count_leading_zeros(three | UINT64_C(0x80) << (8 * DEFLATE_GROUP)),
+    const size_t count = bytes_count_zeros_at_start(three | UINT64_C(0x80) << (8 * DEFLATE_GROUP)),
                  left = d->end - d->at;
     return count < left ? count : left;
 }
@@ -168,17 +169,17 @@ typedef struct repeat {
     int64_t gain; /* estimated bits saved; a repeat with a gain <= 0 is not used */
 } repeat;
 
-static inline repeat repeat_at(const deflater *d, size_t at, size_t distance, int64_t cost)
+static inline repeat measure_repeat(const deflater *d, size_t at, size_t distance, int64_t cost)
 {
     const uint8_t *bytes = d->window + at;
-    const size_t length = bytes_common_prefix(bytes, bytes - distance, d->end - at);
+    const size_t length = bytes_common_prefix_length(bytes, bytes - distance, d->end - at);
     return (repeat){length, distance, (int64_t)length * BYTE_BITS - cost};
 }
 
-/* The last position with the same hash, which becomes `at`. Returns `at` if there is none within reach. */
-static inline size_t find_last_place(deflater *d, size_t at)
+/* Returns the last position with the same hash, and replaces it by `at`. Returns `at` if there is none within reach. */
+static inline size_t find_last_position(deflater *d, size_t at)
 {
-    const uint64_t bytes = bytes_load(d->window + at) << (8 * (WORD - HASHED));
+    const uint64_t bytes = bytes_load_word(d->window + at) << (8 * (WORD - HASHED));
     uint32_t *head = &d->heads[bytes * UINT64_C(0x9e3779b97f4a7c15) >> (64 - HASH_BITS)];
     const size_t place = *head;
     *head = (uint32_t)at;
@@ -190,22 +191,22 @@ static inline repeat find_repeat(deflater *d, size_t at)
 {
     repeat best = {.gain = 0};
     if (d->above)
-        best = repeat_at(d, at, d->stride, ABOVE_BITS);
+        best = measure_repeat(d, at, d->stride, ABOVE_BITS);
     if (best.length >= LONG_REPEAT)
         return best;
-    const repeat run = repeat_at(d, at, d->pixel, RUN_BITS);
+    const repeat run = measure_repeat(d, at, d->pixel, RUN_BITS);
     if (run.gain > best.gain)
         best = run;
     if (d->pixel == 1 || best.length >= LONG_REPEAT)
         return best;
-    const size_t place = find_last_place(d, at);
-    const repeat far = place < at ? repeat_at(d, at, at - place, FAR_BITS) : best;
+    const size_t place = find_last_position(d, at);
+    const repeat far = place < at ? measure_repeat(d, at, at - place, FAR_BITS) : best;
     return far.gain > best.gain ? far : best;
 }
 
-/* Encode the next literals or the next repeat. An index costs few bits as a literal, so that looking for repeats at
- * every index does not pay: those before the next possible repeat are skipped together. */
-static void encode_next(deflater *d)
+/* Encode the next literals or the next repeat. An index costs few bits as a literal, so looking for repeats at every
+ * index does not pay: the literals before the next possible repeat are skipped together. */
+static void encode_next_bytes(deflater *d)
 {
     if (d->pixel == 1) {
         const size_t count = count_literals(d);
@@ -227,11 +228,11 @@ static void encode_next(deflater *d)
         add_literals(d, 1);
 }
 
-static void encode_all(deflater *d)
+static void encode_window(deflater *d)
 {
     while (d->at < d->end) {
-        encode_next(d);
-        if (deflate_is_full(&d->blocks))
+        encode_next_bytes(d);
+        if (deflate_is_block_full(&d->blocks))
             end_block(d, false);
     }
     add_changes(d, d->at);
@@ -239,7 +240,7 @@ static void encode_all(deflater *d)
 
 /* ---- The window ---------------------------------------------------------------------------------------------- */
 
-/* Move the history that is kept to the window's beginning. */
+/* Move the history to the window's beginning. */
 static void slide_window(deflater *d)
 {
     if (d->end <= d->kept)
@@ -247,7 +248,7 @@ static void slide_window(deflater *d)
     const size_t by = d->end - d->kept;
     memmove(d->window, d->window + by, d->kept);
     d->block_whole = d->block_whole && d->block >= by;
-    d->block -= by; /* may wrap around: then only its distance from `at` is used */
+    d->block -= by; /* may wrap around: only its distance from `at` is used then */
     d->row -= by;
     d->at -= by;
     d->unsummed -= by;
@@ -256,10 +257,10 @@ static void slide_window(deflater *d)
         d->heads[i] = d->heads[i] > by ? d->heads[i] - (uint32_t)by : 0;
 }
 
-void deflater_add(deflater *d, const uint8_t *pixels)
+void deflater_add_row(deflater *d, const uint8_t *pixels)
 {
     if (d->end + d->stride > d->room) {
-        encode_all(d);
+        encode_window(d);
         slide_window(d);
     }
     d->window[d->end] = 0;
@@ -267,8 +268,8 @@ void deflater_add(deflater *d, const uint8_t *pixels)
     d->end += d->stride;
     if (d->begun)
         return;
-    add_literals(d, d->pixel); /* the first bytes have nothing before them to repeat */
-    encode_all(d);
+    add_literals(d, d->pixel); /* no pixel precedes the first bytes, so they are literals */
+    encode_window(d);
     d->begun = true;
     d->above = d->stride <= DEFLATE_FARTHEST;
 }
@@ -290,7 +291,7 @@ deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink
     d->room = room;
     d->end = d->at = d->block = d->unsummed = d->row = row_size;
     d->block_whole = true;
-    deflate_blocks_begin(&d->blocks, sink, context);
+    deflate_begin_blocks(&d->blocks, sink, context);
     deflate_write_bytes(&d->blocks, (const uint8_t[]){0x78, 0x01}, 2); /* zlib header: 32 KiB window, fastest level */
     return d;
 }
@@ -304,10 +305,10 @@ void deflater_close(deflater *d)
 
 void deflater_finish(deflater *d)
 {
-    encode_all(d);
+    encode_window(d);
     end_block(d, true);
-    const uint32_t sum = find_adler32(d);
+    const uint32_t sum = finish_adler32(d);
     const uint8_t bytes[] = {(uint8_t)(sum >> 24), (uint8_t)(sum >> 16), (uint8_t)(sum >> 8), (uint8_t)sum};
     deflate_write_bytes(&d->blocks, bytes, sizeof bytes);
-    deflate_flush(&d->blocks);
+    deflate_flush_output(&d->blocks);
 }

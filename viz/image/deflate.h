@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Receives the next bytes of the stream. It may leave by longjmp; the encoder can then only be closed. */
+/* Receives the next bytes of the stream. It may leave by longjmp(); afterwards the encoder can only be closed. */
 typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 
 typedef struct deflater deflater;
@@ -22,9 +22,9 @@ deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink
 void deflater_close(deflater *d); /* null is allowed */
 
 /* Append the next row: PNG's filter byte 0 (no filter) and then row_size - 1 bytes of pixels. */
-void deflater_add(deflater *d, const uint8_t *pixels);
+void deflater_add_row(deflater *d, const uint8_t *pixels);
 
-/* Call after the last row: passes the rest of the stream to the sink. */
+/* Call after the last row to pass the rest of the stream to the sink. */
 void deflater_finish(deflater *d);
 
 #endif

@@ -6,9 +6,10 @@
  * block this file counts the symbols, builds both codes, computes the exact size of the block with these codes, with
  * the fixed codes of the standard, and stored without compression, and writes the smallest.
  *
- * Bits are collected in a 64-bit word and moved to the output in whole bytes (move_whole_bytes()). Literals and repeats
- * take the same path without a branch, because the kind of the next token is unpredictable: list_beginnings() prepares,
- * for each of the 512 token kinds, the bits of the symbol together with the extra bits of a length.
+ * Bits are collected in a 64-bit word and moved to the output in whole bytes (output_whole_bytes()). Literals and
+ * repeats take the same path without a branch, because the kind of the next token is unpredictable:
+ * list_token_prefixes() prepares, for each of the 512 token kinds, the bits of the symbol together with the extra bits
+ * of a length.
  */
 #include "deflate_block.h"
 #include "bytes.h"
@@ -35,7 +36,7 @@ static const uint16_t distance_bases[] = {1,    2,    3,    4,    5,    7,    9,
 static const uint8_t distance_extra[] = {0, 0, 0, 0, 1, 1, 2,  2,  3,  3,  4,  4,  5,  5,  6, 6,
                                          7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13, 0};
 
-void deflate_blocks_begin(deflate_blocks *b, deflate_sink *sink, void *context)
+void deflate_begin_blocks(deflate_blocks *b, deflate_sink *sink, void *context)
 {
     b->sink = sink;
     b->context = context;
@@ -59,7 +60,7 @@ void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance)
 
 /* ---- Bits ---------------------------------------------------------------------------------------------------- */
 
-void deflate_flush(deflate_blocks *b)
+void deflate_flush_output(deflate_blocks *b)
 {
     const size_t size = (size_t)(b->writer.to - b->output);
     b->writer.to = b->output;
@@ -67,25 +68,25 @@ void deflate_flush(deflate_blocks *b)
         b->sink(b->context, b->output, size);
 }
 
-/* Append bits; at most 56 between two calls of move_whole_bytes(). */
-static inline void put_bits(bit_writer *w, uint32_t bits, int count)
+/* Append bits. At most 56 may be appended between two calls of output_whole_bytes(). */
+static inline void append_bits(bit_writer *w, uint32_t bits, int count)
 {
     w->bits |= (uint64_t)bits << w->count;
     w->count += count;
 }
 
 /* Move whole bytes to the output, where deflate_write_block() reserved room for the block. */
-static inline void move_whole_bytes(bit_writer *w)
+static inline void output_whole_bytes(bit_writer *w)
 {
-    bytes_store(w->to, w->bits);
+    bytes_store_word(w->to, w->bits);
     w->to += w->count >> 3;
     w->bits >>= w->count & ~7;
     w->count &= 7;
 }
 
-static inline void put_symbol(bit_writer *w, const huffman_code *code, unsigned symbol)
+static inline void append_symbol(bit_writer *w, const huffman_code *code, unsigned symbol)
 {
-    put_bits(w, code->bits[symbol], code->lengths[symbol]);
+    append_bits(w, code->bits[symbol], code->lengths[symbol]);
 }
 
 void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
@@ -102,7 +103,7 @@ void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
         bytes += part;
         size -= part;
         if (part == room)
-            deflate_flush(b);
+            deflate_flush_output(b);
     }
 }
 
@@ -119,14 +120,14 @@ typedef struct header {
 
 static const uint8_t extra_of_run[] = {2, 3, 7}; /* number of extra bits of the precode symbols 16 to 18 */
 
-static void add_run(header *h, unsigned symbol, size_t extra)
+static void append_length_symbol(header *h, unsigned symbol, size_t extra)
 {
     h->symbols[h->count] = (uint8_t)symbol;
     h->extra[h->count++] = (uint8_t)extra;
     h->counts[symbol]++;
 }
 
-static void add_runs(header *h, const uint8_t *lengths, size_t count)
+static void append_code_lengths(header *h, const uint8_t *lengths, size_t count)
 {
     for (size_t at = 0, end; at < count; at = end) {
         const uint8_t length = lengths[at];
@@ -135,26 +136,26 @@ static void add_runs(header *h, const uint8_t *lengths, size_t count)
             end++;
         size_t left = end - at;
         if (length != 0) {
-            add_run(h, length, 0);
+            append_length_symbol(h, length, 0);
             left--;
         }
         const size_t most = length ? 6 : 138;
         for (; left >= 3; left -= left < most ? left : most) {
             const size_t part = left < most ? left : most;
             if (length)
-                add_run(h, 16, part - 3);
+                append_length_symbol(h, 16, part - 3);
             else
-                add_run(h, part < 11 ? 17 : 18, part < 11 ? part - 3 : part - 11);
+                append_length_symbol(h, part < 11 ? 17 : 18, part < 11 ? part - 3 : part - 11);
         }
         for (; left > 0; left--)
-            add_run(h, length, 0);
+            append_length_symbol(h, length, 0);
     }
 }
 
 static const uint8_t precode_order[PRECODE_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                        11, 4,  12, 3, 13, 2, 14, 1, 15};
 
-static size_t count_used(const uint8_t *lengths, size_t count, size_t least)
+static size_t count_used_symbols(const uint8_t *lengths, size_t count, size_t least)
 {
     while (count > least && lengths[count - 1] == 0)
         count--;
@@ -166,18 +167,18 @@ static void make_header(header *h, const deflate_blocks *b)
     uint8_t lengths[HEADER_ROOM];
     memset(h->counts, 0, sizeof h->counts);
     h->count = 0;
-    h->literal_count = count_used(b->literals.lengths, DEFLATE_LITERALS - 2, DEFLATE_END + 1);
-    h->distance_count = count_used(b->distances.lengths, DEFLATE_DISTANCES, 1);
+    h->literal_count = count_used_symbols(b->literals.lengths, DEFLATE_LITERALS - 2, DEFLATE_END + 1);
+    h->distance_count = count_used_symbols(b->distances.lengths, DEFLATE_DISTANCES, 1);
     memcpy(lengths, b->literals.lengths, h->literal_count);
     memcpy(lengths + h->literal_count, b->distances.lengths, h->distance_count);
-    add_runs(h, lengths, h->literal_count + h->distance_count);
-    huffman_build(&h->precode, h->counts, PRECODE_SYMBOLS, LONGEST_PRECODE);
+    append_code_lengths(h, lengths, h->literal_count + h->distance_count);
+    huffman_build_code(&h->precode, h->counts, PRECODE_SYMBOLS, LONGEST_PRECODE);
     h->precode_count = PRECODE_SYMBOLS;
     while (h->precode_count > 4 && h->precode.lengths[precode_order[h->precode_count - 1]] == 0)
         h->precode_count--;
 }
 
-static size_t header_bits(const header *h)
+static size_t count_header_bits(const header *h)
 {
     size_t bits = 5 + 5 + 4 + 3 * h->precode_count;
     for (unsigned i = 0; i < PRECODE_SYMBOLS; i++)
@@ -185,28 +186,28 @@ static size_t header_bits(const header *h)
     return bits;
 }
 
-static void put_header(bit_writer *w, const header *h)
+static void append_header(bit_writer *w, const header *h)
 {
-    put_bits(w, (uint32_t)(h->literal_count - DEFLATE_END - 1), 5);
-    put_bits(w, (uint32_t)(h->distance_count - 1), 5);
-    put_bits(w, (uint32_t)(h->precode_count - 4), 4);
+    append_bits(w, (uint32_t)(h->literal_count - DEFLATE_END - 1), 5);
+    append_bits(w, (uint32_t)(h->distance_count - 1), 5);
+    append_bits(w, (uint32_t)(h->precode_count - 4), 4);
     for (size_t i = 0; i < h->precode_count; i++) {
-        move_whole_bytes(w);
-        put_bits(w, h->precode.lengths[precode_order[i]], 3);
+        output_whole_bytes(w);
+        append_bits(w, h->precode.lengths[precode_order[i]], 3);
     }
     for (size_t i = 0; i < h->count; i++) {
         const unsigned symbol = h->symbols[i];
-        move_whole_bytes(w);
-        put_symbol(w, &h->precode, symbol);
+        output_whole_bytes(w);
+        append_symbol(w, &h->precode, symbol);
         if (symbol >= 16)
-            put_bits(w, h->extra[i], extra_of_run[symbol - 16]);
+            append_bits(w, h->extra[i], extra_of_run[symbol - 16]);
     }
-    move_whole_bytes(w);
+    output_whole_bytes(w);
 }
 
 /* ---- Blocks -------------------------------------------------------------------------------------------------- */
 
-static size_t count_bits(const deflate_blocks *b, const uint8_t *literals, const uint8_t *distances)
+static size_t count_token_bits(const deflate_blocks *b, const uint8_t *literals, const uint8_t *distances)
 {
     size_t bits = 0;
     for (size_t i = 0; i < DEFLATE_LITERALS; i++)
@@ -216,7 +217,7 @@ static size_t count_bits(const deflate_blocks *b, const uint8_t *literals, const
     return bits;
 }
 
-static void set_fixed(huffman_code *literals, huffman_code *distances)
+static void set_fixed_lengths(huffman_code *literals, huffman_code *distances)
 {
     for (int i = 0; i < DEFLATE_LITERALS; i++)
         literals->lengths[i] = (uint8_t)(i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8);
@@ -228,19 +229,19 @@ static inline unsigned token_kind(deflate_token token)
     return token % TOKEN_KINDS;
 }
 
-static inline unsigned distance_of(deflate_token token)
+static inline unsigned distance_symbol(deflate_token token)
 {
     return (token >> DISTANCE_AT) % (1 << (DISTANCE_EXTRA_AT - DISTANCE_AT));
 }
 
-static void count_tokens(deflate_blocks *b)
+static void count_symbols(deflate_blocks *b)
 {
     uint32_t kinds[TOKEN_KINDS] = {0};
     memset(b->literal_counts, 0, sizeof b->literal_counts);
     memset(b->distance_counts, 0, sizeof b->distance_counts);
     for (size_t i = 0; i < b->count; i++) {
         kinds[token_kind(b->tokens[i])]++;
-        b->distance_counts[distance_of(b->tokens[i])]++;
+        b->distance_counts[distance_symbol(b->tokens[i])]++;
     }
     memcpy(b->literal_counts, kinds, DEFLATE_REPEAT * sizeof *kinds);
     b->literal_counts[DEFLATE_END] = 1;
@@ -248,14 +249,14 @@ static void count_tokens(deflate_blocks *b)
         b->literal_counts[DEFLATE_END + 1 + b->length_symbols[more]] += kinds[DEFLATE_REPEAT + more];
 }
 
-/* Bits that are written by one put_bits(). */
+/* Bits that are written by one append_bits(). */
 typedef struct bit_string {
     uint32_t bits;
     int32_t count;
 } bit_string;
 
-/* The first bits of each kind of token: the code word of its symbol, then the extra bits of a length. */
-static void list_beginnings(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
+/* List the first bits of each kind of token: the code word of its symbol, then the extra bits of a length. */
+static void list_token_prefixes(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
 {
     const huffman_code *code = &b->literals;
     for (int byte = 0; byte < DEFLATE_REPEAT; byte++)
@@ -268,44 +269,44 @@ static void list_beginnings(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
     }
 }
 
-static void put_tokens(deflate_blocks *b)
+static void append_tokens(deflate_blocks *b)
 {
-    bit_string beginnings[TOKEN_KINDS];
+    bit_string prefixes[TOKEN_KINDS];
     bit_writer w = b->writer; /* a local copy, which the compiler keeps in registers */
-    list_beginnings(beginnings, b);
+    list_token_prefixes(prefixes, b);
     b->distances.lengths[DEFLATE_DISTANCES] = 0;
     b->distances.bits[DEFLATE_DISTANCES] = 0;
     for (size_t i = 0; i < b->count; i++) {
         const deflate_token t = b->tokens[i];
-        const bit_string beginning = beginnings[token_kind(t)];
-        put_bits(&w, beginning.bits, beginning.count);
-        put_symbol(&w, &b->distances, distance_of(t));
-        put_bits(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_of(t)]);
-        move_whole_bytes(&w);
+        const bit_string prefix = prefixes[token_kind(t)];
+        append_bits(&w, prefix.bits, prefix.count);
+        append_symbol(&w, &b->distances, distance_symbol(t));
+        append_bits(&w, t >> DISTANCE_EXTRA_AT, distance_extra[distance_symbol(t)]);
+        output_whole_bytes(&w);
     }
-    put_symbol(&w, &b->literals, DEFLATE_END);
-    move_whole_bytes(&w);
+    append_symbol(&w, &b->literals, DEFLATE_END);
+    output_whole_bytes(&w);
     b->writer = w;
 }
 
 enum { STORED, FIXED, DYNAMIC };
 
-static void write_stored(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
+static void write_stored_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
 {
     const uint8_t sizes[4] = {(uint8_t)size, (uint8_t)(size >> 8), (uint8_t)~size, (uint8_t)(~size >> 8)};
-    put_bits(&b->writer, (uint32_t)(last | STORED << 1), 3);
-    move_whole_bytes(&b->writer);
+    append_bits(&b->writer, (uint32_t)(last | STORED << 1), 3);
+    output_whole_bytes(&b->writer);
     deflate_write_bytes(b, sizes, sizeof sizes);
     deflate_write_bytes(b, bytes, size);
 }
 
 /* `h`: the header of the block's own codes; null for the fixed codes. */
-static void write_coded(deflate_blocks *b, const header *h, bool last)
+static void write_coded_block(deflate_blocks *b, const header *h, bool last)
 {
-    put_bits(&b->writer, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);
+    append_bits(&b->writer, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);
     if (h)
-        put_header(&b->writer, h);
-    put_tokens(b);
+        append_header(&b->writer, h);
+    append_tokens(b);
 }
 
 void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last)
@@ -313,25 +314,25 @@ void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, b
     header h;
     huffman_code fixed[2];
     if ((size_t)(b->writer.to - b->output) > sizeof b->output - MOST_OF_BLOCK)
-        deflate_flush(b);
-    count_tokens(b);
-    huffman_build(&b->literals, b->literal_counts, DEFLATE_LITERALS - 2, HUFFMAN_LONGEST);
-    huffman_build(&b->distances, b->distance_counts, DEFLATE_DISTANCES, HUFFMAN_LONGEST);
+        deflate_flush_output(b);
+    count_symbols(b);
+    huffman_build_code(&b->literals, b->literal_counts, DEFLATE_LITERALS - 2, HUFFMAN_LONGEST);
+    huffman_build_code(&b->distances, b->distance_counts, DEFLATE_DISTANCES, HUFFMAN_LONGEST);
     make_header(&h, b);
-    set_fixed(&fixed[0], &fixed[1]);
-    const size_t dynamic_bits = header_bits(&h) + count_bits(b, b->literals.lengths, b->distances.lengths);
-    const size_t fixed_bits = count_bits(b, fixed[0].lengths, fixed[1].lengths);
+    set_fixed_lengths(&fixed[0], &fixed[1]);
+    const size_t dynamic_bits = count_header_bits(&h) + count_token_bits(b, b->literals.lengths, b->distances.lengths);
+    const size_t fixed_bits = count_token_bits(b, fixed[0].lengths, fixed[1].lengths);
     const size_t coded_bits = dynamic_bits < fixed_bits ? dynamic_bits : fixed_bits;
     if (bytes && size <= 65535 && 8 * size + 32 + 7 < coded_bits) {
-        write_stored(b, bytes, size, last);
+        write_stored_block(b, bytes, size, last);
     } else if (dynamic_bits < fixed_bits) {
-        write_coded(b, &h, last);
+        write_coded_block(b, &h, last);
     } else {
-        huffman_assign_bits(&fixed[0], DEFLATE_LITERALS);
-        huffman_assign_bits(&fixed[1], DEFLATE_DISTANCES);
+        huffman_assign_code_words(&fixed[0], DEFLATE_LITERALS);
+        huffman_assign_code_words(&fixed[1], DEFLATE_DISTANCES);
         b->literals = fixed[0];
         b->distances = fixed[1];
-        write_coded(b, NULL, last);
+        write_coded_block(b, NULL, last);
     }
     b->count = 0;
 }

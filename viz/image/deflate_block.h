@@ -10,17 +10,17 @@
 enum { HUFFMAN_MOST_SYMBOLS = 288, HUFFMAN_LONGEST = 15 };
 
 typedef struct huffman_code {
-    uint16_t bits[HUFFMAN_MOST_SYMBOLS];   /* code words; the bit that is sent first is the lowest */
-    uint8_t lengths[HUFFMAN_MOST_SYMBOLS]; /* bits of each code word; 0: the symbol has none */
+    uint16_t bits[HUFFMAN_MOST_SYMBOLS];   /* code words; the lowest bit is written first */
+    uint8_t lengths[HUFFMAN_MOST_SYMBOLS]; /* length of each code word in bits; 0: the symbol has none */
 } huffman_code;
 
-/* Build a short code for symbols that occur counts[i] times, without code words longer than `longest` bits; `longest`
- * must be enough for `count` symbols. The code is complete: if fewer than two symbols occur, two get code words all the
- * same. Equal counts give equal codes on every machine. */
-void huffman_build(huffman_code *code, const uint32_t *counts, size_t count, int longest);
+/* Build a Huffman code for symbols that occur counts[i] times, with code words of at most `longest` bits, which must be
+ * enough for `count` symbols. The code is complete: if fewer than two symbols occur, two still get code words. Equal
+ * counts give equal codes on every machine. */
+void huffman_build_code(huffman_code *code, const uint32_t *counts, size_t count, int longest);
 
 /* Compute the canonical code words of symbols whose lengths are set. */
-void huffman_assign_bits(huffman_code *code, size_t count);
+void huffman_assign_code_words(huffman_code *code, size_t count);
 
 /* ---- Blocks: deflate_block.c ---------------------------------------------------------------------------------- */
 
@@ -38,20 +38,20 @@ enum {
 
 /* A literal or a repeat, packed. The lowest 9 bits hold the byte, or DEFLATE_REPEAT + (length - DEFLATE_SHORTEST); the
  * bits from DISTANCE_AT on hold the symbol of the distance, and those from DISTANCE_EXTRA_AT on its extra bits. A
- * literal has the distance symbol DEFLATE_DISTANCES, whose code has length 0: put_tokens() needs no branch. */
+ * literal has the distance symbol DEFLATE_DISTANCES, whose code has length 0: append_tokens() needs no branch. */
 typedef uint32_t deflate_token;
 enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
 
 typedef struct bit_writer {
     uint64_t bits; /* bits not yet in the output, the first one lowest */
     int count;     /* number of these bits; below 8 between tokens */
-    uint8_t *to;   /* where the next byte goes */
+    uint8_t *to;   /* address of the next output byte */
 } bit_writer;
 
 typedef struct deflate_blocks {
     deflate_sink *sink;
     void *context;
-    bit_writer writer;                                                                 /* into `output` */
+    bit_writer writer;                                                                 /* writes into `output` */
     size_t count;                                                                      /* tokens in `tokens` */
     uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1]; /* symbols in the tokens */
     huffman_code literals, distances;
@@ -62,15 +62,15 @@ typedef struct deflate_blocks {
 } deflate_blocks;
 
 /* Initialize `b`, whose memory is all zero. */
-void deflate_blocks_begin(deflate_blocks *b, deflate_sink *sink, void *context);
+void deflate_begin_blocks(deflate_blocks *b, deflate_sink *sink, void *context);
 
-static inline bool deflate_is_full(const deflate_blocks *b)
+static inline bool deflate_is_block_full(const deflate_blocks *b)
 {
     return b->count >= BLOCK_TOKENS;
 }
 
-/* Add `count` literals, at most DEFLATE_GROUP. DEFLATE_GROUP bytes are read in any case. */
-static inline void deflate_add_bytes(deflate_blocks *b, const uint8_t *bytes, size_t count)
+/* Add `count` literals, at most DEFLATE_GROUP. DEFLATE_GROUP bytes are read even if `count` is smaller. */
+static inline void deflate_add_literals(deflate_blocks *b, const uint8_t *bytes, size_t count)
 {
     for (size_t i = 0; i < DEFLATE_GROUP; i++)
         b->tokens[b->count + i] = bytes[i] | (deflate_token)DEFLATE_DISTANCES << DISTANCE_AT;
@@ -79,14 +79,15 @@ static inline void deflate_add_bytes(deflate_blocks *b, const uint8_t *bytes, si
 
 void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance);
 
-/* Write the collected tokens as one block in its shortest form: with a code made for it, with deflate's fixed code, or
- * stored. `bytes` are the `size` bytes that the tokens encode, needed to store them; null if they are gone. */
+/* Write the collected tokens as one block in its shortest form: with its own Huffman codes, with deflate's fixed codes,
+ * or stored. `bytes` are the `size` bytes that the tokens encode, needed to store them; null if they are no longer
+ * available. */
 void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last);
 
-/* Write bytes outside of any block, after padding the stream to a whole byte. */
+/* Pad the stream to a whole byte, and write bytes outside of any block. */
 void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size);
 
 /* Pass the buffered output to the sink. */
-void deflate_flush(deflate_blocks *b);
+void deflate_flush_output(deflate_blocks *b);
 
 #endif

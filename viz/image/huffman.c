@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-/* A sort key holds a count above a symbol: keys sort by count, then by symbol. */
+/* A sort key is a count in the high bits and a symbol in the low ones: keys sort by count, then by symbol. */
 enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
 
 /* Shellsort: short, and faster than qsort() for 288 keys. */
@@ -32,7 +32,7 @@ static void sort_keys(uint32_t *keys, size_t count)
 }
 
 /* List the symbols that occur, rarest first; at least two. Returns their number. */
-static size_t list_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
+static size_t list_used_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
 {
     size_t used = 0;
     for (size_t i = 0; i < count; i++)
@@ -47,7 +47,7 @@ static size_t list_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
 
 /* Replace n >= 2 weights in ascending order by their code lengths, in descending order. Source: Moffat and Katajainen,
  * "In-place calculation of minimum-redundancy codes". */
-static void find_lengths(uint32_t *a, size_t n)
+static void find_code_lengths(uint32_t *a, size_t n)
 {
     a[0] += a[1];
     for (size_t root = 0, leaf = 2, next = 1; next + 1 < n; next++) {
@@ -76,7 +76,7 @@ static void find_lengths(uint32_t *a, size_t n)
 /* Count the code words of each length after limiting them to `longest` bits. `space` is the part of the code space in
  * use, in units of 2^-longest: while it exceeds 1, the longest code word that can grow is split into two, and one of
  * the words of `longest` bits takes the second half. */
-static void limit_lengths(const uint32_t *lengths, size_t count, int longest, uint32_t *of_length)
+static void count_limited_lengths(const uint32_t *lengths, size_t count, int longest, uint32_t *of_length)
 {
     uint32_t space = 0;
     for (size_t i = 0; i < count; i++) {
@@ -94,7 +94,7 @@ static void limit_lengths(const uint32_t *lengths, size_t count, int longest, ui
     }
 }
 
-static uint16_t reversed(uint32_t bits, int count)
+static uint16_t reverse_bits(uint32_t bits, int count)
 {
     uint32_t made = 0;
     for (; count > 0; count--, bits >>= 1)
@@ -104,7 +104,7 @@ static uint16_t reversed(uint32_t bits, int count)
 
 /* The last loop runs from the last symbol to the first: in ascending order, GCC 12 for 64-bit Arm concludes wrongly
  * that this function writes nothing, and drops the call. */
-void huffman_assign_bits(huffman_code *code, size_t count)
+void huffman_assign_code_words(huffman_code *code, size_t count)
 {
     uint32_t of_length[HUFFMAN_LONGEST + 1] = {0}, ends[HUFFMAN_LONGEST + 1] = {0}, first = 0;
     for (size_t i = 0; i < count; i++)
@@ -115,21 +115,21 @@ void huffman_assign_bits(huffman_code *code, size_t count)
         ends[length] = first + of_length[length];
     }
     for (size_t i = count; i-- > 0;)
-        code->bits[i] = reversed(--ends[code->lengths[i]], code->lengths[i]);
+        code->bits[i] = reverse_bits(--ends[code->lengths[i]], code->lengths[i]);
 }
 
-void huffman_build(huffman_code *code, const uint32_t *counts, size_t count, int longest)
+void huffman_build_code(huffman_code *code, const uint32_t *counts, size_t count, int longest)
 {
     uint32_t keys[HUFFMAN_MOST_SYMBOLS], lengths[HUFFMAN_MOST_SYMBOLS], of_length[HUFFMAN_LONGEST + 1] = {0};
-    const size_t used = list_symbols(counts, count, keys);
+    const size_t used = list_used_symbols(counts, count, keys);
     for (size_t i = 0; i < used; i++)
         lengths[i] = keys[i] >> SYMBOL_BITS;
-    find_lengths(lengths, used);
-    limit_lengths(lengths, used, longest, of_length);
+    find_code_lengths(lengths, used);
+    count_limited_lengths(lengths, used, longest, of_length);
     memset(code->lengths, 0, count);
     size_t at = 0;
     for (int length = longest; length > 0; length--)
         for (uint32_t n = of_length[length]; n > 0; n--)
             code->lengths[keys[at++] & SYMBOL_MASK] = (uint8_t)length;
-    huffman_assign_bits(code, count);
+    huffman_assign_code_words(code, count);
 }

@@ -26,7 +26,7 @@ void image_release(image *image)
     memset(image, 0, sizeof *image);
 }
 
-bool image_indices_are_valid(const image *image)
+bool image_has_valid_indices(const image *image)
 {
     const size_t size = (size_t)image->width * (size_t)image->height;
     uint8_t largest = 0;
@@ -35,7 +35,7 @@ bool image_indices_are_valid(const image *image)
     return largest < image->palette.count;
 }
 
-static uint8_t narrow_sample(uint16_t sample)
+static uint8_t round_sample_to_8_bits(uint16_t sample)
 {
     return (uint8_t)((sample + 128u) / 257u);
 }
@@ -49,13 +49,14 @@ image_color image_color_at(const image *image, int x, int y)
         return (image_color){at[0], at[1], at[2]};
     uint16_t samples[3];
     memcpy(samples, at, sizeof samples);
-    return (image_color){narrow_sample(samples[0]), narrow_sample(samples[1]), narrow_sample(samples[2])};
+    return (image_color){round_sample_to_8_bits(samples[0]), round_sample_to_8_bits(samples[1]),
+                         round_sample_to_8_bits(samples[2])};
 }
 
 /* ---- Shrinking ---------------------------------------------------------------------------------------------- */
 
 /* True if all pixels of a square have the same colour of the palette: the common case, which needs no mean. */
-static bool is_flat(const image *of, size_t corner, int side)
+static bool has_one_color(const image *of, size_t corner, int side)
 {
     const uint8_t *at = of->pixels + corner;
     if (*at >= of->palette.count)
@@ -67,7 +68,7 @@ static bool is_flat(const image *of, size_t corner, int side)
     return true;
 }
 
-static image_color sample_at(const image *of, const uint8_t *own, size_t at)
+static image_color pixel_color(const image *of, const uint8_t *own, size_t at)
 {
     const uint8_t index = of->pixels[at];
     if (index < of->palette.count)
@@ -75,14 +76,15 @@ static image_color sample_at(const image *of, const uint8_t *own, size_t at)
     return (image_color){own[3 * at], own[3 * at + 1], own[3 * at + 2]};
 }
 
-/* The mean colour of a square of pixels whose top left pixel is at offset `corner`. */
-static image_color mean_of(const image *of, const uint8_t *own, size_t corner, int side)
+/* Returns the mean colour of a square of pixels whose top left pixel is at offset `corner`. */
+static image_color mean_color(const image *of, const uint8_t *own, size_t corner, int side)
 {
     const unsigned count = (unsigned)(side * side);
-    unsigned sums[3] = {count / 2, count / 2, count / 2}; /* half a unit, so that the division rounds to nearest */
+    unsigned sums[3] = {count / 2, count / 2,
+                        count / 2}; /* half of the divisor, so that the division rounds to nearest */
     for (int y = 0; y < side; y++) {
         for (int x = 0; x < side; x++) {
-            const image_color color = sample_at(of, own, corner + (size_t)y * (size_t)of->width + (size_t)x);
+            const image_color color = pixel_color(of, own, corner + (size_t)y * (size_t)of->width + (size_t)x);
             sums[0] += color.r;
             sums[1] += color.g;
             sums[2] += color.b;
@@ -101,7 +103,7 @@ bool image_shrink(const image *from, const uint8_t *own, int factor, image *smal
         size_t at = (size_t)y * (size_t)factor * (size_t)from->width;
         for (int x = 0; x < small->width; x++, at += (size_t)factor, out += 3) {
             const image_color color =
-                is_flat(from, at, factor) ? sample_at(from, own, at) : mean_of(from, own, at, factor);
+                has_one_color(from, at, factor) ? pixel_color(from, own, at) : mean_color(from, own, at, factor);
             memcpy(out, &color, sizeof color);
         }
     }

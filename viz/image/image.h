@@ -29,10 +29,10 @@ typedef struct image_palette {
 typedef struct image {
     int width, height;
     int channels;          /* 1: indices into the palette; 3: r, g, b */
-    bool wide;             /* samples have 16 bits in this machine's byte order; channels is then 3 */
+    bool wide;             /* samples have 16 bits in the machine's byte order; only if channels is 3 */
     bool transparent;      /* the file has transparent pixels; they were blended with a background */
-    uint64_t color_space;  /* digest of the file's gamma, colour profile and similar chunks, which change no pixel here;
-                              0: the file has none */
+    uint64_t color_space;  /* digest of the file's gamma, colour profile and similar chunks, which are not applied to
+                              pixels; 0: none */
     image_palette palette; /* used if channels is 1 */
     uint8_t *pixels;       /* width * height * image_pixel_size() bytes, owned */
 } image;
@@ -49,11 +49,11 @@ bool image_create(image *image, int width, int height, int channels);
 /* Free the pixels and zero the image; a zeroed image is allowed. */
 void image_release(image *image);
 
-/* The colour of the pixel (x, y), which must be inside the image. Samples of 16 bits are rounded to 8. */
+/* Returns the colour of the pixel (x, y), which must be inside the image. Samples of 16 bits are rounded to 8. */
 image_color image_color_at(const image *image, int x, int y);
 
 /* True if every index of an indexed image is inside its palette. */
-bool image_indices_are_valid(const image *image);
+bool image_has_valid_indices(const image *image);
 
 /* Fill the RGB image `small` from an indexed image whose sides are `factor` (1 to 16) times as long. Each pixel becomes
  * the mean of factor * factor pixels, rounded to nearest. An index beyond the palette takes its colour from `own`,

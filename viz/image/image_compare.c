@@ -18,12 +18,12 @@
 
 static const image_tolerance exact = {.max_pixels = 0};
 
-static int larger(int a, int b)
+static int maximum(int a, int b)
 {
     return a > b ? a : b;
 }
 
-static int smaller(int a, int b)
+static int minimum(int a, int b)
 {
     return a < b ? a : b;
 }
@@ -41,8 +41,8 @@ typedef struct pixel_samples {
     uint16_t of[3];
 } pixel_samples;
 
-/* The largest sample value to which both images are expanded. */
-static int common_range(const image *a, const image *b)
+/* Returns the largest sample value to which the samples of both images are scaled. */
+static int common_sample_range(const image *a, const image *b)
 {
     return a->wide || b->wide ? 65535 : 255;
 }
@@ -70,9 +70,9 @@ static bool samples_equal(const pixel_samples *a, const pixel_samples *b)
     return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
 }
 
-/* The squared distance in units of IMAGE_DELTA_UNIT. The conversion to YIQ is linear, so the difference is converted
- * instead of the colours: equal samples give exactly 0, and nothing cancels. */
-static double delta_square(const pixel_samples *a, const pixel_samples *b, int range)
+/* Returns the squared distance in units of IMAGE_DELTA_UNIT. The conversion to YIQ is linear, so the difference is
+ * converted instead of the colours: equal samples give exactly 0, and no precision is lost by cancellation. */
+static double squared_color_distance(const pixel_samples *a, const pixel_samples *b, int range)
 {
     const double r = a->of[0] - b->of[0], g = a->of[1] - b->of[1], u = a->of[2] - b->of[2];
     const double y = 0.29889531 * r + 0.58662247 * g + 0.11448223 * u;
@@ -101,7 +101,7 @@ typedef struct window {
     int equal_outside; /* 1 at the image's border, else 0 */
 } window;
 
-static window window_at(const image *image, int x, int y)
+static window find_window(const image *image, int x, int y)
 {
     window w = {.x = x, .y = y};
     w.left = x > 0 ? x - 1 : x;
@@ -112,8 +112,8 @@ static window window_at(const image *image, int x, int y)
     return w;
 }
 
-/* Luma in units of 1e-8 of a level: integers, so that comparisons are exact. */
-static int64_t brightness(const image *image, int x, int y)
+/* Returns luma in units of 1e-8 of a level: integers make comparisons exact. */
+static int64_t luma_at(const image *image, int x, int y)
 {
     const image_color color = image_color_at(image, x, y);
     return INT64_C(29889531) * color.r + INT64_C(58662247) * color.g + INT64_C(11448223) * color.b;
@@ -121,7 +121,7 @@ static int64_t brightness(const image *image, int x, int y)
 
 static bool is_in_patch(const image *image, int x, int y)
 {
-    const window w = window_at(image, x, y);
+    const window w = find_window(image, x, y);
     const image_color own = image_color_at(image, x, y);
     int equal = w.equal_outside - 1; /* the loop counts the pixel itself, too */
     for (int j = w.top; j <= w.bottom; j++) {
@@ -143,13 +143,13 @@ typedef struct neighbor {
  * is darker, none is brighter, or PATCH neighbours are as bright as the pixel. */
 static bool find_slope(const image *image, int x, int y, neighbor *darkest, neighbor *brightest)
 {
-    const window w = window_at(image, x, y);
-    const int64_t own = brightness(image, x, y);
+    const window w = find_window(image, x, y);
+    const int64_t own = luma_at(image, x, y);
     int equal = w.equal_outside - 1;
     *darkest = *brightest = (neighbor){x, y, 0};
     for (int i = w.left; i <= w.right; i++) {
         for (int j = w.top; j <= w.bottom; j++) {
-            const neighbor n = {i, j, brightness(image, i, j) - own};
+            const neighbor n = {i, j, luma_at(image, i, j) - own};
             equal += n.brighter == 0;
             if (n.brighter < darkest->brighter)
                 *darkest = n;
@@ -160,7 +160,7 @@ static bool find_slope(const image *image, int x, int y, neighbor *darkest, neig
     return equal < PATCH && darkest->brighter < 0 && brightest->brighter > 0;
 }
 
-static bool is_on_edge(const image *of, const image *other, int x, int y)
+static bool is_on_antialiased_edge(const image *of, const image *other, int x, int y)
 {
     neighbor darkest, brightest;
     return find_slope(of, x, y, &darkest, &brightest) &&
@@ -171,7 +171,7 @@ static bool is_on_edge(const image *of, const image *other, int x, int y)
 /* True if the pixel lies on an anti-aliased edge of either image; both have the same size. Reads 5 x 5 pixels. */
 static bool is_antialiased(const image *a, const image *b, int x, int y)
 {
-    return is_on_edge(a, b, x, y) || is_on_edge(b, a, x, y);
+    return is_on_antialiased_edge(a, b, x, y) || is_on_antialiased_edge(b, a, x, y);
 }
 
 /* ---- Counting ------------------------------------------------------------------------------------------------ */
@@ -183,7 +183,7 @@ typedef struct rows {
 } rows;
 
 /* True if equal bytes mean equal colours. Palettes can be compared as a whole because unused entries are zero. */
-static bool are_stored_alike(const image *a, const image *b)
+static bool have_same_storage(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)
         return false;
@@ -191,19 +191,19 @@ static bool are_stored_alike(const image *a, const image *b)
 }
 
 /* Measure a pair of colours into c->last_square and c->last_channel. */
-static void measure_pair(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
+static void measure_colors(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
     if (memcmp(a, c->last[0], sizeof *a) == 0 && memcmp(b, c->last[1], sizeof *b) == 0)
         return;
     memcpy(c->last[0], a, sizeof *a);
     memcpy(c->last[1], b, sizeof *b);
-    c->last_square = delta_square(a, b, c->difference.channel_range);
+    c->last_square = squared_color_distance(a, b, c->difference.channel_range);
     c->last_channel = 0;
     for (int i = 0; i < 3; i++)
-        c->last_channel = larger(c->last_channel, abs(a->of[i] - b->of[i]));
+        c->last_channel = maximum(c->last_channel, abs(a->of[i] - b->of[i]));
 }
 
-static void add_pixel(image_tally *tally, int x, int y, const image_comparison *c)
+static void add_to_tally(image_tally *tally, int x, int y, const image_comparison *c)
 {
     if (tally->pixels++ == 0) {
         tally->min_x = x;
@@ -214,19 +214,19 @@ static void add_pixel(image_tally *tally, int x, int y, const image_comparison *
         tally->worst_x = x;
         tally->worst_y = y;
     }
-    tally->largest_channel = larger(tally->largest_channel, c->last_channel);
-    tally->min_x = smaller(tally->min_x, x);
-    tally->max_x = larger(tally->max_x, x);
+    tally->largest_channel = maximum(tally->largest_channel, c->last_channel);
+    tally->min_x = minimum(tally->min_x, x);
+    tally->max_x = maximum(tally->max_x, x);
     tally->max_y = y; /* rows come in order */
 }
 
 typedef enum verdict { COUNTED, IGNORED, CLOSE, ANTIALIASED } verdict;
 
-/* Decide whether a differing pixel counts, or why it is forgiven. y is its row within the band, `square` its squared
- * colour distance. */
+/* Decide if a differing pixel counts, or why it is forgiven. `y` is its row in the band, `square` its squared colour
+ * distance. */
 static verdict judge_pixel(const image_tolerance *t, const rows *r, int x, int y, double square)
 {
-    if (image_is_ignored(t, r->a->width, x, r->first + y))
+    if (image_is_pixel_ignored(t, r->a->width, x, r->first + y))
         return IGNORED;
     if (square <= t->max_delta * t->max_delta)
         return CLOSE;
@@ -237,15 +237,15 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
                         const pixel_samples *b)
 {
     image_difference *difference = &c->difference;
-    measure_pair(c, a, b);
+    measure_colors(c, a, b);
     const verdict v = judge_pixel(c->tolerance, r, x, y, c->last_square);
     difference->ignored += v == IGNORED;
     difference->close += v == CLOSE;
     difference->antialiased += v == ANTIALIASED;
     if (v != IGNORED)
-        add_pixel(&difference->unlike, x, r->first + y, c);
+        add_to_tally(&difference->unlike, x, r->first + y, c);
     if (v == COUNTED)
-        add_pixel(&difference->counted, x, r->first + y, c);
+        add_to_tally(&difference->counted, x, r->first + y, c);
 }
 
 /* Count the differing pixels among `count` pixels from (x, y) on. */
@@ -253,47 +253,47 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
 {
     const size_t n = (size_t)y * (size_t)r->a->width + (size_t)x, size = image_pixel_size(r->a);
     const uint8_t *at_a = r->a->pixels + n * size, *at_b = r->b->pixels + n * image_pixel_size(r->b);
-    if (c->stored_alike && memcmp(at_a, at_b, (size_t)count * size) == 0)
+    if (c->same_storage && memcmp(at_a, at_b, (size_t)count * size) == 0)
         return;
     pixel_samples a[SPAN], b[SPAN];
     for (int i = 0, some; i < count; i += some) {
         some = count - i;
-        if (c->stored_alike) {
+        if (c->same_storage) {
             const size_t at = (size_t)i * size;
-            i += (int)(bytes_common_prefix(at_a + at, at_b + at, (size_t)some * size) / size);
+            i += (int)(bytes_common_prefix_length(at_a + at, at_b + at, (size_t)some * size) / size);
             some = i < count;
         }
         read_samples(r->a, n + (size_t)i, some, c->difference.channel_range, a);
         read_samples(r->b, n + (size_t)i, some, c->difference.channel_range, b);
         for (int j = 0; j < some; j++)
-            if (!samples_equal(&a[j], &b[j])) /* a palette may have a colour twice */
+            if (!samples_equal(&a[j], &b[j])) /* a palette may contain a colour twice */
                 count_pixel(c, r, x + i + j, y, &a[j], &b[j]);
     }
 }
 
-image_comparison image_comparison_begin(const image *a, const image *b, const image_tolerance *tolerance)
+image_comparison image_begin_comparison(const image *a, const image *b, const image_tolerance *tolerance)
 {
     static const image_tally none = {.worst_x = -1, .worst_y = -1, .min_x = -1, .min_y = -1, .max_x = -1, .max_y = -1};
     return (image_comparison){
         .tolerance = tolerance,
         .difference = {.same_size = a->width == b->width && a->height == b->height,
-                       .channel_range = common_range(a, b),
+                       .channel_range = common_sample_range(a, b),
                        .unlike = none,
                        .counted = none},
-        .stored_alike = are_stored_alike(a, b),
+        .same_storage = have_same_storage(a, b),
     };
 }
 
-void image_comparison_add(image_comparison *c, const image *a, const image *b)
+void image_compare_band(image_comparison *c, const image *a, const image *b)
 {
     const rows r = {a, b, c->y};
     for (int y = 0; y < a->height; y++)
         for (int x = 0; x < a->width; x += SPAN)
-            count_span(c, &r, x, y, smaller(SPAN, a->width - x));
+            count_span(c, &r, x, y, minimum(SPAN, a->width - x));
     c->y += a->height;
 }
 
-image_difference image_comparison_end(const image_comparison *c)
+image_difference image_end_comparison(const image_comparison *c)
 {
     image_difference difference = c->difference;
     difference.unlike.worst_delta = sqrt(difference.unlike.worst_delta);
@@ -303,10 +303,10 @@ image_difference image_comparison_end(const image_comparison *c)
 
 image_difference image_compare_within(const image *a, const image *b, const image_tolerance *tolerance)
 {
-    image_comparison c = image_comparison_begin(a, b, tolerance);
+    image_comparison c = image_begin_comparison(a, b, tolerance);
     if (c.difference.same_size)
-        image_comparison_add(&c, a, b);
-    return image_comparison_end(&c);
+        image_compare_band(&c, a, b);
+    return image_end_comparison(&c);
 }
 
 image_difference image_compare(const image *a, const image *b)
@@ -316,12 +316,12 @@ image_difference image_compare(const image *a, const image *b)
 
 /* ---- Judging ------------------------------------------------------------------------------------------------- */
 
-bool image_is_same(const image_difference *difference)
+bool image_has_no_difference(const image_difference *difference)
 {
     return difference->same_size && difference->unlike.pixels == 0 && difference->ignored == 0;
 }
 
-bool image_is_within(const image_difference *difference, const image_tolerance *tolerance)
+bool image_is_within_tolerance(const image_difference *difference, const image_tolerance *tolerance)
 {
     return difference->same_size && difference->counted.pixels <= tolerance->max_pixels;
 }
@@ -333,7 +333,7 @@ enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
 
 static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
 
-/* Colours that differ from the greys under colour blindness too; each is brighter than the one before. */
+/* Colours that differ from the greys even under colour blindness, in order of brightness. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
 
 static uint8_t interpolate(int from, int to, int part, int whole)
@@ -341,7 +341,7 @@ static uint8_t interpolate(int from, int to, int part, int whole)
     return (uint8_t)(from + (to - from) * part / whole);
 }
 
-static image_color heat_color(int i)
+static image_color difference_color(int i)
 {
     const int half = HEATS / 2, which = i < half ? 0 : 1, part = i - which * half;
     const image_color *from = &HEAT_COLORS[which], *to = from + 1;
@@ -349,7 +349,7 @@ static image_color heat_color(int i)
                          interpolate(from->b, to->b, part, half)};
 }
 
-image_palette image_difference_palette(void)
+image_palette image_make_difference_palette(void)
 {
     image_palette palette = {.count = 256};
     for (int i = 0; i < GREYS; i++) {
@@ -359,28 +359,28 @@ image_palette image_difference_palette(void)
     palette.colors[FORGIVEN] = FORGIVEN_COLOR;
     palette.colors[OUTSIDE] = OUTSIDE_COLOR;
     for (int i = 0; i < HEATS; i++)
-        palette.colors[HEAT + i] = heat_color(i);
+        palette.colors[HEAT + i] = difference_color(i);
     return palette;
 }
 
 static uint8_t grey_index(const pixel_samples *p, int range)
 {
     const double luma = (77.0 * p->of[0] + 150.0 * p->of[1] + 29.0 * p->of[2]) / (256.0 * range);
-    return (uint8_t)((GREYS - 1) * sqrt(luma)); /* so that dark pictures stay legible */
+    return (uint8_t)((GREYS - 1) * sqrt(luma)); /* the square root keeps dark pictures legible */
 }
 
-static uint8_t unlike_index(const rows *r, const image_tolerance *tolerance, int x, int y, double square)
+static uint8_t difference_index(const rows *r, const image_tolerance *tolerance, int x, int y, double square)
 {
     if (judge_pixel(tolerance, r, x, y, square) != COUNTED)
         return FORGIVEN;
-    /* The square root of the distance: half of the colours are for barely visible differences. */
+    /* With the square root of the distance, half of the colours are for barely visible differences. */
     return (uint8_t)(HEAT + (int)((HEATS - 1) * sqrt(sqrt(square))));
 }
 
-void image_difference_row(const image *a, const image *b, const image_tolerance *tolerance, int y, uint8_t *row)
+void image_draw_difference_row(const image *a, const image *b, const image_tolerance *tolerance, int y, uint8_t *row)
 {
-    const int range = common_range(a, b), longest = larger(a->width, b->width);
-    const int common = y >= a->height || y >= b->height ? 0 : smaller(a->width, b->width);
+    const int range = common_sample_range(a, b), longest = maximum(a->width, b->width);
+    const int common = y >= a->height || y >= b->height ? 0 : minimum(a->width, b->width);
     const rows r = {a, b, 0};
     if (a->width != b->width || a->height != b->height)
         tolerance = &exact;
@@ -389,7 +389,7 @@ void image_difference_row(const image *a, const image *b, const image_tolerance 
         read_samples(a, (size_t)y * (size_t)a->width + (size_t)x, 1, range, &p);
         read_samples(b, (size_t)y * (size_t)b->width + (size_t)x, 1, range, &q);
         row[x] = samples_equal(&p, &q) ? grey_index(&p, range)
-                                       : unlike_index(&r, tolerance, x, y, delta_square(&p, &q, range));
+                                       : difference_index(&r, tolerance, x, y, squared_color_distance(&p, &q, range));
     }
     memset(row + common, OUTSIDE, (size_t)(longest - common));
 }

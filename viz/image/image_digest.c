@@ -36,7 +36,7 @@ const char *image_digest_kind_name(image_digest_kind kind)
     return kind_names[kind];
 }
 
-image_digest_kind image_digest_kind_find(const char *name, size_t length)
+image_digest_kind image_find_digest_kind(const char *name, size_t length)
 {
     int kind = 0;
     while (kind < IMAGE_DIGEST_KINDS && (strlen(kind_names[kind]) != length || memcmp(kind_names[kind], name, length)))
@@ -58,7 +58,7 @@ bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *dig
     const size_t name = strcspn(text, "-");
     const bool bare = text[name] == 0;
     const char *digits = bare ? text : text + name + 1;
-    const image_digest_kind named = bare ? IMAGE_DIGEST_RUNS : image_digest_kind_find(text, name);
+    const image_digest_kind named = bare ? IMAGE_DIGEST_RUNS : image_find_digest_kind(text, name);
     if (named == IMAGE_DIGEST_KINDS || bare != (named == IMAGE_DIGEST_RUNS) ||
         strspn(digits, "0123456789abcdef") != DIGITS || digits[DIGITS] != 0)
         return false;
@@ -72,22 +72,22 @@ bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *dig
 enum { GROUP = 8 };
 
 /* The state of a digest between bands of rows. */
-typedef struct digesting {
+typedef struct digest_state {
     image_digest_kind kind;
     uint64_t digest;
     bool wide;
     uint64_t color;                /* runs: the colour of the current run */
     size_t length;                 /* runs: its length so far */
     uint64_t of_index[GROUP][256]; /* rows: the hash of each index at each place of a group */
-} digesting;
+} digest_state;
 
 static uint64_t pack_color(image_color color)
 {
     return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
 }
 
-/* The colour of a pixel as one word, with 8 or 16 bits a sample. */
-static uint64_t color_word(const image *image, const uint8_t *at)
+/* Returns the colour of a pixel as one word, with 8 or 16 bits a sample. */
+static uint64_t pixel_color_word(const image *image, const uint8_t *at)
 {
     if (image->wide) {
         uint16_t samples[3];
@@ -97,13 +97,13 @@ static uint64_t color_word(const image *image, const uint8_t *at)
     return pack_color(image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]});
 }
 
-/* The end of the run of pixels equal to pixel `start`. A run is where the bytes equal those one pixel earlier. */
-static size_t run_end(const image *image, size_t start, size_t pixel_count)
+/* Returns the end of the run of pixels equal to pixel `start`: up to there, bytes equal the bytes one pixel earlier. */
+static size_t find_run_end(const image *image, size_t start, size_t pixel_count)
 {
     const size_t step = image_pixel_size(image);
     const uint8_t *first = image->pixels + start * step;
     const size_t rest = (pixel_count - start - 1) * step;
-    return start + 1 + bytes_common_prefix(first + step, first, rest) / step;
+    return start + 1 + bytes_common_prefix_length(first + step, first, rest) / step;
 }
 
 static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool wide)
@@ -115,14 +115,14 @@ static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool 
     return octree_digest_word(digest, (uint64_t)length << 24 | color);
 }
 
-/* Runs of different indices with the same colour are joined, and a run may continue in the next band: the digest
+/* Runs of different indices with the same colour are joined, and a run may continue in the next band. So the digest
  * depends neither on the palette nor on the height of bands. */
-static void add_runs(digesting *d, const image *rows)
+static void digest_runs(digest_state *d, const image *rows)
 {
     const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
     for (size_t at = 0, end; at < pixel_count; at = end) {
-        end = run_end(rows, at, pixel_count);
-        const uint64_t next = color_word(rows, rows->pixels + at * image_pixel_size(rows));
+        end = find_run_end(rows, at, pixel_count);
+        const uint64_t next = pixel_color_word(rows, rows->pixels + at * image_pixel_size(rows));
         if (next != d->color) {
             d->digest = digest_run(d->digest, d->length, d->color, d->wide);
             d->color = next;
@@ -134,25 +134,26 @@ static void add_runs(digesting *d, const image *rows)
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* The hash of a colour at one place of a group. */
-static inline uint64_t digest_pixel(size_t place, uint64_t color, bool wide)
+/* Returns the hash of a colour at one place of a group. */
+static inline uint64_t hash_color_at(size_t place, uint64_t color, bool wide)
 {
     return octree_digest_word(~(uint64_t)place, color | (uint64_t)wide << 48);
 }
 
-/* The sum of the pixel hashes of a group of `count` pixels, at most GROUP; the last group of a row may be shorter. */
-static uint64_t digest_group(const digesting *d, const image *rows, const uint8_t *pixels, size_t count)
+/* Returns the sum of the pixel hashes of a group of `count` pixels, at most GROUP; the last group of a row may be
+ * shorter. */
+static uint64_t sum_group_hashes(const digest_state *d, const image *rows, const uint8_t *pixels, size_t count)
 {
     const size_t step = image_pixel_size(rows);
     uint64_t sum = 0;
     for (size_t i = 0; i < count; i++)
         sum += rows->channels == 1 ? d->of_index[i][pixels[i]]
-                                   : digest_pixel(i, color_word(rows, pixels + i * step), rows->wide);
+                                   : hash_color_at(i, pixel_color_word(rows, pixels + i * step), rows->wide);
     return sum;
 }
 
-/* digest_group() for GROUP indices in one word. */
-static inline uint64_t digest_indices(const digesting *d, uint64_t word)
+/* sum_group_hashes() for GROUP indices in one word. */
+static inline uint64_t sum_index_hashes(const digest_state *d, uint64_t word)
 {
     return d->of_index[0][word & 255] + d->of_index[1][word >> 8 & 255] + d->of_index[2][word >> 16 & 255] +
            d->of_index[3][word >> 24 & 255] + d->of_index[4][word >> 32 & 255] + d->of_index[5][word >> 40 & 255] +
@@ -164,26 +165,26 @@ typedef struct row_groups {
     uint64_t sum, of_group[IMAGE_MAX_SIDE / GROUP];
 } row_groups;
 
-static inline void set_group(row_groups *g, size_t group, uint64_t sum)
+static inline void set_group_sum(row_groups *g, size_t group, uint64_t sum)
 {
     const uint64_t digest = octree_digest_word((uint64_t)group, sum);
     g->sum += digest - g->of_group[group];
     g->of_group[group] = digest;
 }
 
-enum { BLOCK = 8 }; /* groups that are compared with the row above together */
+enum { BLOCK = 8 }; /* number of groups that are compared with the row above at a time */
 
 static inline bool block_differs(const uint8_t *row, const uint8_t *above)
 {
     uint64_t differ = 0;
     for (int i = 0; i < BLOCK; i++)
-        differ |= bytes_load(row + GROUP * i) ^ bytes_load(above + GROUP * i);
+        differ |= bytes_load_word(row + GROUP * i) ^ bytes_load_word(above + GROUP * i);
     return differ != 0;
 }
 
 /* List the groups that differ from the row above; returns their number. Whole blocks that are equal are skipped.
  * Within other blocks, groups are listed without a branch, because which of them differ is unpredictable. */
-static size_t list_changes(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
+static size_t list_changed_groups(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
 {
     size_t count = 0;
     for (size_t i = 0; i < groups; i += BLOCK) {
@@ -192,24 +193,25 @@ static size_t list_changes(uint16_t *changed, const uint8_t *row, const uint8_t 
             continue;
         for (size_t k = i; k < end; k++) {
             changed[count] = (uint16_t)k;
-            count += bytes_load(row + GROUP * k) != bytes_load(above + GROUP * k);
+            count += bytes_load_word(row + GROUP * k) != bytes_load_word(above + GROUP * k);
         }
     }
     return count;
 }
 
 /* Update the numbers of the first `groups` groups. `above` is null for the first row. */
-static void add_indices(const digesting *d, row_groups *g, const uint8_t *row, const uint8_t *above, size_t groups)
+static void update_index_groups(const digest_state *d, row_groups *g, const uint8_t *row, const uint8_t *above,
+                                size_t groups)
 {
     uint16_t changed[IMAGE_MAX_SIDE / GROUP];
-    const size_t count = above ? list_changes(changed, row, above, groups) : groups;
+    const size_t count = above ? list_changed_groups(changed, row, above, groups) : groups;
     for (size_t n = 0; n < count; n++) {
         const size_t i = above ? changed[n] : n;
-        set_group(g, i, digest_indices(d, bytes_load(row + GROUP * i)));
+        set_group_sum(g, i, sum_index_hashes(d, bytes_load_word(row + GROUP * i)));
     }
 }
 
-static void add_rows(digesting *d, const image *rows)
+static void digest_rows(digest_state *d, const image *rows)
 {
     const size_t step = image_pixel_size(rows), width = (size_t)rows->width, size = width * step;
     const size_t whole = rows->channels == 1 ? width / GROUP : 0, groups = (width + GROUP - 1) / GROUP;
@@ -218,11 +220,11 @@ static void add_rows(digesting *d, const image *rows)
     memset(g.of_group, 0, groups * sizeof *g.of_group);
     for (int y = 0; y < rows->height; y++) {
         const uint8_t *row = rows->pixels + (size_t)y * size, *above = y > 0 ? row - size : NULL;
-        add_indices(d, &g, row, above, whole);
+        update_index_groups(d, &g, row, above, whole);
         for (size_t i = whole; i < groups; i++) {
             const size_t at = i * GROUP * step, count = width - i * GROUP < GROUP ? width - i * GROUP : GROUP;
             if (!above || memcmp(row + at, above + at, count * step) != 0)
-                set_group(&g, i, digest_group(d, rows, row + at, count));
+                set_group_sum(&g, i, sum_group_hashes(d, rows, row + at, count));
         }
         d->digest = octree_digest_word(d->digest, g.sum);
     }
@@ -230,7 +232,7 @@ static void add_rows(digesting *d, const image *rows)
 
 /* ---- A picture ------------------------------------------------------------------------------------------------ */
 
-static void begin_digest(digesting *d, image_digest_kind kind, const image *about)
+static void begin_digest(digest_state *d, image_digest_kind kind, const image *about)
 {
     d->kind = kind;
     d->digest =
@@ -240,33 +242,33 @@ static void begin_digest(digesting *d, image_digest_kind kind, const image *abou
     d->length = 0;
     for (size_t place = 0; kind == IMAGE_DIGEST_ROWS && about->channels == 1 && place < GROUP; place++)
         for (int i = 0; i < 256; i++)
-            d->of_index[place][i] = digest_pixel(place, pack_color(about->palette.colors[i]), false);
+            d->of_index[place][i] = hash_color_at(place, pack_color(about->palette.colors[i]), false);
 }
 
-static void add_band(digesting *d, const image *rows)
+static void digest_band(digest_state *d, const image *rows)
 {
     if (d->kind == IMAGE_DIGEST_RUNS)
-        add_runs(d, rows);
+        digest_runs(d, rows);
     else
-        add_rows(d, rows);
+        digest_rows(d, rows);
 }
 
-static uint64_t finish_digest(const digesting *d)
+static uint64_t finish_digest(const digest_state *d)
 {
     return d->kind == IMAGE_DIGEST_RUNS ? digest_run(d->digest, d->length, d->color, d->wide) : d->digest;
 }
 
-uint64_t image_digest_by(image_digest_kind kind, const image *image)
+uint64_t image_digest_with(image_digest_kind kind, const image *image)
 {
-    digesting d;
+    digest_state d;
     begin_digest(&d, kind, image);
-    add_band(&d, image);
+    digest_band(&d, image);
     return finish_digest(&d);
 }
 
 uint64_t image_digest(const image *image)
 {
-    return image_digest_by(IMAGE_DIGEST_NEWEST, image);
+    return image_digest_with(IMAGE_DIGEST_NEWEST, image);
 }
 
 bool image_digest_png(image_digest_kind kind, const char *path, image_color background, image *about, uint64_t *digest,
@@ -275,15 +277,15 @@ bool image_digest_png(image_digest_kind kind, const char *path, image_color back
     image_source *source = image_source_open(path, background, false, error);
     if (!source)
         return false;
-    *about = *image_source_image(source);
+    *about = *image_source_description(source);
     about->pixels = NULL;
-    const int rows = image_band_rows(about);
-    digesting d;
+    const int rows = image_find_band_height(about);
+    digest_state d;
     begin_digest(&d, kind, about);
-    for (image band; image_source_next(source, rows, &band);)
-        add_band(&d, &band);
+    for (image band; image_source_read_band(source, rows, &band);)
+        digest_band(&d, &band);
     *digest = finish_digest(&d);
-    const bool done = !image_source_failed(source);
+    const bool done = !image_source_has_failed(source);
     image_source_close(source);
     return done;
 }

@@ -12,7 +12,7 @@
 /* A chunk: 4 bytes for the size of its data, 4 for its name, the data, and a CRC-32 of name and data. */
 enum { NAME = 4, DATA = 8, CRC_SIZE = 4 };
 
-/* The beginning of a file, which holds the chunks before the pixels. */
+/* The beginning of a file: the chunks before the pixels. */
 typedef struct page {
     uint8_t bytes[4096];
     size_t size;
@@ -25,34 +25,34 @@ typedef struct chunk {
 
 static const uint8_t signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
-static uint32_t get_number(const uint8_t *from)
+static uint32_t load_big_endian(const uint8_t *from)
 {
     return (uint32_t)from[0] << 24 | (uint32_t)from[1] << 16 | (uint32_t)from[2] << 8 | from[3];
 }
 
-static void put_number(uint8_t *to, uint32_t value)
+static void store_big_endian(uint8_t *to, uint32_t value)
 {
     for (int i = 0; i < 4; i++)
         to[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-static uint32_t crc_of(const chunk *c)
+static uint32_t compute_crc(const chunk *c)
 {
     return (uint32_t)crc32(0, c->at + NAME, (uInt)(DATA - NAME + c->size));
 }
 
-static bool is_named(const chunk *c, const char *name)
+static bool has_name(const chunk *c, const char *name)
 {
     return memcmp(c->at + NAME, name, DATA - NAME) == 0;
 }
 
-/* Find the chunk at an offset of the page. Returns false if it is cut short or its CRC is wrong. */
-static bool find_chunk(page *p, size_t offset, chunk *c)
+/* Read the chunk at an offset of the page. Returns false if it is cut short or its CRC is wrong. */
+static bool read_chunk(page *p, size_t offset, chunk *c)
 {
     if (offset + DATA + CRC_SIZE > p->size)
         return false;
-    *c = (chunk){p->bytes + offset, get_number(p->bytes + offset)};
-    return c->size <= p->size - offset - DATA - CRC_SIZE && get_number(c->at + DATA + c->size) == crc_of(c);
+    *c = (chunk){p->bytes + offset, load_big_endian(p->bytes + offset)};
+    return c->size <= p->size - offset - DATA - CRC_SIZE && load_big_endian(c->at + DATA + c->size) == compute_crc(c);
 }
 
 /* Read the first page of a file; `file` may be null. Closes the file and returns null if it is not a PNG. */
@@ -73,7 +73,7 @@ static FILE *open_png(const char *path, page *p)
 }
 
 /* Only regular files are opened, because opening a pipe would block. */
-static FILE *open_to_change(const char *path, page *p)
+static FILE *open_png_for_writing(const char *path, page *p)
 {
     struct stat status;
     return read_first_page(stat(path, &status) == 0 && S_ISREG(status.st_mode) ? fopen(path, "r+b") : NULL, p);
@@ -81,7 +81,7 @@ static FILE *open_to_change(const char *path, page *p)
 
 /* ---- Size ---------------------------------------------------------------------------------------------------- */
 
-static bool ends_as_png(FILE *file)
+static bool has_png_end(FILE *file)
 {
     static const uint8_t end[DATA + CRC_SIZE] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     uint8_t last[sizeof end];
@@ -89,19 +89,19 @@ static bool ends_as_png(FILE *file)
            memcmp(last, end, sizeof end) == 0;
 }
 
-bool image_png_size(const char *path, int *width, int *height)
+bool image_read_png_size(const char *path, int *width, int *height)
 {
     page p;
     chunk c;
     FILE *file = open_png(path, &p);
     if (!file)
         return false;
-    const bool found = find_chunk(&p, sizeof signature, &c) && is_named(&c, "IHDR") && c.size == 13;
+    const bool found = read_chunk(&p, sizeof signature, &c) && has_name(&c, "IHDR") && c.size == 13;
     if (found) {
-        *width = (int)get_number(c.at + DATA);
-        *height = (int)get_number(c.at + DATA + 4);
+        *width = (int)load_big_endian(c.at + DATA);
+        *height = (int)load_big_endian(c.at + DATA + 4);
     }
-    const bool whole = found && ends_as_png(file);
+    const bool whole = found && has_png_end(file);
     fclose(file);
     return whole;
 }
@@ -109,11 +109,11 @@ bool image_png_size(const char *path, int *width, int *height)
 /* ---- Texts --------------------------------------------------------------------------------------------------- */
 
 /* Find the text with this keyword and its chunk. Returns null if there is none. */
-static uint8_t *find_text(page *p, const char *keyword, chunk *c)
+static uint8_t *find_text_chunk(page *p, const char *keyword, chunk *c)
 {
-    const size_t key = strlen(keyword) + 1; /* in the file, a zero ends the keyword, too */
-    for (size_t at = sizeof signature; find_chunk(p, at, c) && !is_named(c, "IDAT"); at += DATA + c->size + CRC_SIZE)
-        if (is_named(c, "tEXt") && key <= c->size && memcmp(c->at + DATA, keyword, key) == 0)
+    const size_t key = strlen(keyword) + 1; /* with the zero that ends the keyword in the file */
+    for (size_t at = sizeof signature; read_chunk(p, at, c) && !has_name(c, "IDAT"); at += DATA + c->size + CRC_SIZE)
+        if (has_name(c, "tEXt") && key <= c->size && memcmp(c->at + DATA, keyword, key) == 0)
             return c->at + DATA + key;
     return NULL;
 }
@@ -123,7 +123,7 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
     page p;
     chunk c;
     FILE *file = open_png(path, &p);
-    const uint8_t *found = file ? find_text(&p, keyword, &c) : NULL;
+    const uint8_t *found = file ? find_text_chunk(&p, keyword, &c) : NULL;
     if (found)
         snprintf(text, size, "%.*s", (int)(c.at + DATA + c.size - found), (const char *)found);
     if (file)
@@ -132,15 +132,15 @@ bool image_read_text(const char *path, const char *keyword, char *text, size_t s
 }
 
 /* The text and its CRC are adjacent and within one page of 4096 bytes: one write replaces both atomically. */
-static bool replace_in_page(FILE *file, page *p, const char *keyword, const char *text)
+static bool replace_text_in_page(FILE *file, page *p, const char *keyword, const char *text)
 {
     chunk c;
     const size_t length = strlen(text);
-    uint8_t *found = find_text(p, keyword, &c);
+    uint8_t *found = find_text_chunk(p, keyword, &c);
     if (!found || found + length != c.at + DATA + c.size)
         return false;
     memcpy(found, text, length);
-    put_number(found + length, crc_of(&c));
+    store_big_endian(found + length, compute_crc(&c));
     return fseek(file, (long)(found - p->bytes), SEEK_SET) == 0 &&
            fwrite(found, 1, length + CRC_SIZE, file) == length + CRC_SIZE;
 }
@@ -148,7 +148,7 @@ static bool replace_in_page(FILE *file, page *p, const char *keyword, const char
 bool image_replace_text(const char *path, const char *keyword, const char *text)
 {
     page p;
-    FILE *file = open_to_change(path, &p);
-    const bool replaced = file && replace_in_page(file, &p, keyword, text);
+    FILE *file = open_png_for_writing(path, &p);
+    const bool replaced = file && replace_text_in_page(file, &p, keyword, text);
     return file && fclose(file) == 0 && replaced;
 }

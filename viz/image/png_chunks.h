@@ -7,14 +7,15 @@
 #include <stddef.h>
 
 /* Read the width and height of a file that begins and ends like a PNG. Returns false for any other file. */
-bool image_png_size(const char *path, int *width, int *height);
+bool image_read_png_size(const char *path, int *width, int *height);
 
 /* Copy the text of the first tEXt chunk with this keyword to `text`, truncated to size - 1 characters. Only chunks
  * before the pixels and within the file's first 4096 bytes are searched. Returns false if there is none. */
 bool image_read_text(const char *path, const char *keyword, char *text, size_t size);
 
-/* Overwrite that text with another of the same length. The file stays valid even if the process is killed meanwhile.
- * Returns false if the file has no such text, the lengths differ, or the file cannot be written. */
+/* Overwrite the text that image_read_text() would find with another of the same length. The file stays valid even if
+ * the process is killed meanwhile. Returns false if there is no such text, the lengths differ, or the file cannot be
+ * written. */
 bool image_replace_text(const char *path, const char *keyword, const char *text);
 
 #endif

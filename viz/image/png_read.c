@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Limits on the chunks other than pixels of a hostile file: bytes of one, and their number. */
+/* Limits against hostile files: the bytes of a chunk without pixels, and the number of such chunks. */
 #define LARGEST_CHUNK 8000000
 #define MOST_TEXTS 1000
 
@@ -30,19 +30,19 @@ struct image_source {
     uint64_t file_size;
     image_color background;
     bool whole;                 /* all rows are read at once: requested, or required by the format */
-    png_byte color_type, depth; /* as stored in the file */
+    png_byte color_type, depth; /* bits per sample and colour type in the file */
     size_t samples;             /* per pixel, as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
     int passes;                 /* 7 if the file is interlaced, else 1 */
     image about;                /* the image's description; pixels only if `whole` */
     image *wanted;              /* the rows that decode_band() reads */
     uint8_t *band;              /* pixels of the last band */
-    size_t band_room;           /* bytes that fit `band` */
+    size_t band_room;           /* capacity of `band` in bytes */
     int next_y;                 /* the first row of the next band */
     bool beyond;                /* an index beyond the palette occurred; reported after the last row */
     bool failed;
 };
 
-static bool fail(image_source *s, const char *reason)
+static bool fail_reading(image_source *s, const char *reason)
 {
     s->failed = true;
     return error_set(s->error, "%s: %s", file_display_name(s->path), reason);
@@ -50,7 +50,7 @@ static bool fail(image_source *s, const char *reason)
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
 
-/* A step of reading, which an error of libpng aborts. */
+/* A step of reading; an error of libpng aborts it. */
 typedef void step(image_source *s);
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -66,15 +66,15 @@ static void ignore_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-/* libpng's error handler: keep the reason and jump back to run_step(). */
+/* libpng's error handler: keep the reason and jump back to run_png_step(). */
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
-    fail(png_get_error_ptr(png), message);
+    fail_reading(png_get_error_ptr(png), message);
     png_longjmp(png, 1);
 }
 
 /* Run a step; returns false if libpng fails. No local variable changes between setjmp and longjmp. */
-static bool run_step(image_source *s, step *task)
+static bool run_png_step(image_source *s, step *task)
 {
     if (setjmp(png_jmpbuf(s->png)) != 0)
         return false;
@@ -82,13 +82,13 @@ static bool run_step(image_source *s, step *task)
     return true;
 }
 
-/* Chunks about the meaning of colours: libpng keeps their bytes and applies none of them. */
+/* Chunks that define the meaning of colours: libpng keeps their bytes but does not apply them. */
 static const uint8_t color_chunks[] = "gAMA\0cHRM\0sRGB\0iCCP\0cICP";
 
 /* Strict rules, because a damaged file must not be compared as a picture: wrong CRCs and broken streams are errors. The
  * Adler-32 inside the stream, a fifth of the reading time, is skipped if libpng can do so (Debian 12's can, 13's
  * cannot): the CRCs cover the same bytes. Chunks that affect no pixel are skipped, except color_chunks. */
-static void set_rules(png_structp png, FILE *file)
+static void set_reading_rules(png_structp png, FILE *file)
 {
     png_set_read_fn(png, file, read_bytes);
     png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
@@ -106,7 +106,7 @@ static void set_rules(png_structp png, FILE *file)
 
 /* ---- Before the pixels --------------------------------------------------------------------------------------- */
 
-/* A digest of the color_chunks, independent of their order. */
+/* Returns a digest of the color_chunks, independent of their order. */
 static uint64_t digest_color_chunks(png_structp png, png_infop info)
 {
     png_unknown_chunkp chunks = NULL;
@@ -150,7 +150,7 @@ static void set_conversion(image_source *s)
         png_set_swap(s->png);
 }
 
-/* Refuse impossible sizes before memory is allocated. */
+/* Reject impossible sizes before memory is allocated. */
 static void check_size(const image_source *s)
 {
     const png_uint_32 width = png_get_image_width(s->png, s->info), height = png_get_image_height(s->png, s->info);
@@ -175,7 +175,7 @@ static image_color blend_color(image_color color, image_color ground, unsigned a
 }
 
 /* Fill the palette with the colours of the file's indices or grey levels, blended with the background. */
-static void set_colors(image_source *s)
+static void set_palette(image_source *s)
 {
     image_palette *palette = &s->about.palette;
     png_colorp colors = NULL;
@@ -201,8 +201,8 @@ static void set_colors(image_source *s)
     }
 }
 
-/* Bytes of a row as libpng delivers it; the converted row is never longer. */
-static size_t row_size(const image_source *s)
+/* Returns the bytes of a row as libpng delivers it; the converted row is never longer. */
+static size_t find_row_size(const image_source *s)
 {
     return (size_t)s->about.width * s->samples * (s->depth == 16 ? 2 : 1);
 }
@@ -211,7 +211,7 @@ static void read_description(image_source *s)
 {
     const png_structp png = s->png;
     const png_infop info = s->info;
-    set_rules(png, s->file);
+    set_reading_rules(png, s->file);
     png_set_compression_buffer_size(png, COMPRESSED_BUFFER_SIZE);
     png_read_info(png, info);
     check_size(s);
@@ -222,10 +222,10 @@ static void read_description(image_source *s)
     s->about.width = (int)png_get_image_width(png, info);
     s->about.height = (int)png_get_image_height(png, info);
     s->about.channels = s->samples == 1 ? 1 : 3;
-    if (png_get_rowbytes(png, info) != row_size(s))
+    if (png_get_rowbytes(png, info) != find_row_size(s))
         png_error(png, "libpng cannot convert the pixels to whole samples");
     if (s->samples == 1)
-        set_colors(s);
+        set_palette(s);
     /* Interlaced rows arrive in passes, and whether 16 bits a sample are needed shows only when all rows are read. */
     s->whole = s->whole || s->passes > 1 || s->about.wide;
 }
@@ -243,7 +243,7 @@ static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
 }
 
 /* True if 8 bits hold each of these 16-bit samples without loss: both bytes are equal, a multiple of 257. */
-static bool fits_bytes(const uint8_t *samples, size_t count)
+static bool fits_8_bits(const uint8_t *samples, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (samples[2 * i] != samples[2 * i + 1])
@@ -251,26 +251,26 @@ static bool fits_bytes(const uint8_t *samples, size_t count)
     return true;
 }
 
-/* blend_pixels() for samples of 16 bits. Blending rounds; a pixel that 8 bits hold is rounded to 8 bits, so that the
- * same picture stored with 8 or with 16 bits gives the same colours. */
+/* blend_pixels() for samples of 16 bits. Blending rounds. A pixel that fits 8 bits is rounded to 8 bits, so that a
+ * picture gives the same colours whether it is stored with 8 or 16 bits. */
 static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
     for (size_t n = 0; n < count; n++) {
         uint16_t from[4], to[3];
         memcpy(from, pixels + n * sizeof from, sizeof from);
-        const unsigned unit = fits_bytes(pixels + n * sizeof from, 4) ? 257 : 1;
+        const unsigned unit = fits_8_bits(pixels + n * sizeof from, 4) ? 257 : 1;
         for (size_t i = 0; i < 3; i++)
             to[i] = (uint16_t)(blend_sample(from[i] / unit, grounds[i] / unit, from[3] / unit, 65535 / unit) * unit);
         memcpy(pixels + n * sizeof to, to, sizeof to);
     }
 }
 
-/* Keep 16 bits a sample only if needed, so that equal pictures are stored alike. */
-static void narrow_where_exact(image *band)
+/* Convert to 8 bits a sample if no precision is lost, so that equal pictures are stored alike. */
+static void narrow_to_8_bits_if_exact(image *band)
 {
     const size_t count = 3 * (size_t)band->width * (size_t)band->height;
-    if (!band->wide || !fits_bytes(band->pixels, count))
+    if (!band->wide || !fits_8_bits(band->pixels, count))
         return;
     for (size_t i = 0; i < count; i++)
         band->pixels[i] = band->pixels[2 * i];
@@ -282,17 +282,17 @@ static void convert_band(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
     if (s->samples == 1)
-        s->beyond = s->beyond || !image_indices_are_valid(band); /* libpng accepts indices beyond the palette */
+        s->beyond = s->beyond || !image_has_valid_indices(band); /* libpng accepts indices beyond the palette */
     if (s->samples == 4)
         (band->wide ? blend_wide_pixels : blend_pixels)(band->pixels, count, s->background);
-    narrow_where_exact(band);
+    narrow_to_8_bits_if_exact(band);
 }
 
-/* Read the rows of s->wanted; after the last row, read to the end of the file to check it. */
+/* Read the rows of s->wanted. After the last row, read to the end of the file to check it. */
 static void decode_band(image_source *s)
 {
     image *band = s->wanted;
-    const size_t size = row_size(s);
+    const size_t size = find_row_size(s);
     for (int pass = 0; pass < s->passes; pass++)
         for (int y = 0; y < band->height; y++)
             png_read_row(s->png, band->pixels + (size_t)y * size, NULL);
@@ -305,19 +305,19 @@ static void decode_band(image_source *s)
         png_error(s->png, "a pixel's index is beyond the palette");
 }
 
-static bool read_whole(image_source *s)
+static bool read_whole_image(image_source *s)
 {
-    s->about.pixels = malloc(row_size(s) * (size_t)s->about.height);
+    s->about.pixels = malloc(find_row_size(s) * (size_t)s->about.height);
     if (!s->about.pixels)
-        return fail(s, strerror(ENOMEM));
+        return fail_reading(s, strerror(ENOMEM));
     s->wanted = &s->about;
-    if (!run_step(s, decode_band))
+    if (!run_png_step(s, decode_band))
         return false;
     s->next_y = 0;
     return true;
 }
 
-bool image_source_next(image_source *s, int rows, image *band)
+bool image_source_read_band(image_source *s, int rows, image *band)
 {
     const int left = s->about.height - s->next_y;
     if (s->failed || left == 0)
@@ -325,11 +325,11 @@ bool image_source_next(image_source *s, int rows, image *band)
     *band = s->about;
     band->height = left < rows ? left : rows;
     if (!s->whole) {
-        if (!array_grow(&s->band, row_size(s) * (size_t)band->height, &s->band_room, 1))
-            return fail(s, strerror(ENOMEM));
+        if (!array_grow(&s->band, find_row_size(s) * (size_t)band->height, &s->band_room, 1))
+            return fail_reading(s, strerror(ENOMEM));
         band->pixels = s->band;
         s->wanted = band;
-        return run_step(s, decode_band);
+        return run_png_step(s, decode_band);
     }
     band->pixels += (size_t)s->next_y * (size_t)s->about.width * image_pixel_size(&s->about);
     s->next_y += band->height;
@@ -338,28 +338,28 @@ bool image_source_next(image_source *s, int rows, image *band)
 
 /* ---- Opening and closing ------------------------------------------------------------------------------------- */
 
-const image *image_source_image(const image_source *s)
+const image *image_source_description(const image_source *s)
 {
     return &s->about;
 }
 
-bool image_source_failed(const image_source *s)
+bool image_source_has_failed(const image_source *s)
 {
     return s->failed;
 }
 
-static bool open_file(image_source *s)
+static bool open_source_file(image_source *s)
 {
     char reason[FILE_REASON];
     s->file = file_open(s->path, &s->file_size, reason);
-    return s->file || fail(s, reason);
+    return s->file || fail_reading(s, reason);
 }
 
 static bool open_png(image_source *s)
 {
     s->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, s, raise_error, ignore_warning);
     s->info = s->png ? png_create_info_struct(s->png) : NULL;
-    return s->info ? run_step(s, read_description) : fail(s, strerror(ENOMEM));
+    return s->info ? run_png_step(s, read_description) : fail_reading(s, strerror(ENOMEM));
 }
 
 image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error)
@@ -373,7 +373,7 @@ image_source *image_source_open(const char *path, image_color background, bool w
     s->error = error;
     s->background = background;
     s->whole = whole;
-    if (open_file(s) && open_png(s) && (!s->whole || read_whole(s)))
+    if (open_source_file(s) && open_png(s) && (!s->whole || read_whole_image(s)))
         return s;
     image_source_close(s);
     return NULL;

@@ -5,7 +5,7 @@
 
 #include "image.h"
 
-/* The default background with which transparent pixels are blended. */
+/* The default background of transparent pixels. */
 #define IMAGE_WHITE ((image_color){255, 255, 255})
 
 /* Read any PNG without loss. Palette images and greys of up to 8 bits become indexed images; all others become RGB,
@@ -16,7 +16,7 @@
  * a chunk of at most 8 MB. */
 bool image_read_png(const char *path, image *image, octreel_error *error);
 
-/* The same with a given background. */
+/* Read a PNG over a given background. */
 bool image_read_png_over(const char *path, image_color background, image *image, octreel_error *error);
 
 /* A PNG file whose rows are decoded on demand, so that the picture is never in memory as a whole. All rows are read at
@@ -28,18 +28,18 @@ typedef struct image_source image_source;
 image_source *image_source_open(const char *path, image_color background, bool whole, octreel_error *error);
 void image_source_close(image_source *source); /* null is allowed */
 
-/* The description of the image; its pixels are null unless all rows are in memory. */
-const image *image_source_image(const image_source *source);
+/* Returns the description of the image; its pixels are null unless all rows are in memory. */
+const image *image_source_description(const image_source *source);
 
 /* Read the next rows, at most `rows`, as an image that must not be released: its pixels belong to the source and are
  * valid until the next call. Returns false after the last row, and false with *error set if reading fails. The end of
  * the file is checked before the last rows are returned. */
-bool image_source_next(image_source *source, int rows, image *band);
-bool image_source_failed(const image_source *source);
+bool image_source_read_band(image_source *source, int rows, image *band);
+bool image_source_has_failed(const image_source *source);
 
-/* The number of rows to read at a time: several bands of this height fit the L2 cache, and the cost per band is small.
- */
-static inline int image_band_rows(const image *about)
+/* Returns the number of rows to read at a time: several bands of this height fit the L2 cache, and the cost per band is
+ * small. */
+static inline int image_find_band_height(const image *about)
 {
     enum { BAND_PIXELS = 1 << 14 };
     return about->width < BAND_PIXELS ? BAND_PIXELS / about->width : 1;

@@ -20,8 +20,8 @@ typedef struct output {
     octreel_error *error;
 } output;
 
-/* The reason why an image cannot be written; null if it can. */
-static const char *find_refusal(const image *image)
+/* Returns the reason why an image cannot be written, or null. */
+static const char *find_reason_to_refuse(const image *image)
 {
     if (image->wide)
         return "the image has more than 8 bits a sample";
@@ -29,7 +29,7 @@ static const char *find_refusal(const image *image)
         return NULL;
     if (image->palette.count < 1 || image->palette.count > 256)
         return "the palette must have 1 to 256 colours";
-    return image_indices_are_valid(image) ? NULL : "a pixel's index is beyond the palette";
+    return image_has_valid_indices(image) ? NULL : "a pixel's index is beyond the palette";
 }
 
 static void write_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -89,7 +89,7 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
     set_texts(png, info, out->texts, out->text_count);
     png_write_info(png, info);
     for (int y = 0; y < out->rows->height; y++)
-        deflater_add(out->deflater, out->rows->row(y, out->rows->context));
+        deflater_add_row(out->deflater, out->rows->row(y, out->rows->context));
     deflater_finish(out->deflater);
     png_write_chunk(png, (png_const_bytep) "IEND", NULL, 0);
     return true;
@@ -108,7 +108,8 @@ static bool encode_png(output *out)
     return whole;
 }
 
-/* A missing file, a regular file, or a folder (opening it fails with its own error). Opening a pipe would block. */
+/* True for a missing file, a regular file, and a folder (opening it fails with its own error). Opening a pipe would
+ * block. */
 static bool is_replaceable(const char *path)
 {
     struct stat status;
@@ -125,7 +126,7 @@ static bool write_file(output *out, const char *path)
     return encode_png(out) ? file_writer_close(&out->file, out->error) : file_writer_discard(&out->file);
 }
 
-static const uint8_t *row_of_image(int y, void *context)
+static const uint8_t *get_image_row(int y, void *context)
 {
     const image *image = context;
     return image->pixels + (size_t)y * (size_t)image->width * (size_t)image->channels;
@@ -134,14 +135,14 @@ static const uint8_t *row_of_image(int y, void *context)
 bool image_write_png(const image *image, const char *path, const image_text *texts, size_t text_count,
                      octreel_error *error)
 {
-    const char *reason = find_refusal(image);
+    const char *reason = find_reason_to_refuse(image);
     if (reason)
         return error_set(error, "%s: %s", path, reason);
     const image_rows rows = {.width = image->width,
                              .height = image->height,
                              .palette = image->channels == 1 ? &image->palette : NULL,
-                             .row = row_of_image,
-                             .context = (void *)image}; /* row_of_image() only reads it */
+                             .row = get_image_row,
+                             .context = (void *)image}; /* get_image_row() only reads it */
     return write_file(&(output){.rows = &rows, .texts = texts, .text_count = text_count, .error = error}, path);
 }
 
@@ -150,7 +151,7 @@ bool image_write_png_rows(const image_rows *rows, const char *path, octreel_erro
     return write_file(&(output){.rows = rows, .error = error}, path);
 }
 
-char *image_library(char text[IMAGE_LIBRARY_TEXT])
+char *image_print_library_versions(char text[IMAGE_LIBRARY_TEXT])
 {
     snprintf(text, IMAGE_LIBRARY_TEXT, "libpng %s, zlib %s", png_get_libpng_ver(NULL), zlibVersion());
     return text;

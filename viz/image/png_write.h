@@ -33,6 +33,6 @@ bool image_write_png_rows(const image_rows *rows, const char *path, octreel_erro
 
 /* Print the versions, at run time, of the libraries that write PNG files. Returns `text`. */
 #define IMAGE_LIBRARY_TEXT 64
-char *image_library(char text[IMAGE_LIBRARY_TEXT]);
+char *image_print_library_versions(char text[IMAGE_LIBRARY_TEXT]);
 
 #endif

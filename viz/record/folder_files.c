@@ -144,7 +144,7 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     write_text(w, "renderer", info->renderer);
     write_text(w, "version", info->version);
     write_text(w, "fill", info->fill);
-    write_text(w, "png", image_library(library));
+    write_text(w, "png", image_print_library_versions(library));
     json_start_new_line(w);
     json_write_end_object(w);
     json_write_end_line(w);

@@ -164,7 +164,7 @@ static bool check_readable(const char *path, octreel_error *error)
 /* Whether the digest of a frame is that of the pixels drawn now. */
 static bool is_drawn(const verifying *v, const frame_origin *origin)
 {
-    return origin->pixels == image_digest_by(origin->kind, &v->replay.playback.picture.frame);
+    return origin->pixels == image_digest_with(origin->kind, &v->replay.playback.picture.frame);
 }
 
 static bool check_frame(verifying *v, const film_step *step, octreel_error *error)

@@ -177,7 +177,7 @@ typedef struct canvas {
 static const uint8_t *difference_row(int y, void *context)
 {
     const canvas *c = context;
-    image_difference_row(&c->images[0], &c->images[1], &c->tolerance, y, c->row);
+    image_draw_difference_row(&c->images[0], &c->images[1], &c->tolerance, y, c->row);
     return c->row;
 }
 
@@ -191,7 +191,7 @@ static bool read_pictures(canvas *c, const diff_pair *pair, const diff_options *
 static bool write_difference(canvas *c, const char *path, octreel_error *error)
 {
     const image *a = &c->images[0], *b = &c->images[1];
-    const image_palette palette = image_difference_palette();
+    const image_palette palette = image_make_difference_palette();
     const image_rows rows = {.width = a->width > b->width ? a->width : b->width,
                              .height = a->height > b->height ? a->height : b->height,
                              .palette = &palette,

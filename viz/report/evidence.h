@@ -12,7 +12,7 @@
 #define EVIDENCE_PICTURE_MAP(X)                                                                                        \
     X(EXPECTED, "expected")     /* the reference's file, as it is */                                                   \
     X(ACTUAL, "actual")         /* the frame's file, as it is */                                                       \
-    X(DIFFERENCE, "difference") /* image_difference_row() */
+    X(DIFFERENCE, "difference") /* image_draw_difference_row() */
 
 typedef enum evidence_picture {
 #define EVIDENCE_PICTURE_ENUM(name, word) EVIDENCE_##name,

@@ -76,15 +76,15 @@ static bool read_in_bands(const char *path, int rows, const image *whole, octree
     image_source *source = image_source_open(path, ground, false, error);
     if (!source)
         return false;
-    const image *about = image_source_image(source);
+    const image *about = image_source_description(source);
     int y = 0;
-    for (image band; image_source_next(source, rows, &band); y += band.height) {
+    for (image band; image_source_read_band(source, rows, &band); y += band.height) {
         const size_t size = (size_t)band.width * image_pixel_size(&band);
         assert_true(band.height == rows || y + band.height == about->height);
         if (whole->pixels)
             assert_memory_equal(band.pixels, whole->pixels + (size_t)y * size, size * (size_t)band.height);
     }
-    const bool ok = !image_source_failed(source);
+    const bool ok = !image_source_has_failed(source);
     assert_true(!ok || y == about->height);
     if (whole->pixels)
         assert_same_but_pixels(about, whole);
@@ -158,9 +158,9 @@ static diff_finding expected_finding(const image_difference *difference, const i
 {
     if (!difference->same_size)
         return FOUND_SIZE;
-    if (image_is_same(difference))
+    if (image_has_no_difference(difference))
         return FOUND_SAME_PIXELS;
-    return image_is_within(difference, tolerance) ? FOUND_WITHIN : FOUND_PIXELS;
+    return image_is_within_tolerance(difference, tolerance) ? FOUND_WITHIN : FOUND_PIXELS;
 }
 
 static void assert_same_finding(const diff_pair *pair, const image images[2], const image_tolerance *tolerance)

@@ -192,7 +192,7 @@ static void a_palette_change_on_every_line_is_found(void **state)
     for (int n = 0; n < 640 * 360; n++)
         expected += a.pixels[n] == 2;
     const image_difference difference = image_compare(&a, &b);
-    assert_false(image_is_same(&difference));
+    assert_false(image_has_no_difference(&difference));
     assert_int_equal(difference.unlike.pixels, expected);
     assert_int_equal(difference.unlike.largest_channel, 32);
     assert_int_equal(difference.unlike.min_y, 0);
@@ -216,7 +216,7 @@ static void a_difference_in_the_lowest_of_16_bits_is_found(void **state)
     assert_int_equal(difference.channel_range, 65535);
     assert_true(difference.unlike.worst_delta > 0);
     for (int kind = 0; kind < IMAGE_DIGEST_KINDS; kind++)
-        assert_true(image_digest_by((image_digest_kind)kind, &a) != image_digest_by((image_digest_kind)kind, &b));
+        assert_true(image_digest_with((image_digest_kind)kind, &a) != image_digest_with((image_digest_kind)kind, &b));
     image_release(&a);
     image_release(&b);
 }
@@ -230,7 +230,7 @@ static void image_equals_the_same_image_with_16_bits_a_sample(void **state)
         put_wide(&wide, n, (unsigned[]){at[0] * 257u, at[1] * 257u, at[2] * 257u});
     }
     const image_difference difference = image_compare(&narrow, &wide);
-    assert_true(image_is_same(&difference));
+    assert_true(image_has_no_difference(&difference));
     image_release(&narrow);
     image_release(&wide);
 }
@@ -245,8 +245,8 @@ static void tolerance_forgives_only_what_it_names(void **state)
         const image_tolerance tolerance = {.max_pixels = most};
         const image_difference difference = image_compare_within(&a, &b, &tolerance);
         assert_int_equal(difference.unlike.pixels, 5);
-        assert_int_equal(image_is_within(&difference, &tolerance), most >= 5);
-        assert_false(image_is_same(&difference));
+        assert_int_equal(image_is_within_tolerance(&difference, &tolerance), most >= 5);
+        assert_false(image_has_no_difference(&difference));
     }
     image_release(&a);
     image_release(&b);
@@ -265,7 +265,7 @@ static void an_antialiased_edge_is_forgiven_and_a_dot_is_not(void **state)
     const image_tolerance tolerance = {.antialias = true};
     image_difference difference = image_compare_within(&hard, &soft, &tolerance);
     assert_true(difference.unlike.pixels > 20);
-    assert_true(image_is_within(&difference, &tolerance));
+    assert_true(image_is_within_tolerance(&difference, &tolerance));
     memset(soft.pixels + 3 * (20 * 40 + 35), 0, 3);
     difference = image_compare_within(&hard, &soft, &tolerance);
     assert_int_equal(difference.counted.pixels, 1);
@@ -281,8 +281,8 @@ static void no_tolerance_forgives_different_sizes(void **state)
     const image_tolerance all = {.max_pixels = UINT64_MAX, .max_delta = 1, .antialias = true};
     const image_difference difference = image_compare_within(&a, &b, &all);
     assert_false(difference.same_size);
-    assert_false(image_is_same(&difference));
-    assert_false(image_is_within(&difference, &all));
+    assert_false(image_has_no_difference(&difference));
+    assert_false(image_is_within_tolerance(&difference, &all));
     assert_int_equal(difference.unlike.pixels, 0);
     image_release(&a);
     image_release(&b);

@@ -65,7 +65,7 @@ static stream encode(const rows *r)
     deflater *d = deflater_open(r->size, r->count, r->pixel, take_part, &s);
     assert_non_null(d);
     for (size_t y = 0; y < r->count; y++)
-        deflater_add(d, r->bytes + y * r->size + 1);
+        deflater_add_row(d, r->bytes + y * r->size + 1);
     deflater_finish(d);
     deflater_close(d);
     return s;
@@ -284,7 +284,7 @@ static void codes_are_complete_and_within_the_limit(void **state)
             huffman_code code;
             uint32_t some[SYMBOLS] = {0}, space = 0;
             memcpy(some, counts, used * sizeof *some);
-            huffman_build(&code, some, SYMBOLS, longest);
+            huffman_build_code(&code, some, SYMBOLS, longest);
             for (size_t i = 0; i < SYMBOLS; i++) {
                 assert_in_range(code.lengths[i], some[i] > 0, longest);
                 space += code.lengths[i] ? 1u << (longest - code.lengths[i]) : 0;

@@ -60,13 +60,13 @@ typedef struct looks {
 
 static looks count_looks(const image *a, const image *b, const image_tolerance *tolerance)
 {
-    const image_palette palette = image_difference_palette();
+    const image_palette palette = image_make_difference_palette();
     const int width = a->width > b->width ? a->width : b->width, height = a->height > b->height ? a->height : b->height;
     looks found = {{0}};
     uint8_t *row = malloc((size_t)width);
     assert_non_null(row);
     for (int y = 0; y < height; y++) {
-        image_difference_row(a, b, tolerance, y, row);
+        image_draw_difference_row(a, b, tolerance, y, row);
         for (int x = 0; x < width; x++)
             found.count[look_of(palette.colors[row[x]])]++;
     }
@@ -108,15 +108,15 @@ static image_color drawn_pixel(const image *a, const image *b)
 {
     static const image_tolerance exact = {.max_pixels = 0};
     uint8_t row[1];
-    image_difference_row(a, b, &exact, 0, row);
-    return image_difference_palette().colors[row[0]];
+    image_draw_difference_row(a, b, &exact, 0, row);
+    return image_make_difference_palette().colors[row[0]];
 }
 
 /* One level of any channel on any ground is seen at once: much brighter than the lightest grey there can be. */
 static void one_level_stands_out_from_every_grey(void **state)
 {
     (void)state;
-    const image_palette palette = image_difference_palette();
+    const image_palette palette = image_make_difference_palette();
     for (int level = 0; level < 255; level += 17) {
         for (int channel = 0; channel < 3; channel++) {
             image a = solid(1, 1, (uint8_t)level), b = solid(1, 1, (uint8_t)level);
@@ -197,7 +197,7 @@ static const uint8_t *make_row(int y, void *context)
 
 static void rows_are_written_while_they_are_produced(void **state)
 {
-    const image_palette palette = image_difference_palette();
+    const image_palette palette = image_make_difference_palette();
     uint8_t row[WIDTH * 3];
     for (int indexed = 0; indexed < 2; indexed++) {
         const char *path = temp_file(*state, indexed ? "indexed.png" : "rgb.png");

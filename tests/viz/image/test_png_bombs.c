@@ -33,7 +33,7 @@ static size_t peak_of_rows(const char *path)
     error.text[0] = 0;
     heap_peak_begin();
     image_source *source = image_source_open(path, IMAGE_WHITE, false, &error);
-    while (source && image_source_next(source, 16, &band))
+    while (source && image_source_read_band(source, 16, &band))
         ;
     const size_t peak = heap_peak();
     image_source_close(source);

@@ -92,7 +92,7 @@ static void check_size(const char *path, png_kind kind)
 {
     (void)kind;
     int width, height;
-    assert_true(image_png_size(path, &width, &height));
+    assert_true(image_read_png_size(path, &width, &height));
     assert_true(width == PNG_KIND_SIDE && height == PNG_KIND_SIDE);
 }
 
@@ -104,9 +104,9 @@ static void size_is_read_from_files_that_begin_and_end_as_png(void **state)
     png_bytes file;
     png_bytes_load(&file, path);
     png_bytes_save(&file, file.size - 1, path);
-    assert_false(image_png_size(path, &width, &height));
+    assert_false(image_read_png_size(path, &width, &height));
     png_bytes_save(&file, 20, path);
-    assert_false(image_png_size(path, &width, &height));
+    assert_false(image_read_png_size(path, &width, &height));
 }
 
 /* A file of 16 bits a sample that 8 would hold is the same picture, and is stored as one. */

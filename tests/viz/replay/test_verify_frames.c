@@ -44,14 +44,14 @@ static void frame_with_the_digest_of_an_older_version_is_identical(void **state)
     const place folder = film_short(*state), path = place_below(folder.path, "frame_000003.png");
     image frame = assert_read_rgb(path.path);
     char digest[IMAGE_DIGEST_TEXT];
-    image_digest_print(IMAGE_DIGEST_RUNS, image_digest_by(IMAGE_DIGEST_RUNS, &frame), digest);
+    image_digest_print(IMAGE_DIGEST_RUNS, image_digest_with(IMAGE_DIGEST_RUNS, &frame), digest);
     assert_int_equal(strlen(digest), 16);
     write_with_texts(path.path, &frame, digest);
     assert_identical(&folder, SHORT_TICKS, SHORT_FRAMES);
     frame.pixels[3 * 77] ^= 128;
     write_with_texts(path.path, &frame, digest);
     assert_found(&folder, VERIFY_FRAME, 3, "its pixels do not match its PNG text octreel-pixels");
-    image_digest_print(IMAGE_DIGEST_RUNS, image_digest_by(IMAGE_DIGEST_RUNS, &frame), digest);
+    image_digest_print(IMAGE_DIGEST_RUNS, image_digest_with(IMAGE_DIGEST_RUNS, &frame), digest);
     write_with_texts(path.path, &frame, digest);
     assert_found(&folder, VERIFY_PIXELS, 3, "1 pixel from (77, 0) to (77, 0)");
     image_release(&frame);
