@@ -67,7 +67,7 @@ static image draw_samples(const scene *picture)
         stop_with_error("%s", why.text);
     if (!image_create(&drawn, width, height, 1))
         stop_with_error("there is no memory for a picture of %d x %d pixels", width, height);
-    if (!renderer_draw(r, picture, drawn.pixels, &why))
+    if (!renderer_draw_scene(r, picture, drawn.pixels, &why))
         stop_with_error("%s", why.text);
     renderer_close(r);
     drawn.palette.count = THEME_COLORS;

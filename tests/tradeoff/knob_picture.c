@@ -126,7 +126,7 @@ static void draw(void *contestant)
 static size_t count_quads(const scene *picture)
 {
     painter p = {0};
-    if (!paint(&p, picture))
+    if (!painter_paint_scene(&p, picture))
         stop_with_error("there is no memory for a frame");
     const size_t count = p.quads.count;
     painter_release(&p);

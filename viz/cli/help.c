@@ -129,7 +129,7 @@ static bool print_renderer(draw_context kind)
         printf("%s: %s\n", draw_context_name(kind), error.text);
         return false;
     }
-    const renderer_info info = renderer_about(r);
+    const renderer_info info = renderer_describe(r);
     printf("%s: %s, %s\n", info.context, info.renderer, info.version);
     renderer_close(r);
     return true;
@@ -140,8 +140,8 @@ int version_print(void)
     int built = 0, found = 0;
     printf("octreel %s\n", OCTREEL_VERSION);
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
-        built += draw_context_built((draw_context)kind);
-        found += draw_context_built((draw_context)kind) && print_renderer((draw_context)kind);
+        built += draw_context_is_built((draw_context)kind);
+        found += draw_context_is_built((draw_context)kind) && print_renderer((draw_context)kind);
     }
     if (!built)
         puts("built without OpenGL");

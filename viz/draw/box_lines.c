@@ -54,13 +54,13 @@ static uint64_t hash_key(const void *item)
 }
 
 /* Compares doubles rather than bytes, since -0 equals 0. */
-static bool same_key(const void *a, const void *b)
+static bool are_keys_equal(const void *a, const void *b)
 {
     const line_key *p = a, *q = b;
     return p->u == q->u && p->v == q->v && p->kind == q->kind;
 }
 
-static const hash_map_item_type by_key = {sizeof(line), hash_key, same_key};
+static const hash_map_item_type by_key = {sizeof(line), hash_key, are_keys_equal};
 
 static uint32_t add_line(box_lines *kept, const line_key *key)
 {
@@ -75,7 +75,7 @@ static uint32_t add_line(box_lines *kept, const line_key *key)
 }
 
 /* Count one more user of a line, which is added if it is new. LINE_NONE when out of memory. */
-static uint32_t ref_line(box_lines *kept, const line_key *key)
+static uint32_t add_line_user(box_lines *kept, const line_key *key)
 {
     uint32_t place = hash_map_find(&kept->map, &by_key, kept->lines, key);
     if (place == HASH_MAP_NONE)
@@ -87,7 +87,7 @@ static uint32_t ref_line(box_lines *kept, const line_key *key)
     return place;
 }
 
-static void unref_line(box_lines *kept, uint32_t place)
+static void remove_line_user(box_lines *kept, uint32_t place)
 {
     kept->idle += --kept->lines[place].users == 0;
     kept->changed[place] = true;
@@ -95,47 +95,47 @@ static void unref_line(box_lines *kept, uint32_t place)
 
 /* ---- Boxes --------------------------------------------------------------------------------------------------- */
 
-static bool ref_edge(box_lines *kept, lined_box *of, unsigned edge)
+static bool add_edge_to_line(box_lines *kept, lined_box *of, unsigned edge)
 {
-    const line_key key = line_key_of(&of->box, edge / 4, edge % 4);
-    of->lines[edge] = ref_line(kept, &key);
+    const line_key key = line_key_of_box_edge(&of->box, edge / 4, edge % 4);
+    of->lines[edge] = add_line_user(kept, &key);
     return of->lines[edge] != LINE_NONE;
 }
 
 /* A box that is flat along an axis has no edges along it. A box that is a single point has one edge, of length 0. */
-static bool ref_edges(box_lines *kept, lined_box *of)
+static bool add_edges_to_lines(box_lines *kept, lined_box *of)
 {
     const octree_box *box = &of->box.box;
     bool ok = true, dot = true;
     for (unsigned edge = 0; ok && edge < BOX_EDGES; edge++) {
         const bool extends = box->min[edge / 4] < box->max[edge / 4];
         of->lines[edge] = LINE_NONE;
-        ok = !extends || ref_edge(kept, of, edge);
+        ok = !extends || add_edge_to_line(kept, of, edge);
         dot = dot && !extends;
     }
-    return ok && (!dot || ref_edge(kept, of, 0));
+    return ok && (!dot || add_edge_to_line(kept, of, 0));
 }
 
-static void unref_edges(box_lines *kept, const lined_box *box, const lined_box *end)
+static void remove_edges_from_lines(box_lines *kept, const lined_box *box, const lined_box *end)
 {
     for (; box < end; box++)
         for (unsigned edge = 0; edge < BOX_EDGES; edge++)
             if (box->lines[edge] != LINE_NONE)
-                unref_line(kept, box->lines[edge]);
+                remove_line_user(kept, box->lines[edge]);
 }
 
-static bool same_box(const scene_box *a, const scene_box *b)
+static bool are_boxes_equal(const scene_box *a, const scene_box *b)
 {
     return a->id == b->id && a->depth == b->depth && memcmp(&a->style, &b->style, sizeof a->style) == 0 &&
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 
 /* Find a box among MISSING_AT_MOST old boxes, starting with number `from`. Null: it is not among them. */
-static const lined_box *find_box(const lined_boxes *in, size_t from, const scene_box *box)
+static const lined_box *find_old_box(const lined_boxes *in, size_t from, const scene_box *box)
 {
     const size_t left = in->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
     for (size_t i = from; i < end; i++)
-        if (same_box(&in->items[i].box, box))
+        if (are_boxes_equal(&in->items[i].box, box))
             return &in->items[i];
     return NULL;
 }
@@ -144,17 +144,17 @@ static const lined_box *find_box(const lined_boxes *in, size_t from, const scene
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,
-                    *found = find_box(&kept->before, *old, box);
+                    *found = find_old_box(&kept->before, *old, box);
     if (!ARRAY_GROW(&kept->now, 1))
         return false;
     lined_box *added = &kept->now.items[kept->now.count++];
     *changed = *changed || !found || found != next;
     if (!found) {
         added->box = *box;
-        return ref_edges(kept, added);
+        return add_edges_to_lines(kept, added);
     }
     *added = *found;
-    unref_edges(kept, next, found);
+    remove_edges_from_lines(kept, next, found);
     *old = (size_t)(found - kept->before.items) + 1;
     return true;
 }
@@ -174,7 +174,7 @@ bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned 
             ok = add_box(kept, box, &old, changed);
     }
     if (ok && old < before.count) {
-        unref_edges(kept, before.items + old, before.items + before.count);
+        remove_edges_from_lines(kept, before.items + old, before.items + before.count);
         *changed = true;
     }
     return ok;

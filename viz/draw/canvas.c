@@ -15,7 +15,7 @@ void canvas_release(canvas *c)
     memset(c, 0, sizeof *c);
 }
 
-static bool same_quad(const quad *a, const quad *b)
+static bool are_quads_equal(const quad *a, const quad *b)
 {
     return a->color == b->color && a->order == b->order && memcmp(a->x, b->x, sizeof a->x) == 0 &&
            memcmp(a->y, b->y, sizeof a->y) == 0;
@@ -24,14 +24,14 @@ static bool same_quad(const quad *a, const quad *b)
 static size_t count_same_quads(const quad_list *a, const quad_list *b)
 {
     size_t same = 0;
-    while (same < a->count && same < b->count && same_quad(&a->items[same], &b->items[same]))
+    while (same < a->count && same < b->count && are_quads_equal(&a->items[same], &b->items[same]))
         same++;
     return same;
 }
 
 /* True if to keep a picture of the first `same` quads, of which the first `start` are drawn already. False if that
  * saves too little, or when out of memory. */
-static bool is_worth_keeping(canvas *c, size_t start, size_t same, size_t pixels)
+static bool can_keep_picture(canvas *c, size_t start, size_t same, size_t pixels)
 {
     if (same - start < WORTH_KEEPING)
         return false;
@@ -39,7 +39,7 @@ static bool is_worth_keeping(canvas *c, size_t start, size_t same, size_t pixels
     return c->kept != NULL;
 }
 
-size_t canvas_draw(canvas *c, quad_list *quads, uint8_t *indices)
+size_t canvas_fill_quads(canvas *c, quad_list *quads, uint8_t *indices)
 {
     const renderer_part all = {0, 0, c->width, c->height};
     const size_t pixels = (size_t)c->width * (size_t)c->height, same = count_same_quads(&c->last, quads);
@@ -50,7 +50,7 @@ size_t canvas_draw(canvas *c, quad_list *quads, uint8_t *indices)
     else
         memset(indices, 0, pixels);
     c->kept_count = kept;
-    if (is_worth_keeping(c, start, same, pixels)) {
+    if (can_keep_picture(c, start, same, pixels)) {
         fill_quads(quads->items + start, same - start, all, indices);
         memcpy(c->kept, indices, pixels);
         c->kept_count = start = same;

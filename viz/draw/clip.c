@@ -17,7 +17,7 @@ typedef struct polygon {
     int count;
 } polygon;
 
-int clip_square(int width, int height)
+int clip_square_side(int width, int height)
 {
     int side = 1;
     while (side < width || side < height)
@@ -25,7 +25,7 @@ int clip_square(int width, int height)
     return side;
 }
 
-static void add_corner(polygon *p, int32_t x, int32_t y)
+static void append_corner(polygon *p, int32_t x, int32_t y)
 {
     if (p->count < MOST_CORNERS) {
         p->at[p->count][0] = x;
@@ -45,7 +45,7 @@ static int32_t find_crossing(const int32_t a[2], const int32_t b[2], int axis, i
 }
 
 /* Cut off the part of a polygon that is below (side 1) or above (side -1) a bound on one axis. */
-static void keep_side(polygon *p, int axis, int side, int32_t bound)
+static void clip_to_bound(polygon *p, int axis, int side, int32_t bound)
 {
     const polygon all = *p;
     p->count = 0;
@@ -55,10 +55,10 @@ static void keep_side(polygon *p, int axis, int side, int32_t bound)
         const bool is_in = side > 0 ? corner[axis] >= bound : corner[axis] <= bound;
         if (was_in != is_in) {
             const int32_t across = find_crossing(last, corner, axis, bound);
-            add_corner(p, axis ? across : bound, axis ? bound : across);
+            append_corner(p, axis ? across : bound, axis ? bound : across);
         }
         if (is_in)
-            add_corner(p, corner[0], corner[1]);
+            append_corner(p, corner[0], corner[1]);
     }
 }
 
@@ -82,10 +82,10 @@ int clip_quad(const quad *q, const int32_t limits[2], quad pieces[CLIP_PIECES])
 {
     polygon p = {.count = 0};
     for (int i = 0; i < 4; i++)
-        add_corner(&p, q->x[i], q->y[i]);
+        append_corner(&p, q->x[i], q->y[i]);
     for (int axis = 0; axis < 2; axis++) {
-        keep_side(&p, axis, 1, 0);
-        keep_side(&p, axis, -1, limits[axis]);
+        clip_to_bound(&p, axis, 1, 0);
+        clip_to_bound(&p, axis, -1, limits[axis]);
     }
     return split_into_quads(&p, q, pieces);
 }

@@ -32,7 +32,7 @@ const char *draw_context_name(int kind)
     return (unsigned)kind < DRAW_CONTEXTS ? kinds[kind].name : NULL;
 }
 
-bool draw_context_built(draw_context kind)
+bool draw_context_is_built(draw_context kind)
 {
     return (unsigned)kind < DRAW_CONTEXTS && kinds[kind].open;
 }
@@ -74,7 +74,7 @@ context *context_open(const renderer_choice *choice, octreel_error *error)
 {
     if (choice->context == DRAW_AUTO)
         return open_first_available(choice, error);
-    if (draw_context_built(choice->context))
+    if (draw_context_is_built(choice->context))
         return kinds[choice->context].open(choice, error);
     error_set(error, "this program was built without the %s context", draw_context_name(choice->context));
     return NULL;
@@ -98,7 +98,7 @@ void *context_create(const context *face, size_t size, const char *const names[2
 }
 
 /* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bits are the same. */
-bool context_symbol(void *library, const char *name, void *function, size_t size)
+bool context_find_symbol(void *library, const char *name, void *function, size_t size)
 {
     void *symbol = dlsym(library, name);
     memcpy(function, &symbol, size);
@@ -107,7 +107,7 @@ bool context_symbol(void *library, const char *name, void *function, size_t size
 
 /* ---- Threads -------------------------------------------------------------------------------------------------- */
 
-static void *wait_for_all(void *lock)
+static void *wait_for_lock(void *lock)
 {
     pthread_mutex_lock(lock);
     pthread_mutex_unlock(lock);
@@ -123,7 +123,7 @@ static bool can_start_threads(unsigned wanted)
     unsigned count = 0;
     wanted = wanted < MOST ? wanted : MOST;
     pthread_mutex_lock(&lock);
-    while (count < wanted && pthread_create(&threads[count], NULL, wait_for_all, &lock) == 0)
+    while (count < wanted && pthread_create(&threads[count], NULL, wait_for_lock, &lock) == 0)
         count++;
     pthread_mutex_unlock(&lock);
     for (unsigned i = 0; i < count; i++)

@@ -15,12 +15,12 @@ typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } dr
 const char *draw_context_name(int kind);
 
 /* True if this program was built with a kind. */
-bool draw_context_built(draw_context kind);
+bool draw_context_is_built(draw_context kind);
 
 /* What fills the quads of a frame. Both rasterizers give the same pixels. */
 typedef enum draw_fill {
     DRAW_FILL_INTEGERS, /* the integer rasterizer; GL is never loaded */
-    DRAW_FILL_CHECKED,  /* the integer rasterizer; GL is loaded at the first renderer_redraw() */
+    DRAW_FILL_CHECKED,  /* the integer rasterizer; GL is loaded at the first renderer_redraw_with_gl() */
     DRAW_FILL_GL,
     DRAW_FILLS
 } draw_fill;
@@ -75,6 +75,6 @@ void *context_create(const context *face, size_t size, const char *const names[2
                      octreel_error *error);
 
 /* Look up a function of a library and write it to *function, a function pointer of `size` bytes. */
-bool context_symbol(void *library, const char *name, void *function, size_t size);
+bool context_find_symbol(void *library, const char *name, void *function, size_t size);
 
 #endif

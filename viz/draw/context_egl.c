@@ -31,7 +31,7 @@ typedef struct egl_context {
 
 static bool find_egl_functions(egl *egl, void *library)
 {
-#define EGL_FIND(name) context_symbol(library, "egl" #name, &egl->name, sizeof egl->name)
+#define EGL_FIND(name) context_find_symbol(library, "egl" #name, &egl->name, sizeof egl->name)
     return EGL_FIND(GetProcAddress) && EGL_FIND(QueryString) && EGL_FIND(GetError) && EGL_FIND(Initialize) &&
            EGL_FIND(BindAPI) && EGL_FIND(CreateContext) && EGL_FIND(DestroyContext) && EGL_FIND(MakeCurrent);
 #undef EGL_FIND

@@ -43,10 +43,10 @@ static bool open_mesa(osmesa_context *c)
 {
     OSMesaContext (*create)(const int *, OSMesaContext);
     void *library = c->face.library;
-    if (!context_symbol(library, "OSMesaCreateContextAttribs", &create, sizeof create) ||
-        !context_symbol(library, "OSMesaMakeCurrent", &c->make_current, sizeof c->make_current) ||
-        !context_symbol(library, "OSMesaDestroyContext", &c->destroy, sizeof c->destroy) ||
-        !context_symbol(library, "OSMesaGetProcAddress", &c->find_function, sizeof c->find_function))
+    if (!context_find_symbol(library, "OSMesaCreateContextAttribs", &create, sizeof create) ||
+        !context_find_symbol(library, "OSMesaMakeCurrent", &c->make_current, sizeof c->make_current) ||
+        !context_find_symbol(library, "OSMesaDestroyContext", &c->destroy, sizeof c->destroy) ||
+        !context_find_symbol(library, "OSMesaGetProcAddress", &c->find_function, sizeof c->find_function))
         return false;
     const int wanted[] = {
         OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, OSMESA_DEPTH_BITS, 0, 0, 0};

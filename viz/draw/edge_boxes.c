@@ -29,7 +29,7 @@ static int compare_edges(const void *a, const void *b)
 static box_edge make_box_edge(const scene_box *box, size_t index, unsigned axis, unsigned corner)
 {
     return (box_edge){
-        .line = line_key_of(box, axis, corner),
+        .line = line_key_of_box_edge(box, axis, corner),
         .from = box->box.min[axis],
         .to = box->box.max[axis],
         .box = (uint32_t)index,
@@ -37,7 +37,7 @@ static box_edge make_box_edge(const scene_box *box, size_t index, unsigned axis,
     };
 }
 
-bool edge_boxes_make(edge_boxes *all, const scene *s)
+bool edge_boxes_find_all(edge_boxes *all, const scene *s)
 {
     *all = (edge_boxes){.scene = s};
     const size_t size = 12 * sizeof *all->items;
@@ -74,14 +74,15 @@ typedef struct stroke {
     bool speck;        /* less than a sample long: every sample stands for the whole edge */
 } stroke;
 
-static stroke stroke_of(const scene *s, const edge *e)
+static stroke project_edge_line(const scene *s, const edge *e)
 {
     unsigned axis = 0;
     while (axis < 2 && e->ends[0][axis] == e->ends[1][axis])
         axis++;
     if (e->ends[0][axis] == e->ends[1][axis])
         axis = 0;
-    stroke k = {.line = line_key_at(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
+    stroke k = {
+        .line = line_key_through_point(e->style, axis, e->ends[0]), .from = e->ends[0][axis], .to = e->ends[1][axis]};
     piece pieces[QUAD_BANDS];
     bool overflowed;
     const unsigned count = project_segment(s, e->ends[0], e->ends[1], pieces, &overflowed);
@@ -131,29 +132,30 @@ static bool is_on_line(const edge_boxes *all, size_t i, const stroke *k)
     return i < all->count && line_key_compare(&all->items[i].line, &k->line) == 0 && all->items[i].from <= k->to;
 }
 
-static double distance_from_edge(const box_edge *edge, double at)
+static double find_distance_from_edge(const box_edge *edge, double at)
 {
     return at < edge->from ? edge->from - at : at > edge->to ? at - edge->to : 0;
 }
 
 size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
 {
-    const stroke k = stroke_of(all->scene, e);
+    const stroke k = project_edge_line(all->scene, e);
     const double at = k.speck ? k.from : find_coordinate(all->scene, &k, (k.across ? y : x) + 0.5);
     const box_edge *best = NULL;
     for (size_t i = find_first_edge(all, &k.line); is_on_line(all, i, &k); i++) {
         const box_edge *found = &all->items[i];
         const bool gives = found->depth == e->depth && all->scene->boxes.items[found->box].style.role == e->style.role;
-        if (gives && found->to >= k.from && (!best || distance_from_edge(found, at) < distance_from_edge(best, at)))
+        if (gives && found->to >= k.from &&
+            (!best || find_distance_from_edge(found, at) < find_distance_from_edge(best, at)))
             best = found;
     }
     return best->box; /* not null: a merged edge consists of edges of boxes */
 }
 
-void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (*visit)(size_t box, void *context),
-                      void *context)
+void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y,
+                              void (*visit)(size_t box, void *context), void *context)
 {
-    const stroke k = stroke_of(all->scene, e);
+    const stroke k = project_edge_line(all->scene, e);
     double low = k.from, high = k.to;
     if (!k.speck) {
         const int pixel = k.across ? y : x;

@@ -15,20 +15,20 @@ typedef struct box_edge {
 
 /* The edges of all boxes of a scene, sorted by their lines. */
 typedef struct edge_boxes {
-    const scene *scene; /* from project_samples(); must outlive this struct */
+    const scene *scene; /* from project_scene_to_samples(); must outlive this struct */
     box_edge *items;
     size_t count;
 } edge_boxes;
 
 /* False when out of memory. */
-bool edge_boxes_make(edge_boxes *all, const scene *s);
+bool edge_boxes_find_all(edge_boxes *all, const scene *s);
 void edge_boxes_release(edge_boxes *all);
 
 /* The index of the box that gives a merged edge its colour at a sample. */
 size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y);
 
 /* Visit all boxes that have an edge where a merged edge passes through a sample, including its owner; some twice. */
-void edge_boxes_visit(const edge_boxes *all, const edge *e, int x, int y, void (*visit)(size_t box, void *context),
-                      void *context);
+void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y,
+                              void (*visit)(size_t box, void *context), void *context);
 
 #endif

@@ -45,7 +45,7 @@ static int compare_lines(const void *a, const void *b)
 }
 
 /* Merge the new lines, which are sorted, into list->order, backwards so that nothing is overwritten too early. */
-static void merge_order(edge_list *list, const line *const *sorted)
+static void merge_new_lines_into_order(edge_list *list, const line *const *sorted)
 {
     const line *lines = list->boxes.lines;
     size_t old = list->ordered, new = list->boxes.count - old;
@@ -68,7 +68,7 @@ static bool order_lines(edge_list *list)
         for (size_t i = old; i < count; i++)
             sorted[i - old] = &list->boxes.lines[i];
         qsort(sorted, count - old, sizeof *sorted, compare_lines);
-        merge_order(list, sorted);
+        merge_new_lines_into_order(list, sorted);
     }
     free(sorted);
     return order != NULL;
@@ -76,7 +76,7 @@ static bool order_lines(edge_list *list)
 
 /* ---- The intervals of lines ------------------------------------------------------------------------------------ */
 
-static interval interval_of(const scene_box *box, unsigned axis)
+static interval make_interval(const scene_box *box, unsigned axis)
 {
     return (interval){
         .from = box->box.min[axis], .to = box->box.max[axis], .id = box->id, .style = box->style, .depth = box->depth};
@@ -94,7 +94,7 @@ static bool is_covered(const interval *it, const interval *by)
 static void collect_edge(uint32_t *places, line *on, const lined_box *boxes, uint32_t place, unsigned axis)
 {
     if (on->intervals > 0) {
-        const interval it = interval_of(&boxes[place].box, axis), last = interval_of(&boxes[on->last].box, axis);
+        const interval it = make_interval(&boxes[place].box, axis), last = make_interval(&boxes[on->last].box, axis);
         if (is_covered(&it, &last))
             return;
     }
@@ -162,12 +162,12 @@ static void sort_intervals(interval *line, size_t count)
 }
 
 /* Fill *one with the sorted intervals of a line. */
-static bool gather_line(interval_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
+static bool gather_line_intervals(interval_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
 {
     if (!array_grow(&one->items, on->intervals + 1, &one->room, sizeof *one->items))
         return false;
     for (size_t i = 0; i < on->intervals; i++)
-        one->items[i] = interval_of(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
+        one->items[i] = make_interval(&boxes[places[on->start + i]].box, line_key_axis(&on->key));
     one->count = on->intervals;
     sort_intervals(one->items, one->count);
     return true;
@@ -265,7 +265,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
 /* ---- All lines ------------------------------------------------------------------------------------------------ */
 
 /* Copy the merged edges of an unchanged line from the last scene. */
-static bool copy_edges(edge_list *list, const line *of)
+static bool copy_line_edges(edge_list *list, const line *of)
 {
     edge_array *now = &list->now;
     if (of->count == 0)
@@ -286,8 +286,9 @@ static bool sweep_lines(edge_list *list, const uint32_t *places)
         line *on = &list->boxes.lines[list->order[i]];
         uint8_t *changed = &list->boxes.changed[list->order[i]];
         const sweep w = {&list->now, &on->key, line_key_axis(&on->key), list->now.count};
-        ok = *changed ? gather_line(&one, list->boxes.now.items, places, on) && sweep_line(&w, one.items, one.count)
-                      : copy_edges(list, on);
+        ok = *changed ? gather_line_intervals(&one, list->boxes.now.items, places, on) &&
+                            sweep_line(&w, one.items, one.count)
+                      : copy_line_edges(list, on);
         on->first = (uint32_t)w.first;
         on->count = (uint32_t)(list->now.count - w.first);
         *changed = false;

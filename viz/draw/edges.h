@@ -19,7 +19,7 @@ typedef struct line_key {
 } line_key;
 
 /* The line through a point. */
-static inline line_key line_key_at(scene_style style, unsigned axis, const double at[3])
+static inline line_key line_key_through_point(scene_style style, unsigned axis, const double at[3])
 {
     return (line_key){
         .u = at[(axis + 1) % 3],
@@ -29,12 +29,12 @@ static inline line_key line_key_at(scene_style style, unsigned axis, const doubl
 }
 
 /* The line of one of the four edges of a box that are parallel to an axis. */
-static inline line_key line_key_of(const scene_box *box, unsigned axis, unsigned corner)
+static inline line_key line_key_of_box_edge(const scene_box *box, unsigned axis, unsigned corner)
 {
     double at[3] = {0};
     at[(axis + 1) % 3] = (corner & 1 ? box->box.max : box->box.min)[(axis + 1) % 3];
     at[(axis + 2) % 3] = (corner & 2 ? box->box.max : box->box.min)[(axis + 2) % 3];
-    return line_key_at(box->style, axis, at);
+    return line_key_through_point(box->style, axis, at);
 }
 
 static inline unsigned line_key_axis(const line_key *key)

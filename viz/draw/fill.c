@@ -24,7 +24,7 @@ typedef struct target {
 } target;
 
 /* The first pixel whose centre is at or after a coordinate, clamped to 0..size. */
-static int find_pixel(int32_t at, int size)
+static int find_first_pixel(int32_t at, int size)
 {
     if (at <= CENTRE)
         return 0;
@@ -44,10 +44,10 @@ static bool is_rectangle(const quad *q)
 static void fill_rectangle(const target *t, const quad *q)
 {
     const int32_t *x = q->x, *y = q->y;
-    const int left = find_pixel(x[0] < x[2] ? x[0] : x[2], t->width);
-    const int right = find_pixel(x[0] < x[2] ? x[2] : x[0], t->width);
-    const int top = find_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
-    const int bottom = find_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
+    const int left = find_first_pixel(x[0] < x[2] ? x[0] : x[2], t->width);
+    const int right = find_first_pixel(x[0] < x[2] ? x[2] : x[0], t->width);
+    const int top = find_first_pixel(y[0] < y[2] ? y[0] : y[2], t->height);
+    const int bottom = find_first_pixel(y[0] < y[2] ? y[2] : y[0], t->height);
     uint8_t *row = t->bytes + (size_t)top * (size_t)t->width + left;
     for (int i = top; i < bottom && left < right; i++, row += t->width)
         memset(row, q->color, (size_t)(right - left));
@@ -65,7 +65,7 @@ typedef struct edge_walk {
 } edge_walk;
 
 /* Divide and round down; *rest: the remainder, from 0 to b - 1. b > 0. */
-static int64_t divide_down(int64_t a, int64_t b, int64_t *rest)
+static int64_t divide_rounding_down(int64_t a, int64_t b, int64_t *rest)
 {
     int64_t quotient = a / b;
     *rest = a % b;
@@ -77,13 +77,13 @@ static int64_t divide_down(int64_t a, int64_t b, int64_t *rest)
 }
 
 /* Begin to walk the edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of a pixel of axis a. */
-static edge_walk walk_edge(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int pixel)
+static edge_walk begin_edge_walk(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int pixel)
 {
     const int64_t length = (int64_t)a1 - a0, rise = (int64_t)b1 - b0;
     const int64_t along = (int64_t)pixel * QUAD_SUBPIXELS + CENTRE - a0;
     edge_walk w = {.whole = QUAD_SUBPIXELS * length};
-    w.at = -divide_down(-((b0 - CENTRE) * length + rise * along), w.whole, &w.beyond);
-    w.turn = divide_down(rise, length, &w.rest);
+    w.at = -divide_rounding_down(-((b0 - CENTRE) * length + rise * along), w.whole, &w.beyond);
+    w.turn = divide_rounding_down(rise, length, &w.rest);
     w.rest *= QUAD_SUBPIXELS;
     return w;
 }
@@ -129,24 +129,24 @@ typedef struct strip_walk {
     uint8_t color;
 } strip_walk;
 
-static int64_t find_first_across(const strip_walk *w)
+static int64_t find_strip_start(const strip_walk *w)
 {
     return w->lower.at + (w->lower_is_out && w->lower.beyond == 0);
 }
 
-static void fill_clipped_strip(strip_walk w)
+static void fill_strip_clipped(strip_walk w)
 {
     for (; w.steps > 0; w.steps--, w.step += w.next, advance_edge(&w.lower)) {
-        const int64_t first = find_first_across(&w);
+        const int64_t first = find_strip_start(&w);
         for (int64_t j = first < 0 ? 0 : first; j < first + w.width && j < w.across.size; j++)
             w.step[j * w.across.step] = w.color;
     }
 }
 
-static void fill_whole_strip(strip_walk w)
+static void fill_strip_unclipped(strip_walk w)
 {
     for (; w.steps > 0; w.steps--, w.step += w.next, advance_edge(&w.lower)) {
-        uint8_t *pixel = w.step + (ptrdiff_t)find_first_across(&w) * w.across.step;
+        uint8_t *pixel = w.step + (ptrdiff_t)find_strip_start(&w) * w.across.step;
         for (int j = 0; j < w.width; j++, pixel += w.across.step)
             *pixel = w.color;
     }
@@ -166,7 +166,7 @@ static void fill_strip(const target *t, const quad *q, bool flat)
     const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
     const int from = along[0] > along[1], to = 1 - from;
     const fill_axis x = {t->width, 1}, y = {t->height, t->width}, long_axis = flat ? x : y, other = flat ? y : x;
-    const int begin = find_pixel(along[from], long_axis.size), end = find_pixel(along[to], long_axis.size);
+    const int begin = find_first_pixel(along[from], long_axis.size), end = find_first_pixel(along[to], long_axis.size);
     if (begin >= end)
         return;
     const strip_walk w = {.step = t->bytes + begin * long_axis.step,
@@ -175,12 +175,12 @@ static void fill_strip(const target *t, const quad *q, bool flat)
                           .steps = end - begin,
                           .width = (across[3] - across[0]) / QUAD_SUBPIXELS,
                           .lower_is_out = flat && across[to] > across[from],
-                          .lower = walk_edge(along[from], across[from], along[to], across[to], begin),
+                          .lower = begin_edge_walk(along[from], across[from], along[to], across[to], begin),
                           .color = q->color};
     if (is_strip_inside(across, other.size))
-        fill_whole_strip(w);
+        fill_strip_unclipped(w);
     else
-        fill_clipped_strip(w);
+        fill_strip_clipped(w);
 }
 
 /* ---- Convex quads ------------------------------------------------------------------------------------------- */
@@ -200,9 +200,9 @@ static void begin_next_edge(side *s, const quad *q, int row, int height)
     do {
         from = s->corner;
         s->corner = (from + s->way) & 3;
-        s->end = find_pixel(q->y[s->corner], height);
+        s->end = find_first_pixel(q->y[s->corner], height);
     } while (s->end <= row);
-    s->edge = walk_edge(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
+    s->edge = begin_edge_walk(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
 }
 
 /* `turn` is the sign of the quad's area: positive when corners go clockwise on screen. */
@@ -213,9 +213,9 @@ static void fill_convex(const target *t, const quad *q, int turn)
         top = q->y[i] < q->y[top] ? i : top;
         bottom = q->y[i] > q->y[bottom] ? i : bottom;
     }
-    const int end = find_pixel(q->y[bottom], t->height);
+    const int end = find_first_pixel(q->y[bottom], t->height);
     side left = {.corner = top, .way = turn > 0 ? 3 : 1}, right = {.corner = top, .way = turn > 0 ? 1 : 3};
-    for (int row = find_pixel(q->y[top], t->height); row < end; row++) {
+    for (int row = find_first_pixel(q->y[top], t->height); row < end; row++) {
         if (row >= left.end)
             begin_next_edge(&left, q, row, t->height);
         if (row >= right.end)
@@ -232,7 +232,7 @@ static void fill_convex(const target *t, const quad *q, int turn)
 /* ---- Any quad ----------------------------------------------------------------------------------------------- */
 
 /* The turn at corner b on the way from a to c: 1 clockwise on screen, -1 counterclockwise, 0 straight. */
-static int find_turn(const quad *q, int a, int b, int c)
+static int find_corner_turn(const quad *q, int a, int b, int c)
 {
     const int64_t area = ((int64_t)q->x[b] - q->x[a]) * ((int64_t)q->y[c] - q->y[b]) -
                          ((int64_t)q->y[b] - q->y[a]) * ((int64_t)q->x[c] - q->x[b]);
@@ -242,7 +242,7 @@ static int find_turn(const quad *q, int a, int b, int c)
 /* Fill the triangle of corner 0, b and c: a quad with a repeated corner. */
 static void fill_triangle(const target *t, const quad *q, int b, int c)
 {
-    const int turn = find_turn(q, 0, b, c);
+    const int turn = find_corner_turn(q, 0, b, c);
     quad alone = *q;
     alone.x[1] = q->x[b], alone.y[1] = q->y[b];
     alone.x[2] = alone.x[3] = q->x[c], alone.y[2] = alone.y[3] = q->y[c];
@@ -261,8 +261,9 @@ static void fill_quad(const target *t, const quad *q)
         fill_strip(t, q, flat);
         return;
     }
-    const int turn = find_turn(q, 0, 1, 2);
-    if (turn && find_turn(q, 1, 2, 3) == turn && find_turn(q, 2, 3, 0) == turn && find_turn(q, 3, 0, 1) == turn) {
+    const int turn = find_corner_turn(q, 0, 1, 2);
+    if (turn && find_corner_turn(q, 1, 2, 3) == turn && find_corner_turn(q, 2, 3, 0) == turn &&
+        find_corner_turn(q, 3, 0, 1) == turn) {
         fill_convex(t, q, turn);
         return;
     }

@@ -33,7 +33,7 @@ void canvas_release(canvas *c);
 
 /* Fill quads on a background of zeros. Returns the number of quads that were filled rather than copied. Swaps the list
  * with c->last, so that afterwards c->last holds these quads and `quads` the buffers of the last frame. */
-size_t canvas_draw(canvas *c, quad_list *quads, uint8_t *indices);
+size_t canvas_fill_quads(canvas *c, quad_list *quads, uint8_t *indices);
 
 /* ---- gl_surface.c -------------------------------------------------------------------------------------------- */
 
@@ -53,10 +53,10 @@ surface *surface_open(int width, int height, const renderer_choice *choice, octr
 /* ---- renderer.c ---------------------------------------------------------------------------------------------- */
 
 /* True if a scene's picture has the renderer's size in samples; an error where it does not. */
-bool renderer_fits(const renderer *r, const scene *s, octreel_error *error);
+bool renderer_fits_scene(const renderer *r, const scene *s, octreel_error *error);
 
 /* Fill quads with the renderer's rasterizer, in this order on a background of zeros, and read a part of the result. */
-bool renderer_fill(renderer *r, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
-                   octreel_error *error);
+bool renderer_fill_quads(renderer *r, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
+                         octreel_error *error);
 
 #endif

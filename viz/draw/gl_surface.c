@@ -48,7 +48,7 @@ typedef struct gl {
 } gl;
 
 /* Look up all functions. False with an error that names a missing one. */
-static bool gl_load(gl *functions, const context *c, octreel_error *error)
+static bool load_gl_functions(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
 #define GL_LOOK_UP(result, name, parameters)                                                                           \
@@ -110,7 +110,7 @@ static bool make_framebuffer(gl_surface *s, octreel_error *error)
 }
 
 /* Set all GL state that frames depend on, once. */
-static void set_state(gl_surface *s)
+static void set_gl_state(gl_surface *s)
 {
     const gl *gl = &s->gl;
     gl->DrawBuffer(GL_COLOR_ATTACHMENT0);
@@ -133,7 +133,7 @@ static void set_state(gl_surface *s)
 }
 
 /* A quad is two triangles that share the diagonal from corner 0 to corner 2. */
-static void make_indices(gl_surface *s)
+static void make_vertex_indices(gl_surface *s)
 {
     static const GLuint corners[6] = {0, 1, 2, 0, 2, 3};
     for (GLuint i = 0; i < BATCH * 6; i++)
@@ -199,15 +199,15 @@ surface *surface_open(int width, int height, const renderer_choice *choice, octr
     s->face = (surface){.fill = fill_with_gl, .about = describe_surface, .close = close_surface};
     s->width = width;
     s->height = height;
-    s->side = clip_square(width, height);
+    s->side = clip_square_side(width, height);
     context_limit_threads();
     s->context = context_open(choice, error);
-    if (!s->context || !gl_load(&s->gl, s->context, error) || !check_driver(s, choice->any_renderer, error) ||
+    if (!s->context || !load_gl_functions(&s->gl, s->context, error) || !check_driver(s, choice->any_renderer, error) ||
         !make_framebuffer(s, error)) {
         close_surface(&s->face);
         return NULL;
     }
-    make_indices(s);
-    set_state(s);
+    make_vertex_indices(s);
+    set_gl_state(s);
     return &s->face;
 }

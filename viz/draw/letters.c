@@ -12,7 +12,7 @@
 
 /* Move from a position to where the text beside it begins. Text of a position in the picture is not cut off at its
  * edge. */
-static void move_beside(const scene *s, const scene_label *label, double pixel[2])
+static void move_beside_position(const scene *s, const scene_label *label, double pixel[2])
 {
     const int aside[2] = {s->text.width / 2, -(s->text.height / 2)};
     const double room[2] = {s->view.width - (double)strlen(label->text) * s->text.width,
@@ -28,16 +28,16 @@ static void move_beside(const scene *s, const scene_label *label, double pixel[2
 
 /* Find the top left pixel of a label's text. False: its position is not visible. Text begins at a whole pixel, so that
  * it stays crisp with anti-aliasing. */
-static bool place_text(const scene *s, const scene_label *label, int *x, int *y)
+static bool find_text_position(const scene *s, const scene_label *label, int *x, int *y)
 {
     double pixel[2] = {label->at[0], label->at[1]};
     unsigned band;
     if (label->in_world) {
-        if (!project_point(s, label->at, pixel, &band))
+        if (!find_pixel_and_band(s, label->at, pixel, &band))
             return false;
         pixel[0] /= view_samples(&s->view);
         pixel[1] /= view_samples(&s->view);
-        move_beside(s, label, pixel);
+        move_beside_position(s, label, pixel);
     }
     if (!(fabs(pixel[0]) < FARTHEST && fabs(pixel[1]) < FARTHEST))
         return false;
@@ -60,20 +60,20 @@ static void add_letter(quad_list *list, quad *q, const glyph_set *set, char lett
 }
 
 /* The width in pixels of the dark rim around a label's letters. */
-static int rim_width(const scene *s, const scene_label *label)
+static int find_rim_width(const scene *s, const scene_label *label)
 {
     return label->style.stroke != STROKE_CUT ? 0 : s->unit > 2 ? s->unit / 2 : 1;
 }
 
-void letters_add(quad_list *list, const scene *s, const scene_label *label)
+void add_label_letters(quad_list *list, const scene *s, const scene_label *label)
 {
     const lettering *letters = scene_lettering(s, label);
     const int sub = QUAD_SUBPIXELS * view_samples(&s->view);
-    quad q = {.order = quad_order_of_text(label->style.layer)};
+    quad q = {.order = make_text_order(label->style.layer)};
     int left, top;
-    if (!place_text(s, label, &left, &top))
+    if (!find_text_position(s, label, &left, &top))
         return;
-    for (int rim = rim_width(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
+    for (int rim = find_rim_width(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
         q.color = theme_index(rim > 0 ? ROLE_BACKGROUND : label->style.role, 0);
         for (int i = 0; label->text[i]; i++)
             add_letter(list, &q, &glyph_sets[letters->face], label->text[i], (left + i * letters->width) * sub,
@@ -82,12 +82,12 @@ void letters_add(quad_list *list, const scene *s, const scene_label *label)
 }
 
 /* Find the box around a label's text. False: it is not visible. */
-static bool find_box(const scene *s, const scene_label *label, draw_box *box)
+static bool find_text_box(const scene *s, const scene_label *label, draw_box *box)
 {
     const lettering *letters = scene_lettering(s, label);
-    if (!place_text(s, label, &box->x, &box->y))
+    if (!find_text_position(s, label, &box->x, &box->y))
         return false;
-    const int rim = rim_width(s, label);
+    const int rim = find_rim_width(s, label);
     box->x -= rim;
     box->y -= rim;
     box->width = (int)strlen(label->text) * letters->width + 2 * rim;
@@ -95,17 +95,17 @@ static bool find_box(const scene *s, const scene_label *label, draw_box *box)
     return true;
 }
 
-void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context)
+void visit_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context)
 {
     for (size_t i = 0; i < s->panels.count; i++) {
         const scene_panel *panel = &s->panels.items[i];
         const draw_box box = {panel->x, panel->y, panel->width, panel->height};
         visit(&box, context);
     }
-    const scene fine = project_samples(s);
+    const scene fine = project_scene_to_samples(s);
     for (size_t i = 0; i < s->labels.count; i++) {
         draw_box box;
-        if (find_box(&fine, &s->labels.items[i], &box))
+        if (find_text_box(&fine, &s->labels.items[i], &box))
             visit(&box, context);
     }
 }

@@ -11,10 +11,10 @@ typedef struct draw_box {
 } draw_box;
 
 /* Visit the boxes around a scene's labels and panels: all text is drawn inside them. Needs no renderer. */
-void draw_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
+void visit_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
 
-/* Add the letters of a label, at its pixel or beside its projected position. `s` is from project_samples(). Private to
- * this folder. */
-void letters_add(quad_list *list, const scene *s, const scene_label *label);
+/* Add the letters of a label, at its pixel or beside its projected position. `s` is from project_scene_to_samples().
+ * Private to this folder. */
+void add_label_letters(quad_list *list, const scene *s, const scene_label *label);
 
 #endif

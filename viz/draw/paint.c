@@ -26,8 +26,8 @@ void painter_release(painter *p)
 static void add_stroke(painter *p, const scene *s, const piece *pieces, unsigned count, scene_style style,
                        unsigned depth)
 {
-    const pencil with = pencil_make(s, style, depth);
-    stroke_line(&p->quads, &with, pieces, count);
+    const pencil with = stroke_make_pencil(s, style, depth);
+    stroke_add_line(&p->quads, &with, pieces, count);
 }
 
 static void paint_segment(painter *p, const scene *s, const double from[3], const double to[3], scene_style style,
@@ -48,10 +48,10 @@ static void paint_segments(painter *p, const scene *s, bool in_picture)
         piece flat;
         if (segment->in_picture != in_picture)
             continue;
-        quads_begin(&p->quads, SCENE_SEGMENT, i);
+        quads_begin_element(&p->quads, SCENE_SEGMENT, i);
         if (!in_picture)
             paint_segment(p, s, segment->ends[0], segment->ends[1], segment->style, 0);
-        else if (project_flat(s, segment->ends[0], segment->ends[1], &flat))
+        else if (clip_picture_segment(s, segment->ends[0], segment->ends[1], &flat))
             add_stroke(p, s, &flat, 1, segment->style, 0);
     }
 }
@@ -60,20 +60,20 @@ static bool paint_boxes(painter *p, const scene *s)
 {
     if (!edges_merge(&p->tree, s, 0, LAYER_NODES + 1) || !edges_merge(&p->edges, s, LAYER_NODES + 1, LAYER_ALL))
         return false;
-    for (size_t i = 0; i < paint_edge_count(p); i++) {
-        const edge *e = paint_edge_at(p, i);
-        quads_begin(&p->quads, SCENE_BOX, i);
+    for (size_t i = 0; i < painter_edge_count(p); i++) {
+        const edge *e = painter_edge_at(p, i);
+        quads_begin_element(&p->quads, SCENE_BOX, i);
         paint_segment(p, s, e->ends[0], e->ends[1], e->style, e->depth);
     }
     return true;
 }
 
-size_t paint_edge_count(const painter *p)
+size_t painter_edge_count(const painter *p)
 {
     return p->tree.now.count + p->edges.now.count;
 }
 
-const edge *paint_edge_at(const painter *p, size_t index)
+const edge *painter_edge_at(const painter *p, size_t index)
 {
     const edge_array *tree = &p->tree.now;
     return index < tree->count ? &tree->items[index] : &p->edges.now.items[index - tree->count];
@@ -83,13 +83,13 @@ static void paint_marker(painter *p, const scene *s, const scene_marker *marker)
 {
     double pixel[2];
     unsigned band;
-    if (!project_point(s, marker->at, pixel, &band))
+    if (!find_pixel_and_band(s, marker->at, pixel, &band))
         return;
-    const pencil with = pencil_make(s, marker->style, 0);
-    stroke_marker(&p->quads, &with, (scene_shape)marker->shape, pixel, band);
+    const pencil with = stroke_make_pencil(s, marker->style, 0);
+    stroke_add_marker(&p->quads, &with, (scene_shape)marker->shape, pixel, band);
 }
 
-static bool is_point(const scene_marker *marker)
+static bool is_point_marker(const scene_marker *marker)
 {
     return marker->style.layer == LAYER_POINTS;
 }
@@ -113,7 +113,7 @@ static bool paint_points(painter *p, const scene *s)
     project_points(s, s->markers.items, s->markers.count, p->places);
     for (size_t i = 0; i < s->markers.count; i++) {
         point_place *at = &p->places[i];
-        at->seen = at->seen && is_point(&s->markers.items[i]);
+        at->seen = at->seen && is_point_marker(&s->markers.items[i]);
         if (at->seen && (p->nearest[at->pixel] == 0 || p->nearest[at->pixel] > at->band + 1))
             p->nearest[at->pixel] = (uint8_t)(at->band + 1);
     }
@@ -122,20 +122,20 @@ static bool paint_points(painter *p, const scene *s)
         const scene_marker *marker = &s->markers.items[i];
         if (!at.seen || p->nearest[at.pixel] != at.band + 1)
             continue;
-        const pencil with = pencil_make(s, marker->style, 0);
+        const pencil with = stroke_make_pencil(s, marker->style, 0);
         const uint32_t width = (uint32_t)s->view.width;
-        quads_begin(&p->quads, SCENE_MARKER, i);
-        stroke_marker(&p->quads, &with, (scene_shape)marker->shape,
-                      (const double[2]){at.pixel % width, (double)(at.pixel / width)}, at.band);
+        quads_begin_element(&p->quads, SCENE_MARKER, i);
+        stroke_add_marker(&p->quads, &with, (scene_shape)marker->shape,
+                          (const double[2]){at.pixel % width, (double)(at.pixel / width)}, at.band);
         p->nearest[at.pixel] = UINT8_MAX; /* painted */
     }
     return true;
 }
 
-/* Clip a close-up to its part of the picture, and other scenes to clip_square(). */
-static void set_limits(quad_list *list, const scene *s)
+/* Clip a close-up to its part of the picture, and other scenes to clip_square_side(). */
+static void set_clip_limits(quad_list *list, const scene *s)
 {
-    const int square = clip_square(s->view.width, s->view.height);
+    const int square = clip_square_side(s->view.width, s->view.height);
     const bool is_closeup = s->times > 0;
     list->limits[0] = (is_closeup ? s->view.width : square) * QUAD_SUBPIXELS;
     list->limits[1] = (is_closeup ? s->view.height : square) * QUAD_SUBPIXELS;
@@ -143,10 +143,10 @@ static void set_limits(quad_list *list, const scene *s)
 
 static bool paint_closeup(painter *p, const scene *s)
 {
-    const scene closer = project_samples(s->closeup);
+    const scene closer = project_scene_to_samples(s->closeup);
     const int subpixels = QUAD_SUBPIXELS * view_samples(&closer.view);
     p->closeup = p->closeup ? p->closeup : calloc(1, sizeof *p->closeup);
-    if (!p->closeup || !paint(p->closeup, s->closeup))
+    if (!p->closeup || !painter_paint_scene(p->closeup, s->closeup))
         return false;
     if (view_paints_points(&s->view))
         splats_copy_closeup(&p->splats, s, &p->closeup->splats, &closer);
@@ -154,32 +154,32 @@ static bool paint_closeup(painter *p, const scene *s)
                                 (int32_t[]){closer.place[0] * subpixels, closer.place[1] * subpixels});
 }
 
-bool paint(painter *p, const scene *picture)
+bool painter_paint_scene(painter *p, const scene *picture)
 {
-    const scene fine = project_samples(picture), *s = &fine;
+    const scene fine = project_scene_to_samples(picture), *s = &fine;
     p->quads.count = 0;
     p->quads.out_of_memory = false;
-    set_limits(&p->quads, s);
+    set_clip_limits(&p->quads, s);
     p->overflowed = 0;
     if (!paint_boxes(p, s) ||
-        !(view_paints_points(&s->view) ? splats_paint(&p->splats, &p->quads, s) : paint_points(p, s)))
+        !(view_paints_points(&s->view) ? splats_paint_points(&p->splats, &p->quads, s) : paint_points(p, s)))
         return false;
     paint_segments(p, s, false);
     for (size_t i = 0; i < s->markers.count; i++) {
-        quads_begin(&p->quads, SCENE_MARKER, i);
-        if (!is_point(&s->markers.items[i]))
+        quads_begin_element(&p->quads, SCENE_MARKER, i);
+        if (!is_point_marker(&s->markers.items[i]))
             paint_marker(p, s, &s->markers.items[i]);
     }
     for (size_t i = 0; i < s->panels.count; i++) {
-        quads_begin(&p->quads, SCENE_PANEL, i);
-        stroke_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
+        quads_begin_element(&p->quads, SCENE_PANEL, i);
+        stroke_add_panel(&p->quads, &s->panels.items[i], view_samples(&s->view));
         if (s->panels.items[i].style.role == ROLE_OWN)
-            splats_fill(&p->splats, s, &s->panels.items[i]);
+            splats_fill_panel(&p->splats, s, &s->panels.items[i]);
     }
     paint_segments(p, s, true); /* after panels, which they cover */
     for (size_t i = 0; i < s->labels.count; i++) {
-        quads_begin(&p->quads, SCENE_LABEL, i);
-        letters_add(&p->quads, s, &s->labels.items[i]);
+        quads_begin_element(&p->quads, SCENE_LABEL, i);
+        add_label_letters(&p->quads, s, &s->labels.items[i]);
     }
     return !p->quads.out_of_memory && quads_sort(&p->quads) && (!s->has_closeup || paint_closeup(p, s));
 }

@@ -25,10 +25,10 @@ typedef struct painter {
 void painter_release(painter *p);
 
 /* Fill p->quads with the quads of a scene. False when out of memory. */
-bool paint(painter *p, const scene *picture);
+bool painter_paint_scene(painter *p, const scene *picture);
 
-/* The merged edges of boxes. Quads of boxes have an index from 0 to paint_edge_count() - 1. */
-size_t paint_edge_count(const painter *p);
-const edge *paint_edge_at(const painter *p, size_t index);
+/* The merged edges of boxes. Quads of boxes have an index from 0 to painter_edge_count() - 1. */
+size_t painter_edge_count(const painter *p);
+const edge *painter_edge_at(const painter *p, size_t index);
 
 #endif

@@ -28,7 +28,7 @@
 typedef struct source {
     const scene *scene;
     const painter *painter;
-    scene fine; /* from project_samples() */
+    scene fine; /* from project_scene_to_samples() */
     edge_boxes boxes;
     uint64_t strokes;         /* the number of strokes */
     uint64_t strokes_before;  /* of a close-up: the number of strokes of the scene around it */
@@ -40,7 +40,7 @@ typedef struct source {
 /* The scene and its close-up; the second is empty if there is none. */
 typedef source sources[2];
 
-static void sources_release(sources all)
+static void release_sources(sources all)
 {
     for (int i = 0; i < 2; i++)
         edge_boxes_release(&all[i].boxes);
@@ -52,15 +52,15 @@ static bool open_source(source *from, const scene *s, const painter *p)
     const int samples = view_samples(&s->view);
     from->scene = s;
     from->painter = p;
-    from->fine = project_samples(s);
-    from->strokes = paint_edge_count(p) + scene_count(s) - s->boxes.count;
+    from->fine = project_scene_to_samples(s);
+    from->strokes = painter_edge_count(p) + scene_count(s) - s->boxes.count;
     from->left = s->place[0] * samples;
     from->top = s->place[1] * samples;
-    return edge_boxes_make(&from->boxes, &from->fine);
+    return edge_boxes_find_all(&from->boxes, &from->fine);
 }
 
 /* Open zeroed sources, which must not be moved afterwards. False when out of memory. */
-static bool sources_open(sources all, const scene *s, const painter *p)
+static bool open_sources(sources all, const scene *s, const painter *p)
 {
     if (!open_source(&all[0], s, p) || (s->has_closeup && !open_source(&all[1], s->closeup, p->closeup)))
         return false;
@@ -69,18 +69,18 @@ static bool sources_open(sources all, const scene *s, const painter *p)
     return true;
 }
 
-static source *source_of(sources all, const quad *q)
+static source *find_quad_source(sources all, const quad *q)
 {
     return &all[q->kind >= QUAD_IN_CLOSEUP];
 }
 
 /* The element of a quad. For boxes q->index is that of a merged edge, so the caller supplies the index of the box. */
-static scene_element element_of(const quad *q, size_t index)
+static scene_element make_quad_element(const quad *q, size_t index)
 {
     return (scene_element){(scene_kind)(q->kind % QUAD_IN_CLOSEUP), index, q->kind >= QUAD_IN_CLOSEUP};
 }
 
-static bool is_edge(const quad *q)
+static bool is_edge_quad(const quad *q)
 {
     return q->kind % QUAD_IN_CLOSEUP == SCENE_BOX;
 }
@@ -98,22 +98,23 @@ static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_
 {
     const int side = view_samples(&s->view);
     const renderer_part all = {0, 0, s->view.width * side, s->view.height * side};
-    return renderer_fill(r, p->quads.items, p->quads.count, all, samples, error);
+    return renderer_fill_quads(r, p->quads.items, p->quads.count, all, samples, error);
 }
 
 /* The number of a quad's stroke: that of its element, with merged edges in place of boxes. */
-static uint64_t number_stroke(sources all, const quad *q)
+static uint64_t find_stroke_number(sources all, const quad *q)
 {
-    const source *from = source_of(all, q);
-    const scene_kind kind = element_of(q, 0).kind;
+    const source *from = find_quad_source(all, q);
+    const scene_kind kind = make_quad_element(q, 0).kind;
     if (kind == SCENE_BOX)
         return from->strokes_before + 1 + q->index;
     return from->strokes_before + scene_number_of(from->scene, (scene_element){.kind = kind, .index = q->index}) -
-           from->scene->boxes.count + paint_edge_count(from->painter);
+           from->scene->boxes.count + painter_edge_count(from->painter);
 }
 
 /* Draw the number of the topmost stroke at each sample: one pass for each byte of the largest number. */
-static bool draw_strokes(renderer *r, const scene *s, painter *p, sources all, uint32_t *numbers, octreel_error *error)
+static bool draw_stroke_numbers(renderer *r, const scene *s, painter *p, sources all, uint32_t *numbers,
+                                octreel_error *error)
 {
     const size_t size = count_samples(s);
     const uint64_t largest = all[0].strokes + all[1].strokes;
@@ -122,7 +123,7 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, sources all, u
     memset(numbers, 0, size * sizeof *numbers);
     for (unsigned shift = 0; ok && shift < 32 && largest >> shift; shift += 8) {
         for (size_t i = 0; i < p->quads.count; i++)
-            p->quads.items[i].color = (uint8_t)(number_stroke(all, &p->quads.items[i]) >> shift);
+            p->quads.items[i].color = (uint8_t)(find_stroke_number(all, &p->quads.items[i]) >> shift);
         ok = fill_all_quads(r, s, p, bytes, error);
         for (size_t i = 0; ok && i < size; i++)
             numbers[i] |= (uint32_t)bytes[i] << shift;
@@ -132,38 +133,38 @@ static bool draw_strokes(renderer *r, const scene *s, painter *p, sources all, u
 }
 
 /* The number of the element to which a stroke belongs at a sample. */
-static uint32_t find_element(const source *from, uint32_t stroke, int x, int y)
+static uint32_t find_element_number(const source *from, uint32_t stroke, int x, int y)
 {
-    const uint32_t edges = (uint32_t)paint_edge_count(from->painter);
+    const uint32_t edges = (uint32_t)painter_edge_count(from->painter);
     if (stroke > edges)
         return stroke - edges + (uint32_t)from->scene->boxes.count;
-    return 1 + (uint32_t)edge_boxes_find_owner(&from->boxes, paint_edge_at(from->painter, stroke - 1), x - from->left,
+    return 1 + (uint32_t)edge_boxes_find_owner(&from->boxes, painter_edge_at(from->painter, stroke - 1), x - from->left,
                                                y - from->top);
 }
 
 /* Replace the numbers of strokes by the numbers of elements. */
-static void number_elements(const scene *s, const sources all, uint32_t *numbers)
+static void replace_stroke_numbers(const scene *s, const sources all, uint32_t *numbers)
 {
     const size_t width = (size_t)s->view.width * (size_t)view_samples(&s->view), size = count_samples(s);
     for (size_t i = 0; i < size; i++) {
         const source *from = &all[numbers[i] > all[0].strokes];
         if (numbers[i] > 0)
-            numbers[i] = from->elements_before + find_element(from, numbers[i] - (uint32_t)from->strokes_before,
-                                                              (int)(i % width), (int)(i / width));
+            numbers[i] = from->elements_before + find_element_number(from, numbers[i] - (uint32_t)from->strokes_before,
+                                                                     (int)(i % width), (int)(i / width));
     }
 }
 
-bool renderer_number_samples(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error)
+bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error)
 {
-    if (!renderer_fits(r, s, error))
+    if (!renderer_fits_scene(r, s, error))
         return false;
     painter p = {0}; /* not the renderer's own, which keeps the last frame */
     sources all = {0};
-    const bool ok = ((paint(&p, s) && sources_open(all, s, &p)) || error_no_memory(error)) &&
-                    draw_strokes(r, s, &p, all, numbers, error);
+    const bool ok = ((painter_paint_scene(&p, s) && open_sources(all, s, &p)) || error_no_memory(error)) &&
+                    draw_stroke_numbers(r, s, &p, all, numbers, error);
     if (ok)
-        number_elements(s, all, numbers);
-    sources_release(all);
+        replace_stroke_numbers(s, all, numbers);
+    release_sources(all);
     painter_release(&p);
     return ok;
 }
@@ -171,11 +172,12 @@ bool renderer_number_samples(renderer *r, const scene *s, uint32_t *numbers, oct
 /* ---- Layers -------------------------------------------------------------------------------------------------- */
 
 /* The layer of a quad as a bit, plus LAYER_CLOSEUP in a close-up. */
-static unsigned layers_of(const scene *s, const painter *p, const quad *q)
+static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q)
 {
-    const scene_element element = element_of(q, q->index);
+    const scene_element element = make_quad_element(q, q->index);
     const painter *of = element.in_closeup ? p->closeup : p;
-    const unsigned own = is_edge(q) ? paint_edge_at(of, q->index)->style.layer : scene_head_of(s, element).style.layer;
+    const unsigned own =
+        is_edge_quad(q) ? painter_edge_at(of, q->index)->style.layer : scene_head_of(s, element).style.layer;
     return 1u << own | (element.in_closeup ? 1u << LAYER_CLOSEUP : 0);
 }
 
@@ -189,15 +191,15 @@ static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
             mask[y / side * width + x / side] |= samples[y * width * side + x];
 }
 
-bool renderer_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *mask, octreel_error *error)
+bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint8_t *mask, octreel_error *error)
 {
-    if (!renderer_fits(r, s, error))
+    if (!renderer_fits_scene(r, s, error))
         return false;
     uint8_t *samples = malloc(count_samples(s));
     painter p = {0};
-    bool ok = (samples && paint(&p, s)) || error_no_memory(error);
+    bool ok = (samples && painter_paint_scene(&p, s)) || error_no_memory(error);
     for (size_t i = 0; ok && i < p.quads.count; i++)
-        p.quads.items[i].color = (layers & layers_of(s, &p, &p.quads.items[i])) != 0;
+        p.quads.items[i].color = (layers & find_quad_layers(s, &p, &p.quads.items[i])) != 0;
     ok = ok && fill_all_quads(r, s, &p, samples, error);
     if (ok)
         shrink_mask(&s->view, samples, mask);
@@ -241,7 +243,7 @@ static draw_cover *append_cover(probe *p, uint32_t number)
 }
 
 /* Find the entry of an element, or append one. Null when out of memory. */
-static draw_cover *find_or_append(probe *p, scene_element element)
+static draw_cover *find_or_append_cover(probe *p, scene_element element)
 {
     const uint32_t number = scene_number_of(p->picture, element);
     for (size_t i = 0; i < p->list->count; i++)
@@ -251,9 +253,9 @@ static draw_cover *find_or_append(probe *p, scene_element element)
 }
 
 /* Record that the quad's element, which has this index, covers a sample. Quads come from the topmost to the lowest. */
-static void add_sample(probe *p, size_t index, int sample)
+static void add_covered_sample(probe *p, size_t index, int sample)
 {
-    draw_cover *cover = find_or_append(p, element_of(p->quad, index));
+    draw_cover *cover = find_or_append_cover(p, make_quad_element(p->quad, index));
     const bool shown = !(p->taken >> sample & 1);
     if (!cover || cover->at >> sample & 1)
         return;
@@ -268,14 +270,14 @@ static void add_sample(probe *p, size_t index, int sample)
 static void add_sharing_box(size_t box, void *context)
 {
     probe *p = context;
-    find_or_append(p, element_of(p->quad, box));
+    find_or_append_cover(p, make_quad_element(p->quad, box));
 }
 
 /* Append a point without searching the list, since points may be many and none added here has an entry yet. */
-static void append_point(probe *p, size_t index)
+static void append_point_cover(probe *p, size_t index)
 {
     if (index != p->quad->index)
-        append_cover(p, scene_number_of(p->picture, element_of(p->quad, index)));
+        append_cover(p, scene_number_of(p->picture, make_quad_element(p->quad, index)));
 }
 
 /* Add the points that share the sample of a drawn point. */
@@ -284,7 +286,7 @@ static void add_sharing_points(probe *p, const source *from)
     const point_place *places = from->painter->places;
     for (size_t i = 0; i < from->scene->markers.count; i++)
         if (places[i].seen && places[i].pixel == places[p->quad->index].pixel)
-            append_point(p, i);
+            append_point_cover(p, i);
 }
 
 /* Add the points of the pixel that view_paints_points() paints as discs, hidden ones included. */
@@ -295,15 +297,15 @@ static void add_painted_points(probe *p, source *from)
     if (from->points_listed)
         return;
     from->points_listed = true;
-    p->out_of_memory |= !splats_list(&from->fine, &samples, &list);
+    p->out_of_memory |= !splats_list_covering_points(&from->fine, &samples, &list);
     for (size_t i = 0; i < list.count; i++)
-        append_point(p, list.items[i].marker);
+        append_point_cover(p, list.items[i].marker);
     free(list.items);
 }
 
-static void add_points(probe *p)
+static void append_all_points(probe *p)
 {
-    source *from = source_of(p->sources, p->quad);
+    source *from = find_quad_source(p->sources, p->quad);
     if (from->scene->markers.items[p->quad->index].style.layer != LAYER_POINTS)
         return;
     if (view_paints_points(&from->scene->view))
@@ -313,7 +315,7 @@ static void add_points(probe *p)
 }
 
 /* True if a quad may cover a sample of the pixel: its bounding box reaches the pixel. */
-static bool may_reach(const quad *q, const renderer_part *part)
+static bool can_reach_pixel(const quad *q, const renderer_part *part)
 {
     const int32_t left = part->x * QUAD_SUBPIXELS, right = (part->x + part->width) * QUAD_SUBPIXELS;
     const int32_t top = part->y * QUAD_SUBPIXELS, bottom = (part->y + part->height) * QUAD_SUBPIXELS;
@@ -328,73 +330,73 @@ static bool may_reach(const quad *q, const renderer_part *part)
 }
 
 /* Find the samples of the pixel that the quad covers, as bits. *ok: whether drawing succeeds. */
-static unsigned find_covered(renderer *r, const probe *p, bool *ok, octreel_error *error)
+static unsigned find_covered_samples(renderer *r, const probe *p, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
     quad alone = *p->quad;
     unsigned bits = 0;
     alone.color = 1;
-    *ok = renderer_fill(r, &alone, 1, p->part, bytes, error);
+    *ok = renderer_fill_quads(r, &alone, 1, p->part, bytes, error);
     for (int i = 0; *ok && i < p->part.width * p->part.height; i++)
         bits |= (unsigned)(bytes[i] != 0) << i;
     return bits;
 }
 
 /* Add the boxes of a merged edge: its owners, which may differ from sample to sample, then the boxes that share it. */
-static void add_edge(probe *p, unsigned bits)
+static void add_edge_covers(probe *p, unsigned bits)
 {
-    const source *from = source_of(p->sources, p->quad);
-    const edge *e = paint_edge_at(from->painter, p->quad->index);
+    const source *from = find_quad_source(p->sources, p->quad);
+    const edge *e = painter_edge_at(from->painter, p->quad->index);
     for (int pass = 0; pass < 2; pass++) {
         for (int i = 0; i < p->part.width * p->part.height; i++) {
             const int x = p->part.x + i % p->part.width - from->left, y = p->part.y + i / p->part.width - from->top;
             if (!(bits >> i & 1))
                 continue;
             if (pass == 0)
-                add_sample(p, edge_boxes_find_owner(&from->boxes, e, x, y), i);
+                add_covered_sample(p, edge_boxes_find_owner(&from->boxes, e, x, y), i);
             else
-                edge_boxes_visit(&from->boxes, e, x, y, add_sharing_box, p);
+                edge_boxes_visit_sharing(&from->boxes, e, x, y, add_sharing_box, p);
         }
     }
 }
 
-static void add_quad(probe *p, unsigned bits)
+static void add_quad_covers(probe *p, unsigned bits)
 {
-    if (is_edge(p->quad))
-        add_edge(p, bits);
-    for (int i = 0; !is_edge(p->quad) && i < MOST_SAMPLES; i++)
+    if (is_edge_quad(p->quad))
+        add_edge_covers(p, bits);
+    for (int i = 0; !is_edge_quad(p->quad) && i < MOST_SAMPLES; i++)
         if (bits >> i & 1)
-            add_sample(p, p->quad->index, i);
-    if (element_of(p->quad, 0).kind == SCENE_MARKER)
-        add_points(p);
+            add_covered_sample(p, p->quad->index, i);
+    if (make_quad_element(p->quad, 0).kind == SCENE_MARKER)
+        append_all_points(p);
     p->taken |= bits;
 }
 
-static bool probe_quads(renderer *r, probe *p, octreel_error *error)
+static bool add_all_quad_covers(renderer *r, probe *p, octreel_error *error)
 {
     bool ok = true;
     for (size_t i = p->painter.quads.count; ok && i-- > 0;) {
         p->quad = &p->painter.quads.items[i];
-        const unsigned bits = may_reach(p->quad, &p->part) ? find_covered(r, p, &ok, error) : 0;
+        const unsigned bits = can_reach_pixel(p->quad, &p->part) ? find_covered_samples(r, p, &ok, error) : 0;
         if (bits)
-            add_quad(p, bits);
+            add_quad_covers(p, bits);
     }
     return ok;
 }
 
-bool renderer_list_pixel(renderer *r, const scene *s, int x, int y, draw_covers *list, octreel_error *error)
+bool renderer_list_pixel_covers(renderer *r, const scene *s, int x, int y, draw_covers *list, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}, .list = list};
     list->count = 0;
-    if (!renderer_fits(r, s, error))
+    if (!renderer_fits_scene(r, s, error))
         return false;
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return error_set(error, "pixel (%d, %d) is outside the picture, which has %d x %d pixels", x, y, s->view.width,
                          s->view.height);
-    p.out_of_memory = !paint(&p.painter, s) || !sources_open(p.sources, s, &p.painter);
-    const bool ok = p.out_of_memory || probe_quads(r, &p, error);
-    sources_release(p.sources);
+    p.out_of_memory = !painter_paint_scene(&p.painter, s) || !open_sources(p.sources, s, &p.painter);
+    const bool ok = p.out_of_memory || add_all_quad_covers(r, &p, error);
+    release_sources(p.sources);
     painter_release(&p.painter);
     return p.out_of_memory ? error_no_memory(error) : ok;
 }

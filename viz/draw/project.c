@@ -23,7 +23,7 @@
 /* Larger camera coordinates could overflow when they are projected. */
 #define FARTHEST 1e301
 
-scene project_samples(const scene *s)
+scene project_scene_to_samples(const scene *s)
 {
     scene fine = *s;
     const int samples = view_samples(&s->view);
@@ -36,13 +36,13 @@ scene project_samples(const scene *s)
 }
 
 /* The position of a view depth among the bands: 0 at the near side of the world, QUAD_BANDS at the far side. */
-static double band_position(const camera *c, double depth)
+static double find_band_position(const camera *c, double depth)
 {
     const double span = c->far_depth - c->near_depth;
     return span > 0 ? (depth - c->near_depth) / span * QUAD_BANDS : 0;
 }
 
-static unsigned band_of(double position)
+static unsigned round_to_band(double position)
 {
     if (!(position >= 0))
         return 0;
@@ -51,7 +51,7 @@ static unsigned band_of(double position)
 
 /* Find the point of a segment at which a linear function is zero; at_a and at_b, of opposite sign, are its values at
  * the two ends. */
-static void find_zero(const double a[3], const double b[3], double at_a, double at_b, double result[3])
+static void find_zero_crossing(const double a[3], const double b[3], double at_a, double at_b, double result[3])
 {
     const double whole = at_b / 2 - at_a / 2;
     const double of_a = at_b / 2 / whole, of_b = -(at_a / 2) / whole;
@@ -60,14 +60,14 @@ static void find_zero(const double a[3], const double b[3], double at_a, double 
 }
 
 /* Cut off the part of a segment below (side 1) or above (side -1) a bound on one axis. False when nothing is left. */
-static bool keep_side(double a[3], double b[3], int axis, double side, double bound)
+static bool clip_to_side(double a[3], double b[3], int axis, double side, double bound)
 {
     const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
     if (at_a < 0 && at_b < 0)
         return false;
     if (at_a < 0 || at_b < 0) {
         double *outer = at_a < 0 ? a : b, crossing[3];
-        find_zero(a, b, at_a, at_b, crossing);
+        find_zero_crossing(a, b, at_a, at_b, crossing);
         crossing[axis] = bound; /* not the rounded zero */
         memcpy(outer, crossing, sizeof crossing);
     }
@@ -88,7 +88,7 @@ static bool clip_to_picture(const view *v, piece *p)
     double a[3] = {p->from[0], p->from[1], 0}, b[3] = {p->to[0], p->to[1], 0};
     const double size[2] = {v->width, v->height};
     for (int axis = 0; axis < 2; axis++)
-        if (!keep_side(a, b, axis, 1, -CLIP_MARGIN) || !keep_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
+        if (!clip_to_side(a, b, axis, 1, -CLIP_MARGIN) || !clip_to_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
             return false;
     for (int axis = 0; axis < 2; axis++) { /* rounding may move a mean of two numbers out of their interval */
         p->from[axis] = fmin(fmax(a[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
@@ -100,17 +100,17 @@ static bool clip_to_picture(const view *v, piece *p)
 /* Cut a segment in camera coordinates at the planes between bands, from the first end to the second. */
 static unsigned cut_into_bands(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
 {
-    const double first = band_position(&s->camera, a[2]), last = band_position(&s->camera, b[2]);
-    const int step = first < last ? 1 : -1, last_band = (int)band_of(last);
+    const double first = find_band_position(&s->camera, a[2]), last = find_band_position(&s->camera, b[2]);
+    const int step = first < last ? 1 : -1, last_band = (int)round_to_band(last);
     unsigned count = 0;
     double from[3], to[3];
     memcpy(from, a, sizeof from);
-    for (int band = (int)band_of(first);; band += step) {
+    for (int band = (int)round_to_band(first);; band += step) {
         const double plane = step > 0 ? band + 1 : band;
         if (band == last_band)
             memcpy(to, b, sizeof to);
         else
-            find_zero(a, b, first - plane, last - plane, to);
+            find_zero_crossing(a, b, first - plane, last - plane, to);
         piece *p = &pieces[count];
         p->band = (unsigned)band;
         camera_project(&s->camera, from, p->from);
@@ -122,7 +122,7 @@ static unsigned cut_into_bands(const scene *s, const double a[3], const double b
     }
 }
 
-static bool is_near(double x, double y, double depth)
+static bool is_within_limits(double x, double y, double depth)
 {
     return fabs(x) < FARTHEST && fabs(y) < FARTHEST && fabs(depth) < FARTHEST;
 }
@@ -131,7 +131,7 @@ static bool is_near(double x, double y, double depth)
 static bool transform_to_camera(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
-    return is_near(seen[0], seen[1], seen[2]);
+    return is_within_limits(seen[0], seen[1], seen[2]);
 }
 
 unsigned project_segment(const scene *s, const double first[3], const double second[3], piece pieces[QUAD_BANDS],
@@ -141,15 +141,15 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
     *overflowed = !transform_to_camera(s, first, a) || !transform_to_camera(s, second, b);
     if (*overflowed)
         return 0;
-    if (s->camera.perspective && !keep_side(a, b, 2, 1, s->camera.near))
+    if (s->camera.perspective && !clip_to_side(a, b, 2, 1, s->camera.near))
         return 0;
     if (s->camera.clips_depth &&
-        !(keep_side(a, b, 2, 1, s->camera.near_depth) && keep_side(a, b, 2, -1, s->camera.far_depth)))
+        !(clip_to_side(a, b, 2, 1, s->camera.near_depth) && clip_to_side(a, b, 2, -1, s->camera.far_depth)))
         return 0;
     return cut_into_bands(s, a, b, pieces);
 }
 
-bool project_flat(const scene *s, const double from[3], const double to[3], piece *p)
+bool clip_picture_segment(const scene *s, const double from[3], const double to[3], piece *p)
 {
     const int samples = view_samples(&s->view);
     p->band = 0;
@@ -160,22 +160,22 @@ bool project_flat(const scene *s, const double from[3], const double to[3], piec
     return clip_to_picture(&s->view, p);
 }
 
-unsigned project_band(const camera *c, double depth)
+unsigned find_depth_band(const camera *c, double depth)
 {
-    return band_of(band_position(c, depth));
+    return round_to_band(find_band_position(c, depth));
 }
 
-static bool is_at_depth(const camera *c, double depth)
+static bool is_at_visible_depth(const camera *c, double depth)
 {
     return !(c->perspective && depth < c->near) &&
            (!c->clips_depth || (depth >= c->near_depth && depth <= c->far_depth));
 }
 
-bool project_place(const scene *s, const double position[3], double pixel[2], double *depth)
+bool find_pixel_and_depth(const scene *s, const double position[3], double pixel[2], double *depth)
 {
     double seen[3];
     const camera *c = &s->camera;
-    if (!transform_to_camera(s, position, seen) || !is_at_depth(c, seen[2]))
+    if (!transform_to_camera(s, position, seen) || !is_at_visible_depth(c, seen[2]))
         return false;
     camera_project(&s->camera, seen, pixel);
     *depth = seen[2];
@@ -189,7 +189,7 @@ bool project_place(const scene *s, const double position[3], double pixel[2], do
 typedef struct point_run {
     double from_eye[3][RUN];
     double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
-    double x[RUN], y[RUN], band[RUN];           /* pixels, and band_position() */
+    double x[RUN], y[RUN], band[RUN];           /* pixels, and find_band_position() */
     double seen[RUN];                           /* 0: the point is not in the picture */
 } point_run;
 
@@ -201,8 +201,8 @@ static void measure_along_axis(const point_run *run, const double axis[3], doubl
     memcpy(seen, turned, sizeof turned);
 }
 
-/* The tests of is_near() and is_at_depth(), and whether the pixel is in the picture. */
-static void find_visible(const scene *s, point_run *run)
+/* The tests of is_within_limits() and is_at_visible_depth(), and whether the pixel is in the picture. */
+static void find_visible_points(const scene *s, point_run *run)
 {
     const camera *c = &s->camera;
     const double width = s->view.width, height = s->view.height;
@@ -239,8 +239,8 @@ static void project_run(const scene *s, point_run *run)
         run->y[i] = c.middle[1] - run->along[i] * scale;
     }
     for (int i = 0; i < RUN; i++)
-        run->band[i] = band_position(&c, run->depth[i]);
-    find_visible(s, run);
+        run->band[i] = find_band_position(&c, run->depth[i]);
+    find_visible_points(s, run);
 }
 
 /* Fills up with the first marker where there are fewer than RUN. */
@@ -254,12 +254,12 @@ static void gather_positions(const scene_marker *markers, size_t count, point_ru
     }
 }
 
-static point_place place_of(const scene *s, const point_run *run, size_t i)
+static point_place make_point_place(const scene *s, const point_run *run, size_t i)
 {
     if (run->seen[i] == 0)
         return (point_place){.seen = false};
     return (point_place){.pixel = (uint32_t)run->y[i] * (uint32_t)s->view.width + (uint32_t)run->x[i],
-                         .band = (uint8_t)band_of(run->band[i]),
+                         .band = (uint8_t)round_to_band(run->band[i]),
                          .seen = true};
 }
 
@@ -271,15 +271,15 @@ void project_points(const scene *s, const scene_marker *markers, size_t count, p
         gather_positions(markers + first, size, &run);
         project_run(s, &run);
         for (size_t i = 0; i < size; i++)
-            places[first + i] = place_of(s, &run, i);
+            places[first + i] = make_point_place(s, &run, i);
     }
 }
 
-bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band)
+bool find_pixel_and_band(const scene *s, const double position[3], double pixel[2], unsigned *band)
 {
     double depth;
-    if (!project_place(s, position, pixel, &depth))
+    if (!find_pixel_and_depth(s, position, pixel, &depth))
         return false;
-    *band = project_band(&s->camera, depth);
+    *band = find_depth_band(&s->camera, depth);
     return true;
 }

@@ -7,7 +7,7 @@
 
 /* A copy of a scene whose pixels are samples: the size of the picture and the camera's zoom are multiplied by
  * view_samples(). It shares the elements of s. The functions below take such a scene. */
-scene project_samples(const scene *s);
+scene project_scene_to_samples(const scene *s);
 
 /* The piece of a segment in one band of depth, in pixels. */
 typedef struct piece {
@@ -23,26 +23,26 @@ unsigned project_segment(const scene *s, const double from[3], const double to[3
 
 /* Clip a segment in picture coordinates to the picture with the same margin; its band is 0, the nearest. False: it is
  * outside the picture. */
-bool project_flat(const scene *s, const double from[3], const double to[3], piece *p);
+bool clip_picture_segment(const scene *s, const double from[3], const double to[3], piece *p);
 
 /* Project a point to its pixel and view depth. False: it is behind the camera or outside the picture with the margin.
  */
-bool project_place(const scene *s, const double position[3], double pixel[2], double *depth);
+bool find_pixel_and_depth(const scene *s, const double position[3], double pixel[2], double *depth);
 
 /* The pixel at which a point is drawn. */
 typedef struct point_place {
     uint32_t pixel; /* row by row */
     uint8_t band;
-    bool seen; /* project_point() succeeds, and the pixel is in the picture */
+    bool seen; /* find_pixel_and_band() succeeds, and the pixel is in the picture */
 } point_place;
 
 /* Project many markers at once. */
 void project_points(const scene *s, const scene_marker *markers, size_t count, point_place *places);
 
 /* The band of a view depth. */
-unsigned project_band(const camera *c, double depth);
+unsigned find_depth_band(const camera *c, double depth);
 
-/* Project a point to its pixel and band. False as for project_place(). */
-bool project_point(const scene *s, const double position[3], double pixel[2], unsigned *band);
+/* Project a point to its pixel and band. False as for find_pixel_and_depth(). */
+bool find_pixel_and_band(const scene *s, const double position[3], double pixel[2], unsigned *band);
 
 #endif

@@ -10,14 +10,14 @@
 #define DEPTHS 32
 #define ORDERS ((LAYER_DIAGRAM + 1) * QUAD_BANDS * DEPTHS)
 
-uint16_t quad_order(unsigned layer, unsigned band, unsigned depth)
+uint16_t make_quad_order(unsigned layer, unsigned band, unsigned depth)
 {
     return (uint16_t)((layer * QUAD_BANDS + (QUAD_BANDS - 1 - band)) * DEPTHS + (DEPTHS - 1 - depth));
 }
 
-uint16_t quad_order_of_text(unsigned layer)
+uint16_t make_text_order(unsigned layer)
 {
-    return quad_order(layer == LAYER_WORLD ? LAYER_POINTS : layer == LAYER_NODES ? LAYER_VELOCITIES : layer, 0, 0);
+    return make_quad_order(layer == LAYER_WORLD ? LAYER_POINTS : layer == LAYER_NODES ? LAYER_VELOCITIES : layer, 0, 0);
 }
 
 void quads_release(quad_list *list)
@@ -49,7 +49,7 @@ static bool is_quad_within(const quad *q, const int32_t limits[2])
     return x <= (uint32_t)limits[0] && y <= (uint32_t)limits[1];
 }
 
-void quads_add(quad_list *list, const quad *q)
+void quads_add_quad(quad_list *list, const quad *q)
 {
     if (list->limits[0] == 0 || is_quad_within(q, list->limits)) {
         append_quad(list, q);
@@ -67,7 +67,7 @@ void quads_add_rectangle(quad_list *list, quad *q, int32_t left, int32_t top, in
         q->x[i] = i == 1 || i == 2 ? right : left;
         q->y[i] = i < 2 ? top : bottom;
     }
-    quads_add(list, q);
+    quads_add_quad(list, q);
 }
 
 bool quads_sort(quad_list *list)
@@ -92,7 +92,7 @@ bool quads_sort(quad_list *list)
 
 bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32_t by[2])
 {
-    const uint16_t after = (uint16_t)(quad_order(LAYER_CLOSEUP, 0, 0) + 1);
+    const uint16_t after = (uint16_t)(make_quad_order(LAYER_CLOSEUP, 0, 0) + 1);
     const size_t count = closeup->count;
     if (!ARRAY_GROW(list, count))
         return false;

@@ -17,7 +17,7 @@ typedef struct quad {
     uint8_t color;  /* an index of the theme's table */
     uint8_t kind;   /* scene_kind of its element, plus QUAD_IN_CLOSEUP in a close-up */
     uint16_t order; /* quads with a lower order are painted first */
-    uint32_t index; /* of its element; for boxes, the index of the merged edge: see paint_edge_at() */
+    uint32_t index; /* of its element; for boxes, the index of the merged edge: see painter_edge_at() */
 } quad;
 
 typedef struct quad_list {
@@ -32,14 +32,14 @@ typedef struct quad_list {
 void quads_release(quad_list *list);
 
 /* Quads added from now on belong to this element. */
-static inline void quads_begin(quad_list *list, scene_kind kind, size_t index)
+static inline void quads_begin_element(quad_list *list, scene_kind kind, size_t index)
 {
     list->kind = (uint8_t)kind;
     list->index = (uint32_t)index;
 }
 
 /* Add a convex quad. Out of memory is reported by list->out_of_memory. */
-void quads_add(quad_list *list, const quad *q);
+void quads_add_quad(quad_list *list, const quad *q);
 
 /* Set the corners of a quad to those of a rectangle, in subpixels, and add it. */
 void quads_add_rectangle(quad_list *list, quad *q, int32_t left, int32_t top, int32_t right, int32_t bottom);
@@ -52,18 +52,18 @@ bool quads_insert_closeup(quad_list *list, const quad_list *closeup, const int32
 bool quads_sort(quad_list *list);
 
 /* The order of a layer's element in a band (0 is nearest) and at a node's depth. */
-uint16_t quad_order(unsigned layer, unsigned band, unsigned depth);
+uint16_t make_quad_order(unsigned layer, unsigned band, unsigned depth);
 
 #define QUAD_BANDS THEME_SHADES
 
 /* The order of letters and panels, which have no depth: last in their layer. Letters of axes come after nodes and
  * points, letters of nodes after points and velocities. */
-uint16_t quad_order_of_text(unsigned layer);
+uint16_t make_text_order(unsigned layer);
 
 /* ---- clip.c --------------------------------------------------------------------------------------------------- */
 
 /* The side of the square to which the quads of a picture are clipped: the least power of two that holds the picture. */
-int clip_square(int width, int height);
+int clip_square_side(int width, int height);
 
 #define CLIP_PIECES 3
 

@@ -34,7 +34,7 @@ static bool check_size(int width, int height, octreel_error *error)
 }
 
 /* True if GL draws every scene. */
-static bool fills_by_gl(const renderer *r)
+static bool fills_with_gl(const renderer *r)
 {
     return r->choice.fill == DRAW_FILL_GL;
 }
@@ -51,7 +51,7 @@ renderer *renderer_open(int width, int height, const renderer_choice *choice, oc
     *r = (renderer){.choice = *choice, .width = width, .height = height, .canvas = {.width = width, .height = height}};
     if (choice->any_renderer)
         r->choice.fill = DRAW_FILL_GL;
-    if (fills_by_gl(r) && !(r->surface = surface_open(width, height, choice, error))) {
+    if (fills_with_gl(r) && !(r->surface = surface_open(width, height, choice, error))) {
         renderer_close(r);
         return NULL;
     }
@@ -69,48 +69,48 @@ void renderer_close(renderer *r)
     free(r);
 }
 
-renderer_info renderer_about(const renderer *r)
+renderer_info renderer_describe(const renderer *r)
 {
     renderer_info info = {0};
-    if (fills_by_gl(r))
+    if (fills_with_gl(r))
         info = r->surface->about(r->surface);
     info.fill = draw_fill_name(r->choice.fill == DRAW_FILL_GL ? DRAW_FILL_GL : DRAW_FILL_INTEGERS);
     return info;
 }
 
-bool renderer_fits(const renderer *r, const scene *s, octreel_error *error)
+bool renderer_fits_scene(const renderer *r, const scene *s, octreel_error *error)
 {
     const int samples = view_samples(&s->view);
     return (s->view.width * samples == r->width && s->view.height * samples == r->height) ||
            error_set(error, "the scene is not of the renderer's size");
 }
 
-bool renderer_fill(renderer *r, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
-                   octreel_error *error)
+bool renderer_fill_quads(renderer *r, const quad *quads, size_t count, renderer_part part, uint8_t *bytes,
+                         octreel_error *error)
 {
-    if (fills_by_gl(r))
+    if (fills_with_gl(r))
         return r->surface->fill(r->surface, quads, count, part, bytes, error);
     memset(bytes, 0, (size_t)part.width * (size_t)part.height);
     fill_quads(quads, count, part, bytes);
     return true;
 }
 
-bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error)
+bool renderer_draw_scene(renderer *r, const scene *s, uint8_t *indices, octreel_error *error)
 {
-    if (!renderer_fits(r, s, error))
+    if (!renderer_fits_scene(r, s, error))
         return false;
-    if (!paint(&r->painter, s))
+    if (!painter_paint_scene(&r->painter, s))
         return error_no_memory(error);
     r->left_out = s->refused + r->painter.overflowed;
-    if (fills_by_gl(r))
-        return renderer_fill(r, r->painter.quads.items, r->painter.quads.count,
-                             (renderer_part){0, 0, r->width, r->height}, indices, error);
-    canvas_draw(&r->canvas, &r->painter.quads, indices);
+    if (fills_with_gl(r))
+        return renderer_fill_quads(r, r->painter.quads.items, r->painter.quads.count,
+                                   (renderer_part){0, 0, r->width, r->height}, indices, error);
+    canvas_fill_quads(&r->canvas, &r->painter.quads, indices);
     return true;
 }
 
 /* The canvas keeps the quads of the scene drawn last. */
-bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error)
+bool renderer_redraw_with_gl(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error)
 {
     const renderer_part all = {0, 0, r->width, r->height};
     const quad_list *last = &r->canvas.last;
@@ -120,12 +120,12 @@ bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_er
     return r->surface->fill(r->surface, last->items, last->count, all, indices, error);
 }
 
-const uint8_t *renderer_own_colors(const renderer *r)
+const uint8_t *renderer_sample_colors(const renderer *r)
 {
     return (const uint8_t *)r->painter.splats.colors;
 }
 
-size_t renderer_left_out(const renderer *r)
+size_t renderer_left_out_count(const renderer *r)
 {
     return r->left_out;
 }

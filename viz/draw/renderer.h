@@ -29,20 +29,20 @@ typedef struct renderer_info {
 renderer *renderer_open(int width, int height, const renderer_choice *choice, octreel_error *error);
 void renderer_close(renderer *r);
 
-renderer_info renderer_about(const renderer *r);
+renderer_info renderer_describe(const renderer *r);
 
 /* Draw a scene whose picture has the renderer's size in samples into width * height indices, rows from the top. */
-bool renderer_draw(renderer *r, const scene *s, uint8_t *indices, octreel_error *error);
+bool renderer_draw_scene(renderer *r, const scene *s, uint8_t *indices, octreel_error *error);
 
-/* Draw the scene of the last renderer_draw() again, with GL: for DRAW_FILL_CHECKED. The first call loads GL. *by: the
- * context that draws. False with an error where GL cannot be loaded or fails. */
-bool renderer_redraw(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error);
+/* Draw the scene of the last renderer_draw_scene() again, with GL: for DRAW_FILL_CHECKED. The first call loads GL. *by:
+ * the context that draws. False with an error where GL cannot be loaded or fails. */
+bool renderer_redraw_with_gl(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error);
 
 /* The colours of samples with the index THEME_OWN in the last scene: r, g, b for each sample. Null where the view gives
  * points no colours of their own. Valid until the next scene. */
-const uint8_t *renderer_own_colors(const renderer *r);
+const uint8_t *renderer_sample_colors(const renderer *r);
 
 /* The number of elements of the last scene that cannot be drawn: not finite, or too far away for doubles. */
-size_t renderer_left_out(const renderer *r);
+size_t renderer_left_out_count(const renderer *r);
 
 #endif

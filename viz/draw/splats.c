@@ -45,7 +45,7 @@ typedef struct splatter {
 
 /* log2 of a number above 0, from its exponent and a polynomial: the same on every machine, unlike log2() of libm. The
  * error is at most 2e-5, and the function is increasing. */
-static double log2_of(double x)
+static double approximate_log2(double x)
 {
     int exponent;
     const double m = frexp(x, &exponent), t = (m - 0.70710678118654752) / (m + 0.70710678118654752), t2 = t * t;
@@ -54,7 +54,7 @@ static double log2_of(double x)
 
 #define LN_2 0.69314718055994531
 
-static splatter splatter_make(const scene *s)
+static splatter make_splatter(const scene *s)
 {
     return (splatter){.scene = s,
                       .spacing = point_scale_pixels(&s->camera, s->spacing) * POINT_OVERLAP,
@@ -63,16 +63,16 @@ static splatter splatter_make(const scene *s)
 
 /* A view depth in units. Under perspective its logarithm, since an object at twice the distance appears half as large.
  */
-static int32_t depth_of(const splatter *with, double depth)
+static int32_t depth_in_units(const splatter *with, double depth)
 {
     const camera *c = &with->scene->camera;
-    const double rest = c->perspective ? log2_of(depth) * LN_2 : depth - c->near_depth;
+    const double rest = c->perspective ? approximate_log2(depth) * LN_2 : depth - c->near_depth;
     const double samples = floor(rest * c->zoom * DEPTH_PARTS);
     return samples > MOST_DEPTH ? MOST_DEPTH : samples < -MOST_DEPTH ? -MOST_DEPTH : (int32_t)samples;
 }
 
 /* The diameter of a point's disc in samples, at least that of a marker. */
-static int side_of(const splatter *with, scene_style style, double depth)
+static int disc_diameter(const splatter *with, scene_style style, double depth)
 {
     const scene *s = with->scene;
     const int least = stroke_marker_side(style.width, s->unit) * view_samples(&s->view);
@@ -80,12 +80,12 @@ static int side_of(const splatter *with, scene_style style, double depth)
     return side > with->most ? with->most : side > least ? (int)side : least;
 }
 
-static bool place_disc(const splatter *with, const scene_marker *marker, splat_square *square, double *depth)
+static bool find_disc_square(const splatter *with, const scene_marker *marker, splat_square *square, double *depth)
 {
     double pixel[2];
-    if (marker->style.layer != LAYER_POINTS || !project_place(with->scene, marker->at, pixel, depth))
+    if (marker->style.layer != LAYER_POINTS || !find_pixel_and_depth(with->scene, marker->at, pixel, depth))
         return false;
-    square->side = side_of(with, marker->style, *depth);
+    square->side = disc_diameter(with, marker->style, *depth);
     square->left = (int)floor(pixel[0]) - (square->side - 1) / 2;
     square->top = (int)floor(pixel[1]) - (square->side - 1) / 2;
     return true;
@@ -135,7 +135,7 @@ static void draw_disc(splats *t, const scene *s, size_t index, const splat_squar
 }
 
 /* The counter of the pixel in which a disc has its centre. Null: outside the picture, or nothing is counted. */
-static uint32_t *find_counter(const splats *t, const scene *s, const splat_square *q)
+static uint32_t *find_density_counter(const splats *t, const scene *s, const splat_square *q)
 {
     const int samples = view_samples(&s->view), half = (q->side - 1) / 2;
     const int x = q->left + half, y = q->top + half;
@@ -150,10 +150,10 @@ static void draw_discs(splats *t, const splatter *with)
     for (size_t i = 0; i < s->markers.count; i++) {
         splat_square square;
         double depth;
-        if (!place_disc(with, &s->markers.items[i], &square, &depth))
+        if (!find_disc_square(with, &s->markers.items[i], &square, &depth))
             continue;
-        draw_disc(t, s, i, &square, depth_of(with, depth));
-        uint32_t *shared = find_counter(t, s, &square);
+        draw_disc(t, s, i, &square, depth_in_units(with, depth));
+        uint32_t *shared = find_density_counter(t, s, &square);
         if (shared)
             ++*shared;
     }
@@ -168,7 +168,7 @@ static void draw_discs(splats *t, const splatter *with)
 #define STEEPEST (4 * DEPTH_PARTS)
 
 /* By how much the point at a sample is nearer than `depth`; 0 if there is no point. */
-static int32_t compare_depth(const splats *t, const scene *s, int x, int y, int32_t depth)
+static int32_t find_depth_difference(const splats *t, const scene *s, int x, int y, int32_t depth)
 {
     if (x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return 0;
@@ -183,31 +183,33 @@ static int32_t clamp_slope(int32_t value, int32_t most)
 
 /* By how much a sample lies deeper than the eight samples at distance `reach`. Opposite neighbours are added first, so
  * that a plane is lit evenly, however steep it is. */
-static int32_t measure_sink(const splats *t, const scene *s, int x, int y, int reach)
+static int32_t measure_depth_below_neighbors(const splats *t, const scene *s, int x, int y, int reach)
 {
     static const int8_t around[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
     const int32_t depth = t->samples[(size_t)y * (size_t)s->view.width + (size_t)x].depth, most = STEEPEST * reach;
     int32_t sum = 0;
     for (int i = 0; i < 4; i++) {
         const int dx = around[i][0] * reach, dy = around[i][1] * reach;
-        const int32_t both = clamp_slope(compare_depth(t, s, x + dx, y + dy, depth), most) +
-                             clamp_slope(compare_depth(t, s, x - dx, y - dy, depth), most);
+        const int32_t both = clamp_slope(find_depth_difference(t, s, x + dx, y + dy, depth), most) +
+                             clamp_slope(find_depth_difference(t, s, x - dx, y - dy, depth), most);
         sum += both > 0 ? both : 0;
     }
     return sum / reach;
 }
 
 /* Eye-dome lighting at two distances, for fine and for large shapes. 256 is full light. */
-static int light_at(const splats *t, const scene *s, int x, int y)
+static int find_light(const splats *t, const scene *s, int x, int y)
 {
     const int reach = s->unit * view_samples(&s->view);
-    return 256 * HALF_LIGHT / (HALF_LIGHT + measure_sink(t, s, x, y, reach) + measure_sink(t, s, x, y, 4 * reach));
+    return 256 * HALF_LIGHT /
+           (HALF_LIGHT + measure_depth_below_neighbors(t, s, x, y, reach) +
+            measure_depth_below_neighbors(t, s, x, y, 4 * reach));
 }
 
 /* ---- Colours ------------------------------------------------------------------------------------------------- */
 
 /* The colour for a number of points in a pixel: one step of the ramp for each doubling, interpolated between. */
-static theme_color color_of_density(uint32_t count)
+static theme_color density_color(uint32_t count)
 {
     unsigned whole = 0;
     double doublings = 0;
@@ -219,37 +221,37 @@ static theme_color color_of_density(uint32_t count)
     return theme_ramp((whole + rest) / doublings);
 }
 
-static theme_color color_of(const splats *t, const scene *s, const splatter *with, uint32_t index)
+static theme_color marker_color(const splats *t, const scene *s, const splatter *with, uint32_t index)
 {
     const scene_marker *marker = &s->markers.items[index];
     const bool counted = s->view.point_color == POINTS_BY_DENSITY, banded = s->view.shade == SHADE_BANDS;
     theme_color color = marker->color;
     splat_square square;
     double depth;
-    if (!(counted || banded) || !place_disc(with, marker, &square, &depth))
+    if (!(counted || banded) || !find_disc_square(with, marker, &square, &depth))
         return color;
     if (counted) {
-        const uint32_t *shared = find_counter(t, s, &square);
-        color = color_of_density(shared ? *shared : 1);
+        const uint32_t *shared = find_density_counter(t, s, &square);
+        color = density_color(shared ? *shared : 1);
     }
-    return banded ? theme_shade(color, project_band(&s->camera, depth)) : color;
+    return banded ? theme_shade(color, find_depth_band(&s->camera, depth)) : color;
 }
 
-static void add_run(quad_list *quads, uint32_t index, int left, int right, int y)
+static void add_run_quad(quad_list *quads, uint32_t index, int left, int right, int y)
 {
-    quad q = {.color = THEME_OWN, .order = quad_order(LAYER_POINTS, 0, 0)};
-    quads_begin(quads, SCENE_MARKER, index);
+    quad q = {.color = THEME_OWN, .order = make_quad_order(LAYER_POINTS, 0, 0)};
+    quads_begin_element(quads, SCENE_MARKER, index);
     quads_add_rectangle(quads, &q, left * QUAD_SUBPIXELS, y * QUAD_SUBPIXELS, right * QUAD_SUBPIXELS,
                         (y + 1) * QUAD_SUBPIXELS);
 }
 
-static void color_run(splats *t, const splatter *with, int x, int end, int y)
+static void set_run_colors(splats *t, const splatter *with, int x, int end, int y)
 {
     const scene *s = with->scene;
     const size_t row = (size_t)y * (size_t)s->view.width;
-    const theme_color color = color_of(t, s, with, t->samples[row + (size_t)x].owner - 1);
+    const theme_color color = marker_color(t, s, with, t->samples[row + (size_t)x].owner - 1);
     for (; x < end; x++)
-        t->colors[row + (size_t)x] = s->view.shade == SHADE_EDL ? theme_fade(color, light_at(t, s, x, y)) : color;
+        t->colors[row + (size_t)x] = s->view.shade == SHADE_EDL ? theme_fade(color, find_light(t, s, x, y)) : color;
 }
 
 /* Add one quad for each run of samples with the same point. */
@@ -262,8 +264,8 @@ static void paint_row(splats *t, quad_list *quads, const splatter *with, int y)
             end++;
         if (row[x].owner == 0)
             continue;
-        color_run(t, with, x, end, y);
-        add_run(quads, row[x].owner - 1, x, end, y);
+        set_run_colors(t, with, x, end, y);
+        add_run_quad(quads, row[x].owner - 1, x, end, y);
     }
 }
 
@@ -277,7 +279,7 @@ void splats_release(splats *t)
     *t = (splats){0};
 }
 
-static bool make_room(splats *t, const scene *s)
+static bool reserve_samples(splats *t, const scene *s)
 {
     const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)view_samples(&s->view);
     const size_t pixels = s->view.point_color == POINTS_BY_DENSITY ? size / side / side : 0;
@@ -291,10 +293,10 @@ static bool make_room(splats *t, const scene *s)
     return true;
 }
 
-bool splats_paint(splats *t, quad_list *quads, const scene *s)
+bool splats_paint_points(splats *t, quad_list *quads, const scene *s)
 {
-    const splatter with = splatter_make(s);
-    if (!make_room(t, s))
+    const splatter with = make_splatter(s);
+    if (!reserve_samples(t, s))
         return false;
     draw_discs(t, &with);
     for (int y = 0; y < s->view.height; y++)
@@ -302,7 +304,7 @@ bool splats_paint(splats *t, quad_list *quads, const scene *s)
     return true;
 }
 
-void splats_fill(splats *t, const scene *s, const scene_panel *panel)
+void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel)
 {
     const int samples = view_samples(&s->view);
     for (int y = panel->y * samples; y < (panel->y + panel->height) * samples && y < s->view.height; y++)
@@ -338,7 +340,7 @@ static bool find_least_depth(const splat_square *q, int32_t depth, const splat_s
     return any;
 }
 
-static int compare_covering(const void *a, const void *b)
+static int compare_by_depth(const void *a, const void *b)
 {
     const splat_covering *p = a, *q = b;
     if (p->depth != q->depth)
@@ -348,20 +350,20 @@ static int compare_covering(const void *a, const void *b)
     return (p->id > q->id) - (p->id < q->id);
 }
 
-bool splats_list(const scene *s, const splat_square *samples, splat_list *list)
+bool splats_list_covering_points(const scene *s, const splat_square *samples, splat_list *list)
 {
-    const splatter with = splatter_make(s);
+    const splatter with = make_splatter(s);
     for (size_t i = 0; i < s->markers.count; i++) {
         splat_square square;
         splat_covering one = {.marker = i, .id = s->markers.items[i].id};
-        if (!place_disc(&with, &s->markers.items[i], &square, &one.view_depth) ||
-            !find_least_depth(&square, depth_of(&with, one.view_depth), samples, &one.depth))
+        if (!find_disc_square(&with, &s->markers.items[i], &square, &one.view_depth) ||
+            !find_least_depth(&square, depth_in_units(&with, one.view_depth), samples, &one.depth))
             continue;
         if (!ARRAY_GROW(list, 1))
             return false;
         list->items[list->count++] = one;
     }
     if (list->count)
-        qsort(list->items, list->count, sizeof *list->items, compare_covering);
+        qsort(list->items, list->count, sizeof *list->items, compare_by_depth);
     return true;
 }

@@ -20,14 +20,14 @@ typedef struct splats {
 
 void splats_release(splats *t);
 
-/* Add the quads of a scene's points, and set their colours. `s` is from project_samples(). False when out of memory.
- * Cost: O(samples of the picture + points * samples of a disc). */
-bool splats_paint(splats *t, quad_list *quads, const scene *s);
+/* Add the quads of a scene's points, and set their colours. `s` is from project_scene_to_samples(). False when out of
+ * memory. Cost: O(samples of the picture + points * samples of a disc). */
+bool splats_paint_points(splats *t, quad_list *quads, const scene *s);
 
 /* Set the colours of a panel whose quad has the index THEME_OWN, such as a swatch of the legend. */
-void splats_fill(splats *t, const scene *s, const scene_panel *panel);
+void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel);
 
-/* Copy the colours of a close-up into its part of the picture. Both scenes are from project_samples(). */
+/* Copy the colours of a close-up into its part of the picture. Both scenes are from project_scene_to_samples(). */
 void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer);
 
 /* The points that cover samples of a square, including hidden ones, nearest first. Zeroed: empty. The caller frees the
@@ -46,7 +46,7 @@ typedef struct splat_square {
     int left, top, side;
 } splat_square;
 
-/* List the points of a scene from project_samples(). False when out of memory. Cost: O(markers). */
-bool splats_list(const scene *s, const splat_square *samples, splat_list *list);
+/* List the points of a scene from project_scene_to_samples(). False when out of memory. Cost: O(markers). */
+bool splats_list_covering_points(const scene *s, const splat_square *samples, splat_list *list);
 
 #endif

@@ -27,24 +27,24 @@
 #define RING_CORNERS 40
 
 /* In pixels. Bold lines are at least 2 pixels wide, so that they look bold even in the smallest picture. */
-static int line_width(const scene *s, unsigned wanted)
+static int find_line_width(const scene *s, unsigned wanted)
 {
     const int width = (int)wanted * s->unit / 2, least = wanted > 1 ? 2 : 1;
     return width > least ? width : least;
 }
 
-pencil pencil_make(const scene *s, scene_style style, unsigned depth)
+pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth)
 {
     const int samples = view_samples(&s->view);
     return (pencil){.style = style,
-                    .width = line_width(s, style.width) * samples,
+                    .width = find_line_width(s, style.width) * samples,
                     .unit = s->unit,
                     .samples = samples,
                     .depth = depth};
 }
 
 /* Layers that show the events of a tick fade only a third as much as the tree: the farthest shades would hide them. */
-static unsigned shade_of(const pencil *with, unsigned band)
+static unsigned find_shade(const pencil *with, unsigned band)
 {
     if (with->style.role == ROLE_BACKGROUND)
         return 0;
@@ -54,12 +54,12 @@ static unsigned shade_of(const pencil *with, unsigned band)
 static quad make_quad(const pencil *with, unsigned band)
 {
     return (quad){
-        .color = theme_index(with->style.role, shade_of(with, band)),
-        .order = quad_order(with->style.layer, band, with->depth),
+        .color = theme_index(with->style.role, find_shade(with, band)),
+        .order = make_quad_order(with->style.layer, band, with->depth),
     };
 }
 
-static int32_t snap(double pixel)
+static int32_t round_to_subpixel(double pixel)
 {
     return (int32_t)floor(pixel * QUAD_SUBPIXELS + 0.5);
 }
@@ -68,17 +68,18 @@ static int32_t snap(double pixel)
 static void add_line(quad_list *list, const pencil *with, unsigned band, const double from[2], const double to[2])
 {
     quad q = make_quad(with, band);
-    const int32_t x0 = snap(from[0]), y0 = snap(from[1]), x1 = snap(to[0]), y1 = snap(to[1]);
+    const int32_t x0 = round_to_subpixel(from[0]), y0 = round_to_subpixel(from[1]), x1 = round_to_subpixel(to[0]),
+                  y1 = round_to_subpixel(to[1]);
     const bool flat = abs(x1 - x0) >= abs(y1 - y0);
     const int32_t half = with->width * QUAD_SUBPIXELS / 2;
     const int32_t dx = flat ? 0 : half, dy = flat ? half : 0;
     memcpy(q.x, (int32_t[]){x0 - dx, x1 - dx, x1 + dx, x0 + dx}, sizeof q.x);
     memcpy(q.y, (int32_t[]){y0 - dy, y1 - dy, y1 + dy, y0 + dy}, sizeof q.y);
-    quads_add(list, &q);
+    quads_add_quad(list, &q);
 }
 
 /* The left or top edge of a pixel, clamped to coordinates outside every picture. */
-static int32_t pixel_edge(int64_t pixel)
+static int32_t find_pixel_edge(int64_t pixel)
 {
     const int64_t most = 2 * VIEW_MAX_SIDE;
     return (int32_t)(pixel < -most ? -most : pixel > most ? most : pixel) * QUAD_SUBPIXELS;
@@ -87,24 +88,25 @@ static int32_t pixel_edge(int64_t pixel)
 /* Add a filled rectangle of whole samples. */
 static void add_rectangle(quad_list *list, quad q, int64_t x, int64_t y, int64_t width, int64_t height)
 {
-    quads_add_rectangle(list, &q, pixel_edge(x), pixel_edge(y), pixel_edge(x + width), pixel_edge(y + height));
+    quads_add_rectangle(list, &q, find_pixel_edge(x), find_pixel_edge(y), find_pixel_edge(x + width),
+                        find_pixel_edge(y + height));
 }
 
 /* True if a segment is shorter than a sample on both axes, so that a parallelogram might cover no sample's centre. */
-static bool is_speck(const piece *pieces, unsigned count)
+static bool is_shorter_than_sample(const piece *pieces, unsigned count)
 {
     const piece *first = &pieces[0], *last = &pieces[count - 1];
     return fabs(first->from[0] - last->to[0]) < 1 && fabs(first->from[1] - last->to[1]) < 1;
 }
 
-static void add_solid(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+static void add_solid_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     for (unsigned i = 0; i < count; i++)
         add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
 }
 
 /* Dashes continue from piece to piece: `phase` is the position within a dash and the gap after it. */
-static void add_dashes(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+static void add_dashed_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
     double phase = 0;
@@ -124,7 +126,7 @@ static void add_dashes(quad_list *list, const pencil *with, const piece *pieces,
 }
 
 /* A head is at most half as long as its arrow. One that would be too small to see is left out. */
-static void add_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
+static void add_arrow_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
 {
     const double half_unit = with->unit * with->samples / 2.0;
     const double dx = last->to[0] - first->from[0], dy = last->to[1] - first->from[1];
@@ -139,11 +141,11 @@ static void add_head(quad_list *list, const pencil *with, const piece *first, co
     }
 }
 
-void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
+void stroke_add_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     if (count == 0)
         return;
-    if (is_speck(pieces, count)) {
+    if (is_shorter_than_sample(pieces, count)) {
         const double *at = pieces[0].from;
         const int x = (int)floor(at[0]), y = (int)floor(at[1]);
         add_rectangle(list, make_quad(with, pieces[0].band), x, y, with->width, with->width);
@@ -153,11 +155,11 @@ void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsig
     if (with->style.stroke == STROKE_CUT)
         under.style.role = ROLE_BACKGROUND;
     if (with->style.stroke != STROKE_DASHED)
-        add_solid(list, &under, pieces, count);
+        add_solid_line(list, &under, pieces, count);
     if (with->style.stroke == STROKE_DASHED || with->style.stroke == STROKE_CUT)
-        add_dashes(list, with, pieces, count);
+        add_dashed_line(list, with, pieces, count);
     if (with->style.stroke == STROKE_ARROW)
-        add_head(list, with, &pieces[0], &pieces[count - 1]);
+        add_arrow_head(list, with, &pieces[0], &pieces[count - 1]);
 }
 
 static void add_frame(quad_list *list, quad q, int left, int top, int side, int line)
@@ -174,11 +176,11 @@ static void add_diamond(quad_list *list, quad q, int left, int top, int side)
     const int32_t cx = left * QUAD_SUBPIXELS + reach, cy = top * QUAD_SUBPIXELS + reach;
     memcpy(q.x, (int32_t[]){cx - reach, cx, cx + reach, cx}, sizeof q.x);
     memcpy(q.y, (int32_t[]){cy, cy - reach, cy, cy + reach}, sizeof q.y);
-    quads_add(list, &q);
+    quads_add_quad(list, &q);
 }
 
 /* The outline of a diamond. */
-static void add_lozenge(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
+static void add_diamond_outline(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
 {
     const double half = (side - with->samples) / 2.0, cx = left + side / 2.0, cy = top + side / 2.0;
     const double corners[5][2] = {{cx - half, cy}, {cx, cy - half}, {cx + half, cy}, {cx, cy + half}, {cx - half, cy}};
@@ -202,10 +204,10 @@ static void add_ring(quad_list *list, quad q, const double center[2], int corner
         to[1] = up ? -to[1] : to[1];
         for (int corner = 0; corner < 4; corner++) {
             const double *way = corner == 0 || corner == 3 ? from : to;
-            q.x[corner] = snap(center[0] + way[0] * radii[corner / 2]);
-            q.y[corner] = snap(center[1] + way[1] * radii[corner / 2]);
+            q.x[corner] = round_to_subpixel(center[0] + way[0] * radii[corner / 2]);
+            q.y[corner] = round_to_subpixel(center[1] + way[1] * radii[corner / 2]);
         }
-        quads_add(list, &q);
+        quads_add_quad(list, &q);
         from[0] = to[0];
         from[1] = to[1];
     }
@@ -221,7 +223,7 @@ static void add_polygon(quad_list *list, const pencil *with, quad q, scene_shape
     add_ring(list, q, center, shape == SHAPE_RING ? RING_CORNERS : 3, shape != SHAPE_WEDGE, (double[2]){reach, inner});
 }
 
-void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
+void stroke_add_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band)
 {
     const int side = stroke_marker_side(with->style.width, with->unit) * with->samples;
     const int left = (int)floor(pixel[0]) - (side - 1) / 2, top = (int)floor(pixel[1]) - (side - 1) / 2;
@@ -240,7 +242,7 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
         add_frame(list, q, left, top, side, thin.width);
         break;
     case SHAPE_LOZENGE:
-        add_lozenge(list, &thin, band, left, top, side);
+        add_diamond_outline(list, &thin, band, left, top, side);
         break;
     case SHAPE_CROSS:
         add_cross(list, &thick, band, left, top, side);
@@ -255,9 +257,9 @@ void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const
     }
 }
 
-void stroke_panel(quad_list *list, const scene_panel *panel, int samples)
+void stroke_add_panel(quad_list *list, const scene_panel *panel, int samples)
 {
-    const quad q = {.color = theme_index(panel->style.role, 0), .order = quad_order_of_text(panel->style.layer)};
+    const quad q = {.color = theme_index(panel->style.role, 0), .order = make_text_order(panel->style.layer)};
     add_rectangle(list, q, (int64_t)panel->x * samples, (int64_t)panel->y * samples, (int64_t)panel->width * samples,
                   (int64_t)panel->height * samples);
 }

@@ -14,10 +14,10 @@ typedef struct pencil {
     unsigned depth; /* of the node to which the line belongs */
 } pencil;
 
-pencil pencil_make(const scene *s, scene_style style, unsigned depth);
+pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth);
 
 /* Draw the pieces of one segment with its stroke. A visible segment gets at least one pixel, however short it is. */
-void stroke_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
+void stroke_add_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
 /* The side of a marker in pixels. It grows with the unit, so that markers stay visible in large pictures. */
 static inline int stroke_marker_side(int width, int unit)
@@ -26,7 +26,7 @@ static inline int stroke_marker_side(int width, int unit)
     return side > least ? side : least;
 }
 
-void stroke_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
-void stroke_panel(quad_list *list, const scene_panel *panel, int samples);
+void stroke_add_marker(quad_list *list, const pencil *with, scene_shape shape, const double pixel[2], unsigned band);
+void stroke_add_panel(quad_list *list, const scene_panel *panel, int samples);
 
 #endif

@@ -44,11 +44,11 @@ static bool draw_mask(masking *w, frame_mask *m, octreel_error *error)
     const renderer_choice any = {0};
     if (w->layers & ~TEXT_ALONE) {
         renderer *drawing = replay_renderer(&w->replay, &any, error);
-        if (!drawing || !renderer_layer_mask(drawing, s, w->layers, m->bytes, error))
+        if (!drawing || !renderer_find_layer_mask(drawing, s, w->layers, m->bytes, error))
             return false;
     }
     if (w->layers & TEXT_ALONE)
-        draw_text_boxes(s, add_box, m);
+        visit_text_boxes(s, add_box, m);
     return true;
 }
 

@@ -185,7 +185,7 @@ static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
     octreel_error why = {""};
     if (!t->renderer && !*t->untraced)
         t->renderer = renderer_open(s->view.width * samples, s->view.height * samples, &choice, &why);
-    if (t->renderer && renderer_number_samples(t->renderer, s, numbers, &why))
+    if (t->renderer && renderer_find_element_numbers(t->renderer, s, numbers, &why))
         return true;
     if (!*t->untraced)
         snprintf(t->untraced, sizeof t->untraced, "%.*s", (int)sizeof t->untraced - 1, why.text);

@@ -173,7 +173,7 @@ bool film_tree(const octree *tree, const tree_subject *about, const film_options
     if (ok)
         *summary = (film_summary){.frames = 1,
                                   .checks = checks,
-                                  .left_out = renderer_left_out(p.renderer),
+                                  .left_out = renderer_left_out_count(p.renderer),
                                   .over_budget = scene_left_out_beyond(&s.tally) != 0,
                                   .below_lod = scene_left_out_small(&s.tally) != 0,
                                   .beyond = scene_left_out_beyond(&s.tally),

@@ -78,7 +78,7 @@ bool frame_checks_compare(frame_checks *checks, picture *p, const scene *s, cons
         error_no_memory(&checks->reason);
         return true;
     }
-    const bool same = !renderer_redraw(p->renderer, by_gl, &checks->by, &checks->reason) ||
+    const bool same = !renderer_redraw_with_gl(p->renderer, by_gl, &checks->by, &checks->reason) ||
                       compare(checks, p, s, by_gl, name, prefix, error);
     free(by_gl);
     return same;

@@ -85,11 +85,11 @@ image *picture_samples(picture *p)
 bool picture_finish(picture *p, const scene *s, octreel_error *error)
 {
     return !p->samples.pixels ||
-           image_shrink(&p->samples, renderer_own_colors(p->renderer), view_samples(&s->view), &p->frame) ||
+           image_shrink(&p->samples, renderer_sample_colors(p->renderer), view_samples(&s->view), &p->frame) ||
            error_set(error, "the scene's anti-aliasing is not the picture's");
 }
 
 bool picture_draw(picture *p, const scene *s, octreel_error *error)
 {
-    return renderer_draw(p->renderer, s, picture_samples(p)->pixels, error) && picture_finish(p, s, error);
+    return renderer_draw_scene(p->renderer, s, picture_samples(p)->pixels, error) && picture_finish(p, s, error);
 }

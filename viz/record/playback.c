@@ -135,7 +135,7 @@ static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_er
         return false;
     if (!check_frame(p, origin->tick, error))
         return false;
-    origin->left_out = renderer_left_out(p->picture.renderer);
+    origin->left_out = renderer_left_out_count(p->picture.renderer);
     origin->session = find_session_digest(p);
     return target->frames == FRAMES_SHOW || frame_write(target->folder, &p->picture.frame, origin, error);
 }

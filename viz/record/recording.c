@@ -93,7 +93,7 @@ bool recording_begin(recording *r, playback *p, octreel_error *error)
 {
     beginning b = {.view = &p->view};
     if (r->options->every > 0)
-        b.info = renderer_about(p->picture.renderer);
+        b.info = renderer_describe(p->picture.renderer);
     p->session_digest = r->bytes.digest;
     const bool begun = (is_chunk(r) || r->options->resume ? begin_shared : begin_alone)(r, &b, error);
     free(r->bytes.bytes);

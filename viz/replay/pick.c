@@ -99,7 +99,7 @@ static bool move_to_nearest(pick *p, renderer *r, const scene *s, octreel_error 
     const size_t samples = (size_t)view_samples(&s->view);
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
     bool ok = numbers || error_no_memory(error);
-    ok = ok && renderer_number_samples(r, s, numbers, error);
+    ok = ok && renderer_find_element_numbers(r, s, numbers, error);
     if (ok)
         find_nearest(p, numbers, samples);
     free(numbers);
@@ -120,7 +120,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
 {
     const scene *s = &from->scene;
     draw_covers touches = {0};
-    bool ok = renderer_list_pixel(r, s, p->pixel[0], p->pixel[1], &touches, error);
+    bool ok = renderer_list_pixel_covers(r, s, p->pixel[0], p->pixel[1], &touches, error);
     p->elements = ok && touches.count ? calloc(touches.count, sizeof *p->elements) : NULL;
     ok = ok && (p->elements || touches.count == 0 || error_no_memory(error));
     for (size_t i = 0; ok && i < touches.count; i++) {

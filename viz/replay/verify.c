@@ -258,7 +258,7 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
 
 static void report_renderer(verifying *v)
 {
-    const renderer_info info = renderer_about(v->replay.playback.picture.renderer);
+    const renderer_info info = renderer_describe(v->replay.playback.picture.renderer);
     describe_renderer(&info, v->report->drawn_now, sizeof v->report->drawn_now);
     v->report->fill = info.fill;
 }

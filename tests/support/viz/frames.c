@@ -47,7 +47,7 @@ uint8_t *draw(renderer *r, const scene *s)
     uint8_t *frame = malloc(frame_samples(s));
     assert_non_null(frame);
     memset(frame, 255, frame_samples(s));
-    if (!renderer_draw(r, s, frame, &error))
+    if (!renderer_draw_scene(r, s, frame, &error))
         fail_msg("%s", error.text);
     for (size_t i = 0; i < frame_samples(s); i++)
         if (frame[i] >= THEME_COLORS && frame[i] != THEME_OWN)

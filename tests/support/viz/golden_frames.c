@@ -295,7 +295,8 @@ bool golden_draw(const golden_frame *frame, draw_fill fill, image *drawn, char *
     scene s;
     bool ok = golden_scene(frame, &s, error) && picture_open(&p, &s.view, &(renderer_choice){.fill = fill}, error);
     if (ok)
-        snprintf(renderer, size, "%s, %s", renderer_about(p.renderer).renderer, renderer_about(p.renderer).version);
+        snprintf(renderer, size, "%s, %s", renderer_describe(p.renderer).renderer,
+                 renderer_describe(p.renderer).version);
     ok = ok && picture_draw(&p, &s, error);
     if (ok) {
         *drawn = p.frame;

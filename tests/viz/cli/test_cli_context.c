@@ -15,7 +15,7 @@
 
 static void need_contexts(bool osmesa, bool egl)
 {
-    if ((draw_context_built(DRAW_OSMESA) || !osmesa) && (draw_context_built(DRAW_EGL) || !egl))
+    if ((draw_context_is_built(DRAW_OSMESA) || !osmesa) && (draw_context_is_built(DRAW_EGL) || !egl))
         return;
     print_message("octreel was built without a context that this test needs\n");
     skip();
@@ -57,7 +57,7 @@ static void every_context_records_and_is_named_in_the_recording(void **state)
         const place folder = place_in(*state, name);
         char option[32];
         snprintf(option, sizeof option, "--fill gl --context %s", name);
-        if (draw_context_built((draw_context)kind))
+        if (draw_context_is_built((draw_context)kind))
             assert_drawn_by(NULL, option, &folder, "context", name);
         else
             assert_not_drawn(NULL, option, &folder, name);
@@ -72,7 +72,7 @@ static void version_names_every_context(void **state)
     for (int kind = DRAW_AUTO + 1; kind < DRAW_CONTEXTS; kind++) {
         char line[32];
         snprintf(line, sizeof line, "\n%s: llvmpipe", draw_context_name(kind));
-        assert_int_equal(strstr(result.out, line) != NULL, draw_context_built((draw_context)kind));
+        assert_int_equal(strstr(result.out, line) != NULL, draw_context_is_built((draw_context)kind));
     }
     command_release(&result);
 }
@@ -153,8 +153,8 @@ static void error_without_gl_libraries_names_the_packages(void **state)
     char path[96];
     const command_setting without = {.environment = {hide_libraries(*state, names, path)}};
     const place folder = place_in(*state, "film");
-    const char *first = draw_context_built(DRAW_OSMESA) ? "libosmesa6" : "libegl1",
-               *egl = draw_context_built(DRAW_EGL) ? "libegl1" : "egl";
+    const char *first = draw_context_is_built(DRAW_OSMESA) ? "libosmesa6" : "libegl1",
+               *egl = draw_context_is_built(DRAW_EGL) ? "libegl1" : "egl";
     assert_not_drawn(&without, "--fill gl", &folder, first);
     assert_not_drawn(&without, "--fill gl --context egl", &folder, egl);
     assert_unchecked(&without, "", *state, "auto", first);
@@ -188,7 +188,7 @@ static void renderer_other_than_llvmpipe_is_refused(void **state)
         char option[32];
         snprintf(option, sizeof option, "--fill gl --context %s", draw_context_name(kind));
         assert_not_drawn(&softpipe, option, &folder,
-                         draw_context_built((draw_context)kind) ? "llvmpipe alone" : "without the");
+                         draw_context_is_built((draw_context)kind) ? "llvmpipe alone" : "without the");
     }
 }
 

@@ -30,7 +30,7 @@ static void recording_is_identical_with_every_context(void **state)
     for (int kind = 0; kind < DRAW_CONTEXTS; kind++) {
         const char *name = draw_context_name(kind);
         result = run_octreel(NULL, "verify %s --context %s", folder.path, name);
-        if (draw_context_built((draw_context)kind)) {
+        if (draw_context_is_built((draw_context)kind)) {
             assert_done(&result);
             assert_non_null(strstr(result.out, "identical"));
             command_release(&result);
@@ -74,7 +74,7 @@ static void finding_is_one_line_and_exit_status_is_1(void **state)
 static void other_renderer_can_differ_only_in_pixels(void **state)
 {
     static const command_setting softpipe = {.environment = {"GALLIUM_DRIVER=softpipe"}};
-    if (!draw_context_built(DRAW_EGL)) {
+    if (!draw_context_is_built(DRAW_EGL)) {
         print_message("octreel was built without EGL: no other renderer can be tested\n");
         skip();
     }

@@ -241,7 +241,7 @@ static void renderer_without_gl_draws_the_same(void **state)
     scene s = busy_scene(320, 180, CAMERA_ORBIT);
     both b = {open_renderer(320, 180), open_gl_renderer(320, 180)};
     assert_drawn_alike(&b, &s);
-    const renderer_info info = renderer_about(b.integers), gl = renderer_about(b.gl);
+    const renderer_info info = renderer_describe(b.integers), gl = renderer_describe(b.gl);
     assert_null(info.context);
     assert_string_equal(info.fill, "integers");
     assert_null(info.renderer);
@@ -261,13 +261,13 @@ static void both_rasterizers_find_the_same_elements(void **state)
     scene s = busy_scene(320, 180, CAMERA_ORBIT);
     both b = open_both(&s.view);
     uint32_t *one = calloc(frame_samples(&s), sizeof *one), *other = calloc(frame_samples(&s), sizeof *other);
-    assert_true(renderer_number_samples(b.integers, &s, one, &error));
-    assert_true(renderer_number_samples(b.gl, &s, other, &error));
+    assert_true(renderer_find_element_numbers(b.integers, &s, one, &error));
+    assert_true(renderer_find_element_numbers(b.gl, &s, other, &error));
     assert_memory_equal(one, other, frame_samples(&s) * sizeof *one);
     for (int x = 0; x < 320; x += 17) {
         draw_covers a = {0}, c = {0};
-        assert_true(renderer_list_pixel(b.integers, &s, x, 90, &a, &error));
-        assert_true(renderer_list_pixel(b.gl, &s, x, 90, &c, &error));
+        assert_true(renderer_list_pixel_covers(b.integers, &s, x, 90, &a, &error));
+        assert_true(renderer_list_pixel_covers(b.gl, &s, x, 90, &c, &error));
         assert_int_equal(a.count, c.count);
         for (size_t i = 0; i < a.count; i++)
             assert_true(a.items[i].number == c.items[i].number && a.items[i].at == c.items[i].at &&

@@ -47,7 +47,7 @@ static void add_pixels(quad_list *list, size_t count, uint8_t color)
     for (size_t end = list->count + count; list->count < end;) {
         const int32_t x = (int32_t)(list->count % SIDE) * QUAD_SUBPIXELS, right = x + QUAD_SUBPIXELS;
         const int32_t y = (int32_t)(list->count / SIDE) * QUAD_SUBPIXELS, bottom = y + QUAD_SUBPIXELS;
-        quads_add(list, &(quad){.x = {x, right, right, x}, .y = {y, y, bottom, bottom}, .color = color});
+        quads_add_quad(list, &(quad){.x = {x, right, right, x}, .y = {y, y, bottom, bottom}, .color = color});
     }
 }
 
@@ -57,8 +57,8 @@ static void assert_fills(canvas *c, const quad_list *list, size_t filled)
     quad_list copy = {0}; /* the canvas keeps the copy */
     memset(indices, 77, sizeof indices);
     for (size_t i = 0; i < list->count; i++)
-        quads_add(&copy, &list->items[i]);
-    assert_int_equal(canvas_draw(c, &copy, indices), filled);
+        quads_add_quad(&copy, &list->items[i]);
+    assert_int_equal(canvas_fill_quads(c, &copy, indices), filled);
     quads_release(&copy);
     for (size_t i = 0; i < SIDE * SIDE; i++)
         assert_int_equal(indices[i], i < list->count ? list->items[i].color : 0);

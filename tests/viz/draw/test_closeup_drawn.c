@@ -36,7 +36,7 @@ static uint8_t *drawn_by(const scene *s, draw_fill fill)
     renderer *r =
         renderer_open(s->view.width * samples, s->view.height * samples, &(renderer_choice){.fill = fill}, &error);
     uint8_t *indices = malloc(frame_samples(s));
-    if (!r || !indices || !renderer_draw(r, s, indices, &error))
+    if (!r || !indices || !renderer_draw_scene(r, s, indices, &error))
         fail_msg("%s", error.text);
     renderer_close(r);
     return indices;
@@ -76,7 +76,7 @@ static void elements_of_the_close_up_are_picked(void **state)
     scene s = close_scene(CAMERA_ISO, 1, 219);
     renderer *r = renderer_open(s.view.width, s.view.height, &(renderer_choice){0}, &error);
     uint32_t *numbers = calloc(frame_samples(&s), sizeof *numbers);
-    assert_true(renderer_number_samples(r, &s, numbers, &error));
+    assert_true(renderer_find_element_numbers(r, &s, numbers, &error));
     size_t inside = 0, nodes = 0;
     for (int y = 0; y < s.view.height; y += 3)
         for (int x = 0; x < s.view.width; x += 7) {
@@ -91,7 +91,7 @@ static void elements_of_the_close_up_are_picked(void **state)
             assert_true(!element.in_closeup || is_in);
             inside += element.in_closeup;
             nodes += element.in_closeup && element.kind == SCENE_BOX;
-            assert_true(renderer_list_pixel(r, &s, x, y, &list, &error));
+            assert_true(renderer_list_pixel_covers(r, &s, x, y, &list, &error));
             assert_int_equal(list.items[0].number, number);
             draw_covers_release(&list);
         }
@@ -112,9 +112,9 @@ static void layer_mask_includes_the_close_up(void **state)
     uint8_t *mask = malloc(frame_samples(&s));
     const int *at = s.closeup->place;
     const int middle = (at[1] + s.closeup->view.height / 2) * s.view.width + at[0] + s.closeup->view.width / 2;
-    assert_true(renderer_layer_mask(r, &s, 1u << LAYER_PLAYER, mask, &error));
+    assert_true(renderer_find_layer_mask(r, &s, 1u << LAYER_PLAYER, mask, &error));
     assert_int_equal(mask[middle], 1);
-    assert_true(renderer_layer_mask(r, &s, 1u << LAYER_CLOSEUP, mask, &error));
+    assert_true(renderer_find_layer_mask(r, &s, 1u << LAYER_CLOSEUP, mask, &error));
     for (int y = 0; y < s.closeup->view.height; y++)
         for (int x = 0; x < s.closeup->view.width; x++)
             assert_int_equal(mask[(at[1] + y) * s.view.width + at[0] + x], 1);

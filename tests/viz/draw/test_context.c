@@ -13,7 +13,7 @@
 
 static void need_both_kinds(void)
 {
-    if (draw_context_built(DRAW_OSMESA) && draw_context_built(DRAW_EGL))
+    if (draw_context_is_built(DRAW_OSMESA) && draw_context_is_built(DRAW_EGL))
         return;
     print_message("only one kind of context was built: nothing is compared\n");
     skip();
@@ -34,7 +34,7 @@ static int open_under_softpipe(const renderer_choice *choice)
         if (!r)
             _exit(strstr(error.text, "softpipe") && strstr(error.text, "llvmpipe") ? REFUSED_WITH_REASON
                                                                                    : REFUSED_WITHOUT);
-        _exit(strncmp(renderer_about(r).renderer, "llvmpipe", 8) == 0 ? DRAWN_BY_LLVMPIPE : DRAWN_BY_ANOTHER);
+        _exit(strncmp(renderer_describe(r).renderer, "llvmpipe", 8) == 0 ? DRAWN_BY_LLVMPIPE : DRAWN_BY_ANOTHER);
     }
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFEXITED(status));
@@ -46,7 +46,7 @@ static void driver_other_than_llvmpipe_is_refused_by_name(void **state)
 {
     (void)state;
     for (int kind = DRAW_AUTO; kind < DRAW_CONTEXTS; kind++) {
-        if (!draw_context_built((draw_context)kind))
+        if (!draw_context_is_built((draw_context)kind))
             continue;
         const int said = open_under_softpipe(&(renderer_choice){.context = (draw_context)kind, .fill = DRAW_FILL_GL});
         assert_true(said == REFUSED_WITH_REASON || said == DRAWN_BY_LLVMPIPE);
@@ -56,7 +56,7 @@ static void driver_other_than_llvmpipe_is_refused_by_name(void **state)
 static void driver_other_than_llvmpipe_draws_with_any_renderer(void **state)
 {
     (void)state;
-    if (!draw_context_built(DRAW_EGL))
+    if (!draw_context_is_built(DRAW_EGL))
         skip();
     const int said =
         open_under_softpipe(&(renderer_choice){.context = DRAW_EGL, .fill = DRAW_FILL_GL, .any_renderer = true});
@@ -81,14 +81,14 @@ static void context_names_survive_the_round_trip(void **state)
 static void missing_context_is_refused_by_name(void **state)
 {
     (void)state;
-    assert_true(draw_context_built(DRAW_AUTO));
+    assert_true(draw_context_is_built(DRAW_AUTO));
     for (int kind = FIRST_KIND; kind < DRAW_CONTEXTS; kind++) {
         const renderer_choice choice = {.context = (draw_context)kind, .fill = DRAW_FILL_GL};
         octreel_error error = {""};
         renderer *r = renderer_open(16, 16, &choice, &error);
-        assert_int_equal(r != NULL, draw_context_built(choice.context));
+        assert_int_equal(r != NULL, draw_context_is_built(choice.context));
         if (r)
-            assert_string_equal(renderer_about(r).context, draw_context_name(choice.context));
+            assert_string_equal(renderer_describe(r).context, draw_context_name(choice.context));
         else
             assert_non_null(strstr(error.text, draw_context_name(choice.context)));
         renderer_close(r);
@@ -99,10 +99,10 @@ static void auto_uses_the_first_available_context(void **state)
 {
     (void)state;
     int kind = FIRST_KIND;
-    while (!draw_context_built((draw_context)kind))
+    while (!draw_context_is_built((draw_context)kind))
         kind++;
     renderer *r = open_renderer_of(DRAW_AUTO, 16, 16);
-    assert_string_equal(renderer_about(r).context, draw_context_name(kind));
+    assert_string_equal(renderer_describe(r).context, draw_context_name(kind));
     renderer_close(r);
 }
 
@@ -131,10 +131,10 @@ static void egl_draws_the_same_bytes_with_and_without_a_named_device(void **stat
     (void)state;
     const renderer_choice any = {.context = DRAW_EGL, .fill = DRAW_FILL_GL, .any_renderer = true};
     octreel_error error;
-    if (!draw_context_built(DRAW_EGL))
+    if (!draw_context_is_built(DRAW_EGL))
         skip();
     renderer *r = renderer_open(320, 180, &any, &error);
-    if (!r || strncmp(renderer_about(r).renderer, "llvmpipe", 8) != 0) {
+    if (!r || strncmp(renderer_describe(r).renderer, "llvmpipe", 8) != 0) {
         renderer_close(r);
         skip();
     }
@@ -158,7 +158,7 @@ static void two_contexts_at_once_do_not_disturb_each_other(void **state)
         const draw_context second = first == DRAW_OSMESA ? DRAW_EGL : DRAW_OSMESA;
         renderer *a = open_renderer_of((draw_context)first, 160, 90), *b = open_renderer_of(second, 320, 180);
         uint8_t *frames[4] = {draw(a, &small), draw(b, &large), draw(a, &small), NULL};
-        assert_string_equal(renderer_about(a).context, draw_context_name(first));
+        assert_string_equal(renderer_describe(a).context, draw_context_name(first));
         renderer_close(a);
         frames[3] = draw(b, &large);
         renderer_close(b);

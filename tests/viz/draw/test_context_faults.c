@@ -146,12 +146,12 @@ static void context_that_fails_while_drawing_is_an_error(void **state)
     (void)state;
     scene s = busy_scene(SIDE, SIDE, CAMERA_ISO);
     renderer *r = open_gl_renderer(SIDE, SIDE);
-    assert_true(renderer_draw(r, &s, indices, &error));
+    assert_true(renderer_draw_scene(r, &s, indices, &error));
     fault.not_current = true;
-    assert_false(renderer_draw(r, &s, indices, &error));
+    assert_false(renderer_draw_scene(r, &s, indices, &error));
     assert_string_equal(error.text, "the renderer's context cannot be made current");
     fault.not_current = false;
-    assert_true(renderer_draw(r, &s, indices, &error));
+    assert_true(renderer_draw_scene(r, &s, indices, &error));
     renderer_close(r);
     scene_release(&s);
 }
@@ -186,7 +186,7 @@ static void assert_not_opened(draw_context kind, const char *why)
 
 static void need(draw_context kind)
 {
-    if (!draw_context_built(kind))
+    if (!draw_context_is_built(kind))
         skip();
 }
 
@@ -297,9 +297,9 @@ static void missing_libraries_are_named_with_their_packages(void **state)
 {
     (void)state;
     nothing_loads = true;
-    if (draw_context_built(DRAW_OSMESA))
+    if (draw_context_is_built(DRAW_OSMESA))
         assert_not_opened(DRAW_OSMESA, "cannot be loaded (Debian: libosmesa6)");
-    if (draw_context_built(DRAW_EGL))
+    if (draw_context_is_built(DRAW_EGL))
         assert_not_opened(DRAW_EGL, "cannot be loaded (Debian: libegl1)");
     assert_not_opened(DRAW_AUTO, "cannot be loaded (Debian: ");
     nothing_loads = false;

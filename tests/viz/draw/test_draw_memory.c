@@ -17,24 +17,24 @@ typedef bool work(renderer *r, const scene *s, void *bytes, octreel_error *error
 
 static bool draw_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
-    return renderer_draw(r, s, bytes, error);
+    return renderer_draw_scene(r, s, bytes, error);
 }
 
 static bool pick_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
-    return renderer_number_samples(r, s, bytes, error);
+    return renderer_find_element_numbers(r, s, bytes, error);
 }
 
 static bool mask_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
-    return renderer_layer_mask(r, s, 1u << LAYER_NODES, bytes, error);
+    return renderer_find_layer_mask(r, s, 1u << LAYER_NODES, bytes, error);
 }
 
 /* Find the numbers of the elements in the middle of the picture. */
 static bool ask_it(renderer *r, const scene *s, void *bytes, octreel_error *error)
 {
     draw_covers list = {0};
-    const bool done = renderer_list_pixel(r, s, s->view.width / 2, s->view.height / 2, &list, error);
+    const bool done = renderer_list_pixel_covers(r, s, s->view.width / 2, s->view.height / 2, &list, error);
     for (size_t i = 0; done && i < list.count && i < SIDE; i++)
         ((uint32_t *)bytes)[i] = list.items[i].number;
     draw_covers_release(&list);

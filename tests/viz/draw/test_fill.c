@@ -113,7 +113,7 @@ static void assert_filled_alike(renderer *r, const quad *quads, size_t count, re
 {
     static uint8_t by_gl[SIDE * SIDE], by_integers[SIDE * SIDE];
     octreel_error error = {""};
-    if (!renderer_fill(r, quads, count, part, by_gl, &error))
+    if (!renderer_fill_quads(r, quads, count, part, by_gl, &error))
         fail_msg("%s", error.text);
     memset(by_integers, 0, sizeof by_integers);
     fill_quads(quads, count, part, by_integers);

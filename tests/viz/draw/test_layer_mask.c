@@ -13,7 +13,7 @@ static uint8_t *mask_of(renderer *r, const scene *s, unsigned layers)
     uint8_t *mask = malloc(size);
     assert_non_null(mask);
     memset(mask, 255, size);
-    if (!renderer_layer_mask(r, s, layers, mask, &error))
+    if (!renderer_find_layer_mask(r, s, layers, mask, &error))
         fail_msg("%s", error.text);
     return mask;
 }
@@ -65,7 +65,7 @@ static void mask_covers_visible_elements_of_its_layers(void **state)
         octreel_error error = {""};
         renderer *r = open_renderer_for(&s);
         uint32_t *numbers = malloc(frame_samples(&s) * sizeof *numbers);
-        assert_true(renderer_number_samples(r, &s, numbers, &error));
+        assert_true(renderer_find_element_numbers(r, &s, numbers, &error));
         for (unsigned layer = 0; layer <= LAYER_DIAGRAM; layer++) {
             const unsigned layers = 1u << layer | 1u << LAYER_PLAYER;
             uint8_t *mask = mask_of(r, &s, layers);
@@ -136,7 +136,7 @@ static void scene_of_another_size_is_refused(void **state)
     octreel_error error = {""};
     uint8_t mask[1];
     renderer *r = open_renderer(64, 64);
-    assert_false(renderer_layer_mask(r, &s, 1, mask, &error));
+    assert_false(renderer_find_layer_mask(r, &s, 1, mask, &error));
     assert_non_null(strstr(error.text, "size"));
     renderer_close(r);
     scene_release(&s);

@@ -24,7 +24,7 @@ static draw_covers touches_at(renderer *r, const scene *s, int x, int y)
 {
     draw_covers list = {0};
     octreel_error error = {""};
-    if (!renderer_list_pixel(r, s, x, y, &list, &error))
+    if (!renderer_list_pixel_covers(r, s, x, y, &list, &error))
         fail_msg("%s", error.text);
     return list;
 }
@@ -40,7 +40,7 @@ static int place_of(const scene *s, const draw_covers *list, scene_kind kind, si
 
 /* ---- Against the whole picture ------------------------------------------------------------------------------ */
 
-/* The number of samples of a pixel at which renderer_number_samples() returns this number. */
+/* The number of samples of a pixel at which renderer_find_element_numbers() returns this number. */
 static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_t number)
 {
     const int samples = view_samples(&s->view), width = s->view.width * samples;
@@ -78,7 +78,7 @@ static void element_at_a_pixel_equals_that_of_the_whole_picture(void **state)
         renderer *r = open_renderer_for(&s);
         const int samples = view_samples(&s.view), size = s.view.width * s.view.height * samples * samples;
         uint32_t *numbers = malloc((size_t)size * sizeof *numbers);
-        assert_true(renderer_number_samples(r, &s, numbers, &error));
+        assert_true(renderer_find_element_numbers(r, &s, numbers, &error));
         for (int lit = 0, tries = 0; lit < 12 && tries < 4000; tries++) {
             const int x = (int)random_below(&seed, (uint64_t)s.view.width);
             const int y = (int)random_below(&seed, (uint64_t)s.view.height);
@@ -290,7 +290,7 @@ static void pixel_outside_the_picture_is_refused(void **state)
     for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
         draw_covers list = {0};
         octreel_error error = {""};
-        assert_false(renderer_list_pixel(r, &s, outside[i][0], outside[i][1], &list, &error));
+        assert_false(renderer_list_pixel_covers(r, &s, outside[i][0], outside[i][1], &list, &error));
         assert_non_null(strstr(error.text, "320 x 240"));
         draw_covers_release(&list);
     }

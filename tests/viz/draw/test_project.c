@@ -221,8 +221,8 @@ static void segments_behind_the_eye_are_invisible(void **state)
         from_eye(&s.camera, 1, -0.5, -3, ends[1]);
         assert_int_equal(project_segment(&s, ends[0], ends[1], pieces, &overflowed), 0);
         assert_false(overflowed);
-        assert_false(project_point(&s, ends[0], pixel, &band));
-        assert_false(project_point(&s, s.camera.eye, pixel, &band));
+        assert_false(find_pixel_and_band(&s, ends[0], pixel, &band));
+        assert_false(find_pixel_and_band(&s, s.camera.eye, pixel, &band));
         assert_int_equal(assert_sound(&s, s.camera.eye, s.camera.eye, pieces), 0);
     }
 }
@@ -265,7 +265,7 @@ static void every_segment_gives_only_pieces_near_the_picture(void **state)
             ends[j / 3][j % 3] = random_below(&random, 2) ? size : -size;
         }
         assert_sound(&s, ends[0], ends[1], pieces);
-        if (project_point(&s, ends[0], pixel, &band))
+        if (find_pixel_and_band(&s, ends[0], pixel, &band))
             assert_true(fabs(pixel[0]) < WIDTH + MARGIN && fabs(pixel[1]) < HEIGHT + MARGIN && band < QUAD_BANDS);
     }
 }
@@ -365,12 +365,12 @@ static void segments_in_pixels_are_clipped_without_a_camera(void **state)
         s.view.width *= samples; /* for the enlarged picture of the samples */
         s.view.height *= samples;
         piece p;
-        assert_true(project_flat(&s, ends[0][0], ends[0][1], &p));
+        assert_true(clip_picture_segment(&s, ends[0][0], ends[0][1], &p));
         assert_true(p.band == 0 && p.from[0] == 3 * samples && p.from[1] == 4 * samples);
         assert_true(p.to[0] == 50 * samples && p.to[1] == 60 * samples);
-        assert_true(project_flat(&s, ends[1][0], ends[1][1], &p));
+        assert_true(clip_picture_segment(&s, ends[1][0], ends[1][1], &p));
         assert_true(p.from[0] == -64 && p.to[0] == 320 * samples + 64 && p.from[1] == 20 * samples);
-        assert_false(project_flat(&s, ends[2][0], ends[2][1], &p));
+        assert_false(clip_picture_segment(&s, ends[2][0], ends[2][1], &p));
     }
 }
 
@@ -384,7 +384,7 @@ static void points_have_the_band_of_their_depth(void **state)
         unsigned band;
         random_position(&random, 1, position);
         const sight at = look_at(&s.camera, (long double[3]){position[0], position[1], position[2]});
-        const bool seen = project_point(&s, position, pixel, &band);
+        const bool seen = find_pixel_and_band(&s, position, pixel, &band);
         assert_true(seen || !in_picture(&at, &s.camera));
         if (!seen)
             continue;

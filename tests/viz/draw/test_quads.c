@@ -13,7 +13,7 @@ static void quads_are_sorted_by_layer_then_band_then_depth(void **state)
     for (unsigned layer = 0; layer < LAYER_COUNT; layer++) {
         for (int band = QUAD_BANDS - 1; band >= 0; band--) {
             for (int depth = OCTREE_MAX_DEPTH; depth >= 0; depth--) {
-                const int order = quad_order(layer, (unsigned)band, (unsigned)depth);
+                const int order = make_quad_order(layer, (unsigned)band, (unsigned)depth);
                 assert_true(order > last);
                 last = order;
             }
@@ -25,8 +25,8 @@ static quad random_quad(uint64_t *random, int number)
 {
     quad q = {.color = (uint8_t)random_below(random, 256)};
     q.x[0] = number;
-    q.order = quad_order((unsigned)random_below(random, LAYER_COUNT), (unsigned)random_below(random, QUAD_BANDS),
-                         (unsigned)random_below(random, OCTREE_MAX_DEPTH + 1));
+    q.order = make_quad_order((unsigned)random_below(random, LAYER_COUNT), (unsigned)random_below(random, QUAD_BANDS),
+                              (unsigned)random_below(random, OCTREE_MAX_DEPTH + 1));
     return q;
 }
 
@@ -39,7 +39,7 @@ static void sorting_keeps_every_quad_and_the_order_of_equals(void **state)
         uint64_t sum = 0;
         for (int i = 0; i < count; i++) {
             const quad q = random_quad(&random, i);
-            quads_add(&list, &q);
+            quads_add_quad(&list, &q);
             sum += (uint64_t)(i + 1) * (q.order + UINT64_C(65536) * q.color);
         }
         assert_true(quads_sort(&list));
@@ -81,7 +81,7 @@ static void quads_of_every_tick_are_in_painters_order_within_23_bits(void **stat
         const view v = view_of(size[0], size[1], (view_camera)(tick % CAMERA_COUNT), VIEW_ALL_LAYERS);
         play_tick(game);
         build_tick(&s, &v, game);
-        assert_true(paint(&p, &s));
+        assert_true(painter_paint_scene(&p, &s));
         assert_true(p.quads.count > 0);
         assert_int_equal(p.overflowed, 0);
         assert_drawable(&p.quads);
@@ -111,11 +111,11 @@ static void points_on_one_pixel_are_one_quad_in_the_nearest_band(void **state)
     scene s = point_scene(CAMERA_TOP);
     for (int i = 0; i < 1000; i++) /* points on one pixel, seen from above; the nearest is neither first nor last */
         add_point(&s, (uint64_t)i, 0.001, -0.001, (i * 7 % 1000) / 500.0 - 1);
-    assert_true(paint(&p, &s));
+    assert_true(painter_paint_scene(&p, &s));
     assert_int_equal(p.quads.count, 1);
     assert_int_equal(p.quads.items[0].color, theme_index(ROLE_POINT, 0));
     add_point(&s, 1000, 0.5, 0.5, -1);
-    assert_true(paint(&p, &s));
+    assert_true(painter_paint_scene(&p, &s));
     assert_int_equal(p.quads.count, 2);
     assert_int_equal(p.quads.items[0].color, theme_index(ROLE_POINT, THEME_SHADES - 1)); /* the farther one first */
     scene_release(&s);
@@ -138,7 +138,7 @@ static void quads_do_not_depend_on_the_order_of_points(void **state)
         add_point(&a, (uint64_t)i, at[i][0], at[i][1], at[i][2]);
         add_point(&b, (uint64_t)i, at[4999 - i][0], at[4999 - i][1], at[4999 - i][2]);
     }
-    assert_true(paint(&forth, &a) && paint(&back, &b));
+    assert_true(painter_paint_scene(&forth, &a) && painter_paint_scene(&back, &b));
     assert_int_equal(forth.quads.count, back.quads.count);
     assert_true(forth.quads.count < 2000);
     for (unsigned band = 0; band < QUAD_BANDS; band++) {
@@ -165,7 +165,7 @@ static void elements_that_overflow_a_double_are_counted_and_not_drawn(void **sta
     scene s = empty_scene(&v, &tiny);
     painter p = {0};
     scene_add_segment(&s, (scene_segment){.ends = {{-1e300, 0, 0}, {1e300, 0, 0}}});
-    assert_true(paint(&p, &s));
+    assert_true(painter_paint_scene(&p, &s));
     assert_int_equal(p.overflowed, 1);
     assert_int_equal(p.quads.count, 0);
     scene_release(&s);

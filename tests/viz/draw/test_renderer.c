@@ -67,7 +67,7 @@ static void renderer_names_its_libraries(void **state)
 {
     (void)state;
     renderer *r = open_gl_renderer(16, 16);
-    const renderer_info about = renderer_about(r);
+    const renderer_info about = renderer_describe(r);
     assert_true(strcmp(about.context, "osmesa") == 0 || strcmp(about.context, "egl") == 0);
     assert_non_null(about.vendor);
     assert_non_null(about.version);
@@ -127,7 +127,7 @@ static void check_largest_picture(renderer *(*open)(int width, int height))
     renderer *r = open(SIDE, SIDE);
     uint8_t *frame = malloc(last + 1);
     assert_non_null(frame);
-    if (!renderer_draw(r, &s, frame, &error))
+    if (!renderer_draw_scene(r, &s, frame, &error))
         fail_msg("%s", error.text);
     const size_t corners[4] = {0, SIDE - 1, last - SIDE + 1, last};
     for (int i = 0; i < 4; i++)
@@ -154,7 +154,7 @@ static void elements_that_are_not_finite_are_counted_and_change_no_pixel(void **
     scene s = busy_scene(320, 180, CAMERA_FOLLOW);
     renderer *r = open_renderer(320, 180);
     uint8_t *before = draw(r, &s);
-    assert_int_equal(renderer_left_out(r), 0);
+    assert_int_equal(renderer_left_out_count(r), 0);
     for (size_t w = 0; w < 3; w++) {
         for (int axis = 0; axis < 3; axis++) {
             scene_box box = {.box = cube(-100, 100),
@@ -172,7 +172,7 @@ static void elements_that_are_not_finite_are_counted_and_change_no_pixel(void **
     assert_int_equal(s.refused, 3 * 3 * 4);
     uint8_t *after = draw(r, &s);
     assert_same_frame(before, after, &s);
-    assert_int_equal(renderer_left_out(r), s.refused);
+    assert_int_equal(renderer_left_out_count(r), s.refused);
     free(before);
     free(after);
     scene_release(&s);
@@ -188,7 +188,7 @@ static void scene_of_another_size_is_refused(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         octreel_error error = {""};
         scene s = busy_scene(sizes[i][0], sizes[i][1], CAMERA_ISO);
-        assert_false(renderer_draw(r, &s, frame, &error));
+        assert_false(renderer_draw_scene(r, &s, frame, &error));
         assert_non_null(strstr(error.text, "size"));
         for (size_t pixel = 0; pixel < sizeof frame; pixel++)
             assert_int_equal(frame[pixel], 0);

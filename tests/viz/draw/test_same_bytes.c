@@ -91,7 +91,7 @@ static int find_crashes(void **state)
     for (size_t i = 0; i < WIDTHS * DRAW_CONTEXTS; i++) {
         const draw_context kind = (draw_context)(i % DRAW_CONTEXTS);
         void *folder;
-        if (!draw_context_built(kind))
+        if (!draw_context_is_built(kind))
             continue;
         assert_int_equal(temp_folder_make(&folder), 0);
         const char *width = widths[i / DRAW_CONTEXTS], *context = draw_context_name(kind);
@@ -105,7 +105,7 @@ static int find_crashes(void **state)
 
 static bool can_draw(const command_setting *machine, draw_context kind)
 {
-    if (!draw_context_built(kind))
+    if (!draw_context_is_built(kind))
         return false;
     for (size_t i = 0; i < WIDTHS; i++)
         if (strcmp(machine->environment[0], widths[i]) == 0)

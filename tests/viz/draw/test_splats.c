@@ -58,7 +58,7 @@ static void release(lit *l, scene *s)
 static theme_color color_at(const lit *l, const scene *s, int x, int y)
 {
     const size_t i = (size_t)y * (size_t)(s->view.width * view_samples(&s->view)) + (size_t)x;
-    const uint8_t *own = renderer_own_colors(l->renderer) + 3 * i;
+    const uint8_t *own = renderer_sample_colors(l->renderer) + 3 * i;
     assert_int_equal(l->indices[i], THEME_OWN);
     return (theme_color){own[0], own[1], own[2]};
 }
@@ -225,7 +225,7 @@ static void each_sample_has_the_colour_of_the_picked_point(void **state)
     uint32_t *numbers = malloc(frame_samples(&s) * sizeof *numbers);
     octreel_error error = {""};
     size_t seen = 0;
-    assert_true(numbers && renderer_number_samples(l.renderer, &s, numbers, &error));
+    assert_true(numbers && renderer_find_element_numbers(l.renderer, &s, numbers, &error));
     for (size_t i = 0; i < frame_samples(&s); i++) {
         assert_int_equal(numbers[i] != 0, l.indices[i] == THEME_OWN);
         if (numbers[i] == 0)

@@ -29,7 +29,7 @@ static mask cover_text(const scene *s)
     mask m = {.width = s->view.width, .height = s->view.height};
     m.covered = calloc((size_t)m.width, (size_t)m.height);
     assert_non_null(m.covered);
-    draw_text_boxes(s, cover, &m);
+    visit_text_boxes(s, cover, &m);
     return m;
 }
 
@@ -91,11 +91,11 @@ static void letters_have_a_rim(void **state)
     scene_set_view(&s, &v);
     scene_add_label(&s,
                     (scene_label){.at = {50, 60}, .style = {.layer = LAYER_WORLD, .role = ROLE_FAINT}, .text = "17"});
-    letters_add(&plain, &s, &s.labels.items[0]);
-    draw_text_boxes(&s, keep_box, &boxes[0]);
+    add_label_letters(&plain, &s, &s.labels.items[0]);
+    visit_text_boxes(&s, keep_box, &boxes[0]);
     s.labels.items[0].style.stroke = STROKE_CUT;
-    letters_add(&rimmed, &s, &s.labels.items[0]);
-    draw_text_boxes(&s, keep_box, &boxes[1]);
+    add_label_letters(&rimmed, &s, &s.labels.items[0]);
+    visit_text_boxes(&s, keep_box, &boxes[1]);
     assert_int_equal(rimmed.count, 2 * plain.count);
     for (size_t i = 0; i < plain.count; i++) {
         assert_int_equal(rimmed.items[i].color, theme_index(ROLE_BACKGROUND, 0));
@@ -128,7 +128,7 @@ static void labels_at_the_border_are_not_cut(void **state)
                                           .text = "12"});
         if (!camera_pixel(&s.camera, s.labels.items[0].at, pixel) || !(pixel[0] > 8 && pixel[0] < 100))
             continue;
-        draw_text_boxes(&s, keep_box, &box);
+        visit_text_boxes(&s, keep_box, &box);
         assert_true(box.width > 0 && box.x + box.width <= 100 && box.y + box.height <= 100);
         seen++;
     }

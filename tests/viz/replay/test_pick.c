@@ -14,7 +14,7 @@ static uint32_t *pick(renderer *r, const scene *s)
     uint32_t *numbers = malloc(frame_samples(s) * sizeof *numbers);
     octreel_error error = {""};
     assert_non_null(numbers);
-    if (!renderer_number_samples(r, s, numbers, &error))
+    if (!renderer_find_element_numbers(r, s, numbers, &error))
         fail_msg("%s", error.text);
     return numbers;
 }
@@ -360,7 +360,7 @@ static void scene_of_another_size_is_refused(void **state)
     renderer *r = open_renderer(160, 90);
     uint32_t number;
     octreel_error error = {""};
-    assert_false(renderer_number_samples(r, &s, &number, &error));
+    assert_false(renderer_find_element_numbers(r, &s, &number, &error));
     assert_non_null(strstr(error.text, "size"));
     renderer_close(r);
     scene_release(&s);

@@ -62,7 +62,7 @@ static scene scene_from(const octree *tree, unsigned layers, const double place[
 static size_t assert_drawable(const scene *s)
 {
     painter p = {0};
-    assert_true(paint(&p, s));
+    assert_true(painter_paint_scene(&p, s));
     assert_int_equal(p.overflowed, 0);
     for (size_t i = 0; i < p.quads.count; i++)
         for (int j = 0; j < 4; j++)
