@@ -130,7 +130,7 @@ static void add_vertex(vertex_list *list, double x, double y, double z, theme_co
 
 static theme_color color_of(scene_style style)
 {
-    return theme_color_at(theme_index(style.role, 0));
+    return theme_color_at(theme_color_index(style.role, 0));
 }
 
 static void flush(naive *n, GLenum kind)
@@ -241,7 +241,7 @@ static void draw_labels(naive *n, const scene *s)
 {
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
-        const lettering *letters = scene_lettering(s, label);
+        const lettering *letters = scene_label_lettering(s, label);
         double seen[3], at[2] = {label->at[0], label->at[1]};
         if (label->in_world) {
             camera_transform(&s->camera, label->at, seen);
@@ -255,7 +255,7 @@ static void draw_labels(naive *n, const scene *s)
 
 bool naive_draw(naive *n, const scene *s)
 {
-    const theme_color ground = theme_color_at(theme_index(ROLE_BACKGROUND, 0));
+    const theme_color ground = theme_color_at(theme_color_index(ROLE_BACKGROUND, 0));
     n->Viewport(0, 0, n->width, n->height);
     n->ClearColor((float)ground.r / 255, (float)ground.g / 255, (float)ground.b / 255, 1);
     n->Clear(GL_COLOR_BUFFER_BIT);

@@ -105,7 +105,7 @@ static int unlikeness(image_color a, image_color b)
  * each of two distances, of which one counts a quarter. Whole numbers are rounded twice. */
 static double levels_at_most(double pixels)
 {
-    const theme_color white = theme_color_at(theme_index(ROLE_POINT, 0)), ground = theme_color_at(0);
+    const theme_color white = theme_color_at(theme_color_index(ROLE_POINT, 0)), ground = theme_color_at(0);
     const double d = ceil(8 * pixels), slopes = 16 * d + 4 * d + 1;
     const double light = 256 - 256 * 160 / (160 + slopes) + 1;
     return fmax(white.r - ground.r, fmax(white.g - ground.g, white.b - ground.b)) * light / 256 + 1;
@@ -115,7 +115,7 @@ static double levels_at_most(double pixels)
 static void move_points(showing *moved, const octree_point *points, double pixels, int axis)
 {
     uint64_t seed = 7;
-    const double length = pixels / point_scale_pixels(&moved->scene.camera, 1);
+    const double length = pixels / point_scale_length_in_pixels(&moved->scene.camera, 1);
     for (size_t i = 0; i < moved->cloud->count; i++)
         moved->cloud->points[i].position[axis] =
             points[i].position[axis] + length * ((double)random_below(&seed, 1999) / 1000 - 0.999);

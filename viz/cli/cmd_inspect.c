@@ -144,12 +144,12 @@ static bool draw_picture(const report *r, octreel_error *error)
         return false;
     if (*drawn.checks.reason.text)
         note("%s was not checked: %s", picture, drawn.checks.reason.text);
-    if (point_scale_lacks(&r->view, &r->made->values))
-        note("no point has %s: --color-points %s shows all points alike", point_scale_lacks(&r->view, &r->made->values),
-             view_point_color_name(r->view.point_color));
+    if (point_scale_missing_value(&r->view, &r->made->values))
+        note("no point has %s: --color-points %s shows all points alike",
+             point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
         note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
-    if (drawn.below_lod && !view_shows(&a->view, LAYER_TEXT)) /* the text layer prints this in the picture */
+    if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT)) /* the text layer prints this in the picture */
         note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
         note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural_ending(drawn.left_out),

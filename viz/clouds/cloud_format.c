@@ -38,9 +38,9 @@ static bool add_values(cloud_file *file, size_t row, const double *numbers)
     point_values *values = &file->out->values;
     const point_value value = cloud_convert_values(file, numbers);
     while (values->count < row)
-        if (!point_values_append(values, &(point_value){0}))
+        if (!point_values_append_row(values, &(point_value){0}))
             return false;
-    return point_values_append(values, &value);
+    return point_values_append_row(values, &value);
 }
 
 bool cloud_reserve(cloud_file *file, uint64_t count)

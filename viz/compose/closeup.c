@@ -22,7 +22,8 @@
 static octree_box visible_box(const camera *c, const view *v)
 {
     octree_box box;
-    const double pixel = camera_pixel_length(c), deep = (c->far_depth - c->distance) * (c->size / 2 / c->scale);
+    const double pixel = camera_world_length_of_pixel(c),
+                 deep = (c->far_depth - c->distance) * (c->size / 2 / c->scale);
     const double widest = c->perspective ? c->far_depth / c->distance : 1;
     for (int i = 0; i < 3; i++) {
         const double reach = (fabs(c->right[i]) * v->width + fabs(c->up[i]) * v->height) / 2 * pixel * widest +
@@ -44,7 +45,7 @@ static void narrow_region(view_filter *f, const octree_box *region)
 
 bool closeup_begin(scene *s, const layer_source *in, const double place[3], double times, layer_source *close)
 {
-    const camera_window w = layout_closeup(&s->view);
+    const camera_window w = layout_closeup_area(&s->view);
     const double budget = (double)s->view.budget * (w.width * w.height / s->view.width / s->view.height);
     s->closeup = s->closeup ? s->closeup : calloc(1, sizeof *s->closeup);
     if (!s->closeup)
@@ -62,7 +63,7 @@ bool closeup_begin(scene *s, const layer_source *in, const double place[3], doub
     c->view.diagram = DIAGRAM_NONE;
     c->view.budget = s->view.budget && budget < 1 ? 1 : (uint64_t)budget; /* its part of the picture's pixels */
     c->view.layers &= ~(1u << LAYER_WORLD | 1u << LAYER_TEXT);
-    c->camera = camera_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
+    c->camera = camera_make_close_up(&s->camera, (camera_window){0, 0, w.width, w.height}, place, times);
     const octree_box region = visible_box(&c->camera, &c->view);
     narrow_region(&c->view.filter, &region);
     *close = *in;
@@ -87,10 +88,10 @@ static bool find_enlarged_area(const scene *s, double sides[4])
 {
     const camera *c = &s->closeup->camera;
     const view *v = &s->closeup->view;
-    const camera_window w = layout_space(s);
+    const camera_window w = layout_space_area(s);
     double seen[3], pixel[2];
     camera_transform(&s->camera, c->center, seen);
-    if (!camera_pixel(&s->camera, c->center, pixel))
+    if (!camera_find_pixel(&s->camera, c->center, pixel))
         return false;
     const double smaller = s->closeup->times * (c->perspective ? seen[2] / c->distance : 1);
     const double half[2] = {fmax(v->width / smaller / 2, 2 * s->unit), fmax(v->height / smaller / 2, 2 * s->unit)};
@@ -120,7 +121,7 @@ static void add_enlarged_area(scene *s, const double frame[4])
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
         scene_add_picture_line(s, REGION_ID + i, lines[i][0], lines[i][1],
-                               role_style(LAYER_CLOSEUP, ROLE_FAINT, STROKE_SOLID, 1));
+                               make_role_style(LAYER_CLOSEUP, ROLE_FAINT, STROKE_SOLID, 1));
 }
 
 static void add_frame(scene *s)
@@ -169,13 +170,13 @@ static void drop_covered_labels(scene *s, const int corner[2], const int size[2]
 static void add_scale(scene *s)
 {
     const int unit = s->unit, margin = 6 * unit;
-    const double pixel = camera_pixel_length(&s->camera), length = round_length(s->view.width / 3.0 * pixel);
+    const double pixel = camera_world_length_of_pixel(&s->camera), length = round_length(s->view.width / 3.0 * pixel);
     const double x = margin + 0.5, y = s->view.height - margin + 0.5, end = x + floor(length / pixel), rise = 3 * unit;
     char number[NUMBER_TEXT], times[NUMBER_TEXT];
     if (!(length > 0) || !isfinite(end))
         return;
     scene_label label =
-        scene_make_label(SCALE_ID, role_style(LAYER_CLOSEUP, ROLE_TEXT, STROKE_SOLID, 1), "%s, enlarged %sx",
+        scene_make_label(SCALE_ID, make_role_style(LAYER_CLOSEUP, ROLE_TEXT, STROKE_SOLID, 1), "%s, enlarged %sx",
                          number_format(length, 6, number), number_format(s->times, 6, times));
     label.at[0] = margin;
     label.at[1] = s->view.height - margin - s->text.height - 3 * unit;
@@ -194,7 +195,8 @@ static void add_scale(scene *s)
 static void add_left_out(scene *s)
 {
     const scene_tally *t = &s->tally;
-    scene_label label = scene_make_label(LEFT_OUT_ID, role_style(LAYER_CLOSEUP, ROLE_WARNING, STROKE_SOLID, 1), "");
+    scene_label label =
+        scene_make_label(LEFT_OUT_ID, make_role_style(LAYER_CLOSEUP, ROLE_WARNING, STROKE_SOLID, 1), "");
     char *text = label.text;
     label.at[0] = label.at[1] = 6 * s->unit;
     if (t->thinned)
@@ -205,7 +207,7 @@ static void add_left_out(scene *s)
     if (t->beyond)
         snprintf(text + length, sizeof label.text - length, "%sdepth 0 to %d", length ? ", " : "", t->deepest);
     if (text[0])
-        text_add_on_ground(s, &label, ROLE_BACKGROUND);
+        scene_add_label_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
 static void add_closeup(scene *s, const layer_source *in, view_layer layer)

@@ -108,8 +108,8 @@ static view_scale make_view_scale(const layer_source *in)
     double center[3]; /* any position will do: only its distance from the camera matters */
     scene_set_view(&with, in->view);
     scene_box_middle(&in->world, center);
-    const camera c = camera_make(in->view, layout_camera(&with, &in->world), &in->world, center, 0);
-    return (view_scale){view_height_in_wide(in->view), camera_pixel_length(&c)};
+    const camera c = camera_make(in->view, layout_camera_area(&with, &in->world), &in->world, center, 0);
+    return (view_scale){view_height_at_16_9(in->view), camera_world_length_of_pixel(&c)};
 }
 
 static double part_of_height(const view_scale *m, double reach)
@@ -141,7 +141,7 @@ static double round_down(double limit)
 /* Return the part of the picture's height that a close-up shows at a magnification. */
 static double visible_part(const layer_source *in, const view_scale *m, double times)
 {
-    const camera_window w = layout_closeup(in->view);
+    const camera_window w = layout_closeup_area(in->view);
     return fmin(w.width, w.height) / m->height / times;
 }
 
@@ -157,7 +157,7 @@ static double magnification_for(double reach, const layer_source *in, const view
 double closeup_magnification(const closeup_course *course, const layer_source *in)
 {
     const view_scale m = make_view_scale(in);
-    return in->view->closeup && layout_closeup(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
+    return in->view->closeup && layout_closeup_area(in->view).width > 0 ? magnification_for(course->reach, in, &m) : 0;
 }
 
 /* Return the half extent of a subject with a margin, so that neighbours at nearly the same place also show their leaf.
@@ -260,7 +260,7 @@ void closeup_follow(closeup_course *course, const layer_source *in)
     if (player && player->kind != OCTREE_PLAYER_NONE) {
         course->reach = fmax(player->box_size, player->step / 2); /* a step does not leave the close-up */
         memcpy(course->place, in->tick->player, sizeof course->place);
-    } else if (layout_closeup(in->view).width > 0) {
+    } else if (layout_closeup_area(in->view).width > 0) {
         follow_queries_or_changes(course, in);
     }
 }

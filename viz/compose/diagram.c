@@ -87,7 +87,7 @@ static bool arrange_tree(diagram *d)
     const camera_window w = d->window;
     const int letter = s->text.width, line = s->text.line, edge = EDGE * unit;
     d->has_text =
-        view_shows(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * letter && w.height >= WORDS_HEIGHT * line;
+        view_shows_layer(&s->view, LAYER_TEXT) && w.width >= WORDS_WIDTH * letter && w.height >= WORDS_HEIGHT * line;
     const int left = edge + (d->has_text ? WORDS_LEFT * letter : 0);
     const int right = edge + (d->has_text ? WORDS_RIGHT * letter : 0);
     const int above = d->has_text ? WORDS_ABOVE * line : edge, below = d->has_text ? WORDS_BELOW * line : edge;
@@ -153,11 +153,11 @@ static scene_style edge_style(const diagram *d, octree_address node, unsigned ro
     if (tick && tick->visit_count)
         visit = bsearch(&node, tick->visits, tick->visit_count, sizeof *tick->visits, compare_in_walk_order);
     const bool was_pruned = visit && visit->touch == OCTREE_TRACE_PRUNED;
-    const bool pruned = was_pruned && view_shows(d->in->view, LAYER_PRUNED);
-    const bool visited = visit && !was_pruned && view_shows(d->in->view, LAYER_VISITED);
+    const bool pruned = was_pruned && view_shows_layer(d->in->view, LAYER_PRUNED);
+    const bool visited = visit && !was_pruned && view_shows_layer(d->in->view, LAYER_VISITED);
     d->scene->tally.marked_visited += visited;
     d->scene->tally.marked_pruned += pruned;
-    return role_style(LAYER_DIAGRAM, role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
+    return make_role_style(LAYER_DIAGRAM, role, pruned ? STROKE_DASHED : STROKE_SOLID, visited ? 2 : 1);
 }
 
 /* Compute the width and height of a node: limited by its slot and its row; a leaf is half as large as an inner node. */
@@ -225,7 +225,7 @@ static void add_path(const diagram *d)
         const anchor *at = &d->anchors[depth];
         if (depth)
             add_line(d, d->path >> 3 * (deep - depth), at - 1, at,
-                     role_style(LAYER_DIAGRAM, ROLE_PLAYER, STROKE_SOLID, 2));
+                     make_role_style(LAYER_DIAGRAM, ROLE_PLAYER, STROKE_SOLID, 2));
         if (depth > d->slots.deepest)
             fill_centered(d, PATH_ID | depth, at->x, row_middle(d, depth), RING * d->scene->unit, at->foot - at->head,
                           ROLE_PLAYER);
@@ -308,7 +308,7 @@ static void add_bars(diagram *d)
 
 static void add_text(diagram *d, double x, double y, theme_role role, const char *text)
 {
-    const scene_style style = role_style(LAYER_DIAGRAM, role, STROKE_SOLID, 1);
+    const scene_style style = make_role_style(LAYER_DIAGRAM, role, STROKE_SOLID, 1);
     scene_label label = scene_make_label(d->next_label++, style, "%s", text);
     label.at[0] = floor(x);
     label.at[1] = floor(y);
@@ -375,9 +375,9 @@ static void find_path(diagram *d)
 
 static void add_diagram(scene *s, const layer_source *in, view_layer layer)
 {
-    diagram d = {.scene = s, .in = in, .window = layout_diagram(&s->view)};
+    diagram d = {.scene = s, .in = in, .window = layout_diagram_area(&s->view)};
     d.capacity = octree_definition(in->tree).leaf_capacity;
-    if (!view_shows(&s->view, layer))
+    if (!view_shows_layer(&s->view, layer))
         return;
     /* The background covers elements of the space view that reach into the diagram. */
     scene_add_rectangle(s, GROUND_ID, (int[]){(int)d.window.x, (int)d.window.y},
@@ -408,7 +408,7 @@ static void add_diagram_legend(legend *l, const layer_source *in)
         legend_add(l, SIGN_LINE, "path from the root")->role = ROLE_PLAYER;
     if (tally->folded)
         legend_add(l, SIGN_BARS, "bars: many nodes, log2")->role = ROLE_NODE_PLAIN;
-    if (filter_is_on(&l->scene->view.filter))
+    if (filter_is_set(&l->scene->view.filter))
         legend_add(l, SIGN_NODE, "node filtered out")->role = ROLE_WORLD;
 }
 

@@ -153,7 +153,7 @@ static void write_answers(pen *p, const layer_source *in)
 {
     for (size_t i = 0; i < in->answer_count; i++) {
         const view_layer layer = layer_of_query(in->answers[i].kind);
-        p->name = view_shows(&p->scene->view, layer) ? (theme_role)layer_rows[layer].role : ROLE_FAINT;
+        p->name = view_shows_layer(&p->scene->view, layer) ? (theme_role)layer_rows[layer].role : ROLE_FAINT;
         layer_types[layer]->write_answer(p, &in->answers[i]);
     }
     p->name = ROLE_FAINT;
@@ -324,13 +324,13 @@ static void write_small_counts(pen *p, const scene_tally *tally)
 static void write_shown_counts(pen *p, const scene_tally *tally)
 {
     const view *v = &p->scene->view;
-    if (!filter_is_on(&v->filter) && !tally->small && !tally->beyond && !tally->thinned)
+    if (!filter_is_set(&v->filter) && !tally->small && !tally->beyond && !tally->thinned)
         return;
     write_filter(p, &v->filter);
-    if (view_shows(v, LAYER_NODES))
+    if (view_shows_layer(v, LAYER_NODES))
         write_row(p, "shown", "", "%zu node%s", tally->nodes, plural_ending(tally->nodes));
-    if (view_shows(v, LAYER_POINTS))
-        write_row(p, view_shows(v, LAYER_NODES) ? "" : "shown", "", "%zu point%s", tally->points,
+    if (view_shows_layer(v, LAYER_POINTS))
+        write_row(p, view_shows_layer(v, LAYER_NODES) ? "" : "shown", "", "%zu point%s", tally->points,
                   plural_ending(tally->points));
 }
 
@@ -466,7 +466,7 @@ static void add_corner_lines(scene *s, const layer_source *in, const char *title
 static void add_column(scene *s, const layer_source *in, const char *title)
 {
     pen p = pen_in_column(s);
-    fill_rectangle(&p, -p.left, -p.y, panel_width(&s->view), s->view.height, ROLE_PANEL);
+    fill_rectangle(&p, -p.left, -p.y, layout_panel_width(&s->view), s->view.height, ROLE_PANEL);
     if (in->tick) {
         write_tick_title(&p, in, title);
         write_tick_rows(&p, in);
@@ -489,7 +489,7 @@ static void add_panel(scene *s, const layer_source *in, view_layer layer)
     else
         snprintf(title, sizeof title, "%s", in->title);
     make_printable(title);
-    if (panel_width(&s->view) == 0)
+    if (layout_panel_width(&s->view) == 0)
         add_corner_lines(s, in, title);
     else
         add_column(s, in, title);

@@ -89,8 +89,8 @@ static bool build_scene(scene *s, layer_source *in, const double player[3], clos
         closeup_follow(&course, in);
     const double times = closeup_magnification(&course, in);
     s->has_closeup = times > 0;
-    s->camera = camera_make(v, layout_camera(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
-    if (view_shows(v, LAYER_BROKEN))
+    s->camera = camera_make(v, layout_camera_area(s, &in->world), &in->world, player, in->tick ? in->tick->number : 0);
+    if (view_shows_layer(v, LAYER_BROKEN))
         in->broken = octree_check(in->tree, &in->broken_at);
     if (s->has_closeup)
         add_closeup(s, in, course.place, times);

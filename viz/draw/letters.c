@@ -35,8 +35,8 @@ static bool find_text_position(const scene *s, const scene_label *label, int *x,
     if (label->in_world) {
         if (!find_pixel_and_band(s, label->at, pixel, &band))
             return false;
-        pixel[0] /= view_samples(&s->view);
-        pixel[1] /= view_samples(&s->view);
+        pixel[0] /= view_samples_per_side(&s->view);
+        pixel[1] /= view_samples_per_side(&s->view);
         move_beside_position(s, label, pixel);
     }
     if (!(fabs(pixel[0]) < FARTHEST && fabs(pixel[1]) < FARTHEST))
@@ -67,14 +67,14 @@ static int find_rim_width(const scene *s, const scene_label *label)
 
 void add_label_letters(quad_list *list, const scene *s, const scene_label *label)
 {
-    const lettering *letters = scene_lettering(s, label);
-    const int sub = QUAD_SUBPIXELS * view_samples(&s->view);
+    const lettering *letters = scene_label_lettering(s, label);
+    const int sub = QUAD_SUBPIXELS * view_samples_per_side(&s->view);
     quad q = {.order = make_text_order(label->style.layer)};
     int left, top;
     if (!find_text_position(s, label, &left, &top))
         return;
     for (int rim = find_rim_width(s, label); rim >= 0; rim = rim > 0 ? 0 : -1) {
-        q.color = theme_index(rim > 0 ? ROLE_BACKGROUND : label->style.role, 0);
+        q.color = theme_color_index(rim > 0 ? ROLE_BACKGROUND : label->style.role, 0);
         for (int i = 0; label->text[i]; i++)
             add_letter(list, &q, &glyph_sets[letters->face], label->text[i], (left + i * letters->width) * sub,
                        top * sub, letters->multiple * sub, rim * sub);
@@ -84,7 +84,7 @@ void add_label_letters(quad_list *list, const scene *s, const scene_label *label
 /* Find the box around a label's text. False: it is not visible. */
 static bool find_text_box(const scene *s, const scene_label *label, draw_box *box)
 {
-    const lettering *letters = scene_lettering(s, label);
+    const lettering *letters = scene_label_lettering(s, label);
     if (!find_text_position(s, label, &box->x, &box->y))
         return false;
     const int rim = find_rim_width(s, label);

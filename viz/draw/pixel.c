@@ -49,11 +49,11 @@ static void release_sources(sources all)
 /* False when out of memory. */
 static bool open_source(source *from, const scene *s, const painter *p)
 {
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     from->scene = s;
     from->painter = p;
     from->fine = project_scene_to_samples(s);
-    from->strokes = painter_edge_count(p) + scene_count(s) - s->boxes.count;
+    from->strokes = painter_edge_count(p) + scene_count_elements(s) - s->boxes.count;
     from->left = s->place[0] * samples;
     from->top = s->place[1] * samples;
     return edge_boxes_find_all(&from->boxes, &from->fine);
@@ -65,7 +65,7 @@ static bool open_sources(sources all, const scene *s, const painter *p)
     if (!open_source(&all[0], s, p) || (s->has_closeup && !open_source(&all[1], s->closeup, p->closeup)))
         return false;
     all[1].strokes_before = all[0].strokes;
-    all[1].elements_before = (uint32_t)scene_count(s);
+    all[1].elements_before = (uint32_t)scene_count_elements(s);
     return true;
 }
 
@@ -89,14 +89,14 @@ static bool is_edge_quad(const quad *q)
 
 static size_t count_samples(const scene *s)
 {
-    const size_t side = (size_t)view_samples(&s->view);
+    const size_t side = (size_t)view_samples_per_side(&s->view);
     return (size_t)s->view.width * (size_t)s->view.height * side * side;
 }
 
 /* Fill all quads; one byte per sample. */
 static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
-    const int side = view_samples(&s->view);
+    const int side = view_samples_per_side(&s->view);
     const renderer_part all = {0, 0, s->view.width * side, s->view.height * side};
     return renderer_fill_quads(r, p->quads.items, p->quads.count, all, samples, error);
 }
@@ -108,7 +108,7 @@ static uint64_t find_stroke_number(sources all, const quad *q)
     const scene_kind kind = make_quad_element(q, 0).kind;
     if (kind == SCENE_BOX)
         return from->strokes_before + 1 + q->index;
-    return from->strokes_before + scene_number_of(from->scene, (scene_element){.kind = kind, .index = q->index}) -
+    return from->strokes_before + scene_element_number(from->scene, (scene_element){.kind = kind, .index = q->index}) -
            from->scene->boxes.count + painter_edge_count(from->painter);
 }
 
@@ -145,7 +145,7 @@ static uint32_t find_element_number(const source *from, uint32_t stroke, int x, 
 /* Replace the numbers of strokes by the numbers of elements. */
 static void replace_stroke_numbers(const scene *s, const sources all, uint32_t *numbers)
 {
-    const size_t width = (size_t)s->view.width * (size_t)view_samples(&s->view), size = count_samples(s);
+    const size_t width = (size_t)s->view.width * (size_t)view_samples_per_side(&s->view), size = count_samples(s);
     for (size_t i = 0; i < size; i++) {
         const source *from = &all[numbers[i] > all[0].strokes];
         if (numbers[i] > 0)
@@ -177,14 +177,14 @@ static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q
     const scene_element element = make_quad_element(q, q->index);
     const painter *of = element.in_closeup ? p->closeup : p;
     const unsigned own =
-        is_edge_quad(q) ? painter_edge_at(of, q->index)->style.layer : scene_head_of(s, element).style.layer;
+        is_edge_quad(q) ? painter_edge_at(of, q->index)->style.layer : scene_element_head(s, element).style.layer;
     return 1u << own | (element.in_closeup ? 1u << LAYER_CLOSEUP : 0);
 }
 
 /* A pixel is in the mask if any of its samples is. */
 static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
 {
-    const size_t side = (size_t)view_samples(v), width = (size_t)v->width;
+    const size_t side = (size_t)view_samples_per_side(v), width = (size_t)v->width;
     memset(mask, 0, width * (size_t)v->height);
     for (size_t y = 0; y < (size_t)v->height * side; y++)
         for (size_t x = 0; x < width * side; x++)
@@ -245,7 +245,7 @@ static draw_cover *append_cover(probe *p, uint32_t number)
 /* Find the entry of an element, or append one. Null when out of memory. */
 static draw_cover *find_or_append_cover(probe *p, scene_element element)
 {
-    const uint32_t number = scene_number_of(p->picture, element);
+    const uint32_t number = scene_element_number(p->picture, element);
     for (size_t i = 0; i < p->list->count; i++)
         if (p->list->items[i].number == number)
             return &p->list->items[i];
@@ -277,7 +277,7 @@ static void add_sharing_box(size_t box, void *context)
 static void append_point_cover(probe *p, size_t index)
 {
     if (index != p->quad->index)
-        append_cover(p, scene_number_of(p->picture, make_quad_element(p->quad, index)));
+        append_cover(p, scene_element_number(p->picture, make_quad_element(p->quad, index)));
 }
 
 /* Add the points that share the sample of a drawn point. */
@@ -386,7 +386,7 @@ static bool add_all_quad_covers(renderer *r, probe *p, octreel_error *error)
 
 bool renderer_list_pixel_covers(renderer *r, const scene *s, int x, int y, draw_covers *list, octreel_error *error)
 {
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     probe p = {.picture = s, .part = {x * samples, y * samples, samples, samples}, .list = list};
     list->count = 0;
     if (!renderer_fits_scene(r, s, error))

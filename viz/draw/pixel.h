@@ -6,7 +6,7 @@
 #include "array.h"
 #include "renderer.h"
 
-/* Draw a scene as renderer_draw_scene() does, but write to each sample the number (scene_number_of) of its topmost
+/* Draw a scene as renderer_draw_scene() does, but write to each sample the number (scene_element_number) of its topmost
  * element; 0: none. Of boxes that share an edge it is the shallowest; of points that share a quad, the point for which
  * the quad was painted. renderer_list_pixel_covers() lists all of them. */
 bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *numbers, octreel_error *error);

@@ -26,7 +26,7 @@
 scene project_scene_to_samples(const scene *s)
 {
     scene fine = *s;
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     fine.view.width *= samples;
     fine.view.height *= samples;
     fine.camera.zoom *= samples;
@@ -151,7 +151,7 @@ unsigned project_segment(const scene *s, const double first[3], const double sec
 
 bool clip_picture_segment(const scene *s, const double from[3], const double to[3], piece *p)
 {
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     p->band = 0;
     for (int axis = 0; axis < 2; axis++) {
         p->from[axis] = from[axis] * samples;
@@ -229,7 +229,7 @@ static void project_run(const scene *s, point_run *run)
     const camera c = s->camera; /* a copy, so that the compiler knows that no write below changes it */
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
-            run->from_eye[axis][i] = camera_unit_on(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
+            run->from_eye[axis][i] = camera_to_unit_coordinate(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
     measure_along_axis(run, c.right, run->across);
     measure_along_axis(run, c.up, run->along);
     measure_along_axis(run, c.forward, run->depth);

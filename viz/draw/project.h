@@ -6,7 +6,7 @@
 #include "quads.h"
 
 /* A copy of a scene whose pixels are samples: the size of the picture and the camera's zoom are multiplied by
- * view_samples(). It shares the elements of s. The functions below take such a scene. */
+ * view_samples_per_side(). It shares the elements of s. The functions below take such a scene. */
 scene project_scene_to_samples(const scene *s);
 
 /* The piece of a segment in one band of depth, in pixels. */

@@ -2,9 +2,9 @@
 /* renderer.h - draws scenes of one size into indices of the theme's colours.
  *
  * paint.h turns a scene into flat quads. The integer rasterizer (fill.h) or GL (gl_surface.c) fills them, with the same
- * pixels. With anti-aliasing a renderer draws view_samples() times as many samples on each axis, and image_shrink()
- * averages them; lines, markers and letters keep their size in the picture. Use a renderer only from the thread that
- * opened it.
+ * pixels. With anti-aliasing a renderer draws view_samples_per_side() times as many samples on each axis, and
+ * image_shrink() averages them; lines, markers and letters keep their size in the picture. Use a renderer only from the
+ * thread that opened it.
  */
 #ifndef DRAW_RENDERER_H
 #define DRAW_RENDERER_H

@@ -57,8 +57,8 @@ static double approximate_log2(double x)
 static splatter make_splatter(const scene *s)
 {
     return (splatter){.scene = s,
-                      .spacing = point_scale_pixels(&s->camera, s->spacing) * POINT_OVERLAP,
-                      .most = POINT_WIDEST * s->unit * view_samples(&s->view)};
+                      .spacing = point_scale_length_in_pixels(&s->camera, s->spacing) * POINT_OVERLAP,
+                      .most = POINT_WIDEST * s->unit * view_samples_per_side(&s->view)};
 }
 
 /* A view depth in units. Under perspective its logarithm, since an object at twice the distance appears half as large.
@@ -75,7 +75,7 @@ static int32_t depth_in_units(const splatter *with, double depth)
 static int disc_diameter(const splatter *with, scene_style style, double depth)
 {
     const scene *s = with->scene;
-    const int least = stroke_marker_side(style.width, s->unit) * view_samples(&s->view);
+    const int least = stroke_marker_side(style.width, s->unit) * view_samples_per_side(&s->view);
     const double side = ceil(s->camera.perspective ? with->spacing / depth : with->spacing);
     return side > with->most ? with->most : side > least ? (int)side : least;
 }
@@ -137,7 +137,7 @@ static void draw_disc(splats *t, const scene *s, size_t index, const splat_squar
 /* The counter of the pixel in which a disc has its centre. Null: outside the picture, or nothing is counted. */
 static uint32_t *find_density_counter(const splats *t, const scene *s, const splat_square *q)
 {
-    const int samples = view_samples(&s->view), half = (q->side - 1) / 2;
+    const int samples = view_samples_per_side(&s->view), half = (q->side - 1) / 2;
     const int x = q->left + half, y = q->top + half;
     if (s->view.point_color != POINTS_BY_DENSITY || x < 0 || y < 0 || x >= s->view.width || y >= s->view.height)
         return NULL;
@@ -200,7 +200,7 @@ static int32_t measure_depth_below_neighbors(const splats *t, const scene *s, in
 /* Eye-dome lighting at two distances, for fine and for large shapes. 256 is full light. */
 static int find_light(const splats *t, const scene *s, int x, int y)
 {
-    const int reach = s->unit * view_samples(&s->view);
+    const int reach = s->unit * view_samples_per_side(&s->view);
     return 256 * HALF_LIGHT /
            (HALF_LIGHT + measure_depth_below_neighbors(t, s, x, y, reach) +
             measure_depth_below_neighbors(t, s, x, y, 4 * reach));
@@ -218,7 +218,7 @@ static theme_color density_color(uint32_t count)
     for (unsigned most = THEME_MOST_DENSITY; most > 1; most >>= 1)
         doublings++;
     const double rest = (double)count / (double)(UINT64_C(1) << whole) - 1;
-    return theme_ramp((whole + rest) / doublings);
+    return theme_ramp_color((whole + rest) / doublings);
 }
 
 static theme_color marker_color(const splats *t, const scene *s, const splatter *with, uint32_t index)
@@ -234,7 +234,7 @@ static theme_color marker_color(const splats *t, const scene *s, const splatter 
         const uint32_t *shared = find_density_counter(t, s, &square);
         color = density_color(shared ? *shared : 1);
     }
-    return banded ? theme_shade(color, find_depth_band(&s->camera, depth)) : color;
+    return banded ? theme_shade_color(color, find_depth_band(&s->camera, depth)) : color;
 }
 
 static void add_run_quad(quad_list *quads, uint32_t index, int left, int right, int y)
@@ -251,7 +251,8 @@ static void set_run_colors(splats *t, const splatter *with, int x, int end, int 
     const size_t row = (size_t)y * (size_t)s->view.width;
     const theme_color color = marker_color(t, s, with, t->samples[row + (size_t)x].owner - 1);
     for (; x < end; x++)
-        t->colors[row + (size_t)x] = s->view.shade == SHADE_EDL ? theme_fade(color, find_light(t, s, x, y)) : color;
+        t->colors[row + (size_t)x] =
+            s->view.shade == SHADE_EDL ? theme_fade_color(color, find_light(t, s, x, y)) : color;
 }
 
 /* Add one quad for each run of samples with the same point. */
@@ -281,7 +282,7 @@ void splats_release(splats *t)
 
 static bool reserve_samples(splats *t, const scene *s)
 {
-    const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)view_samples(&s->view);
+    const size_t size = (size_t)s->view.width * (size_t)s->view.height, side = (size_t)view_samples_per_side(&s->view);
     const size_t pixels = s->view.point_color == POINTS_BY_DENSITY ? size / side / side : 0;
     if (!array_grow(&t->samples, size, &t->sample_room, sizeof *t->samples) ||
         !array_grow(&t->colors, size, &t->color_room, sizeof *t->colors) ||
@@ -306,7 +307,7 @@ bool splats_paint_points(splats *t, quad_list *quads, const scene *s)
 
 void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel)
 {
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     for (int y = panel->y * samples; y < (panel->y + panel->height) * samples && y < s->view.height; y++)
         for (int x = panel->x * samples; x < (panel->x + panel->width) * samples && x < s->view.width; x++)
             if (x >= 0 && y >= 0)
@@ -315,7 +316,7 @@ void splats_fill_panel(splats *t, const scene *s, const scene_panel *panel)
 
 void splats_copy_closeup(splats *t, const scene *s, const splats *closeup, const scene *closer)
 {
-    const size_t side = (size_t)view_samples(&s->view), width = (size_t)s->view.width;
+    const size_t side = (size_t)view_samples_per_side(&s->view), width = (size_t)s->view.width;
     const size_t row = (size_t)closer->view.width, left = (size_t)closer->place[0] * side,
                  top = (size_t)closer->place[1] * side;
     for (size_t y = 0; y < (size_t)closer->view.height; y++)

@@ -35,7 +35,7 @@ static int find_line_width(const scene *s, unsigned wanted)
 
 pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth)
 {
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     return (pencil){.style = style,
                     .width = find_line_width(s, style.width) * samples,
                     .unit = s->unit,
@@ -54,7 +54,7 @@ static unsigned find_shade(const pencil *with, unsigned band)
 static quad make_quad(const pencil *with, unsigned band)
 {
     return (quad){
-        .color = theme_index(with->style.role, find_shade(with, band)),
+        .color = theme_color_index(with->style.role, find_shade(with, band)),
         .order = make_quad_order(with->style.layer, band, with->depth),
     };
 }
@@ -200,7 +200,7 @@ static void add_ring(quad_list *list, quad q, const double center[2], int corner
 {
     double from[2] = {0, up ? -1 : 1}, to[2];
     for (int i = 1; i <= corners; i++) {
-        camera_turn((double)i / corners, &to[1], &to[0]);
+        camera_compute_cosine_sine((double)i / corners, &to[1], &to[0]);
         to[1] = up ? -to[1] : to[1];
         for (int corner = 0; corner < 4; corner++) {
             const double *way = corner == 0 || corner == 3 ? from : to;
@@ -259,7 +259,7 @@ void stroke_add_marker(quad_list *list, const pencil *with, scene_shape shape, c
 
 void stroke_add_panel(quad_list *list, const scene_panel *panel, int samples)
 {
-    const quad q = {.color = theme_index(panel->style.role, 0), .order = make_text_order(panel->style.layer)};
+    const quad q = {.color = theme_color_index(panel->style.role, 0), .order = make_text_order(panel->style.layer)};
     add_rectangle(list, q, (int64_t)panel->x * samples, (int64_t)panel->y * samples, (int64_t)panel->width * samples,
                   (int64_t)panel->height * samples);
 }

@@ -67,14 +67,14 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
     if (number == 0)
         return part;
     const scene_element element = scene_element_at(s, number);
-    part.layer = scene_head_of(s, element).style.layer;
+    part.layer = scene_element_head(s, element).style.layer;
     const bool about_node = part.layer == LAYER_NODES || part.layer == LAYER_VISITED || part.layer == LAYER_PRUNED ||
                             part.layer == LAYER_HIT;
-    const octree_address changed = about_node ? changed_node(games, scene_head_of(s, element).id) : 0;
+    const octree_address changed = about_node ? changed_node(games, scene_element_head(s, element).id) : 0;
     if (changed)
         part.layer = LAYER_NODES;
     if (changed || part.layer == LAYER_NODES || part.layer == LAYER_POINTS)
-        part.id = changed ? changed : scene_head_of(s, element).id;
+        part.id = changed ? changed : scene_element_head(s, element).id;
     return part;
 }
 
@@ -181,7 +181,7 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
 static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     octreel_error why = {""};
     if (!t->renderer && !*t->untraced)
         t->renderer = renderer_open(s->view.width * samples, s->view.height * samples, &choice, &why);
@@ -234,8 +234,9 @@ bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const g
                   const diff_options *options, trace *made, octreel_error *error)
 {
     const view *a = &sides[0].view.view, *b = &sides[1].view.view;
-    tracing state = {.tracer = t, .games = games, .samples = (size_t)view_samples(a)};
-    if (a->width != b->width || a->height != b->height || view_samples(a) != view_samples(b) || *t->untraced)
+    tracing state = {.tracer = t, .games = games, .samples = (size_t)view_samples_per_side(a)};
+    if (a->width != b->width || a->height != b->height || view_samples_per_side(a) != view_samples_per_side(b) ||
+        *t->untraced)
         return true;
     for (int i = 0; i < 2; i++)
         if (!tick_scene_build(&t->scenes[i], &sides[i].view.view, games[i], &t->histories[i],

@@ -192,7 +192,7 @@ static bool set_file_values(json_reader *r, const json_place *at)
     const octree_player *player = &s->header.session.player;
     const uint64_t place = player->id - 1; /* in rows */
     if (is_player_separate(player) && player->id != 0 && place < values->count &&
-        !point_values_open_row(values, (size_t)place))
+        !point_values_insert_empty_row(values, (size_t)place))
         return json_fail(r, at, "out of memory for %zu points", s->points.count);
     values->first = 1;
     s->values.made = *values;

@@ -86,12 +86,12 @@ static bool add_listed_value(session_values *s, uint64_t id, const point_value *
 bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
 {
     session_values *s = &((session_loader *)r->context)->values;
-    if (!point_value_is_set(value))
+    if (!point_value_has_any(value))
         return true;
     const point_value before = find_point_value(s, id);
-    if (!point_value_is_set(&before))
+    if (!point_value_has_any(&before))
         return add_listed_value(s, id, value) || json_fail(r, at, "out of memory");
-    return point_value_same(&before, value) ||
+    return point_value_equals(&before, value) ||
            json_fail(r, at,
                      "the point with the id %" PRIu64 " had another color, intensity or class before; an id keeps its "
                      "values through the session",
@@ -116,9 +116,9 @@ static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id
     session_loader *s = r->context;
     session_values *values = &s->values;
     const point_value before = find_point_value(values, id);
-    if (point_value_is_set(&before))
+    if (point_value_has_any(&before))
         return session_set_value(r, at, id, value);
-    if (!point_value_is_set(value))
+    if (!point_value_has_any(value))
         return add_valueless_id(values, id) || json_fail(r, at, "out of memory");
     if (!session_map_bodies(r, at))
         return false;
@@ -137,7 +137,7 @@ bool session_merge_listed_values(json_reader *r)
     session_values *s = &((session_loader *)r->context)->values;
     if (s->ids.count == 0)
         return true;
-    if (!point_values_add(&s->made, s->listed, s->ids.count))
+    if (!point_values_add_entries(&s->made, s->listed, s->ids.count))
         return json_fail(r, NULL, "out of memory for the colours, intensities and classes of points");
     hash_map_clear(&s->ids);
     return true;
@@ -271,7 +271,7 @@ void session_write_column_values(json_writer *w, uint64_t id)
 {
     const unsigned kinds = point_values_kinds(w->context);
     const point_value value = kinds ? point_values_get(w->context, id) : (point_value){0};
-    if (!point_value_is_set(&value))
+    if (!point_value_has_any(&value))
         return;
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++) {
         const json_member *row = &session_body_members[FIRST_VALUE + kind];

@@ -30,7 +30,7 @@ static void mark_answer_points(scene *s, const octree_answer *answer, view_layer
                                unsigned half)
 {
     const unsigned size = answer->count <= FEW_MARKS ? half : answer->count <= MANY_MARKS ? half / 2 : 1;
-    const scene_style style = layer_style(layer, STROKE_SOLID, size);
+    const scene_style style = make_layer_style(layer, STROKE_SOLID, size);
     for (size_t i = 0; i < answer->count; i++)
         scene_add_mark(s, answer->points[i].id, answer->points[i].position, shape, style);
 }
@@ -64,7 +64,7 @@ static void describe_neighbor(description *d, uint64_t place, uint64_t rank)
 
 static void add_range(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
-    scene_add_outline(s, place, &answer->box, layer_style(layer, STROKE_DASHED, 1));
+    scene_add_outline(s, place, &answer->box, make_layer_style(layer, STROKE_DASHED, 1));
     mark_answer_points(s, answer, layer, SHAPE_FRAME, 5);
 }
 
@@ -92,7 +92,7 @@ const layer_type layer_RANGE = {
 static void point_on_circle(const octree_answer *ball, int plane, int part, double position[3])
 {
     double cosine, sine;
-    camera_turn((double)part / BALL_CHORDS, &cosine, &sine);
+    camera_compute_cosine_sine((double)part / BALL_CHORDS, &cosine, &sine);
     memcpy(position, ball->target, sizeof ball->target);
     position[(plane + 1) % 3] += ball->radius * cosine;
     position[(plane + 2) % 3] += ball->radius * sine;
@@ -111,7 +111,7 @@ static void add_circle(scene *s, const octree_answer *ball, size_t place, int pl
 
 static void add_ball(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
-    const scene_style style = layer_style(layer, STROKE_SOLID, 1);
+    const scene_style style = make_layer_style(layer, STROKE_SOLID, 1);
     for (int plane = 0; plane < BALL_CIRCLES; plane++)
         add_circle(s, answer, place, plane, style);
     mark_answer_points(s, answer, layer, SHAPE_LOZENGE, 8);
@@ -161,7 +161,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
         scene_label rank = scene_make_label(part_id(place, i), style, " %zu", i + 1); /* room for a marker */
         rank.in_world = true;
         memcpy(rank.at, answer->neighbors[i].point.position, sizeof rank.at);
-        if (!camera_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
+        if (!camera_find_pixel(&s->camera, rank.at, pixels[numbered]) || is_crowded(s, pixels, numbered))
             continue;
         numbered++;
         scene_add_label(s, rank);
@@ -170,7 +170,7 @@ static void add_ranks(scene *s, const octree_answer *answer, size_t place, scene
 
 static void add_knearest(scene *s, const octree_answer *answer, size_t place, view_layer layer)
 {
-    const scene_style style = layer_style(layer, STROKE_SOLID, 1);
+    const scene_style style = make_layer_style(layer, STROKE_SOLID, 1);
     for (size_t i = 0; i < answer->count; i++)
         scene_add_line(s, part_id(place, i), answer->target, answer->neighbors[i].point.position, style);
     add_ranks(s, answer, place, style);
@@ -204,8 +204,8 @@ static void add_nearest(scene *s, const octree_answer *answer, size_t place, vie
 {
     for (size_t i = 0; i < answer->count; i++) {
         const octree_point *point = &answer->neighbors[i].point;
-        scene_add_line(s, place, answer->target, point->position, layer_style(layer, STROKE_DASHED, 1));
-        scene_add_mark(s, point->id, point->position, SHAPE_FRAME, layer_style(layer, STROKE_SOLID, 7));
+        scene_add_line(s, place, answer->target, point->position, make_layer_style(layer, STROKE_DASHED, 1));
+        scene_add_mark(s, point->id, point->position, SHAPE_FRAME, make_layer_style(layer, STROKE_SOLID, 7));
     }
 }
 

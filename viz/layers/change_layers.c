@@ -37,10 +37,10 @@ static const octree_address *get_changed_nodes(const octree_tick *tick, view_lay
 
 static void add_changes(scene *s, const layer_source *in, view_layer layer)
 {
-    const scene_style style = layer_style(layer, layer == LAYER_SPLITS ? STROKE_SOLID : STROKE_DASHED, 2);
+    const scene_style style = make_layer_style(layer, layer == LAYER_SPLITS ? STROKE_SOLID : STROKE_DASHED, 2);
     size_t count;
     const octree_address *nodes = get_changed_nodes(in->tick, layer, &count);
-    for (size_t i = 0; view_shows(&s->view, layer) && i < count; i++)
+    for (size_t i = 0; view_shows_layer(&s->view, layer) && i < count; i++)
         add_planes(s, in, nodes[i], style);
 }
 

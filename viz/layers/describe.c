@@ -102,8 +102,8 @@ element_subject describe_element(const octree_game *game, const heat *h, const s
     element_subject subject = {.text = ""};
     description d = {game, octree_game_tick(game), h, &subject, 0};
     described_element what = {
-        .kind = element.kind, .style = scene_head_of(s, element).style, .id = scene_head_of(s, element).id};
-    s = scene_with(s, element);
+        .kind = element.kind, .style = scene_element_head(s, element).style, .id = scene_element_head(s, element).id};
+    s = scene_containing(s, element);
     if (element.kind == SCENE_BOX) {
         what.box = s->boxes.items[element.index].box;
     } else if (element.kind == SCENE_MARKER) {

@@ -79,7 +79,7 @@ static int deepest_in_budget(scene *s, const octree_foreign_state *foreign)
 void add_foreign_nodes(scene *s, const layer_source *in)
 {
     const octree_foreign_state *foreign = &in->tick->foreign;
-    if (!view_shows(&s->view, LAYER_NODES))
+    if (!view_shows_layer(&s->view, LAYER_NODES))
         return;
     const int deepest = deepest_in_budget(s, foreign);
     const size_t beyond = s->tally.beyond;
@@ -92,7 +92,7 @@ void add_foreign_nodes(scene *s, const layer_source *in)
         s->tally.beyond += out;
         if (small || out)
             continue;
-        add_box(s, place, role_style(LAYER_NODES, role_of(&s->view, place), STROKE_SOLID, 1));
+        add_box(s, place, make_role_style(LAYER_NODES, role_of(&s->view, place), STROKE_SOLID, 1));
         s->tally.nodes++;
     }
     if (s->tally.beyond > beyond)
@@ -173,11 +173,12 @@ void mark_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *occu
     const size_t count = find_marks(in, marks);
     for (size_t i = 0; i < count; i++) {
         if (marks[i].node) {
-            add_box(s, marks[i].node, layer_style(LAYER_WRONG, STROKE_DASHED, 2));
+            add_box(s, marks[i].node, make_layer_style(LAYER_WRONG, STROKE_DASHED, 2));
             continue;
         }
-        scene_add_mark(s, marks[i].id, marks[i].at, SHAPE_CROSS, layer_style(LAYER_WRONG, STROKE_SOLID, LOST_MARK));
-        text_space_keep_mark(occupied, s, marks[i].at, LOST_MARK);
+        scene_add_mark(s, marks[i].id, marks[i].at, SHAPE_CROSS,
+                       make_layer_style(LAYER_WRONG, STROKE_SOLID, LOST_MARK));
+        text_space_reserve_mark(occupied, s, marks[i].at, LOST_MARK);
     }
 }
 
@@ -188,13 +189,13 @@ size_t label_wrong_foreign_nodes(scene *s, const layer_source *in, text_space *o
         [OCTREE_NODE_OUTSIDE_POINT] = "point outside",   [OCTREE_NODE_REPEATED_POINT] = "point twice",
         [OCTREE_NODE_LOST_POINT] = "in no node",         [OCTREE_NODE_UNKNOWN_NODE] = "",
         [OCTREE_NODE_PRUNED_POINT] = "wrongly pruned"};
-    const scene_style style = layer_style(LAYER_WRONG, STROKE_SOLID, 1);
+    const scene_style style = make_layer_style(LAYER_WRONG, STROKE_SOLID, 1);
     wrong_mark marks[MOST_MARKS];
     const size_t count = find_marks(in, marks);
     size_t left_out = 0;
     for (size_t i = 0; i < count; i++)
-        left_out += !text_add_beside(occupied, s, scene_make_label(marks[i].id, style, "%s", words[marks[i].kind]),
-                                     marks[i].at, LOST_MARK);
+        left_out += !text_space_add_label_beside(
+            occupied, s, scene_make_label(marks[i].id, style, "%s", words[marks[i].kind]), marks[i].at, LOST_MARK);
     return left_out;
 }
 

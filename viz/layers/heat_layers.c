@@ -10,7 +10,7 @@
 
 unsigned heat_step(uint64_t amount, unsigned shift)
 {
-    return theme_step(amount >> shift, shift);
+    return theme_doubling_step(amount >> shift, shift);
 }
 
 /* The context of the walk over the leaves. */
@@ -28,7 +28,7 @@ static unsigned shift_of(view_layer layer)
 /* Return the half size of a mark: at most half the leaf's size on screen, so that marks do not cover each other. */
 static unsigned mark_width(const scene *s, const octree_box *leaf, unsigned step)
 {
-    const double most = camera_box_pixels(&s->camera, leaf) / (2 * s->unit);
+    const double most = camera_box_size_in_pixels(&s->camera, leaf) / (2 * s->unit);
     const unsigned width = step + 1;
     return width < most ? width : most > 0 ? (unsigned)most : 0;
 }
@@ -38,11 +38,11 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
     heat_walk *w = context;
     scene *s = w->scene;
     const view_filter *f = &s->view.filter;
-    if (!filter_enters(f, &w->in->world, node))
+    if (!filter_shows_subtree(f, &w->in->world, node))
         return OCTREE_WALK_SKIP;
     if (!node->leaf || !filter_shows_node(f, &w->in->world, node))
         return OCTREE_WALK_ON;
-    const heat_cell heat_of_node = heat_at(w->in->heat, node->address);
+    const heat_cell heat_of_node = heat_get_cell(w->in->heat, node->address);
     const bool visits = w->layer == LAYER_VISIT_HEAT;
     const uint64_t amount = visits ? heat_of_node.visits : heat_of_node.points;
     if (amount) {
@@ -50,7 +50,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
         const unsigned step = heat_step(amount, shift_of(w->layer));
         scene_box_middle(&node->box, middle);
         scene_add_mark(s, node->address, middle, visits ? SHAPE_SQUARE : SHAPE_DIAMOND,
-                       role_style(w->layer, theme_node_role(step), STROKE_SOLID, mark_width(s, &node->box, step)));
+                       make_role_style(w->layer, theme_node_role(step), STROKE_SOLID, mark_width(s, &node->box, step)));
     }
     return s->out_of_memory ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
@@ -58,7 +58,7 @@ static octree_walk_order add_leaf(const octree_node *node, void *context)
 static void add_heat(scene *s, const layer_source *in, view_layer layer)
 {
     heat_walk w = {s, in, layer};
-    if (in->heat && view_shows(&s->view, layer))
+    if (in->heat && view_shows_layer(&s->view, layer))
         octree_walk(in->tree, add_leaf, &w);
 }
 
@@ -72,7 +72,7 @@ static void add_heat_legend(legend *l, const layer_source *in)
 
 static void describe_heat(description *d, const described_element *element)
 {
-    const heat_cell heat_of_node = heat_at(d->heat, element->id);
+    const heat_cell heat_of_node = heat_get_cell(d->heat, element->id);
     const uint64_t ticks = d->tick->number + 1;
     if (element->style.layer == LAYER_VISIT_HEAT)
         append_text(d, "visited in %" PRIu64 " of", heat_of_node.visits);

@@ -47,7 +47,7 @@ static unsigned layers_in_frame(const scene *s)
 /* Whether the diagram shows a layer: it uses the colours of nodes, and marks visited and pruned nodes. */
 static bool is_in_diagram(const scene *s, view_layer layer)
 {
-    return view_shows(&s->view, LAYER_DIAGRAM) &&
+    return view_shows_layer(&s->view, LAYER_DIAGRAM) &&
            (layer == LAYER_DIAGRAM || layer == LAYER_NODES || (layer == LAYER_VISITED && s->tally.marked_visited) ||
             (layer == LAYER_PRUNED && s->tally.marked_pruned));
 }
@@ -57,7 +57,7 @@ static void add_layer_line(legend *l, const layer_source *in, view_layer layer)
     const legend_entry *entry = &layer_types[layer]->legend;
     const scene *s = l->scene;
     const bool in_diagram = is_in_diagram(s, layer);
-    if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows(&s->view, layer) || !layer_applies(in, layer)))
+    if (!in_diagram && (layer == LAYER_DIAGRAM || !view_shows_layer(&s->view, layer) || !layer_applies(in, layer)))
         return;
     l->next = (legend_line){.layer = layer,
                             .drop_order = in_diagram || l->in_frame >> layer & 1 ? entry->drop_order : DROP_FIRST,

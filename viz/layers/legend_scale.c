@@ -106,7 +106,7 @@ void write_scale(pen *p, const legend_scale *scale)
         const int left = width - dot - x, from_end = x < left ? x : left > 0 ? left : 0;
         const int pointed = (2 * (from_end / dot) + 1) * dot, tall = scale->pointed && pointed < high ? pointed : high;
         fill_rectangle_in_color(p, x, text->height / 4 + (high - tall) / 2, dot, tall,
-                                theme_ramp((x + 0.5 * dot) / width));
+                                theme_ramp_color((x + 0.5 * dot) / width));
     }
     for (int i = 0; i < m.count; i++) {
         int x = (int)(m.items[i].part * width);

@@ -23,11 +23,11 @@ static void add_requested_node(scene *s, const layer_source *in, view_layer laye
     double middle[3];
     if (octree_node_at(in->tree, in->requested, &node) != OCTREE_OK)
         return;
-    add_node_box(s, &node, layer_style(layer, STROKE_SOLID, 2));
-    if (camera_box_pixels(&s->camera, &node.box) > 2 * MARK * s->unit)
+    add_node_box(s, &node, make_layer_style(layer, STROKE_SOLID, 2));
+    if (camera_box_size_in_pixels(&s->camera, &node.box) > 2 * MARK * s->unit)
         return;
     scene_box_middle(&node.box, middle);
-    scene_add_mark(s, in->requested, middle, SHAPE_LOZENGE, layer_style(layer, STROKE_SOLID, MARK));
+    scene_add_mark(s, in->requested, middle, SHAPE_LOZENGE, make_layer_style(layer, STROKE_SOLID, MARK));
 }
 
 static void add_requested_legend(legend *l, const layer_source *in)
@@ -53,9 +53,9 @@ static void add_broken_node(scene *s, const layer_source *in, view_layer layer)
 {
     if (!in->broken)
         return;
-    const scene_style style = layer_style(layer, STROKE_DASHED, 2);
+    const scene_style style = make_layer_style(layer, STROKE_DASHED, 2);
     const octree_box box = octree_cell_box(&in->world, in->broken_at);
-    scene_label label = scene_make_label(in->broken_at, layer_style(layer, STROKE_DASHED, 1), " broken");
+    scene_label label = scene_make_label(in->broken_at, make_layer_style(layer, STROKE_DASHED, 1), " broken");
     label.in_world = true;
     memcpy(label.at, box.max, sizeof label.at);
     scene_add_outline(s, in->broken_at, &box, style);

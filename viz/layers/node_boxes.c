@@ -8,8 +8,8 @@ theme_role node_role(const view *v, node_traits node)
     switch (v->coloring) {
     case COLORING_OCCUPANCY:
         if (node.capacity == 0)
-            return theme_node_role(theme_step(node.points, 1));
-        return node.leaf ? theme_node_role(theme_part_step(node.points, node.capacity)) : ROLE_WORLD;
+            return theme_node_role(theme_doubling_step(node.points, 1));
+        return node.leaf ? theme_node_role(theme_fraction_step(node.points, node.capacity)) : ROLE_WORLD;
     case COLORING_PLAIN:
     case COLORING_KIND:
         return ROLE_NODE_PLAIN;
@@ -27,7 +27,7 @@ bool is_small_below_shown(const scene *s, const octree_box *box, unsigned depth)
 {
     const view_filter *f = &s->view.filter;
     return s->view.lod > 0 && !f->leaves && depth > (f->by_depth ? f->min_depth : 0) &&
-           camera_box_is_below(&s->camera, box, s->view.lod);
+           camera_is_box_below(&s->camera, box, s->view.lod);
 }
 
 bool find_shown_node(scene *s, const octree *tree, octree_address address, octree_node *node)

@@ -133,7 +133,7 @@ static void add_points(tree_walk *w, const octree_node *leaf)
         if (select_point(w, &leaf->points[i]))
             some[count++] = leaf->points[i];
     sort_points(some, count);
-    scene_style style = layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width);
+    scene_style style = make_layer_style(LAYER_POINTS, STROKE_SOLID, w->point_width);
     style.role = view_paints_points(&s->view) ? ROLE_OWN : style.role;
     const size_t before = s->markers.count;
     scene_add_points(s, some, count, SHAPE_SQUARE, style);
@@ -170,7 +170,7 @@ static void drop_level(tree_walk *w)
 static scene_box make_node_box(const tree_walk *w, const octree_node *node)
 {
     const node_traits look = {node->depth, node->count, w->capacity, node->leaf};
-    const scene_style style = role_style(LAYER_NODES, node_role(&w->scene->view, look), STROKE_SOLID, 1);
+    const scene_style style = make_role_style(LAYER_NODES, node_role(&w->scene->view, look), STROKE_SOLID, 1);
     return (scene_box){node->address, style, (uint8_t)node->depth, node->box};
 }
 
@@ -195,7 +195,7 @@ static bool show_box(tree_walk *w, const scene_box *box, bool by_filter)
     const scene *s = w->scene;
     const unsigned depth = box->depth;
     const bool under_drawn = w->drawn[depth], /* a box inside a small box is small without being measured */
-        small = w->small[depth] || (s->view.lod > 0 && camera_box_is_below(&s->camera, &box->box, s->view.lod));
+        small = w->small[depth] || (s->view.lod > 0 && camera_is_box_below(&s->camera, &box->box, s->view.lod));
     const bool out = by_filter && small && under_drawn;
     w->small[depth + 1] = small;
     w->drawn[depth + 1] = under_drawn || (by_filter && !out);
@@ -246,23 +246,23 @@ static void close_kept_subtree(tree_walk *w)
     if (!w->kept || !w->kept->open.address)
         return;
     w->looser_count += w->kept->open.looser;
-    w->keeping_failed = w->keeping_failed || !kept_tree_close(w->kept, w->scene);
+    w->keeping_failed = w->keeping_failed || !kept_tree_end_subtree(w->kept, w->scene);
 }
 
 /* Copy the subtree of a node from the store and return true. Otherwise return false, and begin to store the subtree,
  * unless it has too many points or is part of a subtree that is being stored. */
 static bool reuse_kept_subtree(tree_walk *w, const octree_node *node)
 {
-    if (kept_tree_collects(w->kept, node))
+    if (kept_tree_is_collecting(w->kept, node))
         return false;
     close_kept_subtree(w);
     if (node->count > KEPT_POINTS && !node->leaf)
         return false;
-    const kept_subtree *found = kept_tree_find(w->kept, node->address);
+    const kept_subtree *found = kept_tree_find_subtree(w->kept, node->address);
     if (found)
         add_kept_subtree(w, found);
     else
-        kept_tree_open(w->kept, node->address, w->scene);
+        kept_tree_begin_subtree(w->kept, node->address, w->scene);
     return found != NULL;
 }
 
@@ -272,11 +272,11 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 {
     tree_walk *w = context;
     scene *s = w->scene;
-    if (!filter_enters(&w->filter, &w->world, node) || (w->kept && reuse_kept_subtree(w, node)))
+    if (!filter_shows_subtree(&w->filter, &w->world, node) || (w->kept && reuse_kept_subtree(w, node)))
         return OCTREE_WALK_SKIP;
     if (w->shows_nodes)
         show_node(w, node);
-    if (node->leaf && node->count && view_shows(&s->view, LAYER_POINTS) &&
+    if (node->leaf && node->count && view_shows_layer(&s->view, LAYER_POINTS) &&
         filter_shows_points_of(&w->filter, &w->world, node))
         add_points(w, node);
     return s->out_of_memory || w->keeping_failed ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
@@ -287,7 +287,7 @@ static octree_walk_order add_node(const octree_node *node, void *context)
 static kept_tree *get_kept_tree(const tree_walk *w, const layer_source *in)
 {
     scene *s = w->scene;
-    if (!in->game || in->values || filter_is_on(&w->filter) || view_paints_points(&s->view) || !shows_own_tree(in) ||
+    if (!in->game || in->values || filter_is_set(&w->filter) || view_paints_points(&s->view) || !shows_own_tree(in) ||
         shows_foreign_tree(in) || (!s->kept && octree_count(in->tree) < KEPT_FEWEST))
         return NULL;
     s->kept = s->kept ? s->kept : calloc(1, sizeof *s->kept);
@@ -299,10 +299,10 @@ static bool begin_kept_tree(tree_walk *w, const octree *tree, kept_tree *kept)
     const view *v = &w->scene->view;
     const kept_look look = {.coloring = v->coloring,
                             .boxes = w->shows_nodes,
-                            .points = view_shows(v, LAYER_POINTS),
+                            .points = view_shows_layer(v, LAYER_POINTS),
                             .capacity = w->capacity,
                             .point_width = w->point_width};
-    if (!kept || !kept_tree_begin(kept, tree, &look))
+    if (!kept || !kept_tree_begin_walk(kept, tree, &look))
         return false;
     w->kept = kept;
     w->sieve = kept->sieve;
@@ -315,7 +315,7 @@ static bool end_kept_tree(tree_walk *w)
 {
     close_kept_subtree(w);
     if (w->kept)
-        kept_tree_end(w->kept);
+        kept_tree_end_walk(w->kept);
     return !w->keeping_failed && (!w->kept || w->sieve == 0 || w->looser_count > w->scene->view.budget);
 }
 
@@ -353,19 +353,20 @@ static bool add_label(scene *s, text_space *words, const scene_box *box)
         snprintf(address, sizeof address, "%" PRIu64, foreign_node_of(box->id));
     else
         octree_address_format(box->id, address);
-    scene_label label = scene_make_label(box->id, role_style(LAYER_NODES, ROLE_TEXT, STROKE_SOLID, 1), "%s", address);
+    scene_label label =
+        scene_make_label(box->id, make_role_style(LAYER_NODES, ROLE_TEXT, STROKE_SOLID, 1), "%s", address);
     const double width = (double)(strlen(label.text) + 1) * s->text.width;
-    if (!camera_pixel(&s->camera, middle, pixel) || camera_box_pixels(&s->camera, &box->box) < width ||
-        !text_space_take(words, s, label.text, pixel, label.at))
+    if (!camera_find_pixel(&s->camera, middle, pixel) || camera_box_size_in_pixels(&s->camera, &box->box) < width ||
+        !text_space_reserve_text(words, s, label.text, pixel, label.at))
         return false;
-    text_add_on_ground(s, &label, ROLE_PANEL);
+    scene_add_label_on_ground(s, &label, ROLE_PANEL);
     return true;
 }
 
 /* Label the boxes of nodes: shallow nodes first, and within a level in the order of the walk. */
 static void add_labels(scene *s)
 {
-    text_space words = text_space_of(s); /* the axes' numbers take room too */
+    text_space words = text_space_make(s); /* the axes' numbers take room too */
     unsigned deepest = 0;
     for (size_t i = 0; i < s->boxes.count; i++)
         if (s->boxes.items[i].style.layer == LAYER_NODES && s->boxes.items[i].depth > deepest)
@@ -393,7 +394,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
     tree_walk w = {.scene = s, .world = in->world, .values = in->values, .deepest = OCTREE_MAX_DEPTH};
     w.capacity = octree_definition(in->tree).leaf_capacity;
     w.point_width = expected <= 500 ? 2 : expected <= 20000 ? 1 : 0;
-    w.shows_nodes = view_shows(&s->view, LAYER_NODES) && shows_own_tree(in);
+    w.shows_nodes = view_shows_layer(&s->view, LAYER_NODES) && shows_own_tree(in);
     w.filter = s->view.filter;
     if (!shows_own_tree(in))
         w.filter.by_depth = false; /* the view's depths are depths of the foreign tree */
@@ -403,7 +404,7 @@ static void add_nodes_and_points(scene *s, const layer_source *in, view_layer la
         add_foreign_nodes(s, in);
     s->tally.one_in = w.sieve + 1;
     s->spacing = view_paints_points(&s->view) ? s->view.point_scale.of.spacing * thinned_spacing(s->tally.one_in) : 0;
-    if (s->view.labels && view_shows(&s->view, layer))
+    if (s->view.labels && view_shows_layer(&s->view, layer))
         add_labels(s);
 }
 
@@ -425,7 +426,7 @@ static void add_kinds_legend(legend *l, const layer_source *in)
 static void add_occupancy_legend(legend *l, const layer_source *in)
 {
     const view *v = &l->scene->view;
-    const bool diagram = view_shows(v, LAYER_DIAGRAM);
+    const bool diagram = view_shows_layer(v, LAYER_DIAGRAM);
     if (shows_own_tree(in) || diagram)
         legend_add(l, SIGN_RAMP, "leaves, 0-%zu+ points", octree_definition(in->tree).leaf_capacity)->steps =
             THEME_NODE_DEPTHS;

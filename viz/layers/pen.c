@@ -37,7 +37,8 @@ static void cut_text(char *text, size_t room)
 /* Write a label's text, cut to `room` letters, x pixels to the right of the pen. */
 static void add_text(pen *p, int x, theme_role role, unsigned size, size_t room, const char *text)
 {
-    scene_label label = scene_make_label(p->next_id++, role_style(LAYER_TEXT, role, STROKE_SOLID, size), "%s", text);
+    scene_label label =
+        scene_make_label(p->next_id++, make_role_style(LAYER_TEXT, role, STROKE_SOLID, size), "%s", text);
     label.at[0] = p->left + x;
     label.at[1] = p->y;
     cut_text(label.text, room);
@@ -104,7 +105,7 @@ void write_gap(pen *p)
 void write_rule(pen *p)
 {
     const scene *s = p->scene;
-    if (panel_width(&s->view))
+    if (layout_panel_width(&s->view))
         fill_rectangle(p, 0, s->text.line / 4, p->letters * s->text.width,
                        s->text.height < 48 ? 1 : s->text.height / 24, ROLE_WORLD);
     write_gap(p);
@@ -157,6 +158,6 @@ void write_wrapped(pen *p, theme_role role, const char *text)
 
 void fill_rectangle_in_color(pen *p, int x, int y, int width, int height, theme_color color)
 {
-    const scene_style style = role_style(LAYER_TEXT, ROLE_OWN, STROKE_SOLID, 0);
+    const scene_style style = make_role_style(LAYER_TEXT, ROLE_OWN, STROKE_SOLID, 0);
     scene_add_panel(p->scene, (scene_panel){p->next_id++, style, color, p->left + x, p->y + y, width, height});
 }

@@ -17,8 +17,8 @@ static void add_player(scene *s, const layer_source *in, view_layer layer)
     if (!in->tick->has_player)
         return;
     scene_add_line(s, 0, at, (double[]){at[0], at[1], in->world.min[2]},
-                   role_style(layer, ROLE_FAINT, STROKE_DASHED, 1));
-    scene_add_mark(s, in->session->player.id, at, SHAPE_DIAMOND, layer_style(layer, STROKE_SOLID, 4));
+                   make_role_style(layer, ROLE_FAINT, STROKE_DASHED, 1));
+    scene_add_mark(s, in->session->player.id, at, SHAPE_DIAMOND, make_layer_style(layer, STROKE_SOLID, 4));
 }
 
 static void describe_player(description *d, const described_element *element)
@@ -81,20 +81,21 @@ static void add_hit_box(scene *s, const layer_source *in, view_layer layer)
     const octree_tick *tick = in->tick;
     const double size = in->session->player.box_size;
     const octree_box box = box_around(tick->attempt, size);
-    scene_add_outline(s, COLLISION_ID, &box, layer_style(layer, STROKE_SOLID, 2));
-    add_crossed_faces(s, &box, layer_style(layer, STROKE_SOLID, 1));
+    scene_add_outline(s, COLLISION_ID, &box, make_layer_style(layer, STROKE_SOLID, 2));
+    add_crossed_faces(s, &box, make_layer_style(layer, STROKE_SOLID, 1));
     if (tick->swept)
-        add_swept_paths(s, tick, size, layer_style(layer, STROKE_DASHED, 1));
-    scene_add_mark(s, in->session->player.id, tick->attempt, SHAPE_CROSS, layer_style(layer, STROKE_SOLID, 28));
+        add_swept_paths(s, tick, size, make_layer_style(layer, STROKE_DASHED, 1));
+    scene_add_mark(s, in->session->player.id, tick->attempt, SHAPE_CROSS, make_layer_style(layer, STROKE_SOLID, 28));
     for (size_t i = 0; i < tick->hit_count; i++)
-        scene_add_mark(s, tick->hits[i].id, tick->hits[i].position, SHAPE_CROSS, layer_style(layer, STROKE_SOLID, 6));
+        scene_add_mark(s, tick->hits[i].id, tick->hits[i].position, SHAPE_CROSS,
+                       make_layer_style(layer, STROKE_SOLID, 6));
 }
 
 static void add_collision_box(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_box box = box_around(in->tick->player, in->session->player.box_size);
     if (in->tick->has_player)
-        scene_add_outline(s, in->session->player.id, &box, role_style(layer, ROLE_PLAYER, STROKE_SOLID, 1));
+        scene_add_outline(s, in->session->player.id, &box, make_role_style(layer, ROLE_PLAYER, STROKE_SOLID, 1));
     if (in->tick->hit_count)
         add_hit_box(s, in, layer);
 }

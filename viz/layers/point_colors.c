@@ -56,19 +56,20 @@ static theme_color color_of_marker(const painting *p, const scene_marker *m)
         return value.has[POINT_COLOR] ? (theme_color){value.color[0], value.color[1], value.color[2]} : p->plain;
     case POINTS_BY_CLASS:
         value = point_values_get(p->values, m->id);
-        return value.has[POINT_CLASS] ? theme_kind(kind_of_class(value.class)) : p->plain;
+        return value.has[POINT_CLASS] ? theme_kind_color(kind_of_class(value.class)) : p->plain;
     case POINTS_BY_INTENSITY:
         value = point_values_get(p->values, m->id);
         if (!value.has[POINT_INTENSITY])
             return p->plain;
-        return theme_ramp(fraction_between((double)value.intensity, scale->intensities[0], scale->intensities[1]));
+        return theme_ramp_color(
+            fraction_between((double)value.intensity, scale->intensities[0], scale->intensities[1]));
     case POINTS_BY_ID:
-        return theme_ramp(fraction_between((double)m->id, scale->ids[0], scale->ids[1]));
+        return theme_ramp_color(fraction_between((double)m->id, scale->ids[0], scale->ids[1]));
     case POINTS_BY_X:
     case POINTS_BY_Y:
     case POINTS_BY_Z:
     case POINTS_BY_HEIGHT:
-        return theme_ramp(fraction_between(m->at[axis], scale->low[axis], scale->high[axis]));
+        return theme_ramp_color(fraction_between(m->at[axis], scale->low[axis], scale->high[axis]));
     default:
         return p->plain;
     }
@@ -85,9 +86,9 @@ void color_points(const view *v, const point_values *values, const octree_node *
                                         : POINTS_BY_HEIGHT,
                         .scale = &v->point_scale.of,
                         .values = values,
-                        .plain = theme_color_at(theme_index(role, 0))};
+                        .plain = theme_color_at(theme_color_index(role, 0))};
     for (size_t i = 0; i < count; i++)
-        markers[i].color = theme_fade(color_of_marker(&p, &markers[i]), light);
+        markers[i].color = theme_fade_color(color_of_marker(&p, &markers[i]), light);
 }
 
 /* ---- The legend --------------------------------------------------------------------------------------------- */
@@ -101,7 +102,7 @@ static void add_class_legend(legend *l, const point_values *values)
             kinds |= 1u << kind_of_class(values->rows[row].class);
     for (unsigned kind = 0; kind < THEME_KINDS; kind++)
         if (kinds >> kind & 1)
-            legend_add(l, SIGN_SWATCH, "%s", class_kind_names[kind])->color = theme_kind(kind);
+            legend_add(l, SIGN_SWATCH, "%s", class_kind_names[kind])->color = theme_kind_color(kind);
 }
 
 static legend_scale scale_of(const point_scale *s, view_point_color by)

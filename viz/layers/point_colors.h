@@ -16,8 +16,8 @@ void color_points(const view *v, const point_values *values, const octree_node *
 /* Add the legend's lines about points. */
 void add_point_legend(legend *l, const layer_source *in);
 
-/* Return the colour kind of an LAS class, for theme_kind(). Similar classes share a kind; unknown classes have kind 7,
- * "other". class_kind_names holds the names of the kinds. */
+/* Return the colour kind of an LAS class, for theme_kind_color(). Similar classes share a kind; unknown classes have
+ * kind 7, "other". class_kind_names holds the names of the kinds. */
 unsigned kind_of_class(unsigned class);
 extern const char *const class_kind_names[THEME_KINDS];
 

@@ -30,7 +30,7 @@ static void add_label(scene *s, text_space *words, uint64_t id, const octree_sha
     _Static_assert(OCTREE_SHAPE_TEXT < SCENE_TEXT, "a label must hold a shape's text and one space before it");
     scene_label label = scene_make_label(id, style, "%s", shape->text);
     label.style.width = 1;
-    if (text_add_beside(words, s, label, shape->at, MARK))
+    if (text_space_add_label_beside(words, s, label, shape->at, MARK))
         return;
     label.in_world = true;
     memcpy(label.at, shape->at, sizeof label.at);
@@ -43,13 +43,13 @@ static void add_shapes(scene *s, const layer_source *in, view_layer layer)
     text_space words = {.count = 0}; /* empty: label positions must not depend on the other layers */
     for (size_t i = 0; i < in->tick->shape_count; i++) {
         const octree_shape *shape = &in->tick->shapes[i];
-        const scene_style style = layer_style(layer, STROKE_SOLID, 2);
+        const scene_style style = make_layer_style(layer, STROKE_SOLID, 2);
         if (shape->kind == OCTREE_SHAPE_BOX)
             add_box(s, i, shape, style);
         else if (shape->kind == OCTREE_SHAPE_SEGMENT)
             scene_add_line(s, i, shape->at, shape->to, style);
         else if (shape->kind == OCTREE_SHAPE_POINT)
-            scene_add_mark(s, i, shape->at, SHAPE_SQUARE, layer_style(layer, STROKE_SOLID, MARK));
+            scene_add_mark(s, i, shape->at, SHAPE_SQUARE, make_layer_style(layer, STROKE_SOLID, MARK));
         else
             add_label(s, &words, i, shape, style);
     }

@@ -64,7 +64,8 @@ static void extrapolate(const octree_body *body, const octree_box *world, double
 static bool is_small(const scene *s, double ends[2][3])
 {
     double from[2], to[2];
-    return s->view.lod > 0 && camera_pixel(&s->camera, ends[0], from) && camera_pixel(&s->camera, ends[1], to) &&
+    return s->view.lod > 0 && camera_find_pixel(&s->camera, ends[0], from) &&
+           camera_find_pixel(&s->camera, ends[1], to) &&
            fmax(fabs(to[0] - from[0]), fabs(to[1] - from[1])) < s->view.lod;
 }
 
@@ -80,7 +81,7 @@ static bool is_body_shown(const arrow_context *a, const octree_body *body)
 {
     const view_filter *f = &a->scene->view.filter;
     octree_node leaf;
-    return !filter_is_on(f) ||
+    return !filter_is_set(f) ||
            (filter_shows_point(f, body->position) && octree_locate(a->in->tree, body->position, &leaf) == OCTREE_OK &&
             filter_shows_points_of(f, &a->in->world, &leaf));
 }
@@ -145,13 +146,13 @@ static void add_velocities(scene *s, const layer_source *in, view_layer layer)
 {
     const octree_tick *tick = in->tick;
     const arrow_context a = {s, in, velocity_ticks(in->game)};
-    if (!view_shows(&s->view, layer) || tick->mover_count == 0)
+    if (!view_shows_layer(&s->view, layer) || tick->mover_count == 0)
         return;
     const uint64_t points = s->tally.one_in - 1; /* the sieve of the scene's points: a dropped point has no arrow */
     const uint64_t sieve = choose_sieve(s, &a, tick, points);
     for (size_t i = 0; i < tick->mover_count; i++) {
         const octree_body *body = &tick->movers[i];
-        scene_segment arrow = {.id = body->id, .style = layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
+        scene_segment arrow = {.id = body->id, .style = make_layer_style(LAYER_VELOCITIES, STROKE_ARROW, 1)};
         if (sieve_drops(sieve, body->id) || !find_arrow_end(&a, body, arrow.ends[1]) || !is_body_shown(&a, body))
             continue;
         memcpy(arrow.ends[0], body->position, sizeof arrow.ends[0]);

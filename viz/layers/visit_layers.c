@@ -27,9 +27,9 @@ static void add_visits(scene *s, const layer_source *in, view_layer layer)
     const size_t count = layer == LAYER_HIT ? tick->hit_leaf_count : tick->visit_count;
     const size_t capacity = octree_definition(in->tree).leaf_capacity;
     const bool pruned = layer == LAYER_PRUNED;
-    scene_style style = layer_style(layer, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
+    scene_style style = make_layer_style(layer, pruned ? STROKE_CUT : STROKE_SOLID, pruned ? 1 : 2);
     octree_node node;
-    if (!view_shows(&s->view, layer))
+    if (!view_shows_layer(&s->view, layer))
         return;
     for (size_t i = 0; shows_own_tree(in) && i < count; i++) {
         const octree_address address = find_visited_node(tick, layer, i);

@@ -79,8 +79,8 @@ static bool is_outline(const axes *a, const double at[2], const double out[2])
 /* Whether a number beside an end of an edge lies within the space view. */
 static bool has_room(const axes *a, const double at[2], const double out[2])
 {
-    const camera_window w = layout_space(a->scene);
-    const double x = at[0] + out[0] * layout_number_letters(a->box) * a->scene->text.width - w.x;
+    const camera_window w = layout_space_area(a->scene);
+    const double x = at[0] + out[0] * layout_count_number_letters(a->box) * a->scene->text.width - w.x;
     const double y = at[1] + out[1] * 2 * a->scene->text.height - w.y;
     return x >= 0 && y >= 0 && x <= w.width && y <= w.height;
 }
@@ -127,7 +127,7 @@ static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_l
 {
     double from[2], pixel[2], out[2];
     const scene *s = a->scene;
-    if (!camera_pixel(&s->camera, tick[0], from) || !camera_pixel(&s->camera, tick[1], pixel))
+    if (!camera_find_pixel(&s->camera, tick[0], from) || !camera_find_pixel(&s->camera, tick[1], pixel))
         return false;
     const double x = pixel[0] - from[0], y = pixel[1] - from[1], length = sqrt(x * x + y * y);
     out[0] = a->whole ? e->out[0] : x / length;
@@ -136,7 +136,7 @@ static bool place_number(axes *a, const axis_edge *e, double tick[2][3], scene_l
         (fabs(out[0]) * (double)strlen(number->text) * s->text.width + fabs(out[1]) * s->text.height) / 2 + s->unit;
     for (int i = 0; i < 2; i++)
         pixel[i] += out[i] * reach;
-    return text_space_take(&a->words, s, number->text, pixel, number->at);
+    return text_space_reserve_text(&a->words, s, number->text, pixel, number->at);
 }
 
 static double longest_side(const scene *s)
@@ -178,14 +178,14 @@ static bool place_letter(axes *a, double ends[2][3], scene_label *letter)
 {
     const scene *s = a->scene;
     double from[2], pixel[2], way[2];
-    if (!camera_pixel(&s->camera, ends[0], from) || !camera_pixel(&s->camera, ends[1], pixel))
+    if (!camera_find_pixel(&s->camera, ends[0], from) || !camera_find_pixel(&s->camera, ends[1], pixel))
         return false;
     for (int i = 0; i < 2; i++)
         way[i] = pixel[i] - from[i];
     const double length = sqrt(way[0] * way[0] + way[1] * way[1]);
     for (int i = 0; i < 2; i++)
         pixel[i] += length > 0 ? way[i] / length * s->text.height * 1.25 : 0;
-    return text_space_take(&a->words, s, letter->text, pixel, letter->at);
+    return text_space_reserve_text(&a->words, s, letter->text, pixel, letter->at);
 }
 
 /* Add the letter at the end of an axis that is not seen end on. Numbers do not cover it. Without room beyond the end,
@@ -219,13 +219,13 @@ static void add_axes(scene *s, const octree_box *world)
     for (unsigned i = 0; i < 8; i++) {
         double at[3];
         scene_box_corner(a.box, i, at);
-        a.whole &= camera_pixel(&s->camera, at, a.corners[i]);
+        a.whole &= camera_find_pixel(&s->camera, at, a.corners[i]);
     }
     for (int axis = 0; axis < 3; axis++) {
         edges[axis] = choose_edge(&a, axis);
         add_axis(&a, &edges[axis], fitted);
     }
-    for (int axis = 0; view_shows(&s->view, LAYER_TEXT) && axis < 3; axis++)
+    for (int axis = 0; view_shows_layer(&s->view, LAYER_TEXT) && axis < 3; axis++)
         add_ticks(&a, &edges[axis]);
 }
 
@@ -236,9 +236,9 @@ enum { WORLD_ID, SLICE_ID, REGION_ID, WORLD_IDS };
 static void add_world(scene *s, const layer_source *in, view_layer layer)
 {
     const view_filter *f = &s->view.filter;
-    const scene_style dashed = role_style(layer, ROLE_FAINT, STROKE_DASHED, 1);
+    const scene_style dashed = make_role_style(layer, ROLE_FAINT, STROKE_DASHED, 1);
     octree_box plane = in->world;
-    scene_add_outline(s, WORLD_ID, &in->world, layer_style(layer, STROKE_SOLID, 1));
+    scene_add_outline(s, WORLD_ID, &in->world, make_layer_style(layer, STROKE_SOLID, 1));
     if (f->slice) {
         plane.min[f->slice - 'x'] = plane.max[f->slice - 'x'] = f->slice_at;
         scene_add_outline(s, SLICE_ID, &plane, dashed);

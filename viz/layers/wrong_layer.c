@@ -61,24 +61,24 @@ static void mark_points(scene *s, const octree_point *points, size_t count, scen
 {
     scene_add_points(s, points, count, shape, style);
     for (size_t i = 0; i < count && i < FEW_MARKS; i++)
-        text_space_keep_mark(occupied, s, points[i].position, style.width);
+        text_space_reserve_mark(occupied, s, points[i].position, style.width);
 }
 
 static void mark_wrong_answer(scene *s, const octree_answer *answer, size_t place, unsigned ring, text_space *occupied)
 {
     const octree_judgement *judgement = &answer->judgement;
     const unsigned size = judgement->missing_count + judgement->extra_count <= FEW_MARKS ? MARK : MARK / 2;
-    const scene_style extra = layer_style(LAYER_WRONG, STROKE_SOLID, size);
-    const scene_style missing = role_style(LAYER_WRONG, ROLE_MISSED, STROKE_SOLID, size);
+    const scene_style extra = make_layer_style(LAYER_WRONG, STROKE_SOLID, size);
+    const scene_style missing = make_role_style(LAYER_WRONG, ROLE_MISSED, STROKE_SOLID, size);
     double at[3];
     for (size_t i = 0; octree_query_about(answer->kind)->neighbors && i < judgement->extra_count; i++)
         scene_add_line(s, (uint64_t)place << 32 | (uint64_t)i, answer->target, judgement->extra[i].position,
-                       layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
+                       make_layer_style(LAYER_WRONG, STROKE_SOLID, ring == RING ? LINE_WIDTH : 1));
     mark_points(s, judgement->missing, judgement->missing_count, SHAPE_TRIANGLE, missing, occupied);
     mark_points(s, judgement->extra, judgement->extra_count, SHAPE_WEDGE, extra, occupied);
     find_ring_position(answer, at);
-    scene_add_mark(s, ring_id(place), at, SHAPE_RING, layer_style(LAYER_WRONG, STROKE_SOLID, ring));
-    text_space_keep_mark(occupied, s, at, ring);
+    scene_add_mark(s, ring_id(place), at, SHAPE_RING, make_layer_style(LAYER_WRONG, STROKE_SOLID, ring));
+    text_space_reserve_mark(occupied, s, at, ring);
 }
 
 /* Write what is wrong with an answer beside its ring. Return false when there is no room. */
@@ -86,22 +86,22 @@ static bool add_answer_label(scene *s, const octree_answer *answer, size_t place
 {
     char words[JUDGEMENT_TEXT];
     double at[3];
-    const scene_label label = scene_make_label(place, layer_style(LAYER_WRONG, STROKE_SOLID, 1), "%s",
+    const scene_label label = scene_make_label(place, make_layer_style(LAYER_WRONG, STROKE_SOLID, 1), "%s",
                                                judgement_text(&answer->judgement, words));
     find_ring_position(answer, at);
-    return text_add_beside(occupied, s, label, at, RING);
+    return text_space_add_label_beside(occupied, s, label, at, RING);
 }
 
 /* Write the number of texts without room into the top right corner. */
 static void add_left_out_count(scene *s, size_t count, text_space *occupied)
 {
-    const camera_window w = layout_space(s);
+    const camera_window w = layout_space_area(s);
     scene_label label =
-        scene_make_label(LEFT_OUT_ID, layer_style(LAYER_WRONG, STROKE_SOLID, 1), "and %zu more wrong", count);
+        scene_make_label(LEFT_OUT_ID, make_layer_style(LAYER_WRONG, STROKE_SOLID, 1), "and %zu more wrong", count);
     const double half = (double)strlen(label.text) * s->text.width / 2;
     const double middle[2] = {w.x + w.width - half - s->text.width, w.y + s->text.height};
-    if (count > 0 && text_space_take(occupied, s, label.text, middle, label.at))
-        text_add_on_ground(s, &label, ROLE_BACKGROUND);
+    if (count > 0 && text_space_reserve_text(occupied, s, label.text, middle, label.at))
+        scene_add_label_on_ground(s, &label, ROLE_BACKGROUND);
 }
 
 /* Marks come first, so that texts do not cover them. Texts of answers get room before texts of nodes. */

@@ -183,7 +183,7 @@ void film_report_start(FILE *out, const film_start *start, const octree_session 
 void film_report_empty(FILE *out, const film_summary *summary, const film_options *options)
 {
     const view *v = &options->view;
-    const char *lacking = point_scale_lacks(v, options->values);
+    const char *lacking = point_scale_missing_value(v, options->values);
     if (lacking)
         fprintf(out, "octreel: no point has %s: --color-points %s shows all points alike\n", lacking,
                 view_point_color_name(v->point_color));

@@ -23,15 +23,15 @@ bool picture_fit(view *v, const octree *tree, const point_values *values, octree
 {
     char reason[FILTER_TEXT];
     const octree_def def = octree_definition(tree);
-    camera_fit(v, tree);
-    if (!point_scale_fit(v, tree, values))
+    camera_fit_points(v, tree);
+    if (!point_scale_compute(v, tree, values))
         return error_no_memory(error);
-    return !filter_refusal(&v->filter, &def, reason) || error_set(error, "%s", reason);
+    return !filter_find_problem(&v->filter, &def, reason) || error_set(error, "%s", reason);
 }
 
 static bool check_samples(const view *v, octreel_error *error)
 {
-    const int samples = view_samples(v);
+    const int samples = view_samples_per_side(v);
     if (samples != 1 && samples != 2 && samples != 4)
         return error_set(error, "there is no anti-aliasing by %d; there are 1, 2 and 4", samples);
     if (samples == 1 || (v->width <= VIEW_MAX_SIDE / samples && v->height <= VIEW_MAX_SIDE / samples))
@@ -45,7 +45,7 @@ static bool check_samples(const view *v, octreel_error *error)
 
 static bool create_images(picture *p, const view *v)
 {
-    const int samples = view_samples(v);
+    const int samples = view_samples_per_side(v);
     const bool rgb = view_is_rgb(v);
     image *drawn = rgb ? &p->samples : &p->frame;
     if (!image_create(drawn, v->width * samples, v->height * samples, 1) ||
@@ -60,7 +60,8 @@ bool picture_open(picture *p, const view *v, const renderer_choice *choice, octr
     *p = (picture){0};
     if (!check_samples(v, error))
         return false;
-    p->renderer = renderer_open(v->width * view_samples(v), v->height * view_samples(v), choice, error);
+    p->renderer =
+        renderer_open(v->width * view_samples_per_side(v), v->height * view_samples_per_side(v), choice, error);
     if (!p->renderer)
         return false;
     if (create_images(p, v))
@@ -85,7 +86,7 @@ image *picture_samples(picture *p)
 bool picture_finish(picture *p, const scene *s, octreel_error *error)
 {
     return !p->samples.pixels ||
-           image_shrink(&p->samples, renderer_sample_colors(p->renderer), view_samples(&s->view), &p->frame) ||
+           image_shrink(&p->samples, renderer_sample_colors(p->renderer), view_samples_per_side(&s->view), &p->frame) ||
            error_set(error, "the scene's anti-aliasing is not the picture's");
 }
 

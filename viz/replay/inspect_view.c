@@ -20,7 +20,7 @@ static camera_window find_space_window(const inspection *made, const view *v)
     const octree_box world = octree_definition(made->tree).world;
     scene empty = {0};
     scene_set_view(&empty, v);
-    return layout_camera(&empty, &world);
+    return layout_camera_area(&empty, &world);
 }
 
 #define LEAF_PIXELS 32 /* pixels per leaf; with fewer, colours by leaf look like noise */
@@ -48,8 +48,8 @@ static bool points_form_surfaces(const inspection *made, const view *v)
     double center[3];
     scene_box_middle(v->fit == FIT_BOX ? &v->focus : &world, center);
     const camera c = camera_make(v, find_space_window(made, v), &world, center, 0);
-    const double apart = point_scale_pixels(&c, v->point_scale.of.spacing) / (c.perspective ? c.distance : 1);
-    return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_unit(v);
+    const double apart = point_scale_length_in_pixels(&c, v->point_scale.of.spacing) / (c.perspective ? c.distance : 1);
+    return v->point_scale.given && apart > 0 && apart <= POINT_WIDEST * view_pixels_per_unit(v);
 }
 
 #define COLORS_TEXT 80
@@ -57,7 +57,7 @@ static bool points_form_surfaces(const inspection *made, const view *v)
 /* "points by height (--color-points)". Returns `text`. */
 static const char *describe_colors(const inspection *made, const view *v, char text[COLORS_TEXT])
 {
-    const char *lacks = point_scale_lacks(v, &made->values), *option = "(--color-points)";
+    const char *lacks = point_scale_missing_value(v, &made->values), *option = "(--color-points)";
     if (lacks)
         snprintf(text, COLORS_TEXT, "points in one colour, because none has %s %s", lacks, option);
     else if (v->point_color == POINTS_BY_FILE)
@@ -72,7 +72,7 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
 {
     const char *why = "", *lit = "";
     *said = 0;
-    if (v->diagram == DIAGRAM_ONLY || !view_shows(v, LAYER_POINTS) ||
+    if (v->diagram == DIAGRAM_ONLY || !view_shows_layer(v, LAYER_POINTS) ||
         (color_given && v->point_color == POINTS_BY_PLAIN))
         return true;
     if (!color_given)
@@ -80,8 +80,8 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
                          : has_colors(made)                 ? POINTS_BY_FILE
                                                             : POINTS_BY_HEIGHT;
     view fitted = *v;
-    camera_fit(&fitted, made->tree);
-    if (!point_scale_fit(&fitted, made->tree, &made->values))
+    camera_fit_points(&fitted, made->tree);
+    if (!point_scale_compute(&fitted, made->tree, &made->values))
         return error_no_memory(error);
     v->point_scale = fitted.point_scale; /* kept, because it costs a walk over all points */
     if (!shade_given && points_form_surfaces(made, &fitted)) {

@@ -96,7 +96,7 @@ static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 
 static bool move_to_nearest(pick *p, renderer *r, const scene *s, octreel_error *error)
 {
-    const size_t samples = (size_t)view_samples(&s->view);
+    const size_t samples = (size_t)view_samples_per_side(&s->view);
     uint32_t *numbers = malloc((size_t)p->width * (size_t)p->height * samples * samples * sizeof *numbers);
     bool ok = numbers || error_no_memory(error);
     ok = ok && renderer_find_element_numbers(r, s, numbers, error);
@@ -129,7 +129,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
             .touch = touches.items[i],
             .kind = element.kind,
             .in_closeup = element.in_closeup,
-            .layer = layer_rows[scene_head_of(s, element).style.layer].name,
+            .layer = layer_rows[scene_element_head(s, element).style.layer].name,
             .subject = describe_element(from->game, &from->history.heat, s, element),
         };
         copy_foreign_node(&p->elements[p->count++]);
@@ -140,7 +140,7 @@ static bool name_elements(pick *p, renderer *r, const playback *from, octreel_er
 
 bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error)
 {
-    const int samples = view_samples(&from->view);
+    const int samples = view_samples_per_side(&from->view);
     p->samples = samples * samples;
     if (!name_elements(p, r, from, error))
         return false;

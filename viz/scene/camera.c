@@ -15,14 +15,14 @@
 #define ORBIT_TICKS 480 /* ticks for a full turn */
 #define FOCAL 1.6       /* focal length of the camera that follows the player, in half windows */
 
-/* Limits within which the rounding errors of is_seen_below() stay below ROUNDING pixels: how far a box may be off the
- * view axis, relative to its depth, and how far from the eye. */
+/* Limits within which the rounding errors of is_small_box_below() stay below ROUNDING pixels: how far a box may be off
+ * the view axis, relative to its depth, and how far from the eye. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
 #define ROUNDING 1e-6
 
 /* Taylor series on [0, pi/4], where eight terms are beyond a double's precision. */
-static void turn_octant(double angle, double *cosine, double *sine)
+static void compute_octant_turn(double angle, double *cosine, double *sine)
 {
     const double square = angle * angle;
     double c = 1, s = 1;
@@ -34,11 +34,11 @@ static void turn_octant(double angle, double *cosine, double *sine)
     *sine = angle * s;
 }
 
-void camera_turn(double turns, double *cosine, double *sine)
+void camera_compute_cosine_sine(double turns, double *cosine, double *sine)
 {
     const double whole = floor(turns * 4 + 0.5); /* quarter turns */
     double c, s;
-    turn_octant(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
+    compute_octant_turn(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
     s = turns * 4 < whole ? -s : s;
     const double cosines[4] = {c, -s, -c, s}; /* after 0 to 3 quarter turns; the sine is the cosine a quarter before */
     const int quarter = (int)fmod(whole, 4) + 4;
@@ -51,8 +51,8 @@ void camera_turn(double turns, double *cosine, double *sine)
 static void set_axes(camera *c, double azimuth, double elevation)
 {
     double ca, sa, ce, se;
-    camera_turn(azimuth, &ca, &sa);
-    camera_turn(elevation, &ce, &se);
+    camera_compute_cosine_sine(azimuth, &ca, &sa);
+    camera_compute_cosine_sine(elevation, &ce, &se);
     memcpy(c->right, (double[3]){ca, sa, 0}, sizeof c->right);
     memcpy(c->up, (double[3]){-sa * se, ca * se, ce}, sizeof c->up);
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
@@ -66,7 +66,7 @@ static void place_eye(camera *c, const double target[3], double distance)
 }
 
 /* Half the extent of a box with these half sizes, along an axis of the camera. */
-static double half_span(const double axis[3], const double half[3])
+static double find_half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
 }
@@ -111,13 +111,13 @@ static double find_orbit_zoom(const camera *c, camera_window window, double *lif
 /* Zoom of an orthographic camera: the framed box just fits into the window. */
 static double find_zoom(const camera *c, camera_window window)
 {
-    const double across = fmax(half_span(c->right, c->half), THINNEST),
-                 along = fmax(half_span(c->up, c->half), THINNEST);
+    const double across = fmax(find_half_span(c->right, c->half), THINNEST),
+                 along = fmax(find_half_span(c->up, c->half), THINNEST);
     const double x = window.width / (2 * MARGIN * across), y = window.height / (2 * MARGIN * along);
     return x < y ? x : y;
 }
 
-static void measure_box(camera *c, const octree_box *world)
+static void set_box_scale(camera *c, const octree_box *world)
 {
     double extent[3];
     c->scale = 1;
@@ -136,7 +136,7 @@ static void measure_box(camera *c, const octree_box *world)
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick)
 {
     camera c = {.perspective = cameras[v->camera].perspective, .near = 0.02};
-    measure_box(&c, v->fit == FIT_BOX ? &v->focus : world);
+    set_box_scale(&c, v->fit == FIT_BOX ? &v->focus : world);
     const bool placed = v->center.given || v->camera == CAMERA_FOLLOW;
     const double orbit = v->camera == CAMERA_ORBIT ? (double)(tick % ORBIT_TICKS) / ORBIT_TICKS : 0;
     set_axes(&c, v->look.given ? v->look.azimuth / 360 : cameras[v->camera].azimuth + orbit,
@@ -148,7 +148,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
                       : placed        ? player[i]
                                       : (c.origin[i] + c.half[i] * c.size / 2) / c.scale;
     if (placed)
-        camera_unit(&c, c.center, target);
+        camera_to_unit_coordinates(&c, c.center, target);
     const double smaller = window.width < window.height ? window.width : window.height;
     c.zoom = v->camera == CAMERA_FOLLOW  ? FOCAL * smaller / 2
              : v->camera == CAMERA_ORBIT ? find_orbit_zoom(&c, window, &lift)
@@ -157,7 +157,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     place_eye(&c, target, c.distance);
     c.middle[0] = window.x + window.width / 2;
     c.middle[1] = window.y + window.height / 2 - (placed ? 0 : lift);
-    const double middle = -camera_dot(c.eye, c.forward), span = half_span(c.forward, c.half);
+    const double middle = -dot_product(c.eye, c.forward), span = find_half_span(c.forward, c.half);
     c.near_depth = middle - span > c.near ? middle - span : c.near;
     c.far_depth = middle + span;
     return c;
@@ -169,16 +169,16 @@ static double zoom_at_center(const camera *c)
     return c->perspective ? c->zoom / c->distance : c->zoom;
 }
 
-double camera_pixel_length(const camera *c)
+double camera_world_length_of_pixel(const camera *c)
 {
     return c->size / 2 / c->scale / zoom_at_center(c);
 }
 
-camera camera_close_up(const camera *c, camera_window window, const double place[3], double times)
+camera camera_make_close_up(const camera *c, camera_window window, const double place[3], double times)
 {
     camera close = *c;
     double target[3];
-    camera_unit(c, place, target);
+    camera_to_unit_coordinates(c, place, target);
     memcpy(close.center, place, sizeof close.center);
     close.zoom *= times;
     place_eye(&close, target, c->distance);
@@ -191,7 +191,7 @@ camera camera_close_up(const camera *c, camera_window window, const double place
     return close;
 }
 
-bool camera_pixel(const camera *c, const double position[3], double pixel[2])
+bool camera_find_pixel(const camera *c, const double position[3], double pixel[2])
 {
     double seen[3];
     camera_transform(c, position, seen);
@@ -207,10 +207,10 @@ static double parallel_box_pixels(const camera *c, const octree_box *box)
     double half[3];
     for (int i = 0; i < 3; i++)
         half[i] = (box->max[i] * c->scale - box->min[i] * c->scale) / c->size;
-    return 2 * c->zoom * fmax(half_span(c->right, half), half_span(c->up, half));
+    return 2 * c->zoom * fmax(find_half_span(c->right, half), find_half_span(c->up, half));
 }
 
-double camera_box_pixels(const camera *c, const octree_box *box)
+double camera_box_size_in_pixels(const camera *c, const octree_box *box)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     if (!c->perspective)
@@ -236,7 +236,7 @@ double camera_box_pixels(const camera *c, const octree_box *box)
  * in x, and likewise in y. The numerator is largest, in size, at two opposite corners; the denominator lies between the
  * depths of the nearest and the farthest corner. This bounds the box's size on screen within their quotient, nearly 1
  * for a small box. Rounding errors are far below ROUNDING when no corner is beside or behind the eye. */
-static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
+static bool is_small_box_below(const camera *c, const octree_box *box, double pixels)
 {
     double middle[3], half[3], across = 0, along = 0;
     const double per_unit = 1 / c->size;
@@ -245,12 +245,12 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
         middle[i] = (low + high) * per_unit - c->half[i] - c->eye[i];
         half[i] = (high - low) * per_unit;
     }
-    const double x = camera_dot(middle, c->right), y = camera_dot(middle, c->up),
-                 depth = camera_dot(middle, c->forward);
-    const double reach = half_span(c->forward, half), most = ASIDE * depth, slack = ROUNDING * (1 + pixels);
+    const double x = dot_product(middle, c->right), y = dot_product(middle, c->up),
+                 depth = dot_product(middle, c->forward);
+    const double reach = find_half_span(c->forward, half), most = ASIDE * depth, slack = ROUNDING * (1 + pixels);
     const bool before = depth - reach > 2 * c->near && depth < FARTHEST && fabs(x) < most && fabs(y) < most;
     if (!before)
-        return camera_box_pixels(c, box) < pixels;
+        return camera_box_size_in_pixels(c, box) < pixels;
     for (int i = 0; i < 3; i++) {
         across += fabs(c->right[i] * depth - x * c->forward[i]) * half[i];
         along += fabs(c->up[i] * depth - y * c->forward[i]) * half[i];
@@ -258,12 +258,12 @@ static bool is_seen_below(const camera *c, const octree_box *box, double pixels)
     const double widest = 2 * c->zoom * (across > along ? across : along);
     if (widest < (pixels - slack) * (depth - reach) * depth)
         return true;
-    return !(widest > (pixels + slack) * (depth + reach) * depth) && camera_box_pixels(c, box) < pixels;
+    return !(widest > (pixels + slack) * (depth + reach) * depth) && camera_box_size_in_pixels(c, box) < pixels;
 }
 
-bool camera_box_is_below(const camera *c, const octree_box *box, double pixels)
+bool camera_is_box_below(const camera *c, const octree_box *box, double pixels)
 {
-    return c->perspective ? is_seen_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
+    return c->perspective ? is_small_box_below(c, box, pixels) : parallel_box_pixels(c, box) < pixels;
 }
 
 /* ---- Framing points ------------------------------------------------------------------------------------------ */
@@ -287,10 +287,10 @@ static void include_point(bounds *b, const double position[3])
     b->count++;
 }
 
-static octree_walk_order bound_node(const octree_node *node, void *context)
+static octree_walk_order include_shown_points(const octree_node *node, void *context)
 {
     bounds *b = context;
-    if (!filter_enters(b->filter, &b->world, node))
+    if (!filter_shows_subtree(b->filter, &b->world, node))
         return OCTREE_WALK_SKIP;
     if (!node->leaf || !filter_shows_points_of(b->filter, &b->world, node))
         return OCTREE_WALK_ON;
@@ -301,7 +301,7 @@ static octree_walk_order bound_node(const octree_node *node, void *context)
 }
 
 /* Halves of extents, since extents can overflow. */
-static double half_of(const octree_box *box, int axis)
+static double half_extent(const octree_box *box, int axis)
 {
     return box->max[axis] / 2 - box->min[axis] / 2;
 }
@@ -310,9 +310,9 @@ static void widen_box(octree_box *box)
 {
     double longest = 0;
     for (int i = 0; i < 3; i++)
-        longest = fmax(longest, half_of(box, i));
+        longest = fmax(longest, half_extent(box, i));
     for (int i = 0; i < 3; i++) {
-        const double slack = longest * THINNEST_FIT - half_of(box, i);
+        const double slack = longest * THINNEST_FIT - half_extent(box, i);
         if (slack <= 0)
             continue;
         box->min[i] = fmax(box->min[i] - slack, -DBL_MAX);
@@ -325,12 +325,12 @@ static bool is_single_position(const octree_box *box)
     return box->min[0] == box->max[0] && box->min[1] == box->max[1] && box->min[2] == box->max[2];
 }
 
-void camera_fit(view *v, const octree *tree)
+void camera_fit_points(view *v, const octree *tree)
 {
     if (v->fit != FIT_POINTS)
         return;
     bounds b = {.filter = &v->filter, .world = octree_definition(tree).world};
-    octree_walk(tree, bound_node, &b);
+    octree_walk(tree, include_shown_points, &b);
     v->fit = b.count ? FIT_BOX : FIT_WORLD;
     octree_node leaf;
     if (b.count && is_single_position(&b.box) && octree_locate(tree, b.box.min, &leaf) == OCTREE_OK)

@@ -2,11 +2,12 @@
 /* camera.h - from world coordinates to pixels, in doubles.
  *
  * A camera frames a box: the world, or the box that --fit points computes. A position takes three steps to its pixel:
- *   unit coordinates    (camera_unit) relative to the lowest corner of the box and divided by its size, so that the box
- *                       lies within [-1, 1] on every axis. Subtracting first keeps precision: a scene at 1e15, or with
- *                       an extent of 1e-300, looks like the same scene at 0.
- *   camera coordinates  (camera_transform) relative to the eye, along the axes right, up and forward (depth)
- *   pixels              (camera_project) scaled by the zoom, in perspective also divided by the depth; y points down
+ * - camera_to_unit_coordinates(): relative to the lowest corner of the box and divided by its size, so that the box
+ * lies within [-1, 1] on every axis. Subtracting first keeps precision: a scene at 1e15, or with an extent of 1e-300,
+ * looks like the same scene at 0.
+ * - camera_transform(): camera coordinates, relative to the eye, along the axes right, up and forward (depth).
+ * - camera_project(): pixels, scaled by the zoom, in perspective also divided by the depth; y points down.
+ *
  * All steps are in double precision and use no function that differs between machines.
  */
 #ifndef SCENE_CAMERA_H
@@ -44,38 +45,38 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
 /* The camera of a close-up: it looks in the direction of c at `place`, which it shows in the middle of `window`,
  * `times` as large as c shows its center. It clips geometry that is farther before or behind the place than the window
  * reaches to the side. */
-camera camera_close_up(const camera *c, camera_window window, const double place[3], double times);
+camera camera_make_close_up(const camera *c, camera_window window, const double place[3], double times);
 
 /* The length of a pixel in world units, at the camera's center. */
-double camera_pixel_length(const camera *c);
+double camera_world_length_of_pixel(const camera *c);
 
-static inline double camera_dot(const double a[3], const double b[3])
+static inline double dot_product(const double a[3], const double b[3])
 {
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
 /* Convert to unit coordinates: 2 (p - origin) / size - half. The first function converts one axis. */
-static inline double camera_unit_on(const camera *c, int axis, double at)
+static inline double camera_to_unit_coordinate(const camera *c, int axis, double at)
 {
     return 2 * ((at * c->scale - c->origin[axis]) / c->size) - c->half[axis];
 }
 
-static inline void camera_unit(const camera *c, const double position[3], double result[3])
+static inline void camera_to_unit_coordinates(const camera *c, const double position[3], double result[3])
 {
     for (int i = 0; i < 3; i++)
-        result[i] = camera_unit_on(c, i, position[i]);
+        result[i] = camera_to_unit_coordinate(c, i, position[i]);
 }
 
 /* Convert to camera coordinates: distances from the eye along right, up and forward, in units of unit coordinates. */
 static inline void camera_transform(const camera *c, const double position[3], double result[3])
 {
     double from_eye[3];
-    camera_unit(c, position, from_eye);
+    camera_to_unit_coordinates(c, position, from_eye);
     for (int i = 0; i < 3; i++)
         from_eye[i] -= c->eye[i];
-    result[0] = camera_dot(from_eye, c->right);
-    result[1] = camera_dot(from_eye, c->up);
-    result[2] = camera_dot(from_eye, c->forward);
+    result[0] = dot_product(from_eye, c->right);
+    result[1] = dot_product(from_eye, c->up);
+    result[2] = dot_product(from_eye, c->forward);
 }
 
 /* Camera coordinates to pixels, y down. The depth must be at least `near` under perspective. */
@@ -87,21 +88,22 @@ static inline void camera_project(const camera *c, const double seen[3], double 
 }
 
 /* The pixel of a position; false when it is not before the camera. */
-bool camera_pixel(const camera *c, const double position[3], double pixel[2]);
+bool camera_find_pixel(const camera *c, const double position[3], double pixel[2]);
 
 /* The size of a box on screen: the longer side, in pixels, of the axis-aligned rectangle around its projection.
  * Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
-double camera_box_pixels(const camera *c, const octree_box *box);
+double camera_box_size_in_pixels(const camera *c, const octree_box *box);
 
-/* True if camera_box_pixels() is below `pixels`. Faster than computing it, unless the size is close to `pixels`. */
-bool camera_box_is_below(const camera *c, const octree_box *box, double pixels);
+/* True if camera_box_size_in_pixels() is below `pixels`. Faster than computing it, unless the size is close to
+ * `pixels`. */
+bool camera_is_box_below(const camera *c, const octree_box *box, double pixels);
 
 /* If the view has FIT_POINTS, replace that by FIT_BOX with the box of the points that the view shows in the tree of
  * tick 0; by the box of their leaf if all of them are equal; by FIT_WORLD if there are none. Using tick 0 alone keeps
  * the camera from moving between ticks. Other views do not change. Cost: O(points). */
-void camera_fit(view *v, const octree *tree);
+void camera_fit_points(view *v, const octree *tree);
 
 /* The cosine and sine of a fraction of a full turn, from polynomials, so that every machine computes the same bits. */
-void camera_turn(double turns, double *cosine, double *sine);
+void camera_compute_cosine_sine(double turns, double *cosine, double *sine);
 
 #endif

@@ -5,14 +5,14 @@
 
 #include <stdio.h>
 
-static bool slice_cuts(const view_filter *f, const octree_box *world, const octree_box *box)
+static bool does_slice_cut(const view_filter *f, const octree_box *world, const octree_box *box)
 {
     const int axis = f->slice - 'x';
     const double at = f->slice_at, max = box->max[axis];
     return box->min[axis] <= at && (at < max || (at == max && max == world->max[axis]));
 }
 
-static bool boxes_meet(const octree_box *a, const octree_box *b)
+static bool do_boxes_intersect(const octree_box *a, const octree_box *b)
 {
     for (int i = 0; i < 3; i++)
         if (a->max[i] < b->min[i] || b->max[i] < a->min[i])
@@ -20,9 +20,10 @@ static bool boxes_meet(const octree_box *a, const octree_box *b)
     return true;
 }
 
-bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node)
+bool filter_shows_subtree(const view_filter *f, const octree_box *world, const octree_node *node)
 {
-    return (!f->slice || slice_cuts(f, world, &node->box)) && (!f->by_region || boxes_meet(&f->region, &node->box));
+    return (!f->slice || does_slice_cut(f, world, &node->box)) &&
+           (!f->by_region || do_boxes_intersect(&f->region, &node->box));
 }
 
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node)
@@ -31,7 +32,7 @@ bool filter_shows_node(const view_filter *f, const octree_box *world, const octr
         return false;
     if (f->by_depth && (node->depth < f->min_depth || node->depth > f->max_depth))
         return false;
-    return filter_enters(f, world, node);
+    return filter_shows_subtree(f, world, node);
 }
 
 bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf)
@@ -43,13 +44,13 @@ bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned dept
         return false;
     if (f->slice && !(box->min[axis] <= f->slice_at && f->slice_at <= box->max[axis]))
         return false;
-    return !f->by_region || boxes_meet(&f->region, box);
+    return !f->by_region || do_boxes_intersect(&f->region, box);
 }
 
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf)
 {
     const bool in_depth = leaf->depth >= f->min_depth && (!f->leaves || leaf->depth <= f->max_depth);
-    return (!f->by_depth || in_depth) && filter_enters(f, world, leaf);
+    return (!f->by_depth || in_depth) && filter_shows_subtree(f, world, leaf);
 }
 
 bool filter_shows_point(const view_filter *f, const double position[3])
@@ -60,12 +61,12 @@ bool filter_shows_point(const view_filter *f, const double position[3])
     return true;
 }
 
-bool filter_is_on(const view_filter *f)
+bool filter_is_set(const view_filter *f)
 {
     return f->slice || f->by_depth || f->leaves || f->by_region;
 }
 
-static const char *refuse_slice(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
+static const char *find_slice_problem(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
 {
     const int axis = f->slice - 'x';
     char at[NUMBER_TEXT], min[NUMBER_TEXT], max[NUMBER_TEXT];
@@ -77,7 +78,7 @@ static const char *refuse_slice(const view_filter *f, const octree_box *world, c
     return text;
 }
 
-static const char *refuse_region(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
+static const char *find_region_problem(const view_filter *f, const octree_box *world, char text[FILTER_TEXT])
 {
     for (int i = 0; i < 3; i++) {
         char from[NUMBER_TEXT], to[NUMBER_TEXT], min[NUMBER_TEXT], max[NUMBER_TEXT];
@@ -92,11 +93,11 @@ static const char *refuse_region(const view_filter *f, const octree_box *world, 
     return NULL;
 }
 
-const char *filter_refusal(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT])
+const char *filter_find_problem(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT])
 {
-    const char *reason = f->slice ? refuse_slice(f, &tree->world, text) : NULL;
+    const char *reason = f->slice ? find_slice_problem(f, &tree->world, text) : NULL;
     if (!reason && f->by_region)
-        reason = refuse_region(f, &tree->world, text);
+        reason = find_region_problem(f, &tree->world, text);
     if (reason || !f->by_depth || f->min_depth <= tree->max_depth)
         return reason;
     snprintf(text, FILTER_TEXT, "the range of depths begins at %u, and the tree ends at depth %zu", f->min_depth,

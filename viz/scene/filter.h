@@ -34,7 +34,7 @@ typedef struct view_filter {
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);
 
 /* True if a node or anything below it may be shown: slice and region cut off whole branches. */
-bool filter_enters(const view_filter *f, const octree_box *world, const octree_node *node);
+bool filter_shows_subtree(const view_filter *f, const octree_box *world, const octree_node *node);
 
 /* True if a foreign node's box is shown. Unlike nodes of the tree, its box is closed and may be flat: the slice's plane
  * must meet the closed box. A range of depths that ends at OCTREE_MAX_DEPTH includes all greater depths. */
@@ -45,11 +45,11 @@ bool filter_shows_points_of(const view_filter *f, const octree_box *world, const
 bool filter_shows_point(const view_filter *f, const double position[3]);
 
 /* True if any part of the filter is set. */
-bool filter_is_on(const view_filter *f);
+bool filter_is_set(const view_filter *f);
 
 /* Returns null if the filter can show some node of a tree with this world and depth; otherwise a sentence, in `text`,
  * that says why it can show none. */
 #define FILTER_TEXT 256
-const char *filter_refusal(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
+const char *filter_find_problem(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
 
 #endif

@@ -33,13 +33,13 @@ static heat_cell *find_or_add_cell(heat *h, octree_address node)
     return hash_map_add(&h->places, &by_node, h->cells) ? &h->cells[count] : NULL;
 }
 
-heat_cell heat_at(const heat *h, octree_address node)
+heat_cell heat_get_cell(const heat *h, octree_address node)
 {
     const heat_cell *cell = h ? find_cell(h, node) : NULL;
     return cell ? *cell : (heat_cell){0};
 }
 
-static octree_walk_order add_points(const octree_node *node, void *context)
+static octree_walk_order add_subtree_points(const octree_node *node, void *context)
 {
     heat *h = context;
     heat_cell *cell = find_or_add_cell(h, node->address);
@@ -50,7 +50,7 @@ static octree_walk_order add_points(const octree_node *node, void *context)
 }
 
 /* True if an address is that of a node or of one of its descendants. */
-static bool is_within(octree_address address, octree_address node)
+static bool is_descendant_or_self(octree_address address, octree_address node)
 {
     while (address > node)
         address >>= 3;
@@ -73,11 +73,11 @@ bool heat_add_tick(heat *h, const octree_game *game)
 {
     const octree_tick *tick = octree_game_tick(game);
     const octree *tree = octree_game_tree(game);
-    octree_walk(tree, add_points, h);
+    octree_walk(tree, add_subtree_points, h);
     octree_address taken = 0; /* the last node taken whole: visits are in pre-order, so its descendants come next */
     for (size_t i = 0; !h->incomplete && i < tick->visit_count; i++) {
         const octree_visit *visit = &tick->visits[i];
-        if (visit->touch == OCTREE_TRACE_PRUNED || (taken && is_within(visit->node, taken)))
+        if (visit->touch == OCTREE_TRACE_PRUNED || (taken && is_descendant_or_self(visit->node, taken)))
             continue;
         taken = visit->taken ? visit->node : taken;
         add_visit(h, tree, visit->node, visit->taken);

@@ -31,6 +31,6 @@ void heat_release(heat *h);
 bool heat_add_tick(heat *h, const octree_game *game);
 
 /* The totals of an address; all zero when it never had a node, or h is null. */
-heat_cell heat_at(const heat *h, octree_address node);
+heat_cell heat_get_cell(const heat *h, octree_address node);
 
 #endif

@@ -10,12 +10,12 @@
 #include <string.h>
 
 /* The number of changes above which the cache is not used: each change may cost a walk of its subtree. */
-static size_t most_changes(const octree *tree)
+static size_t find_change_limit(const octree *tree)
 {
     return 16 + octree_count(tree) / 1024;
 }
 
-void kept_tree_end(kept_tree *k)
+void kept_tree_end_walk(kept_tree *k)
 {
     for (; k->passed < k->before.count; k->passed++)
         free(k->before.items[k->passed].nodes);
@@ -34,7 +34,7 @@ void kept_tree_clear(kept_tree *k)
         free(k->now.items[i].nodes);
     k->now.count = 0;
     k->open = (kept_subtree){0};
-    kept_tree_end(k);
+    kept_tree_end_walk(k);
 }
 
 void kept_tree_release(kept_tree *k)
@@ -68,7 +68,8 @@ static uint64_t key_count(octree_address address)
 static void add_key(kept_tree *k, const double at[3])
 {
     octree_node leaf;
-    k->lost = k->lost || k->changed_count >= most_changes(k->tree) || octree_locate(k->tree, at, &leaf) != OCTREE_OK ||
+    k->lost = k->lost || k->changed_count >= find_change_limit(k->tree) ||
+              octree_locate(k->tree, at, &leaf) != OCTREE_OK ||
               !array_grow(&k->changed, k->changed_count + 1, &k->changed_room, sizeof *k->changed);
     if (!k->lost)
         k->changed[k->changed_count++] = first_key(leaf.address);
@@ -84,7 +85,7 @@ static void add_change(const octree_change *change, void *context)
 }
 
 /* Returns a name that no change log of this process had before. */
-static size_t make_log_name(void)
+static size_t make_unique_log_name(void)
 {
     static atomic_size_t names;
     const size_t name = (size_t)octree_digest_word((uintptr_t)&names, atomic_fetch_add(&names, 1));
@@ -96,7 +97,7 @@ static bool read_changes(kept_tree *k, const octree *tree)
     k->changed_count = k->next_changed = 0;
     k->lost = false;
     k->tree = tree;
-    return octree_changes_since(tree, make_log_name(), &k->cursor, add_change, k) && !k->lost;
+    return octree_changes_since(tree, make_unique_log_name(), &k->cursor, add_change, k) && !k->lost;
 }
 
 /* Read the changes since the last walk. False if they are unknown or too many. Reading makes the tree log its further
@@ -131,30 +132,30 @@ static bool is_changed(kept_tree *k, octree_address address)
 
 /* ---- The walk ----------------------------------------------------------------------------------------------- */
 
-static bool same_look(const kept_look *a, const kept_look *b)
+static bool are_looks_equal(const kept_look *a, const kept_look *b)
 {
     return a->coloring == b->coloring && a->boxes == b->boxes && a->points == b->points && a->capacity == b->capacity &&
            a->point_width == b->point_width;
 }
 
-bool kept_tree_begin(kept_tree *k, const octree *tree, const kept_look *look)
+bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look)
 {
     const bool usable = octree_count(tree) >= KEPT_FEWEST && update_changes(k, tree);
-    if (!usable || !same_look(&k->look, look)) {
+    if (!usable || !are_looks_equal(&k->look, look)) {
         kept_tree_clear(k);
         k->sieve = 0;
     }
     k->look = *look;
     if (!usable)
         return false;
-    k->names = digest_names_make();
+    k->names = digest_hash_names();
     const kept_list before = k->before;
     k->before = k->now;
     k->now = before;
     return true;
 }
 
-const kept_subtree *kept_tree_find(kept_tree *k, octree_address address)
+const kept_subtree *kept_tree_find_subtree(kept_tree *k, octree_address address)
 {
     const bool changed = is_changed(k, address);
     const uint64_t first = first_key(address);
@@ -170,7 +171,7 @@ const kept_subtree *kept_tree_find(kept_tree *k, octree_address address)
 
 /* ---- Collecting a subtree ----------------------------------------------------------------------------------- */
 
-void kept_tree_open(kept_tree *k, octree_address address, const scene *s)
+void kept_tree_begin_subtree(kept_tree *k, octree_address address, const scene *s)
 {
     k->open = (kept_subtree){.address = address};
     k->first_marker = s->markers.count;
@@ -184,7 +185,7 @@ bool kept_tree_add_node(kept_tree *k, const scene_box *box)
     return true;
 }
 
-bool kept_tree_collects(const kept_tree *k, const octree_node *node)
+bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node)
 {
     if (!k->open.address)
         return false;
@@ -223,7 +224,7 @@ void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
     runs->items[runs->count++] = run;
 }
 
-bool kept_tree_close(kept_tree *k, const scene *s)
+bool kept_tree_end_subtree(kept_tree *k, const scene *s)
 {
     kept_subtree made = k->open;
     made.marker_count = (uint32_t)(s->markers.count - k->first_marker);

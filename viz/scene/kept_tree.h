@@ -75,22 +75,22 @@ void kept_tree_clear(kept_tree *k);
 /* Free all memory and zero the structure. */
 void kept_tree_release(kept_tree *k);
 
-/* Begin a walk. Returns true if the walk uses the cache: it calls kept_tree_find() for each subtree that may be kept.
- * Returns false if the walk must not use it; the cache is then empty. Cost: O(c log c) for c changes. */
-bool kept_tree_begin(kept_tree *k, const octree *tree, const kept_look *look);
+/* Begin a walk. Returns true if the walk uses the cache: it calls kept_tree_find_subtree() for each subtree that may be
+ * kept. Returns false if the walk must not use it; the cache is then empty. Cost: O(c log c) for c changes. */
+bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look);
 
 /* Find the kept subtree at an address, and keep it for the next walk. Null if it has changed or was not kept. Calls
  * must come in the order of the walk. */
-const kept_subtree *kept_tree_find(kept_tree *k, octree_address address);
+const kept_subtree *kept_tree_find_subtree(kept_tree *k, octree_address address);
 
 /* Collect a subtree: open it, add its nodes in the order of the walk, and close it. Markers that are appended to the
  * scene in between belong to it. False if there is no memory; the caller then clears the cache. */
-void kept_tree_open(kept_tree *k, octree_address address, const scene *s);
+void kept_tree_begin_subtree(kept_tree *k, octree_address address, const scene *s);
 bool kept_tree_add_node(kept_tree *k, const scene_box *box);
-bool kept_tree_close(kept_tree *k, const scene *s);
+bool kept_tree_end_subtree(kept_tree *k, const scene *s);
 
 /* True if a node belongs to the subtree that is being collected. */
-bool kept_tree_collects(const kept_tree *k, const octree_node *node);
+bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node);
 
 /* Note the digest of elements that were copied to the scene, starting at element `first`. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
@@ -99,6 +99,6 @@ void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
 void kept_tree_forget_runs(kept_tree *k);
 
 /* End the walk: free the subtrees that it did not find. */
-void kept_tree_end(kept_tree *k);
+void kept_tree_end_walk(kept_tree *k);
 
 #endif

@@ -75,7 +75,7 @@ extern const layer_row layer_rows[LAYER_ALL];
  * layer; a list that begins with "-" starts from the default layers. On failure *bad points at the unknown name. */
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 
-static inline bool view_shows(const view *v, view_layer layer)
+static inline bool view_shows_layer(const view *v, view_layer layer)
 {
     return layer == LAYER_DIAGRAM   ? v->diagram != DIAGRAM_NONE
            : layer == LAYER_CLOSEUP ? v->closeup
@@ -83,14 +83,14 @@ static inline bool view_shows(const view *v, view_layer layer)
 }
 
 /* Returns the style of an element in the colour of a role, or in its layer's own colour. */
-static inline scene_style role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
+static inline scene_style make_role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
 {
     return (scene_style){(uint8_t)layer, (uint8_t)role, (uint8_t)stroke, (uint8_t)width};
 }
 
-static inline scene_style layer_style(view_layer layer, scene_stroke stroke, unsigned width)
+static inline scene_style make_layer_style(view_layer layer, scene_stroke stroke, unsigned width)
 {
-    return role_style(layer, layer_rows[layer].role, stroke, width);
+    return make_role_style(layer, layer_rows[layer].role, stroke, width);
 }
 
 #endif

@@ -13,24 +13,24 @@
 #define CAMERA_MARGIN 0.045  /* the part of the width that the camera leaves free at each side of the world */
 #define MOST_NUMBERS 0.1     /* the largest part of the width for numbers at a side */
 
-int panel_width(const view *v)
+int layout_panel_width(const view *v)
 {
-    const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_of(v, false).width;
-    return view_shows(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
+    const int width = (LAYOUT_LETTERS + 2 * LAYOUT_MARGIN) * lettering_choose(v, false).width;
+    return view_shows_layer(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
 }
 
 /* The picture without the column of text. */
-static camera_window area_beside_text(const view *v)
+static camera_window find_area_beside_text(const view *v)
 {
-    const int column = panel_width(v);
+    const int column = layout_panel_width(v);
     return (camera_window){column, 0, v->width - column, v->height};
 }
 
 /* The picture without the column of text and the diagram. */
-static camera_window area_of_world(const view *v)
+static camera_window find_world_area(const view *v)
 {
-    camera_window w = area_beside_text(v);
-    const camera_window diagram = layout_diagram(v);
+    camera_window w = find_area_beside_text(v);
+    const camera_window diagram = layout_diagram_area(v);
     if (v->diagram == DIAGRAM_BESIDE && diagram.height == w.height)
         w.width -= diagram.width;
     else if (v->diagram == DIAGRAM_BESIDE)
@@ -39,15 +39,15 @@ static camera_window area_of_world(const view *v)
 }
 
 /* The pixels that a close-up takes from the longer side of the space. */
-static double closeup_strip(const camera_window *space)
+static double find_closeup_strip_size(const camera_window *space)
 {
     return floor(fmax(space->width, space->height) * CLOSEUP_PART);
 }
 
-camera_window layout_space(const scene *s)
+camera_window layout_space_area(const scene *s)
 {
-    camera_window w = area_of_world(&s->view);
-    const double strip = closeup_strip(&w);
+    camera_window w = find_world_area(&s->view);
+    const double strip = find_closeup_strip_size(&w);
     if (s->has_closeup && w.width >= w.height)
         w.width -= strip;
     else if (s->has_closeup)
@@ -55,7 +55,7 @@ camera_window layout_space(const scene *s)
     return w;
 }
 
-int layout_number_letters(const octree_box *box)
+int layout_count_number_letters(const octree_box *box)
 {
     enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 }; /* MORE: for a sign or a margin, and for the tick mark */
     double most = 0;
@@ -67,11 +67,11 @@ int layout_number_letters(const octree_box *box)
     return digits <= FEW_DIGITS ? LEAST : digits + MORE;
 }
 
-camera_window layout_camera(const scene *s, const octree_box *world)
+camera_window layout_camera_area(const scene *s, const octree_box *world)
 {
-    camera_window w = layout_space(s);
-    const int letters = layout_number_letters(s->view.fit == FIT_BOX ? &s->view.focus : world);
-    const bool numbers = view_shows(&s->view, LAYER_WORLD) && view_shows(&s->view, LAYER_TEXT);
+    camera_window w = layout_space_area(s);
+    const int letters = layout_count_number_letters(s->view.fit == FIT_BOX ? &s->view.focus : world);
+    const bool numbers = view_shows_layer(&s->view, LAYER_WORLD) && view_shows_layer(&s->view, LAYER_TEXT);
     const double room = numbers ? letters * s->text.width - CAMERA_MARGIN * w.width : 0;
     const double beside = fmax(fmin(room, w.width * MOST_NUMBERS), 0);
     w.x += beside;
@@ -79,12 +79,13 @@ camera_window layout_camera(const scene *s, const octree_box *world)
     return w;
 }
 
-camera_window layout_closeup(const view *v)
+camera_window layout_closeup_area(const view *v)
 {
-    const camera_window space = area_of_world(v);
-    const int margin = CLOSEUP_MARGIN * view_unit(v), least = CLOSEUP_LEAST * view_unit(v);
+    const camera_window space = find_world_area(v);
+    const int margin = CLOSEUP_MARGIN * view_pixels_per_unit(v), least = CLOSEUP_LEAST * view_pixels_per_unit(v);
     const bool beside = space.width >= space.height;
-    const double across = closeup_strip(&space) - 2 * margin; /* the extent of the close-up across the strip */
+    const double across =
+        find_closeup_strip_size(&space) - 2 * margin; /* the extent of the close-up across the strip */
     const double along = fmin((beside ? space.height : space.width) - 2 * margin, floor(across * CLOSEUP_RATIO));
     camera_window w = {.width = beside ? across : along, .height = beside ? along : across};
     w.x = beside ? space.x + space.width - margin - w.width : space.x + floor((space.width - w.width) / 2);
@@ -92,9 +93,9 @@ camera_window layout_closeup(const view *v)
     return v->diagram != DIAGRAM_ONLY && w.width >= least && w.height >= least ? w : (camera_window){0};
 }
 
-camera_window layout_diagram(const view *v)
+camera_window layout_diagram_area(const view *v)
 {
-    camera_window w = area_beside_text(v);
+    camera_window w = find_area_beside_text(v);
     if (v->diagram == DIAGRAM_NONE)
         return (camera_window){0};
     if (v->diagram == DIAGRAM_ONLY)
@@ -108,7 +109,7 @@ camera_window layout_diagram(const view *v)
 }
 
 /* A text with a margin, from its top left corner. */
-static void box_of_text(const scene *s, const char *text, const double corner[2], double box[4])
+static void find_text_box(const scene *s, const char *text, const double corner[2], double box[4])
 {
     const double width = (double)strlen(text) * s->text.width;
     memcpy(
@@ -127,24 +128,24 @@ static bool is_free(const text_space *t, const double box[4])
     return t->count < TEXT_SPACE_MOST;
 }
 
-text_space text_space_of(const scene *s)
+text_space text_space_make(const scene *s)
 {
     text_space t = {.count = 0};
     for (size_t i = 0; i < s->labels.count && t.count < TEXT_SPACE_MOST; i++) {
         const scene_label *label = &s->labels.items[i];
         if (!label->in_world)
-            box_of_text(s, label->text, label->at, t.taken[t.count++]);
+            find_text_box(s, label->text, label->at, t.taken[t.count++]);
     }
     return t;
 }
 
-bool text_space_take(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2])
+bool text_space_reserve_text(text_space *t, const scene *s, const char *text, const double middle[2], double corner[2])
 {
     const double width = (double)strlen(text) * s->text.width, height = s->text.height;
     const double at[2] = {floor(middle[0] - width / 2), floor(middle[1] - height / 2)};
     double box[4];
-    const camera_window w = layout_space(s);
-    box_of_text(s, text, at, box);
+    const camera_window w = layout_space_area(s);
+    find_text_box(s, text, at, box);
     if (!(box[0] >= w.x && box[1] >= w.y && box[2] <= w.x + w.width && box[3] <= w.y + w.height) || !is_free(t, box))
         return false;
     memcpy(t->taken[t->count++], box, sizeof box);
@@ -152,21 +153,21 @@ bool text_space_take(text_space *t, const scene *s, const char *text, const doub
     return true;
 }
 
-void text_space_keep_mark(text_space *t, const scene *s, const double at[3], unsigned half)
+void text_space_reserve_mark(text_space *t, const scene *s, const double at[3], unsigned half)
 {
     double pixel[2];
     const double reach = half * s->unit / 2.0;
-    if (t->count == TEXT_SPACE_MOST || !camera_pixel(&s->camera, at, pixel))
+    if (t->count == TEXT_SPACE_MOST || !camera_find_pixel(&s->camera, at, pixel))
         return;
     const double box[4] = {pixel[0] - reach, pixel[1] - reach, pixel[0] + reach, pixel[1] + reach};
     memcpy(t->taken[t->count++], box, sizeof box);
 }
 
-bool text_add_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half)
+bool text_space_add_label_beside(text_space *t, scene *s, scene_label label, const double at[3], unsigned half)
 {
     double pixel[2];
-    const camera_window w = layout_space(s);
-    if (!camera_pixel(&s->camera, at, pixel) || pixel[0] < w.x || pixel[1] < w.y || pixel[0] > w.x + w.width ||
+    const camera_window w = layout_space_area(s);
+    if (!camera_find_pixel(&s->camera, at, pixel) || pixel[0] < w.x || pixel[1] < w.y || pixel[0] > w.x + w.width ||
         pixel[1] > w.y + w.height)
         return true;
     const double aside = (half / 2.0 + 3) * s->unit + (double)strlen(label.text) * s->text.width / 2;
@@ -174,15 +175,15 @@ bool text_add_beside(text_space *t, scene *s, scene_label label, const double at
     const double ways[][2] = {{aside, 0}, {-aside, 0}, {0, -above}, {0, above}};
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
         const double middle[2] = {pixel[0] + ways[i][0], pixel[1] + ways[i][1]};
-        if (!text_space_take(t, s, label.text, middle, label.at))
+        if (!text_space_reserve_text(t, s, label.text, middle, label.at))
             continue;
-        text_add_on_ground(s, &label, ROLE_BACKGROUND);
+        scene_add_label_on_ground(s, &label, ROLE_BACKGROUND);
         return true;
     }
     return false;
 }
 
-void text_add_on_ground(scene *s, const scene_label *label, theme_role ground)
+void scene_add_label_on_ground(scene *s, const scene_label *label, theme_role ground)
 {
     const int unit = s->unit, letters = (int)strlen(label->text);
     scene_add_rectangle(s, label->id, (int[]){(int)label->at[0] - unit, (int)label->at[1] - unit},

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/* One row for each range of heights of a picture, by view_height_in_wide(). Leading grows with the face. */
+/* One row for each range of heights of a picture, by view_height_at_16_9(). Leading grows with the face. */
 static const struct lettering_row {
     int from; /* the least height of the range */
     text_face text;
@@ -19,7 +19,7 @@ static const struct lettering_row {
 /* From this height on, face 12x24 is enlarged, by one multiple for each 1080 lines. */
 enum { MULTIPLIED = 1700, LINES_A_MULTIPLE = 1080, MULTIPLE_LEADING = 4 };
 
-static lettering of_face(text_face face, int multiple, int leading)
+static lettering make_lettering(text_face face, int multiple, int leading)
 {
 #define FACE_SIZE(width, height) {width, height},
     static const int sizes[FACE_COUNT][2] = {FACE_MAP(FACE_SIZE)};
@@ -28,16 +28,16 @@ static lettering of_face(text_face face, int multiple, int leading)
     return (lettering){face, multiple, width, height, height + leading * multiple};
 }
 
-lettering lettering_of(const view *v, bool title)
+lettering lettering_choose(const view *v, bool title)
 {
-    const int height = view_height_in_wide(v);
+    const int height = view_height_at_16_9(v);
     size_t row = sizeof rows / sizeof rows[0] - 1;
     if (height >= MULTIPLIED) {
         const int multiple = (height + LINES_A_MULTIPLE / 2) / LINES_A_MULTIPLE;
-        return of_face(FACE_12X24, title ? 2 * multiple : multiple, MULTIPLE_LEADING);
+        return make_lettering(FACE_12X24, title ? 2 * multiple : multiple, MULTIPLE_LEADING);
     }
     while (height < rows[row].from)
         row--;
-    return title ? of_face(rows[row].title, rows[row].title_multiple, 0)
-                 : of_face(rows[row].text, 1, rows[row].leading);
+    return title ? make_lettering(rows[row].title, rows[row].title_multiple, 0)
+                 : make_lettering(rows[row].text, 1, rows[row].leading);
 }

@@ -25,6 +25,6 @@ typedef struct lettering {
 } lettering;
 
 /* The letters of text, or of titles, which are about twice as large. */
-lettering lettering_of(const view *v, bool title);
+lettering lettering_choose(const view *v, bool title);
 
 #endif

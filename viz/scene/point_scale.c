@@ -58,26 +58,26 @@ typedef struct gathering {
     bool out_of_memory;
 } gathering;
 
-static double least(double a, double b)
+static double minimum(double a, double b)
 {
     return a < b ? a : b;
 }
 
-static double most(double a, double b)
+static double maximum(double a, double b)
 {
     return a > b ? a : b;
 }
 
 /* The spacing of points in a box: a grid of k x k points has k - 1 spaces along each side. The shortest of the three
  * sides is taken for the thickness of the surface, and ignored. 0 for fewer than FEWEST points. */
-static double spacing_of(const double low[3], const double high[3], size_t count)
+static double find_spacing(const double low[3], const double high[3], size_t count)
 {
     const double a = high[0] - low[0], b = high[1] - low[1], c = high[2] - low[2];
-    const double longest = most(a, most(b, c)), middle = most(least(a, b), least(most(a, b), c));
+    const double longest = maximum(a, maximum(b, c)), middle = maximum(minimum(a, b), minimum(maximum(a, b), c));
     return count >= FEWEST ? sqrt(longest) * sqrt(middle) / (sqrt((double)count) - 1) : 0;
 }
 
-static uint64_t hash_of(const octree_point *point)
+static uint64_t hash_point(const octree_point *point)
 {
     uint64_t hash = octree_digest_word(OCTREE_DIGEST_START, point->id);
     for (int i = 0; i < 3; i++)
@@ -86,7 +86,7 @@ static uint64_t hash_of(const octree_point *point)
 }
 
 /* Drop samples until there is room again. */
-static void thin_out(samples *s)
+static void discard_samples(samples *s)
 {
     while (s->count > MOST_SAMPLES) {
         size_t kept = 0;
@@ -101,7 +101,7 @@ static void thin_out(samples *s)
 static void add_sample(gathering *g, const octree_point *point)
 {
     samples *s = &g->samples;
-    const uint64_t hash = hash_of(point);
+    const uint64_t hash = hash_point(point);
     if (hash & s->mask)
         return;
     if (!ARRAY_GROW(s, 1)) {
@@ -111,7 +111,7 @@ static void add_sample(gathering *g, const octree_point *point)
     const point_value value = point_values_get(g->values, point->id);
     const double *at = point->position, intensity = value.has[POINT_INTENSITY] ? (double)value.intensity : NAN;
     s->items[s->count++] = (sample){hash, {at[0], at[1], at[2], intensity}};
-    thin_out(s);
+    discard_samples(s);
 }
 
 static void add_leaf(gathering *g, const octree_node *leaf)
@@ -125,11 +125,11 @@ static void add_leaf(gathering *g, const octree_node *leaf)
             continue;
         for (int axis = 0; axis < 3; axis++) {
             const double at = point->position[axis];
-            low[axis] = count ? least(low[axis], at) : at;
-            high[axis] = count ? most(high[axis], at) : at;
+            low[axis] = count ? minimum(low[axis], at) : at;
+            high[axis] = count ? maximum(high[axis], at) : at;
         }
-        g->ids[0] = g->points ? least(g->ids[0], id) : id;
-        g->ids[1] = g->points ? most(g->ids[1], id) : id;
+        g->ids[0] = g->points ? minimum(g->ids[0], id) : id;
+        g->ids[1] = g->points ? maximum(g->ids[1], id) : id;
         add_sample(g, point);
         count++;
         g->points++;
@@ -137,7 +137,7 @@ static void add_leaf(gathering *g, const octree_node *leaf)
     if (count == 0)
         return;
     if (array_grow(&g->leaves, g->count + 1, &g->room, sizeof *g->leaves))
-        g->leaves[g->count++] = (leaf_spacing){spacing_of(low, high, count), count};
+        g->leaves[g->count++] = (leaf_spacing){find_spacing(low, high, count), count};
     else
         g->out_of_memory = true;
 }
@@ -145,7 +145,7 @@ static void add_leaf(gathering *g, const octree_node *leaf)
 static octree_walk_order gather_leaf(const octree_node *node, void *context)
 {
     gathering *g = context;
-    if (!filter_enters(g->filter, &g->world, node))
+    if (!filter_shows_subtree(g->filter, &g->world, node))
         return OCTREE_WALK_SKIP;
     if (node->leaf && filter_shows_points_of(g->filter, &g->world, node))
         add_leaf(g, node);
@@ -210,7 +210,7 @@ static double select_value(weighted *values, size_t count, size_t rank)
 }
 
 /* The percentiles that end the range of one of the four values. `room` has space for all samples. */
-static void measure_ends(const samples *s, int which, weighted *room, double *low, double *high)
+static void find_percentiles(const samples *s, int which, weighted *room, double *low, double *high)
 {
     size_t count = 0;
     for (size_t i = 0; i < s->count; i++)
@@ -222,7 +222,7 @@ static void measure_ends(const samples *s, int which, weighted *room, double *lo
     *high = select_value(room, count, count - 1 - count / OUTLIERS);
 }
 
-static double measure_spacing(const gathering *g, weighted *room)
+static double find_typical_spacing(const gathering *g, weighted *room)
 {
     for (size_t i = 0; i < g->count; i++)
         room[i] = (weighted){g->leaves[i].spacing, g->leaves[i].count};
@@ -234,18 +234,18 @@ static point_scale measure_scale(const gathering *g, weighted *room)
 {
     point_scale s = {.ids = {g->ids[0], g->ids[1]}};
     for (int axis = 0; axis < 3; axis++)
-        measure_ends(&g->samples, axis, room, &s.low[axis], &s.high[axis]);
-    measure_ends(&g->samples, 3, room, &s.intensities[0], &s.intensities[1]);
-    s.spacing = measure_spacing(g, room);
+        find_percentiles(&g->samples, axis, room, &s.low[axis], &s.high[axis]);
+    find_percentiles(&g->samples, 3, room, &s.intensities[0], &s.intensities[1]);
+    s.spacing = find_typical_spacing(g, room);
     return s;
 }
 
-double point_scale_pixels(const camera *c, double length)
+double point_scale_length_in_pixels(const camera *c, double length)
 {
     return length * c->scale / c->size * 2 * c->zoom;
 }
 
-bool point_scale_fit(view *v, const octree *tree, const point_values *values)
+bool point_scale_compute(view *v, const octree *tree, const point_values *values)
 {
     if (!view_paints_points(v) || v->point_scale.given)
         return true;
@@ -265,7 +265,7 @@ bool point_scale_fit(view *v, const octree *tree, const point_values *values)
     return measured;
 }
 
-const char *point_scale_lacks(const view *v, const point_values *values)
+const char *point_scale_missing_value(const view *v, const point_values *values)
 {
     static const struct {
         view_point_color color;

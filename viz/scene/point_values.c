@@ -8,7 +8,7 @@
 
 /* ---- Finding ------------------------------------------------------------------------------------------------ */
 
-const point_value *point_values_find(const point_values *v, uint64_t id)
+const point_value *point_values_find_row(const point_values *v, uint64_t id)
 {
     size_t first = 0, end = v ? v->count : 0;
     if (end > 0 && !v->ids)
@@ -25,11 +25,11 @@ const point_value *point_values_find(const point_values *v, uint64_t id)
 
 point_value point_values_get(const point_values *v, uint64_t id)
 {
-    const point_value *found = point_values_find(v, id);
+    const point_value *found = point_values_find_row(v, id);
     return found ? *found : (point_value){0};
 }
 
-static unsigned bits_of(const point_value *value)
+static unsigned kind_bits(const point_value *value)
 {
     unsigned bits = 0;
     for (int kind = 0; kind < POINT_VALUE_KINDS; kind++)
@@ -37,32 +37,32 @@ static unsigned bits_of(const point_value *value)
     return bits;
 }
 
-bool point_value_is_set(const point_value *value)
+bool point_value_has_any(const point_value *value)
 {
-    return bits_of(value) != 0;
+    return kind_bits(value) != 0;
 }
 
-static_assert(sizeof(point_value) == 12, "point_value_same() compares bytes: no padding");
+static_assert(sizeof(point_value) == 12, "point_value_equals() compares bytes: no padding");
 
-bool point_value_same(const point_value *a, const point_value *b)
+bool point_value_equals(const point_value *a, const point_value *b)
 {
     return memcmp(a, b, sizeof *a) == 0;
 }
 
 /* ---- Building ----------------------------------------------------------------------------------------------- */
 
-bool point_values_append(point_values *v, const point_value *value)
+bool point_values_append_row(point_values *v, const point_value *value)
 {
     if (!array_grow(&v->rows, v->count + 1, &v->room, sizeof *v->rows))
         return false;
     v->rows[v->count++] = *value;
-    v->kinds |= bits_of(value);
+    v->kinds |= kind_bits(value);
     return true;
 }
 
-bool point_values_open_row(point_values *v, size_t at)
+bool point_values_insert_empty_row(point_values *v, size_t at)
 {
-    if (!point_values_append(v, &(point_value){0}))
+    if (!point_values_append_row(v, &(point_value){0}))
         return false;
     memmove(v->rows + at + 1, v->rows + at, (v->count - 1 - at) * sizeof *v->rows);
     v->rows[at] = (point_value){0};
@@ -70,7 +70,7 @@ bool point_values_open_row(point_values *v, size_t at)
 }
 
 /* Build a table from entries in ascending order of their ids. Few gaps between ids become rows without values. */
-static bool build(point_values *v, const point_entry *entries, size_t count)
+static bool build_table(point_values *v, const point_entry *entries, size_t count)
 {
     const uint64_t span = entries[count - 1].id - entries[0].id;
     const bool dense = span < 2 * (uint64_t)count + 64;
@@ -78,9 +78,9 @@ static bool build(point_values *v, const point_entry *entries, size_t count)
     v->first = entries[0].id;
     for (size_t i = 0; ok && i < count; i++) {
         while (ok && dense && v->count < entries[i].id - v->first)
-            ok = point_values_append(v, &(point_value){0});
+            ok = point_values_append_row(v, &(point_value){0});
         ok = ok && (dense || array_grow(&v->ids, v->count + 1, &v->id_room, sizeof *v->ids)) &&
-             point_values_append(v, &entries[i].value);
+             point_values_append_row(v, &entries[i].value);
         if (ok && !dense)
             v->ids[i] = entries[i].id;
     }
@@ -88,7 +88,7 @@ static bool build(point_values *v, const point_entry *entries, size_t count)
 }
 
 /* True if the entries have the next ids after the last row, as in a stream of points. */
-static bool are_next(const point_values *v, const point_entry *entries, size_t count)
+static bool follow_last_row(const point_values *v, const point_entry *entries, size_t count)
 {
     bool next = v->count > 0 && !v->ids;
     for (size_t i = 0; next && i < count; i++)
@@ -96,31 +96,31 @@ static bool are_next(const point_values *v, const point_entry *entries, size_t c
     return next;
 }
 
-static bool append_all(point_values *v, const point_entry *entries, size_t count)
+static bool append_entries(point_values *v, const point_entry *entries, size_t count)
 {
     if (!array_grow(&v->rows, v->count + count, &v->room, sizeof *v->rows))
         return false;
     for (size_t i = 0; i < count; i++)
-        point_values_append(v, &entries[i].value);
+        point_values_append_row(v, &entries[i].value);
     return true;
 }
 
-bool point_values_add(point_values *v, const point_entry *entries, size_t count)
+bool point_values_add_entries(point_values *v, const point_entry *entries, size_t count)
 {
     point_values made = {0};
     size_t all = v->count + count;
-    if (count == 0 || are_next(v, entries, count))
-        return append_all(v, entries, count);
+    if (count == 0 || follow_last_row(v, entries, count))
+        return append_entries(v, entries, count);
     point_entry *sorted = all <= SIZE_MAX / sizeof *sorted ? malloc(all * sizeof *sorted) : NULL;
     if (!sorted)
         return false;
     memcpy(sorted, entries, count * sizeof *sorted);
     all = count;
     for (size_t i = 0; i < v->count; i++)
-        if (point_value_is_set(&v->rows[i]))
+        if (point_value_has_any(&v->rows[i]))
             sorted[all++] = (point_entry){v->ids ? v->ids[i] : v->first + i, v->rows[i]};
     qsort(sorted, all, sizeof *sorted, compare_uint64);
-    const bool done = build(&made, sorted, all);
+    const bool done = build_table(&made, sorted, all);
     free(sorted);
     point_values_release(done ? v : &made);
     if (done)

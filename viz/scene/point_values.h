@@ -37,7 +37,7 @@ typedef struct point_entry {
 } point_entry;
 
 /* The row of an id, or null. `v` may be null. Cost: O(1) if ids are dense, else O(log n). */
-const point_value *point_values_find(const point_values *v, uint64_t id);
+const point_value *point_values_find_row(const point_values *v, uint64_t id);
 
 /* All values of an id; `v` may be null. */
 point_value point_values_get(const point_values *v, uint64_t id);
@@ -49,19 +49,19 @@ static inline unsigned point_values_kinds(const point_values *v)
 }
 
 /* True if a point has any value. */
-bool point_value_is_set(const point_value *value);
-bool point_value_same(const point_value *a, const point_value *b);
+bool point_value_has_any(const point_value *value);
+bool point_value_equals(const point_value *a, const point_value *b);
 
 /* Append a row, which may have no value. False when out of memory: the rows are then unchanged. */
-bool point_values_append(point_values *v, const point_value *value);
+bool point_values_append_row(point_values *v, const point_value *value);
 
 /* Insert a row without values before row `at`, which is at most `count`; ids must be dense. False when out of memory.
  */
-bool point_values_open_row(point_values *v, size_t at);
+bool point_values_insert_empty_row(point_values *v, size_t at);
 
 /* Add entries, each with an id that has no row yet, in any order. False when out of memory: *v is then unchanged.
  * Cost: O(n log n) for n entries and rows together; O(entries) if their ids follow the last row. */
-bool point_values_add(point_values *v, const point_entry *entries, size_t count);
+bool point_values_add_entries(point_values *v, const point_entry *entries, size_t count);
 
 /* Free all memory and empty the table. */
 void point_values_release(point_values *v);

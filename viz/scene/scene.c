@@ -48,7 +48,7 @@ void scene_release(scene *s)
             (s)->out_of_memory = true;                                                                                 \
     } while (0)
 
-static bool all_finite(const double *values, size_t count)
+static bool are_all_finite(const double *values, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(values[i]))
@@ -57,9 +57,9 @@ static bool all_finite(const double *values, size_t count)
 }
 
 /* True if an element may be added: its layer is shown and its geometry finite. Counts elements that are not finite. */
-static bool is_accepted(scene *s, scene_style style, bool finite)
+static bool accept_element(scene *s, scene_style style, bool finite)
 {
-    if (!view_shows(&s->view, style.layer))
+    if (!view_shows_layer(&s->view, style.layer))
         return false;
     s->refused += !finite;
     return finite;
@@ -67,19 +67,19 @@ static bool is_accepted(scene *s, scene_style style, bool finite)
 
 void scene_add_box(scene *s, scene_box box)
 {
-    if (is_accepted(s, box.style, all_finite(box.box.min, 3) && all_finite(box.box.max, 3)))
+    if (accept_element(s, box.style, are_all_finite(box.box.min, 3) && are_all_finite(box.box.max, 3)))
         APPEND(s, s->boxes, box);
 }
 
 void scene_add_segment(scene *s, scene_segment segment)
 {
-    if (is_accepted(s, segment.style, all_finite(segment.ends[0], 3) && all_finite(segment.ends[1], 3)))
+    if (accept_element(s, segment.style, are_all_finite(segment.ends[0], 3) && are_all_finite(segment.ends[1], 3)))
         APPEND(s, s->segments, segment);
 }
 
 void scene_add_marker(scene *s, scene_marker marker)
 {
-    if (is_accepted(s, marker.style, all_finite(marker.at, 3)))
+    if (accept_element(s, marker.style, are_all_finite(marker.at, 3)))
         APPEND(s, s->markers, marker);
 }
 
@@ -125,11 +125,11 @@ static bool grow_markers(scene *s, size_t count)
  */
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style)
 {
-    if (!view_shows(&s->view, style.layer) || !grow_markers(s, count))
+    if (!view_shows_layer(&s->view, style.layer) || !grow_markers(s, count))
         return;
     for (size_t i = 0; i < count; i++) {
         const double *at = points[i].position;
-        const bool finite = all_finite(at, 3);
+        const bool finite = are_all_finite(at, 3);
         s->markers.items[s->markers.count] =
             (scene_marker){.id = points[i].id, .at = {at[0], at[1], at[2]}, .style = style, .shape = (uint8_t)shape};
         s->markers.count += finite;
@@ -158,20 +158,20 @@ void scene_add_rectangle(scene *s, uint64_t id, const int at[2], const int size[
 void scene_set_view(scene *s, const view *v)
 {
     s->view = *v;
-    s->unit = view_unit(v);
-    s->text = lettering_of(v, false);
-    s->title = lettering_of(v, true);
+    s->unit = view_pixels_per_unit(v);
+    s->text = lettering_choose(v, false);
+    s->title = lettering_choose(v, true);
 }
 
 void scene_add_label(scene *s, scene_label label)
 {
-    if (is_accepted(s, label.style, all_finite(label.at, 3)))
+    if (accept_element(s, label.style, are_all_finite(label.at, 3)))
         APPEND(s, s->labels, label);
 }
 
 void scene_add_panel(scene *s, scene_panel panel)
 {
-    if (is_accepted(s, panel.style, true))
+    if (accept_element(s, panel.style, true))
         APPEND(s, s->panels, panel);
 }
 
@@ -182,40 +182,40 @@ const char *scene_kind_name(scene_kind kind)
     return kind_names[kind];
 }
 
-static size_t count_of(const scene *s, scene_kind kind)
+static size_t count_elements_of_kind(const scene *s, scene_kind kind)
 {
     const size_t counts[SCENE_KINDS] = {s->boxes.count, s->segments.count, s->markers.count, s->panels.count,
                                         s->labels.count};
     return counts[kind];
 }
 
-size_t scene_count(const scene *s)
+size_t scene_count_elements(const scene *s)
 {
     return s->boxes.count + s->segments.count + s->markers.count + s->panels.count + s->labels.count;
 }
 
 scene_element scene_element_at(const scene *s, uint32_t number)
 {
-    scene_element element = {SCENE_BOX, number - 1, s->has_closeup && number > scene_count(s)};
-    element.index -= element.in_closeup ? scene_count(s) : 0;
-    s = scene_with(s, element);
-    while (element.kind < SCENE_LABEL && element.index >= count_of(s, element.kind))
-        element.index -= count_of(s, element.kind++);
+    scene_element element = {SCENE_BOX, number - 1, s->has_closeup && number > scene_count_elements(s)};
+    element.index -= element.in_closeup ? scene_count_elements(s) : 0;
+    s = scene_containing(s, element);
+    while (element.kind < SCENE_LABEL && element.index >= count_elements_of_kind(s, element.kind))
+        element.index -= count_elements_of_kind(s, element.kind++);
     return element;
 }
 
-uint32_t scene_number_of(const scene *s, scene_element element)
+uint32_t scene_element_number(const scene *s, scene_element element)
 {
-    size_t number = element.index + 1 + (element.in_closeup ? scene_count(s) : 0);
-    s = scene_with(s, element);
+    size_t number = element.index + 1 + (element.in_closeup ? scene_count_elements(s) : 0);
+    s = scene_containing(s, element);
     for (scene_kind kind = SCENE_BOX; kind < element.kind; kind++)
-        number += count_of(s, kind);
+        number += count_elements_of_kind(s, kind);
     return (uint32_t)number;
 }
 
-scene_head scene_head_of(const scene *s, scene_element element)
+scene_head scene_element_head(const scene *s, scene_element element)
 {
-    s = scene_with(s, element);
+    s = scene_containing(s, element);
     const void *const arrays[SCENE_KINDS] = {s->boxes.items, s->segments.items, s->markers.items, s->panels.items,
                                              s->labels.items};
     static const size_t sizes[SCENE_KINDS] = {sizeof(scene_box), sizeof(scene_segment), sizeof(scene_marker),

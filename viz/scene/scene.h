@@ -23,7 +23,7 @@ typedef enum scene_stroke {
     STROKE_ARROW, /* solid, with a head at its second end where it is long enough to be seen */
 } scene_stroke;
 
-/* How an element appears. Width is in half units of the frame (view_unit): at 1280 x 720 a pixel. */
+/* How an element appears. Width is in half units of the frame (view_pixels_per_unit): at 1280 x 720 a pixel. */
 typedef struct scene_style {
     uint8_t layer;  /* view_layer: layer.h */
     uint8_t role;   /* theme_role */
@@ -118,13 +118,13 @@ typedef struct scene_tally {
 enum { LEFT_OUT_NODES = 1, LEFT_OUT_POINTS = 2, LEFT_OUT_ARROWS = 4 };
 
 /* The kinds that the view's budget leaves out, and those that its lod leaves out. */
-static inline unsigned scene_left_out_beyond(const scene_tally *tally)
+static inline unsigned scene_count_left_out_beyond(const scene_tally *tally)
 {
     return (tally->beyond ? LEFT_OUT_NODES : 0u) | (tally->thinned ? LEFT_OUT_POINTS : 0u) |
            (tally->arrows.thinned ? LEFT_OUT_ARROWS : 0u);
 }
 
-static inline unsigned scene_left_out_small(const scene_tally *tally)
+static inline unsigned scene_count_left_out_small(const scene_tally *tally)
 {
     return (tally->small || tally->small_marked ? LEFT_OUT_NODES : 0u) | (tally->arrows.small ? LEFT_OUT_ARROWS : 0u);
 }
@@ -133,7 +133,7 @@ typedef struct scene {
     view view;
     camera camera;
     int unit;              /* whole pixels a unit of the widths of lines and marks */
-    lettering text, title; /* of labels; see scene_lettering() */
+    lettering text, title; /* of labels; see scene_label_lettering() */
     double spacing;        /* between the points that it shows, where they are painted, in world units; 0: not known */
     ARRAY(scene_box) boxes;
     ARRAY(scene_segment) segments;
@@ -151,7 +151,7 @@ typedef struct scene {
 } scene;
 
 /* The letters in which a label is drawn. */
-static inline const lettering *scene_lettering(const scene *s, const scene_label *label)
+static inline const lettering *scene_label_lettering(const scene *s, const scene_label *label)
 {
     return label->style.width > 1 ? &s->title : &s->text;
 }
@@ -218,14 +218,14 @@ const char *scene_kind_name(scene_kind kind);
 
 /* Elements have numbers from 1 on: kind by kind, first those of the scene, then those of its close-up. 0 is the
  * background. */
-size_t scene_count(const scene *s); /* without those of the close-up */
+size_t scene_count_elements(const scene *s); /* without those of the close-up */
 scene_element scene_element_at(const scene *s, uint32_t number);
-uint32_t scene_number_of(const scene *s, scene_element element);
+uint32_t scene_element_number(const scene *s, scene_element element);
 
-scene_head scene_head_of(const scene *s, scene_element element);
+scene_head scene_element_head(const scene *s, scene_element element);
 
 /* The scene that holds an element: `s` or its close-up. */
-static inline const scene *scene_with(const scene *s, scene_element element)
+static inline const scene *scene_containing(const scene *s, scene_element element)
 {
     return element.in_closeup ? s->closeup : s;
 }

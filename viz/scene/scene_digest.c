@@ -14,18 +14,18 @@ static uint64_t digest_doubles(uint64_t digest, const double *values, size_t cou
     return digest;
 }
 
-static uint64_t hash_name(const char *what, const char *name)
+static uint64_t hash_element_name(const char *what, const char *name)
 {
     return octree_digest_bytes(octree_digest_bytes(OCTREE_DIGEST_START, what, strlen(what)), name, strlen(name));
 }
 
-digest_names digest_names_make(void)
+digest_names digest_hash_names(void)
 {
     digest_names n;
     for (int i = 0; i < LAYER_ALL; i++)
-        n.layers[i] = hash_name("layer ", layer_rows[i].name);
+        n.layers[i] = hash_element_name("layer ", layer_rows[i].name);
     for (int i = 0; i <= ROLE_OWN; i++)
-        n.roles[i] = hash_name("role ", theme_role_name((theme_role)i));
+        n.roles[i] = hash_element_name("role ", theme_role_name((theme_role)i));
     return n;
 }
 
@@ -37,12 +37,12 @@ static uint64_t digest_style(const digest_names *n, uint64_t id, scene_style sty
 }
 
 /* The colouring and shade of painted points; nothing if points are not painted. */
-static uint64_t digest_painting(const scene *s, uint64_t digest)
+static uint64_t digest_point_painting(const scene *s, uint64_t digest)
 {
     if (!view_paints_points(&s->view))
         return digest;
-    digest = octree_digest_word(digest, hash_name("color ", view_point_color_name(s->view.point_color)));
-    digest = octree_digest_word(digest, hash_name("shade ", view_shade_name(s->view.shade)));
+    digest = octree_digest_word(digest, hash_element_name("color ", view_point_color_name(s->view.point_color)));
+    digest = octree_digest_word(digest, hash_element_name("shade ", view_shade_name(s->view.shade)));
     return octree_digest_double(digest, s->spacing);
 }
 
@@ -67,7 +67,7 @@ static uint64_t digest_view(const scene *s)
     digest = digest_doubles(digest, c->forward, 3);
     digest = digest_doubles(digest, c->eye, 3);
     digest = digest_doubles(digest, (double[]){c->perspective, c->zoom, c->near, c->near_depth, c->far_depth}, 5);
-    return digest_painting(s, digest_doubles(digest, c->middle, 2));
+    return digest_point_painting(s, digest_doubles(digest, c->middle, 2));
 }
 
 uint64_t digest_box(const digest_names *n, const scene_box *box)
@@ -83,14 +83,14 @@ static uint64_t digest_segment(const digest_names *n, const scene_segment *segme
 }
 
 /* A colour as one number: 0 for elements without a colour of their own. */
-static unsigned pack_color(theme_color color)
+static unsigned pack_rgb(theme_color color)
 {
     return (unsigned)color.r << 16 | (unsigned)color.g << 8 | color.b;
 }
 
 uint64_t digest_marker(const digest_names *n, const scene_marker *marker)
 {
-    const unsigned extra = marker->shape | pack_color(marker->color) << 8;
+    const unsigned extra = marker->shape | pack_rgb(marker->color) << 8;
     return digest_doubles(digest_style(n, marker->id, marker->style, extra), marker->at, 3);
 }
 
@@ -103,7 +103,7 @@ static uint64_t digest_label(const digest_names *n, const scene_label *label)
 
 static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 {
-    uint64_t digest = digest_style(n, panel->id, panel->style, pack_color(panel->color));
+    uint64_t digest = digest_style(n, panel->id, panel->style, pack_rgb(panel->color));
     digest = octree_digest_word(digest, (uint64_t)(uint32_t)panel->x << 32 | (uint32_t)panel->y);
     return octree_digest_word(digest, (uint64_t)(uint32_t)panel->width << 32 | (uint32_t)panel->height);
 }
@@ -135,7 +135,7 @@ static uint64_t digest_panel(const digest_names *n, const scene_panel *panel)
 
 uint64_t scene_digest(const scene *s)
 {
-    const digest_names names = digest_names_make();
+    const digest_names names = digest_hash_names();
     const digest_runs none = {.count = 0}, boxes = s->kept ? s->kept->box_runs : none,
                       markers = s->kept ? s->kept->marker_runs : none;
     uint64_t digest = digest_view(s);

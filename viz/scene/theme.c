@@ -15,28 +15,29 @@ const char *theme_role_name(theme_role role)
 /* The weight of the role's own colour in each shade, in 256ths; the rest is background. */
 static const int strength[THEME_SHADES] = {256, 236, 216, 196, 176, 156, 136, 116};
 
-static uint8_t mix(uint8_t color, uint8_t ground, int part)
+static uint8_t mix_channel(uint8_t color, uint8_t ground, int part)
 {
     return (uint8_t)((color * part + ground * (256 - part)) / 256);
 }
 
-theme_color theme_fade(theme_color full, int parts)
+theme_color theme_fade_color(theme_color full, int parts)
 {
     const theme_color ground = roles[ROLE_BACKGROUND];
-    return (theme_color){mix(full.r, ground.r, parts), mix(full.g, ground.g, parts), mix(full.b, ground.b, parts)};
+    return (theme_color){mix_channel(full.r, ground.r, parts), mix_channel(full.g, ground.g, parts),
+                         mix_channel(full.b, ground.b, parts)};
 }
 
-theme_color theme_shade(theme_color full, unsigned shade)
+theme_color theme_shade_color(theme_color full, unsigned shade)
 {
-    return theme_fade(full, strength[shade]);
+    return theme_fade_color(full, strength[shade]);
 }
 
 theme_color theme_color_at(uint8_t index)
 {
     const unsigned kind = (unsigned)(index - THEME_FIRST_KIND) / THEME_KIND_SHADES;
     if (index < THEME_FIRST_KIND)
-        return theme_shade(roles[index / THEME_SHADES], index % THEME_SHADES);
-    return index < THEME_COLORS ? theme_shade(roles[ROLE_KIND + kind], index % THEME_KIND_SHADES * 2)
+        return theme_shade_color(roles[index / THEME_SHADES], index % THEME_SHADES);
+    return index < THEME_COLORS ? theme_shade_color(roles[ROLE_KIND + kind], index % THEME_KIND_SHADES * 2)
                                 : roles[ROLE_BACKGROUND];
 }
 
@@ -50,7 +51,7 @@ theme_role theme_node_kind_role(unsigned kind)
     return (theme_role)(ROLE_KIND + (kind < THEME_NODE_KINDS ? kind : THEME_NODE_KINDS - 1));
 }
 
-unsigned theme_step(uint64_t amount, unsigned shift)
+unsigned theme_doubling_step(uint64_t amount, unsigned shift)
 {
     unsigned step = 0;
     for (; amount > 0 && step < THEME_NODE_DEPTHS - 1; amount >>= shift)
@@ -58,7 +59,7 @@ unsigned theme_step(uint64_t amount, unsigned shift)
     return step;
 }
 
-unsigned theme_part_step(uint64_t amount, uint64_t whole)
+unsigned theme_fraction_step(uint64_t amount, uint64_t whole)
 {
     const unsigned last = THEME_NODE_DEPTHS - 1;
     return amount >= whole ? last : (unsigned)((amount * last + whole - 1) / whole);
@@ -76,12 +77,12 @@ static const theme_color ramp[RAMP_STEPS] = {
     {204, 225, 38}, {221, 227, 38}, {237, 229, 37}, {253, 231, 37},
 };
 
-static uint8_t interpolate(uint8_t from, uint8_t to, int part)
+static uint8_t interpolate_channel(uint8_t from, uint8_t to, int part)
 {
     return (uint8_t)(from + ((to - from) * part + 128) / 256);
 }
 
-theme_color theme_ramp(double part)
+theme_color theme_ramp_color(double part)
 {
     if (!(part > 0))
         return ramp[0];
@@ -89,10 +90,11 @@ theme_color theme_ramp(double part)
         return ramp[RAMP_STEPS - 1];
     const int at = (int)(part * ((RAMP_STEPS - 1) * 256)), step = at / 256, rest = at % 256;
     const theme_color a = ramp[step], b = ramp[step + 1];
-    return (theme_color){interpolate(a.r, b.r, rest), interpolate(a.g, b.g, rest), interpolate(a.b, b.b, rest)};
+    return (theme_color){interpolate_channel(a.r, b.r, rest), interpolate_channel(a.g, b.g, rest),
+                         interpolate_channel(a.b, b.b, rest)};
 }
 
-theme_color theme_kind(unsigned kind)
+theme_color theme_kind_color(unsigned kind)
 {
     static const theme_color kinds[THEME_KINDS] = {{95, 100, 110}, {230, 159, 0},   {0, 158, 115},  {240, 228, 66},
                                                    {0, 114, 178},  {220, 130, 190}, {86, 180, 233}, {236, 236, 236}};

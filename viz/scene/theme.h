@@ -74,7 +74,7 @@ typedef struct theme_color {
 const char *theme_role_name(theme_role role);
 
 /* A shade of a colour. */
-theme_color theme_shade(theme_color full, unsigned shade);
+theme_color theme_shade_color(theme_color full, unsigned shade);
 
 /* The colour of an index; the background beyond the last role. */
 theme_color theme_color_at(uint8_t index);
@@ -84,7 +84,7 @@ theme_color theme_color_at(uint8_t index);
 #define THEME_FIRST_KIND (ROLE_KIND * THEME_SHADES)
 #define THEME_COLORS (THEME_FIRST_KIND + (ROLE_COUNT - ROLE_KIND) * THEME_KIND_SHADES)
 
-static inline uint8_t theme_index(unsigned role, unsigned shade)
+static inline uint8_t theme_color_index(unsigned role, unsigned shade)
 {
     return (uint8_t)(role < ROLE_KIND ? role * THEME_SHADES + shade
                                       : THEME_FIRST_KIND + (role - ROLE_KIND) * THEME_KIND_SHADES + shade / 2);
@@ -95,18 +95,18 @@ static inline uint8_t theme_index(unsigned role, unsigned shade)
 #define THEME_OWN THEME_COLORS
 
 /* A colour mixed with the background: 256 parts are the colour itself, 0 the background. */
-theme_color theme_fade(theme_color full, int parts);
+theme_color theme_fade_color(theme_color full, int parts);
 
 /* The colour of an amount, which is clamped to 0 to 1: viridis (van der Walt and Smith 2015) without its darkest sixth,
  * which would be invisible on the background. Equal steps look equal, and lightness grows. */
-theme_color theme_ramp(double part);
+theme_color theme_ramp_color(double part);
 
 /* The number of points on a pixel from which on density has one colour: a power of two. */
 #define THEME_MOST_DENSITY 64
 
 /* Colours that differ for every kind of vision: those of Okabe and Ito without their red, and two greys. */
 #define THEME_KINDS 8
-theme_color theme_kind(unsigned kind);
+theme_color theme_kind_color(unsigned kind);
 
 /* The colour of a node by its depth, or by any other step of the same ramp. */
 theme_role theme_node_role(unsigned depth);
@@ -116,13 +116,13 @@ theme_role theme_node_kind_role(unsigned kind);
 
 /* The step of the ramp for an amount: each step begins at 2^shift times the one before. With a shift of 1 the steps are
  * 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
-unsigned theme_step(uint64_t amount, unsigned shift);
+unsigned theme_doubling_step(uint64_t amount, unsigned shift);
 
 /* The step of the ramp for a part of a whole: only 0 has the first step; the other steps divide the whole into equal
  * parts. More than the whole has the last step. `whole` is below 2^60. */
-unsigned theme_part_step(uint64_t amount, uint64_t whole);
+unsigned theme_fraction_step(uint64_t amount, uint64_t whole);
 
-/* The amount at which the last step of theme_step() begins, with a shift of 1. */
+/* The amount at which the last step of theme_doubling_step() begins, with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
 /* The colour of nodes under COLORING_PLAIN. */

@@ -4,15 +4,15 @@
 
 #include <stddef.h>
 
-int view_height_in_wide(const view *v)
+int view_height_at_16_9(const view *v)
 {
     const int wide = v->width / 16 * 9;
     return v->height < wide ? v->height : wide;
 }
 
-int view_unit(const view *v)
+int view_pixels_per_unit(const view *v)
 {
-    const int height = view_height_in_wide(v);
+    const int height = view_height_at_16_9(v);
     return height < 640 ? 1 : (height + 180) / 360;
 }
 

@@ -79,7 +79,7 @@ typedef struct point_scale {
 /* The box that the camera frames. */
 typedef enum view_fit {
     FIT_WORLD,
-    FIT_POINTS, /* around the points shown at tick 0; camera_fit() replaces it by FIT_BOX */
+    FIT_POINTS, /* around the points shown at tick 0; camera_fit_points() replaces it by FIT_BOX */
     FIT_BOX,    /* view.focus, the result of FIT_POINTS */
 } view_fit;
 
@@ -121,11 +121,11 @@ typedef struct view {
 #define VIEW_MAX_SIDE 16384
 
 /* The height of a picture, at most that of a 16:9 picture of its width. Sizes of lines and letters follow from it. */
-int view_height_in_wide(const view *v);
+int view_height_at_16_9(const view *v);
 
-/* The unit of the widths of lines and marks, in whole pixels so that edges stay sharp: 1 if view_height_in_wide() is
+/* The unit of the widths of lines and marks, in whole pixels so that edges stay sharp: 1 if view_height_at_16_9() is
  * below 640, 2 from 640 on, 6 at 2160. */
-int view_unit(const view *v);
+int view_pixels_per_unit(const view *v);
 
 /* True if points are painted one by one in RGB colours, instead of as markers in colours of the theme. */
 static inline bool view_paints_points(const view *v)
@@ -134,7 +134,7 @@ static inline bool view_paints_points(const view *v)
 }
 
 /* Samples for each pixel on each axis. */
-static inline int view_samples(const view *v)
+static inline int view_samples_per_side(const view *v)
 {
     return v->aa > 1 ? v->aa : 1;
 }
@@ -142,7 +142,7 @@ static inline int view_samples(const view *v)
 /* True if the frames are RGB, because they need colours that the table of the theme lacks. */
 static inline bool view_is_rgb(const view *v)
 {
-    return view_samples(v) > 1 || view_paints_points(v);
+    return view_samples_per_side(v) > 1 || view_paints_points(v);
 }
 
 /* The name or the description of the n-th value of an enumeration; null beyond the last. */

@@ -31,7 +31,7 @@ bool has_swatch(const scene *s, unsigned role)
 
 void assert_inside_column(const scene *s)
 {
-    const int width = panel_width(&s->view);
+    const int width = layout_panel_width(&s->view);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
         if (label->style.layer != LAYER_TEXT)

@@ -116,7 +116,7 @@ void change_pixel_of_frame(const char *folder, uint64_t tick, size_t pixel, bool
         assert_true(image_read_text(file.path, keywords[i], values[i], sizeof values[i]));
         texts[i] = (image_text){keywords[i], values[i]};
     }
-    frame.pixels[pixel] = theme_index(ROLE_TEXT, 0);
+    frame.pixels[pixel] = theme_color_index(ROLE_TEXT, 0);
     if (as_drawn)
         image_digest_print(IMAGE_DIGEST_NEWEST, image_digest(&frame), values[3]);
     assert_true(image_write_png(&frame, file.path, texts, 4, &error));
@@ -130,7 +130,7 @@ void remove_texts_of_frame(const char *folder, uint64_t tick, bool spoilt)
     const place file = frame_place(folder, tick);
     assert_true(image_read_png(file.path, &frame, &error));
     if (spoilt)
-        frame.pixels[77] = theme_index(ROLE_TEXT, 0);
+        frame.pixels[77] = theme_color_index(ROLE_TEXT, 0);
     assert_true(image_write_png(&frame, file.path, NULL, 0, &error));
     image_release(&frame);
 }

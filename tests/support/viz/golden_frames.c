@@ -244,8 +244,8 @@ bool golden_open(const golden_frame *frame, golden_play *play, octreel_error *er
         return false;
     if (octree_game_create(&play->session, &play->game) != OCTREE_OK)
         return error_set(error, "%s: the session cannot be played", frame->name);
-    camera_fit(&play->view, octree_game_tree(play->game));
-    return point_scale_fit(&play->view, octree_game_tree(play->game), NULL) || error_no_memory(error);
+    camera_fit_points(&play->view, octree_game_tree(play->game));
+    return point_scale_compute(&play->view, octree_game_tree(play->game), NULL) || error_no_memory(error);
 }
 
 /* One point is written into another's cell. */

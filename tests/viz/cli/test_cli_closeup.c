@@ -96,7 +96,7 @@ static void pick_names_elements_of_a_close_up_without_a_player(void **state)
     const double point[] = {505, 500, 500};
     double pixel[2];
     assert_true(s->has_closeup);
-    assert_true(camera_pixel(&s->closeup->camera, point, pixel));
+    assert_true(camera_find_pixel(&s->closeup->camera, point, pixel));
     command_result result = run_octreel(NULL, "pick %s %d %d", frame.path, s->closeup->place[0] + (int)pixel[0],
                                         s->closeup->place[1] + (int)pixel[1]);
     assert_done(&result);

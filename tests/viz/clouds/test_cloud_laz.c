@@ -91,7 +91,7 @@ static void assert_same_clouds(const cloud *a, const cloud *b)
     for (size_t i = 0; i < a->count; i++) {
         const point_value x = point_values_get(&a->values, cloud_row_number(a, i)),
                           y = point_values_get(&b->values, cloud_row_number(b, i));
-        assert_true(cloud_row_number(a, i) == cloud_row_number(b, i) && point_value_same(&x, &y));
+        assert_true(cloud_row_number(a, i) == cloud_row_number(b, i) && point_value_equals(&x, &y));
     }
 }
 

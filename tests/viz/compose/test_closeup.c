@@ -50,7 +50,7 @@ static void a_close_up_follows_the_player_and_is_fixed_in_the_picture(void **sta
         scene s = {.refused = 0};
         double times = 0;
         v.camera = camera;
-        const camera_window w = layout_closeup(&v);
+        const camera_window w = layout_closeup_area(&v);
         for (int tick = 0; tick < 40; tick++) {
             const double *player = octree_game_tick(game)->player;
             double pixel[2];
@@ -60,7 +60,7 @@ static void a_close_up_follows_the_player_and_is_fixed_in_the_picture(void **sta
             assert_true(s.closeup->times == times && times > 1);
             assert_true(s.closeup->place[0] == w.x && s.closeup->place[1] == w.y);
             assert_true(s.closeup->view.width == w.width && s.closeup->view.height == w.height);
-            assert_true(camera_pixel(&s.closeup->camera, player, pixel));
+            assert_true(camera_find_pixel(&s.closeup->camera, player, pixel));
             assert_true(fabs(pixel[0] - w.width / 2) < 1e-6 && fabs(pixel[1] - w.height / 2) < 1e-6);
             assert_memory_equal(s.closeup->camera.forward, s.camera.forward, sizeof s.camera.forward);
             play_tick(game);
@@ -80,7 +80,8 @@ static void everything_is_enlarged_by_the_printed_factor(void **state)
     scene s = {.refused = 0};
     const view v = view_make_default();
     build_tick(&s, &v, game);
-    const double before = camera_box_pixels(&s.camera, &box), after = camera_box_pixels(&s.closeup->camera, &box);
+    const double before = camera_box_size_in_pixels(&s.camera, &box),
+                 after = camera_box_size_in_pixels(&s.closeup->camera, &box);
     assert_true(fabs(after / before - s.closeup->times) < 1e-9 && after > 60 && before < 40);
     double marks[2][2] = {{0}}; /* the ends of its scale, from top to bottom */
     size_t count = 0;
@@ -142,8 +143,9 @@ static void close_up_overlaps_nothing_else(void **state)
         v.diagram = i / 6 % 2 ? DIAGRAM_BESIDE : DIAGRAM_NONE;
         v.camera = i / 12 ? CAMERA_ORBIT : CAMERA_ISO;
         build_tick(&s, &v, game);
-        const camera_window all = {panel_width(&v), 0, v.width - panel_width(&v), v.height};
-        const camera_window w = layout_closeup(&v), space = layout_space(&s), diagram = layout_diagram(&v);
+        const camera_window all = {layout_panel_width(&v), 0, v.width - layout_panel_width(&v), v.height};
+        const camera_window w = layout_closeup_area(&v), space = layout_space_area(&s),
+                            diagram = layout_diagram_area(&v);
         assert_true(s.has_closeup == (w.width > 0));
         if (!s.has_closeup)
             continue;
@@ -309,14 +311,14 @@ static void close_up_elements_are_numbered_after_the_scene(void **state)
     scene s = {.refused = 0};
     const view v = view_make_default();
     build_tick(&s, &v, game);
-    const uint32_t all = (uint32_t)(scene_count(&s) + scene_count(s.closeup));
+    const uint32_t all = (uint32_t)(scene_count_elements(&s) + scene_count_elements(s.closeup));
     for (uint32_t number = 1; number <= all; number++) {
         const scene_element element = scene_element_at(&s, number);
-        assert_int_equal(element.in_closeup, number > scene_count(&s));
-        assert_int_equal(scene_number_of(&s, element), number);
+        assert_int_equal(element.in_closeup, number > scene_count_elements(&s));
+        assert_int_equal(scene_element_number(&s, element), number);
     }
     const scene_element last = scene_element_at(&s, all);
-    assert_int_equal(scene_head_of(&s, last).id, s.closeup->labels.items[s.closeup->labels.count - 1].id);
+    assert_int_equal(scene_element_head(&s, last).id, s.closeup->labels.items[s.closeup->labels.count - 1].id);
     scene_release(&s);
     octree_game_destroy(game);
 }

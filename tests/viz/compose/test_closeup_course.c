@@ -142,7 +142,7 @@ static void neighbours_are_shown_with_their_surroundings(void **state)
     assert_place(&f.scene, 400, 0, 0);
     octree_node leaf;
     assert_int_equal(octree_locate(octree_game_tree(f.game), nearest.target, &leaf), OCTREE_OK);
-    const double pixels = camera_box_pixels(&f.scene.closeup->camera, &leaf.box);
+    const double pixels = camera_box_size_in_pixels(&f.scene.closeup->camera, &leaf.box);
     assert_true(leaf.leaf && pixels > 60 && pixels < f.scene.closeup->view.width);
     assert_true(f.scene.closeup->times > far_times);
     film_end(&f);
@@ -192,7 +192,7 @@ static void single_mover_is_followed_and_a_crowd_is_not(void **state)
         double pixel[2];
         film_next(&f);
         steps += f.scene.closeup->camera.center[0] != before;
-        assert_true(camera_pixel(&f.scene.closeup->camera, octree_game_tick(f.game)->movers[0].position, pixel));
+        assert_true(camera_find_pixel(&f.scene.closeup->camera, octree_game_tick(f.game)->movers[0].position, pixel));
         assert_true(pixel[0] > 0 && pixel[0] < f.scene.closeup->view.width);
     }
     assert_true(steps > 0 && steps < 15);
@@ -297,7 +297,7 @@ static void close_up_of_a_tree_shows_its_queries(void **state)
         assert_place(&s, 100, 200, 300);
         const octree_box asked = {{92, 192, 292}, {108, 208, 308}};
         const double part =
-            camera_box_pixels(&s.closeup->camera, &asked) / fmin(s.closeup->view.width, s.closeup->view.height);
+            camera_box_size_in_pixels(&s.closeup->camera, &asked) / fmin(s.closeup->view.width, s.closeup->view.height);
         assert_true(part > 0.2 && part < 0.8);
         assert_memory_equal(s.closeup->camera.forward, s.camera.forward, sizeof s.camera.forward);
         v.closeup = false;

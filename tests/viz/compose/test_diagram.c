@@ -177,7 +177,7 @@ static recount check_diagram(const scene *s, const octree *tree, octree_address 
     assert_int_equal(octree_walk(tree, recount_node, &r), OCTREE_OK);
     assert_int_equal(s->tally.drawn, r.drawn);
     assert_int_equal(s->tally.folded, r.folded);
-    const double pitch = view_shows(&s->view, LAYER_TEXT) ? check_counts(s, &r) : 0;
+    const double pitch = view_shows_layer(&s->view, LAYER_TEXT) ? check_counts(s, &r) : 0;
     const size_t folded = check_levels(&r, pitch);
     assert_int_equal(folded ? s->tally.folded_to - s->tally.folded_from + 1 : 0, folded);
     return r;
@@ -428,7 +428,7 @@ static void space_view_beside_the_diagram_has_all_its_elements(void **state)
 /* Every element of the diagram lies within its part, and the parts do not overlap. */
 static void check_inside(const scene *s)
 {
-    const camera_window w = layout_diagram(&s->view), space = layout_space(s);
+    const camera_window w = layout_diagram_area(&s->view), space = layout_space_area(s);
     assert_true(s->view.diagram == DIAGRAM_ONLY || space.x + space.width <= w.x || space.y + space.height <= w.y);
     assert_true(space.width >= 1 && space.height >= 1);
     for (size_t i = 0; i < s->panels.count; i++) {

@@ -205,8 +205,8 @@ static void the_column_never_takes_more_than_half_the_picture(void **state)
         for (int height = 1; height <= 16384; height += 1 + height / 20) {
             const view v = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS);
             const view wordless = view_of(width, height, CAMERA_ISO, VIEW_ALL_LAYERS & ~(1u << LAYER_TEXT));
-            assert_true(panel_width(&v) >= 0 && 2 * panel_width(&v) <= width);
-            assert_int_equal(panel_width(&wordless), 0);
+            assert_true(layout_panel_width(&v) >= 0 && 2 * layout_panel_width(&v) <= width);
+            assert_int_equal(layout_panel_width(&wordless), 0);
         }
     }
 }
@@ -219,7 +219,7 @@ static void picture_without_room_for_the_column_shows_the_main_facts(void **stat
     octree_game *game = start_game(&session);
     scene s = {0};
     build_tick(&s, &v, game);
-    assert_int_equal(panel_width(&v), 0);
+    assert_int_equal(layout_panel_width(&v), 0);
     assert_int_equal(s.panels.count, 0);
     check_facts(&s, game);
     octree_game_destroy(game);

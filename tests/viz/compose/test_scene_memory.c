@@ -94,7 +94,7 @@ static void point_scale_is_measured_or_reports_lack_of_memory(void **state)
     for (long count = 0; failed; count++) {
         view v = measured;
         fail_allocations_after(count);
-        const bool done = point_scale_fit(&v, octree_game_tree(game), NULL);
+        const bool done = point_scale_compute(&v, octree_game_tree(game), NULL);
         failed = memory_has_failed();
         assert_int_equal(done, !failed);
         assert_int_equal(v.point_scale.given, done);

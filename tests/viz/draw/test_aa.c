@@ -238,7 +238,7 @@ static void largest_picture_with_samples_is_drawn_to_its_edges(void **state)
     scene_add_panel(&s, (scene_panel){.x = 4095, .y = 1, .width = 1, .height = 1, .style = style});
     image drawn = picture_of(&s);
     const image_color last = image_color_at(&drawn, 4095, 1), before = image_color_at(&drawn, 4094, 1);
-    const theme_color text = theme_color_at(theme_index(ROLE_TEXT, 0)), ground = theme_color_at(0);
+    const theme_color text = theme_color_at(theme_color_index(ROLE_TEXT, 0)), ground = theme_color_at(0);
     assert_memory_equal(&last, &text, 3);
     assert_memory_equal(&before, &ground, 3);
     image_release(&drawn);

@@ -69,7 +69,7 @@ static void letters_are_drawn_in_whole_pixels(void **state)
         scene_label label = {.at = {3, 5}, .style = {.layer = LAYER_TEXT, .role = ROLE_TEXT, .width = 1 + i % 2}};
         strcpy(label.text, every_letter);
         scene_add_label(&s, label);
-        const lettering *l = scene_lettering(&s, &label);
+        const lettering *l = scene_label_lettering(&s, &label);
         const size_t width = (size_t)(v.width * v.aa);
         uint8_t *drawn = draw_once(&s);
         for (size_t letter = 0; letter < strlen(every_letter); letter++) {
@@ -83,7 +83,7 @@ static void letters_are_drawn_in_whole_pixels(void **state)
                     const bool set = pixels[y / pixel * glyph_sets[l->face].width + x / pixel];
                     if (across < width)
                         assert_int_equal(drawn[down * width + across],
-                                         theme_index(set ? ROLE_TEXT : ROLE_BACKGROUND, 0));
+                                         theme_color_index(set ? ROLE_TEXT : ROLE_BACKGROUND, 0));
                 }
         }
         free(drawn);

@@ -22,7 +22,7 @@ static int grey_of(uint8_t index)
 
 static bool is_lit(uint8_t index)
 {
-    return abs(grey_of(index) - grey_of(theme_index(ROLE_BACKGROUND, 0))) >= STANDS_OUT;
+    return abs(grey_of(index) - grey_of(theme_color_index(ROLE_BACKGROUND, 0))) >= STANDS_OUT;
 }
 
 /* The number of pixels that are bright in only one of two frames. */
@@ -75,7 +75,7 @@ static void check_collision(renderer *r, const octree_game *game, const view *v)
     uint8_t *told = draw_changed(r, game, v, NULL);
     uint8_t *red = draw_changed(r, game, v, leave_red_alone);
     uint8_t *plain = draw_changed(r, game, v, leave_nothing_red);
-    const size_t unit = (size_t)view_unit(v);
+    const size_t unit = (size_t)view_pixels_per_unit(v);
     assert_true(count_unlike(told, plain, pixels) >= AT_LEAST * unit);
     assert_true(memcmp(red, plain, pixels) != 0);
     assert_int_equal(count_unlike(red, plain, pixels), 0); /* the red colour alone would not be enough */
@@ -128,9 +128,9 @@ static void collision_colour_is_bright_on_panel_and_ground(void **state)
 {
     (void)state;
     for (unsigned shade = 0; shade < 3; shade++) { /* in the shades of the box */
-        const int red = grey_of(theme_index(ROLE_COLLISION, shade));
-        assert_true(red - grey_of(theme_index(ROLE_PANEL, 0)) >= STANDS_OUT);
-        assert_true(is_lit(theme_index(ROLE_COLLISION, shade)));
+        const int red = grey_of(theme_color_index(ROLE_COLLISION, shade));
+        assert_true(red - grey_of(theme_color_index(ROLE_PANEL, 0)) >= STANDS_OUT);
+        assert_true(is_lit(theme_color_index(ROLE_COLLISION, shade)));
     }
 }
 

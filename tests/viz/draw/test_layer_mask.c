@@ -39,7 +39,7 @@ static scene layered_scene(view_camera camera, int aa)
 /* The pixel of a sample. */
 static size_t pixel_of_sample(const scene *s, size_t sample)
 {
-    const size_t side = (size_t)view_samples(&s->view), width = (size_t)s->view.width * side;
+    const size_t side = (size_t)view_samples_per_side(&s->view), width = (size_t)s->view.width * side;
     return sample / width / side * (size_t)s->view.width + sample % width / side;
 }
 
@@ -52,7 +52,7 @@ static void check_against_elements(const scene *s, const uint32_t *numbers, unsi
     for (size_t i = 0; i < frame_samples(s); i++)
         if (numbers[i])
             expected[pixel_of_sample(s, i)] |=
-                layers >> scene_head_of(s, scene_element_at(s, numbers[i])).style.layer & 1;
+                layers >> scene_element_head(s, scene_element_at(s, numbers[i])).style.layer & 1;
     assert_memory_equal(mask, expected, size);
     free(expected);
 }

@@ -33,7 +33,7 @@ static draw_covers touches_at(renderer *r, const scene *s, int x, int y)
 static int place_of(const scene *s, const draw_covers *list, scene_kind kind, size_t index)
 {
     for (size_t i = 0; i < list->count; i++)
-        if (list->items[i].number == scene_number_of(s, (scene_element){.kind = kind, .index = index}))
+        if (list->items[i].number == scene_element_number(s, (scene_element){.kind = kind, .index = index}))
             return (int)i;
     return -1;
 }
@@ -43,7 +43,7 @@ static int place_of(const scene *s, const draw_covers *list, scene_kind kind, si
 /* The number of samples of a pixel at which renderer_find_element_numbers() returns this number. */
 static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_t number)
 {
-    const int samples = view_samples(&s->view), width = s->view.width * samples;
+    const int samples = view_samples_per_side(&s->view), width = s->view.width * samples;
     int count = 0;
     for (int i = 0; i < samples * samples; i++)
         count += numbers[(y * samples + i / samples) * width + x * samples + i % samples] == number;
@@ -53,7 +53,7 @@ static int picked(const scene *s, const uint32_t *numbers, int x, int y, uint32_
 static void check_pixel(renderer *r, const scene *s, const uint32_t *numbers, int x, int y)
 {
     draw_covers list = touches_at(r, s, x, y);
-    const int samples = view_samples(&s->view);
+    const int samples = view_samples_per_side(&s->view);
     int shown = 0;
     for (size_t i = 0; i < list.count; i++) {
         const draw_cover *touch = &list.items[i];
@@ -76,7 +76,7 @@ static void element_at_a_pixel_equals_that_of_the_whole_picture(void **state)
         if (!golden_scene(&golden_frames[i], &s, &failed))
             fail_msg("%s", failed.text);
         renderer *r = open_renderer_for(&s);
-        const int samples = view_samples(&s.view), size = s.view.width * s.view.height * samples * samples;
+        const int samples = view_samples_per_side(&s.view), size = s.view.width * s.view.height * samples * samples;
         uint32_t *numbers = malloc((size_t)size * sizeof *numbers);
         assert_true(renderer_find_element_numbers(r, &s, numbers, &error));
         for (int lit = 0, tries = 0; lit < 12 && tries < 4000; tries++) {
@@ -108,7 +108,7 @@ static void covered_elements_follow_the_elements_that_cover_them(void **state)
     assert_int_equal(list.count, 2);
     assert_int_equal(place_of(&s, &list, SCENE_PANEL, 1), 0);
     assert_int_equal(list.items[0].shown, 1);
-    assert_int_equal(list.items[0].color, theme_index(ROLE_PANEL, 0));
+    assert_int_equal(list.items[0].color, theme_color_index(ROLE_PANEL, 0));
     assert_int_equal(list.items[1].shown, 0);
     assert_int_equal(list.items[1].painted, 1);
     draw_covers_release(&list);

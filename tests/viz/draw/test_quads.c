@@ -113,11 +113,12 @@ static void points_on_one_pixel_are_one_quad_in_the_nearest_band(void **state)
         add_point(&s, (uint64_t)i, 0.001, -0.001, (i * 7 % 1000) / 500.0 - 1);
     assert_true(painter_paint_scene(&p, &s));
     assert_int_equal(p.quads.count, 1);
-    assert_int_equal(p.quads.items[0].color, theme_index(ROLE_POINT, 0));
+    assert_int_equal(p.quads.items[0].color, theme_color_index(ROLE_POINT, 0));
     add_point(&s, 1000, 0.5, 0.5, -1);
     assert_true(painter_paint_scene(&p, &s));
     assert_int_equal(p.quads.count, 2);
-    assert_int_equal(p.quads.items[0].color, theme_index(ROLE_POINT, THEME_SHADES - 1)); /* the farther one first */
+    assert_int_equal(p.quads.items[0].color,
+                     theme_color_index(ROLE_POINT, THEME_SHADES - 1)); /* the farther one first */
     scene_release(&s);
     painter_release(&p);
 }
@@ -145,8 +146,8 @@ static void quads_do_not_depend_on_the_order_of_points(void **state)
         int64_t sum = 0; /* the sum of all coordinates in this band */
         for (size_t i = 0; i < forth.quads.count; i++) {
             const quad *q = &forth.quads.items[i], *r = &back.quads.items[i];
-            sum += q->color == theme_index(ROLE_POINT, band) ? q->x[0] * INT64_C(100003) + q->y[0] : 0;
-            sum -= r->color == theme_index(ROLE_POINT, band) ? r->x[0] * INT64_C(100003) + r->y[0] : 0;
+            sum += q->color == theme_color_index(ROLE_POINT, band) ? q->x[0] * INT64_C(100003) + q->y[0] : 0;
+            sum -= r->color == theme_color_index(ROLE_POINT, band) ? r->x[0] * INT64_C(100003) + r->y[0] : 0;
         }
         assert_true(sum == 0);
     }

@@ -96,8 +96,8 @@ static void extreme_sizes_are_drawn_to_their_edges(void **state)
         scene_add_panel(&s, (scene_panel){.x = width - 1, .y = height - 1, .width = 1, .height = 1, .style = style});
         uint8_t *corners = draw(r, &s);
         assert_int_equal(lit_pixels(corners, &s), width * height == 1 ? 1 : 2);
-        assert_int_equal(corners[0], theme_index(ROLE_TEXT, 0));
-        assert_int_equal(corners[(size_t)width * (size_t)height - 1], theme_index(ROLE_TEXT, 0));
+        assert_int_equal(corners[0], theme_color_index(ROLE_TEXT, 0));
+        assert_int_equal(corners[(size_t)width * (size_t)height - 1], theme_color_index(ROLE_TEXT, 0));
         free(blank);
         free(corners);
         scene_release(&s);
@@ -131,7 +131,7 @@ static void check_largest_picture(renderer *(*open)(int width, int height))
         fail_msg("%s", error.text);
     const size_t corners[4] = {0, SIDE - 1, last - SIDE + 1, last};
     for (int i = 0; i < 4; i++)
-        assert_int_equal(frame[corners[i]], theme_index(ROLE_TEXT, 0));
+        assert_int_equal(frame[corners[i]], theme_color_index(ROLE_TEXT, 0));
     const uint8_t *first = memchr(frame + 1, frame[0], last);
     assert_ptr_equal(first, frame + SIDE - 1);
     free(frame);

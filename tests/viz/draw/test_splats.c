@@ -57,7 +57,7 @@ static void release(lit *l, scene *s)
 
 static theme_color color_at(const lit *l, const scene *s, int x, int y)
 {
-    const size_t i = (size_t)y * (size_t)(s->view.width * view_samples(&s->view)) + (size_t)x;
+    const size_t i = (size_t)y * (size_t)(s->view.width * view_samples_per_side(&s->view)) + (size_t)x;
     const uint8_t *own = renderer_sample_colors(l->renderer) + 3 * i;
     assert_int_equal(l->indices[i], THEME_OWN);
     return (theme_color){own[0], own[1], own[2]};
@@ -127,7 +127,7 @@ static void thinned_surface_has_almost_no_holes(void **state)
                       (double[]){(double)random_below(&random, 20001) / 10000 - 1,
                                  (double)random_below(&random, 20001) / 10000 - 1, 0},
                       i);
-    assert_true(point_scale_fit(&v, tree, NULL));
+    assert_true(point_scale_compute(&v, tree, NULL));
     build_tree(&s, &v, tree, "");
     assert_int_equal(s.tally.one_in, 8);
     lit l = draw_lit(&s);
@@ -204,7 +204,7 @@ static void density_is_the_number_of_points_of_a_pixel(void **state)
         for (uint32_t n = 0; n < counts[i]; n++)
             add_point(&s, n, 0, 0, n * 1e-3 - 0.5, (theme_color){0});
         lit l = draw_lit(&s);
-        const theme_color color = color_in_the_middle(&l, &s), top = theme_ramp(1);
+        const theme_color color = color_in_the_middle(&l, &s), top = theme_ramp_color(1);
         assert_true(color.g > last.g || counts[i] > 64);
         assert_int_equal(memcmp(&color, &top, sizeof top) == 0, counts[i] >= 64);
         last = color;

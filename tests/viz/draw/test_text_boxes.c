@@ -37,7 +37,7 @@ static mask cover_text(const scene *s)
 static void check_scene(scene *s)
 {
     const mask m = cover_text(s);
-    const size_t side = (size_t)view_samples(&s->view), width = (size_t)m.width * side;
+    const size_t side = (size_t)view_samples_per_side(&s->view), width = (size_t)m.width * side;
     uint8_t *with = draw_once(s);
     s->labels.count = s->panels.count = 0;
     uint8_t *without = draw_once(s);
@@ -98,7 +98,7 @@ static void letters_have_a_rim(void **state)
     visit_text_boxes(&s, keep_box, &boxes[1]);
     assert_int_equal(rimmed.count, 2 * plain.count);
     for (size_t i = 0; i < plain.count; i++) {
-        assert_int_equal(rimmed.items[i].color, theme_index(ROLE_BACKGROUND, 0));
+        assert_int_equal(rimmed.items[i].color, theme_color_index(ROLE_BACKGROUND, 0));
         assert_true(rimmed.items[i].x[0] < plain.items[i].x[0] && rimmed.items[i].y[2] > plain.items[i].y[2]);
         assert_memory_equal(rimmed.items[plain.count + i].x, plain.items[i].x, sizeof plain.items[i].x);
     }
@@ -126,7 +126,7 @@ static void labels_at_the_border_are_not_cut(void **state)
                                           .at = {x, -x, 0},
                                           .style = {.layer = LAYER_KNEAREST, .role = ROLE_KNEAREST},
                                           .text = "12"});
-        if (!camera_pixel(&s.camera, s.labels.items[0].at, pixel) || !(pixel[0] > 8 && pixel[0] < 100))
+        if (!camera_find_pixel(&s.camera, s.labels.items[0].at, pixel) || !(pixel[0] > 8 && pixel[0] < 100))
             continue;
         visit_text_boxes(&s, keep_box, &box);
         assert_true(box.width > 0 && box.x + box.width <= 100 && box.y + box.height <= 100);

@@ -222,7 +222,7 @@ static void points_at_the_start_are_named(void **state)
 
 static void give(variant *v, uint64_t id, point_value value)
 {
-    assert_true(point_values_add(&v->values, &(point_entry){id, value}, 1));
+    assert_true(point_values_add_entries(&v->values, &(point_entry){id, value}, 1));
 }
 
 static void give_color(variant *v)
@@ -243,7 +243,7 @@ static void change_intensity(variant *v)
 
 static void change_class(variant *v)
 {
-    v->values.rows[point_values_find(&v->values, 9) - v->values.rows].class = 6;
+    v->values.rows[point_values_find_row(&v->values, 9) - v->values.rows].class = 6;
 }
 
 static void drop_values(variant *v)

@@ -36,7 +36,7 @@ static void values_are_found_by_id(void **state)
                "{\"tick\": 2, \"edits\": [{\"insert\": {\"id\": 6, \"position\": [1,1,1], \"class\": 65535}}]}");
     const point_values *v = &file.values;
     (void)state;
-    assert_null(point_values_find(v, 1));
+    assert_null(point_values_find_row(v, 1));
     const point_value at70 = point_values_get(v, 70), at6 = point_values_get(v, 6),
                       far = point_values_get(v, UINT64_C(9000000000000));
     assert_true(at70.has[POINT_CLASS] && at70.has[POINT_COLOR] && !at70.has[POINT_INTENSITY]);

@@ -37,7 +37,7 @@ static octree_walk_order check_asked(const octree_node *node, void *context)
     assert_true(box->style.role == ROLE_PLAYER && box->style.width == 2);
     for (int i = 0; i < 3; i++)
         middle[i] = node->box.min[i] / 2 + node->box.max[i] / 2;
-    const bool small = camera_box_pixels(&s.camera, &node->box) <= 24;
+    const bool small = camera_box_size_in_pixels(&s.camera, &node->box) <= 24;
     assert_int_equal(count_markers_at(&s, LAYER_ASKED, node->address, middle), small);
     assert_true(found.boxes == 1 && found.markers == small && found.segments + found.labels + found.panels == 0);
     snprintf(text, sizeof text, "node %.42s", octree_address_format(node->address, address));

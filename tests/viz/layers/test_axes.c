@@ -118,7 +118,7 @@ static void project(const scene *s, const octree_box *box, double corners[8][2])
         double at[3];
         for (int i = 0; i < 3; i++)
             at[i] = corner >> i & 1 ? box->max[i] : box->min[i];
-        assert_true(camera_pixel(&s->camera, at, corners[corner]));
+        assert_true(camera_find_pixel(&s->camera, at, corners[corner]));
     }
 }
 
@@ -187,7 +187,7 @@ static void axis_numbers_are_aligned(void **state)
             if (!is_number(label))
                 continue;
             const double width = (double)strlen(label->text) * s.text.width, height = s.text.height;
-            assert_true(camera_pixel(&s.camera, tick_of(&s, label->id)->ends[1], end));
+            assert_true(camera_find_pixel(&s.camera, tick_of(&s, label->id)->ends[1], end));
             const bool level = label->at[1] >= end[1];
             const double aside = level ? label->at[0] + width / 2 - end[0] : label->at[1] + height / 2 - end[1];
             const double away = level ? label->at[1] - end[1] : end[0] - (label->at[0] + width);
@@ -232,7 +232,7 @@ static void axes_run_along_the_fitted_box_and_not_the_world(void **state)
     view v = view_of(1280, 720, CAMERA_ISO, VIEW_ALL_LAYERS);
     scene s = {0};
     v.fit = FIT_POINTS;
-    camera_fit(&v, tree);
+    camera_fit_points(&v, tree);
     build_tree(&s, &v, tree, "fitted");
     assert_true(count_numbers(&s) >= 5);
     check_numbers(&s, &v.focus);
@@ -303,9 +303,9 @@ static void a_letter_stands_beyond_the_end_of_its_axis(void **state)
         if (label->style.layer != LAYER_WORLD || label->id >= 3)
             continue;
         double start[2], end[2], corner[3] = {label->id == 1 ? 1000 : -1000, -1000, -1000};
-        assert_true(camera_pixel(&s.camera, corner, start));
+        assert_true(camera_find_pixel(&s.camera, corner, start));
         corner[label->id] = 1000;
-        assert_true(camera_pixel(&s.camera, corner, end));
+        assert_true(camera_find_pixel(&s.camera, corner, end));
         const double length = hypot(end[0] - start[0], end[1] - start[1]), beyond = 1.25 * s.text.height / length;
         assert_true(fabs(label->at[0] + s.text.width / 2.0 - end[0] - beyond * (end[0] - start[0])) <= 1);
         assert_true(fabs(label->at[1] + s.text.height / 2.0 - end[1] - beyond * (end[1] - start[1])) <= 1);

@@ -91,15 +91,15 @@ static bool is_ring(const scene *s, scene_element element)
 /* Whether an element is the cross on the collision box: it has the player's id, and the player is never a hit. */
 static bool is_cross(const octree_game *game, const scene *s, scene_element element)
 {
-    return element.kind == SCENE_MARKER && scene_head_of(s, element).style.layer == LAYER_BOX &&
-           scene_head_of(s, element).id == octree_game_session(game)->player.id;
+    return element.kind == SCENE_MARKER && scene_element_head(s, element).style.layer == LAYER_BOX &&
+           scene_element_head(s, element).id == octree_game_session(game)->player.id;
 }
 
 static void check_element(const octree_game *game, const heat *h, const scene *s, scene_element element,
                           size_t seen[EXPECTED])
 {
     const element_subject subject = describe_element(game, h, s, element);
-    const size_t i = expectation_of(scene_head_of(s, element).style, element.kind);
+    const size_t i = expectation_of(scene_element_head(s, element).style, element.kind);
     if (is_cross(game, s, element)) {
         assert_string_equal(subject.text, "the cross on the collision box");
         assert_false(subject.has_point || subject.has_node);
@@ -111,17 +111,17 @@ static void check_element(const octree_game *game, const heat *h, const scene *s
     if (expected[i].layer == LAYER_BOX &&
         element.kind == SCENE_BOX) /* there are two boxes; one is the box around the player */
         assert_int_equal(strncmp(subject.text, "the player's", 12) == 0,
-                         scene_head_of(s, element).id == octree_game_session(game)->player.id);
+                         scene_element_head(s, element).id == octree_game_session(game)->player.id);
     assert_true(strlen(subject.text) + 1 < ELEMENT_TEXT);
     assert_true(expected[i].about_node <= subject.has_node);
     assert_int_equal(expected[i].about_point && !is_ring(s, element), subject.has_point);
     if (subject.has_node)
         check_node(game, &subject,
                    expected[i].layer == LAYER_SPLITS || expected[i].layer == LAYER_MERGES
-                       ? scene_head_of(s, element).id >> 2
-                       : scene_head_of(s, element).id);
+                       ? scene_element_head(s, element).id >> 2
+                       : scene_element_head(s, element).id);
     if (subject.has_point && element.kind == SCENE_MARKER)
-        assert_int_equal(subject.point.id, scene_head_of(s, element).id);
+        assert_int_equal(subject.point.id, scene_element_head(s, element).id);
     seen[i]++;
 }
 
@@ -186,7 +186,7 @@ static void every_element_of_the_golden_frames_is_described_in_a_phrase(void **s
             assert_true(tick_history_add(&h, &play.view, play.game));
         }
         assert_true(tick_scene_build(&s, &play.view, play.game, &h, NULL));
-        const size_t all = scene_count(&s) + (s.has_closeup ? scene_count(s.closeup) : 0);
+        const size_t all = scene_count_elements(&s) + (s.has_closeup ? scene_count_elements(s.closeup) : 0);
         for (uint32_t number = 1; number <= all; number++) {
             const element_subject told = describe_element(play.game, &h.heat, &s, scene_element_at(&s, number));
             assert_is_a_phrase(told.text);
@@ -227,7 +227,8 @@ static void descriptions_of_a_node_and_a_point_are_exact(void **state)
                             "node root: inner node at depth 0, 11 points, box (-1000, -1000, -1000) to (1000, 1000, "
                             "1000)");
         assert_string_equal(
-            layer_rows[scene_head_of(&s, (scene_element){.kind = SCENE_BOX, .index = i}).style.layer].name, "nodes");
+            layer_rows[scene_element_head(&s, (scene_element){.kind = SCENE_BOX, .index = i}).style.layer].name,
+            "nodes");
     }
     scene_release(&s);
     octree_game_destroy(game);

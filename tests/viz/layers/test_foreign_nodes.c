@@ -125,9 +125,9 @@ static void foreign_nodes_are_coloured_by_kind_and_by_occupancy(void **state)
     v.coloring = COLORING_OCCUPANCY;
     show(&v, 0);
     assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_ROOT))->style.role,
-                     theme_node_role(theme_step(8, 1)));
+                     theme_node_role(theme_doubling_step(8, 1)));
     assert_int_equal(find_only_box(&shown, LAYER_NODES, foreign_element(FOREIGN_LOW))->style.role,
-                     theme_node_role(theme_step(2, 1)));
+                     theme_node_role(theme_doubling_step(2, 1)));
     assert_true(says("foreign, 0-256+ points"));
     v.tree = TREE_BOTH;
     show(&v, 0);
@@ -209,7 +209,7 @@ static const char *told(view_layer layer, scene_kind kind, uint64_t id)
         shown.boxes.count + shown.segments.count + shown.markers.count + shown.panels.count + shown.labels.count;
     for (uint32_t number = 1; number <= all; number++) {
         const scene_element element = scene_element_at(&shown, number);
-        const scene_head head = scene_head_of(&shown, element);
+        const scene_head head = scene_element_head(&shown, element);
         if (element.kind != kind || head.style.layer != layer || head.id != id)
             continue;
         subject = describe_element(game, NULL, &shown, element);

@@ -77,12 +77,12 @@ static bool has_no_room(const scene *s, const scene_box *box, const char *path)
         middle[i] = (box->box.min[i] + box->box.max[i]) / 2;
     camera_transform(&s->camera, middle, seen);
     if ((s->camera.perspective && seen[2] < s->camera.near) ||
-        camera_box_pixels(&s->camera, &box->box) < width + slack * 3)
+        camera_box_size_in_pixels(&s->camera, &box->box) < width + slack * 3)
         return true;
     camera_project(&s->camera, seen, pixel);
     const room wanted = room_of(s, path, pixel[0] - width / 2, pixel[1] - height / 2);
-    if (wanted.left < panel_width(&s->view) + slack || wanted.top < slack || wanted.right > s->view.width - slack ||
-        wanted.bottom > s->view.height - slack)
+    if (wanted.left < layout_panel_width(&s->view) + slack || wanted.top < slack ||
+        wanted.right > s->view.width - slack || wanted.bottom > s->view.height - slack)
         return true;
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *label = &s->labels.items[i];
@@ -101,7 +101,8 @@ static void check_label(const scene *s, const scene_box *box, const scene_label 
     pixel_of(s, middle, pixel);
     const room taken = room_of(s, label->text, label->at[0], label->at[1]);
     assert_true(taken.left <= pixel[0] && pixel[0] <= taken.right && taken.top <= pixel[1] && pixel[1] <= taken.bottom);
-    assert_true(taken.left >= panel_width(&s->view) && taken.right <= s->view.width && taken.bottom <= s->view.height);
+    assert_true(taken.left >= layout_panel_width(&s->view) && taken.right <= s->view.width &&
+                taken.bottom <= s->view.height);
     for (size_t i = 0; i < s->labels.count; i++) {
         const scene_label *other = &s->labels.items[i];
         const room theirs = room_of(s, other->text, other->at[0], other->at[1]);

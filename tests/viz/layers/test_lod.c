@@ -163,10 +163,10 @@ static octree_walk_order check_children(const octree_node *node, void *context)
 {
     const camera *c = context;
     const octree_box world = cube(-1000, 1000);
-    const double size = camera_box_pixels(c, &node->box);
+    const double size = camera_box_size_in_pixels(c, &node->box);
     for (unsigned octant = 0; octant < 8 && node->depth < OCTREE_MAX_DEPTH; octant++) {
         const octree_box child = octree_cell_box(&world, node->address << 3 | octant);
-        assert_true(isinf(size) || camera_box_pixels(c, &child) <= size * (1 + 1e-12));
+        assert_true(isinf(size) || camera_box_size_in_pixels(c, &child) <= size * (1 + 1e-12));
     }
     return OCTREE_WALK_ON;
 }

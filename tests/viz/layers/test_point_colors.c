@@ -26,7 +26,7 @@ static painted paint_points(view_point_color color, const point_values *values)
     brute_sample(&points, OCTREE_SAMPLE_UNIFORM, 2, &world, POINTS);
     p.tree = brute_tree(&points, world, 16, 21);
     p.view.point_color = color;
-    assert_true(point_scale_fit(&p.view, p.tree, values));
+    assert_true(point_scale_compute(&p.view, p.tree, values));
     assert_true(tree_scene_build(&p.scene, &p.view, p.tree, &(tree_subject){.title = "points", .values = values}));
     brute_free(&points);
     return p;
@@ -73,7 +73,7 @@ static void higher_points_are_lighter(void **state)
                 continue;
             assert_int_equal(m->style.role, ROLE_OWN);
             const double part = (m->at[rows[row].axis] + 970) / (2 * 970);
-            assert_true(m->color.g >= theme_ramp(part - 0.05).g && m->color.g <= theme_ramp(part + 0.05).g);
+            assert_true(m->color.g >= theme_ramp_color(part - 0.05).g && m->color.g <= theme_ramp_color(part + 0.05).g);
             points++;
         }
         assert_int_equal(points, POINTS);
@@ -116,7 +116,7 @@ static void leaves_beside_each_other_are_dark_and_light(void **state)
         assert_int_equal(octree_insert(tree, (double[]){(double)(i % 4) + 0.5, (double)(i / 4) + 0.5, 0.5}, i),
                          OCTREE_OK);
     v.point_color = POINTS_BY_LEAF;
-    assert_true(point_scale_fit(&v, tree, NULL));
+    assert_true(point_scale_compute(&v, tree, NULL));
     build_tree(&s, &v, tree, "leaves");
     theme_color at[16];
     for (size_t i = 0; i < s.markers.count; i++)
@@ -142,7 +142,7 @@ static point_values make_values(void)
                                              .class = id % 2 ? 2 : 6,
                                              .intensity = (float)id,
                                              .has = {true, true, true}}};
-        assert_true(point_values_add(&v, &entry, 1));
+        assert_true(point_values_add_entries(&v, &entry, 1));
     }
     return v;
 }
@@ -150,8 +150,8 @@ static point_values make_values(void)
 static theme_color expected_color(view_point_color color, uint64_t id)
 {
     if (id % 3)
-        return theme_color_at(theme_index(ROLE_POINT, 0));
-    return color == POINTS_BY_CLASS ? theme_kind(id % 2 ? 1 : 3) : (theme_color){(uint8_t)id, 7, 9};
+        return theme_color_at(theme_color_index(ROLE_POINT, 0));
+    return color == POINTS_BY_CLASS ? theme_kind_color(id % 2 ? 1 : 3) : (theme_color){(uint8_t)id, 7, 9};
 }
 
 static void points_have_the_colours_of_their_values_or_the_plain_colour(void **state)
@@ -167,8 +167,8 @@ static void points_have_the_colours_of_their_values_or_the_plain_colour(void **s
             if (is_point(m) && (color != POINTS_BY_INTENSITY || m->id % 3))
                 assert_true(same_color(m->color, expected_color((view_point_color)color, m->id)));
             else if (is_point(m))
-                assert_true(m->color.g >= theme_ramp((double)m->id / POINTS - 0.05).g &&
-                            m->color.g <= theme_ramp((double)m->id / POINTS + 0.05).g);
+                assert_true(m->color.g >= theme_ramp_color((double)m->id / POINTS - 0.05).g &&
+                            m->color.g <= theme_ramp_color((double)m->id / POINTS + 0.05).g);
         }
         assert_true(color != POINTS_BY_CLASS ||
                     (has_text(&p.scene, "ground") && has_text(&p.scene, "building") && !has_text(&p.scene, "water")));

@@ -36,7 +36,7 @@ static bool is_small(const scene *s, const octree_node *node)
     const view *v = &s->view;
     const unsigned first = v->filter.by_depth ? v->filter.min_depth : 0;
     const bool below_another = node->depth > first && !v->filter.leaves;
-    return below_another && camera_box_pixels(&s->camera, &node->box) < v->lod;
+    return below_another && camera_box_size_in_pixels(&s->camera, &node->box) < v->lod;
 }
 
 /* The number of elements that a scene must have, and of those that are too small for it. */

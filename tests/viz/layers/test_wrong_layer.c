@@ -193,7 +193,7 @@ static void texts_without_room_are_left_out(void **state)
             const scene_label *label = &s.labels.items[i];
             if (label->style.layer != LAYER_WRONG)
                 continue;
-            assert_true(label->at[0] >= panel_width(&v) && label->at[1] >= 0 && label->at[1] < v.height);
+            assert_true(label->at[0] >= layout_panel_width(&v) && label->at[1] >= 0 && label->at[1] < v.height);
             assert_true(label->at[0] + (double)strlen(label->text) * s.text.width <= v.width);
         }
         scene_release(&s);
@@ -232,7 +232,7 @@ static void texts_at_one_place_do_not_overlap(void **state)
             continue;
         const double middle[2] = {label->at[0] + (double)strlen(label->text) * s.text.width / 2,
                                   label->at[1] + s.text.height / 2.0};
-        assert_true(!label->in_world && text_space_take(&taken, &s, label->text, middle, corner));
+        assert_true(!label->in_world && text_space_reserve_text(&taken, &s, label->text, middle, corner));
         words += sscanf(label->text, "and %zu more wrong", &left_out) != 1;
     }
     assert_true(left_out > 0);

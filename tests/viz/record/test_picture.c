@@ -286,7 +286,7 @@ static void diagonal_line_has_no_gap(void **state)
     }
 }
 
-/* The inverse of camera_unit() on one axis, for worlds of moderate size. */
+/* The inverse of camera_to_unit_coordinates() on one axis, for worlds of moderate size. */
 static double world_at(const camera *c, int axis, double unit)
 {
     return c->origin[axis] + (unit + c->half[axis]) / 2 * c->size;

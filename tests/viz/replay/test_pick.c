@@ -34,8 +34,8 @@ static bool has_color_of(const scene *s, uint32_t number, uint8_t index)
 {
     if (number == 0)
         return index == 0;
-    const scene_style style = scene_head_of(s, scene_element_at(s, number)).style;
-    return (index >= theme_index(style.role, 0) && index <= theme_index(style.role, THEME_SHADES - 1)) ||
+    const scene_style style = scene_element_head(s, scene_element_at(s, number)).style;
+    return (index >= theme_color_index(style.role, 0) && index <= theme_color_index(style.role, THEME_SHADES - 1)) ||
            (index == 0 && style.stroke == STROKE_CUT);
 }
 
@@ -231,14 +231,14 @@ static void check_places_of_boxes(const scene *s)
 {
     renderer *r = open_renderer_for(s);
     uint32_t *numbers = pick(r, s);
-    const size_t samples = (size_t)view_samples(&s->view), width = (size_t)s->view.width * samples;
+    const size_t samples = (size_t)view_samples_per_side(&s->view), width = (size_t)s->view.width * samples;
     size_t boxes = 0;
     for (size_t at = 0; at < frame_samples(s); at++) {
         const scene_element element =
             numbers[at] ? scene_element_at(s, numbers[at]) : (scene_element){.kind = SCENE_LABEL};
         if (element.kind != SCENE_BOX)
             continue;
-        const scene *own = scene_with(s, element);
+        const scene *own = scene_containing(s, element);
         const int *corner = element.in_closeup ? own->place : (const int[2]){0, 0};
         const double place[2] = {((double)(at % width) + 0.5) / (double)samples - corner[0],
                                  ((double)(at / width) + 0.5) / (double)samples - corner[1]};
@@ -306,8 +306,8 @@ static void check_row(view_camera camera, bool within)
         assert_true(numbers[sample] != 0);
         const scene_element element = scene_element_at(&s, numbers[sample]);
         assert_int_equal(element.kind, SCENE_BOX);
-        if (scene_head_of(&s, element).id != (within ? 100u : (unsigned)at / STEPS + 1))
-            fail_msg("camera %d: box %d at x = %g", (int)camera, (int)scene_head_of(&s, element).id, x);
+        if (scene_element_head(&s, element).id != (within ? 100u : (unsigned)at / STEPS + 1))
+            fail_msg("camera %d: box %d at x = %g", (int)camera, (int)scene_element_head(&s, element).id, x);
         checked++;
     }
     assert_true(checked > 200);
@@ -347,7 +347,7 @@ static void element_numbers_and_elements_map_both_ways(void **state)
             const scene_element element = scene_element_at(&s, ++number);
             assert_int_equal(element.kind, kind);
             assert_int_equal(element.index, index);
-            assert_int_equal(scene_number_of(&s, element), number);
+            assert_int_equal(scene_element_number(&s, element), number);
         }
     }
     scene_release(&s);

@@ -22,7 +22,7 @@ static void turns_agree_with_the_sine_and_cosine_of_libm(void **state)
     for (int i = 0; i < 20000; i++) {
         const double turns = i < 4800 ? (i - 2400) / 480.0 : random_between(&random, -3, 3);
         double cosine, sine;
-        camera_turn(turns, &cosine, &sine);
+        camera_compute_cosine_sine(turns, &cosine, &sine);
         assert_true(fabsl(cosine - cosl(2 * pi * turns)) < 1e-15L);
         assert_true(fabsl(sine - sinl(2 * pi * turns)) < 1e-15L);
     }
@@ -34,7 +34,7 @@ static void quarter_turns_are_exact(void **state)
     static const double exact[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (int quarter = -9; quarter <= 9; quarter++) {
         double cosine, sine;
-        camera_turn(quarter / 4.0, &cosine, &sine);
+        camera_compute_cosine_sine(quarter / 4.0, &cosine, &sine);
         assert_true(cosine == exact[quarter & 3][0] && sine == exact[quarter & 3][1]);
     }
 }
@@ -185,7 +185,7 @@ static void an_orbit_keeps_the_world_in_the_window(void **state)
             for (unsigned corner = 0; corner < 8; corner++) {
                 double position[3], pixel[2];
                 box_corner(world, corner, position);
-                assert_true(camera_pixel(&c, position, pixel));
+                assert_true(camera_find_pixel(&c, position, pixel));
                 low = fmax(low, pixel[1] - size[1] / 2);
                 high = fmax(high, size[1] / 2 - pixel[1]);
                 for (int axis = 0; axis < 2; axis++)
@@ -214,7 +214,7 @@ static void only_the_orbit_turns_and_only_the_follower_moves(void **state)
 static void assert_in_the_middle(const camera *c, const double place[3])
 {
     double pixel[2];
-    assert_true(camera_pixel(c, place, pixel));
+    assert_true(camera_find_pixel(c, place, pixel));
     assert_true(fabs(pixel[0] - (window.x + window.width / 2)) < 1e-9);
     assert_true(fabs(pixel[1] - (window.y + window.height / 2)) < 1e-9);
 }
@@ -239,11 +239,11 @@ static void look_center_and_zoom_replace_those_of_the_camera(void **state)
         v.look.elevation = 90;
         assert_true(same_position(camera_make(&v, window, &world, player, 77).forward, (double[3]){0, 0, -1}));
         v.look.elevation = 0;
-        assert_true(camera_pixel(&c, other, near));
+        assert_true(camera_find_pixel(&c, other, near));
         v.zoom = 3;
         const camera closer = camera_make(&v, window, &world, player, 0);
         assert_in_the_middle(&closer, v.center.place);
-        assert_true(camera_pixel(&closer, other, far));
+        assert_true(camera_find_pixel(&closer, other, far));
         for (int i = 0; i < 2; i++)
             assert_true(fabs((far[i] - c.middle[i]) - 3 * (near[i] - c.middle[i])) < 1e-9);
         v.look.given = false;
@@ -320,11 +320,11 @@ static void a_box_is_below_a_size_if_it_appears_smaller(void **state)
         const camera c =
             camera_of((view_camera)random_below(&random, CAMERA_COUNT), &world, world.min, random_below(&random, 480));
         const octree_box box = some_box(&world, &random);
-        const double size = camera_box_pixels(&c, &box), off = near[random_below(&random, 8)];
+        const double size = camera_box_size_in_pixels(&c, &box), off = near[random_below(&random, 8)];
         const double pixels[] = {
             size, nextafter(size, 0), nextafter(size, 1e300), size * (1 + off), size * (1 - off), 0, 2};
         for (size_t j = 0; j < sizeof pixels / sizeof pixels[0]; j++)
-            assert_int_equal(camera_box_is_below(&c, &box, pixels[j]), size < pixels[j]);
+            assert_int_equal(camera_is_box_below(&c, &box, pixels[j]), size < pixels[j]);
     }
 }
 

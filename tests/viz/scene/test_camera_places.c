@@ -44,7 +44,7 @@ static const double ways[][3][3] = {
 
 static void stand_at(scene *s, const double place[3], const double way[3][3])
 {
-    camera_unit(&s->camera, place, s->camera.eye);
+    camera_to_unit_coordinates(&s->camera, place, s->camera.eye);
     memcpy(s->camera.right, way[0], sizeof s->camera.right);
     memcpy(s->camera.up, way[1], sizeof s->camera.up);
     memcpy(s->camera.forward, way[2], sizeof s->camera.forward);
@@ -140,7 +140,7 @@ static void the_node_around_the_camera_is_never_left_out_as_small(void **state)
             for (octree_address at = leaf.address; at; at >>= 3) {
                 octree_node node;
                 assert_int_equal(octree_node_at(tree, at, &node), OCTREE_OK);
-                assert_true(isinf(camera_box_pixels(&s.camera, &node.box)));
+                assert_true(isinf(camera_box_size_in_pixels(&s.camera, &node.box)));
             }
             scene_release(&s);
         }

@@ -144,7 +144,7 @@ static size_t check_filter(const known_tree *t, const view_filter *f)
     }
     assert_int_equal(count_layer(&s, LAYER_NODES).boxes, nodes);
     assert_int_equal(count_layer(&s, LAYER_POINTS).markers, points);
-    assert_int_equal(has_count(&s, "node", nodes) && has_count(&s, "point", points), filter_is_on(f));
+    assert_int_equal(has_count(&s, "node", nodes) && has_count(&s, "point", points), filter_is_set(f));
     scene_release(&s);
     return nodes;
 }
@@ -304,7 +304,7 @@ static void filters_that_can_show_nothing_are_refused(void **state)
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         char text[FILTER_TEXT];
-        const char *reason = filter_refusal(&rows[i].filter, &tree, text);
+        const char *reason = filter_find_problem(&rows[i].filter, &tree, text);
         assert_int_equal(reason != NULL, rows[i].part != NULL);
         if (reason)
             assert_non_null(strstr(reason, rows[i].part));

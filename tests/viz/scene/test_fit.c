@@ -42,7 +42,7 @@ static void the_box_is_the_bounding_box_of_the_points(void **state)
         brute_sample(&points, OCTREE_SAMPLE_CLUSTERED, seed, &world, 50 * seed);
         octree *tree = brute_tree(&points, world, 4, 21);
         view v = fitting(CAMERA_ISO);
-        camera_fit(&v, tree);
+        camera_fit_points(&v, tree);
         const octree_box expected = box_around(&points);
         assert_int_equal(v.fit, FIT_BOX);
         assert_true(same_box(&v.focus, &expected));
@@ -61,7 +61,7 @@ static void filtered_points_are_not_framed(void **state)
     view v = fitting(CAMERA_ISO);
     v.filter = (view_filter){.by_region = true, .region = {{-900, 0, 100}, {0, 500, 999}}};
     brute_range(&points, &v.filter.region, &shown);
-    camera_fit(&v, tree);
+    camera_fit_points(&v, tree);
     const octree_box expected = box_around(&shown);
     assert_true(shown.count > 50 && same_box(&v.focus, &expected));
     octree_destroy(tree);
@@ -74,18 +74,18 @@ static void other_views_and_empty_trees_frame_the_world(void **state)
     (void)state;
     octree *tree = make_tree(cube(-1, 1), 4, 5, OCTREE_GROW);
     view v = fitting(CAMERA_TOP);
-    camera_fit(&v, tree);
+    camera_fit_points(&v, tree);
     assert_int_equal(v.fit, FIT_WORLD);
     insert_all(tree, (const double[][3]){{0.5, 0.5, 0.5}}, 1);
-    camera_fit(&v, tree);
+    camera_fit_points(&v, tree);
     assert_int_equal(v.fit, FIT_WORLD);
     v.fit = FIT_BOX;
     v.focus = cube(0, 0.25);
-    camera_fit(&v, tree);
+    camera_fit_points(&v, tree);
     assert_true(v.fit == FIT_BOX && v.focus.max[0] == 0.25);
     v.fit = FIT_POINTS;
     v.filter = (view_filter){.by_region = true, .region = cube(-1, 0)};
-    camera_fit(&v, tree);
+    camera_fit_points(&v, tree);
     assert_int_equal(v.fit, FIT_WORLD);
     octree_destroy(tree);
 }
@@ -102,7 +102,7 @@ static void one_point_and_equal_points_are_framed_by_their_cell(void **state)
         octree_node leaf;
         assert_int_equal(octree_locate(tree, place, &leaf), OCTREE_OK);
         view v = fitting(CAMERA_FRONT);
-        camera_fit(&v, tree);
+        camera_fit_points(&v, tree);
         assert_int_equal(leaf.depth, count == 1 ? 0 : 6);
         assert_true(v.fit == FIT_BOX && same_box(&v.focus, &leaf.box));
         octree_destroy(tree);
@@ -157,7 +157,7 @@ static void every_camera_but_the_follower_sees_all_points_of_odd_clouds(void **s
         for (int kind_of_camera = 0; kind_of_camera < CAMERA_COUNT; kind_of_camera++) {
             view v = fitting((view_camera)kind_of_camera);
             const octree_box world = octree_definition(tree).world;
-            camera_fit(&v, tree);
+            camera_fit_points(&v, tree);
             for (int i = 0; i < 3; i++)
                 assert_true(v.focus.min[i] <= v.focus.max[i]);
             for (uint64_t tick = 0; kind_of_camera != CAMERA_FOLLOW && tick < 480; tick += 60) {
@@ -192,8 +192,8 @@ static void fitted_pixels_do_not_depend_on_position_and_scale(void **state)
         view a = fitting(CAMERA_ORBIT), b = fitting(CAMERA_ORBIT);
         a.layers = b.layers &= ~(1u << LAYER_TEXT);
         scene s = {0}, t = {0};
-        camera_fit(&a, here);
-        camera_fit(&b, there);
+        camera_fit_points(&a, here);
+        camera_fit_points(&b, there);
         build_tree(&s, &a, here, "");
         build_tree(&t, &b, there, "");
         for (int j = 0; j < 3; j++) {

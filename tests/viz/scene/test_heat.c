@@ -67,7 +67,7 @@ static octree_walk_order check_node(const octree_node *node, void *context)
 {
     const heat *h = ((void **)context)[0];
     const count *expected = count_of(((void **)context)[1], node->address);
-    const heat_cell seen = heat_at(h, node->address);
+    const heat_cell seen = heat_get_cell(h, node->address);
     assert_int_equal(seen.points, expected->points);
     assert_int_equal(seen.visits, expected->visits);
     return OCTREE_WALK_ON;
@@ -95,8 +95,8 @@ static void check_session(const octree_session *session)
             break;
     }
     for (size_t i = 0; i < all.size; i++) /* counts of deleted nodes are kept */
-        assert_int_equal(heat_at(&h, all.items[i].node).points, all.items[i].points);
-    assert_int_equal(heat_at(&h, UINT64_MAX).points, 0);
+        assert_int_equal(heat_get_cell(&h, all.items[i].node).points, all.items[i].points);
+    assert_int_equal(heat_get_cell(&h, UINT64_MAX).points, 0);
     heat_release(&h);
     recount_free(&met);
     octree_game_destroy(game);
@@ -137,8 +137,8 @@ static void a_tick_counts_once_for_any_number_of_queries(void **state)
         assert_true(heat_add_tick(&h, game));
         static const octree_address met[] = {OCTREE_ROOT, 010, 0100, 0107};
         for (size_t i = 0; i < 4; i++)
-            assert_int_equal(heat_at(&h, met[i]).visits, tick + 1);
-        assert_int_equal(heat_at(&h, 0107).points, tick + 1);
+            assert_int_equal(heat_get_cell(&h, met[i]).visits, tick + 1);
+        assert_int_equal(heat_get_cell(&h, 0107).points, tick + 1);
         play_tick(game);
     }
     heat_release(&h);
@@ -176,7 +176,7 @@ static bool has_mark(const scene *s, view_layer layer, scene_shape shape, const 
         const scene_marker *mark = &s->markers.items[i];
         if (mark->style.layer != layer || mark->id != leaf->address)
             continue;
-        const double room = camera_box_pixels(&s->camera, &leaf->box);
+        const double room = camera_box_size_in_pixels(&s->camera, &leaf->box);
         assert_true(same_position(mark->at, middle) && mark->shape == shape);
         assert_int_equal(mark->style.role, theme_node_role(step));
         assert_true(mark->style.width == step + 1 ||
@@ -189,7 +189,7 @@ static bool has_mark(const scene *s, view_layer layer, scene_shape shape, const 
 static octree_walk_order check_leaf(const octree_node *node, void *context)
 {
     mark_check *c = context;
-    const heat_cell seen = heat_at(c->heat, node->address);
+    const heat_cell seen = heat_get_cell(c->heat, node->address);
     if (!node->leaf)
         return OCTREE_WALK_ON;
     assert_int_equal(has_mark(c->scene, LAYER_VISIT_HEAT, SHAPE_SQUARE, node, heat_step(seen.visits, 1)),

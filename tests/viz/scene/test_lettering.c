@@ -6,7 +6,7 @@
 static lettering text_at(int width, int height)
 {
     const view v = {.width = width, .height = height};
-    return lettering_of(&v, false);
+    return lettering_choose(&v, false);
 }
 
 static void common_picture_sizes_have_the_faces_of_the_table(void **state)
@@ -32,7 +32,7 @@ static void letters_grow_with_the_picture(void **state)
     lettering before = text_at(16, 9);
     for (int height = 9; height <= 9216; height += 3) {
         const view v = {.width = height * 16 / 9 + 16, .height = height};
-        const lettering l = lettering_of(&v, false), title = lettering_of(&v, true);
+        const lettering l = lettering_choose(&v, false), title = lettering_choose(&v, true);
         assert_true(l.height >= before.height && l.width >= before.width);
         assert_true(l.line > l.height && l.line <= l.height * 5 / 4);
         assert_true(title.width > l.width && title.width <= 2 * l.width && title.height == 2 * l.height);

@@ -41,7 +41,7 @@ static void a_few_outliers_do_not_change_the_range(void **state)
     (void)state;
     view v = painting_view();
     octree *tree = make_plane(1);
-    assert_true(point_scale_fit(&v, tree, NULL));
+    assert_true(point_scale_compute(&v, tree, NULL));
     const point_scale *s = &v.point_scale.of;
     assert_true(v.point_scale.given);
     assert_true(s->low[2] >= 0 && s->low[2] < 0.5 && s->high[2] <= 5.9 && s->high[2] > 5.4);
@@ -56,7 +56,7 @@ static void the_order_of_points_does_not_matter(void **state)
     (void)state;
     view a = painting_view(), b = painting_view();
     octree *one = make_plane(1), *other = make_plane(7);
-    assert_true(point_scale_fit(&a, one, NULL) && point_scale_fit(&b, other, NULL));
+    assert_true(point_scale_compute(&a, one, NULL) && point_scale_compute(&b, other, NULL));
     assert_memory_equal(&a.point_scale.of, &b.point_scale.of, sizeof a.point_scale.of);
     octree_destroy(one);
     octree_destroy(other);
@@ -81,7 +81,7 @@ static void a_hundredth_of_the_points_lies_below_the_range(void **state)
                     octree_insert(
                         tree, (double[]){(double)(i * 2654435761 % values) / 8, (double)(i % 63), (double)(i / 63)}, i),
                     OCTREE_OK);
-            assert_true(point_scale_fit(&v, tree, NULL));
+            assert_true(point_scale_compute(&v, tree, NULL));
             for (uint64_t i = 0; i < POINTS; i++) {
                 const double x = (double)(i * 2654435761 % values) / 8;
                 before += x < v.point_scale.of.low[0];
@@ -109,7 +109,7 @@ static void the_range_of_many_points_does_not_depend_on_the_tree(void **state)
         def.leaf_capacity = capacity;
         assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
         assert_int_equal(octree_insert_many(tree, points, SIDE * SIDE, NULL, NULL), OCTREE_OK);
-        assert_true(point_scale_fit(&v, tree, NULL));
+        assert_true(point_scale_compute(&v, tree, NULL));
         const point_scale *s = &v.point_scale.of;
         first = capacity == 8 ? *s : first;
         assert_memory_equal(s->low, first.low, sizeof first.low);
@@ -126,7 +126,7 @@ static void the_scale_is_computed_once_and_only_for_painted_points(void **state)
     view plain = view_make_default(), given = painting_view();
     octree *tree = make_plane(1);
     given.point_scale.given = true;
-    assert_true(point_scale_fit(&plain, tree, NULL) && point_scale_fit(&given, tree, NULL));
+    assert_true(point_scale_compute(&plain, tree, NULL) && point_scale_compute(&given, tree, NULL));
     assert_false(plain.point_scale.given);
     assert_true(given.point_scale.of.high[0] == 0);
     octree_destroy(tree);
@@ -141,12 +141,12 @@ static void values_of_points_outside_the_tree_do_not_count(void **state)
     point_values values = {0};
     const double ends[2] = {1, 2};
     v.point_color = POINTS_BY_INTENSITY;
-    assert_true(point_values_add(&values,
-                                 (point_entry[]){{5, {.intensity = 1, .has[POINT_INTENSITY] = true}},
-                                                 {6, {.intensity = 2, .has[POINT_INTENSITY] = true}},
-                                                 {1000000, {.intensity = 9, .has[POINT_INTENSITY] = true}}},
-                                 3));
-    assert_true(point_scale_fit(&v, tree, &values));
+    assert_true(point_values_add_entries(&values,
+                                         (point_entry[]){{5, {.intensity = 1, .has[POINT_INTENSITY] = true}},
+                                                         {6, {.intensity = 2, .has[POINT_INTENSITY] = true}},
+                                                         {1000000, {.intensity = 9, .has[POINT_INTENSITY] = true}}},
+                                         3));
+    assert_true(point_scale_compute(&v, tree, &values));
     assert_memory_equal(v.point_scale.of.intensities, ends, sizeof ends);
     point_values_release(&values);
     octree_destroy(tree);
@@ -161,14 +161,14 @@ static void the_scale_is_finite_in_the_largest_world(void **state)
     octree *tree;
     def.world = cube(-1.7e308, 1.7e308);
     assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
-    assert_true(point_scale_fit(&v, tree, NULL));
+    assert_true(point_scale_compute(&v, tree, NULL));
     assert_false(v.point_scale.given);
     for (uint64_t i = 0; i < 8; i++) {
         const double at[] = {-1.7e308, 1.7e308};
         const double place[] = {at[i & 1], at[i >> 1 & 1], at[i >> 2 & 1]};
         assert_int_equal(octree_insert(tree, place, i), OCTREE_OK);
     }
-    assert_true(point_scale_fit(&v, tree, NULL));
+    assert_true(point_scale_compute(&v, tree, NULL));
     const double *numbers = v.point_scale.of.low;
     for (size_t i = 0; i < sizeof(point_scale) / sizeof(double); i++)
         assert_true(isfinite(numbers[i]));

@@ -29,7 +29,7 @@ static void only_collision_is_red(void **state)
     (void)state;
     for (unsigned role = 0; role < ROLE_COUNT; role++) {
         for (unsigned shade = 0; shade < THEME_SHADES; shade++) {
-            const theme_color color = theme_color_at(theme_index(role, shade));
+            const theme_color color = theme_color_at(theme_color_index(role, shade));
             double chroma;
             if (role == ROLE_COLLISION)
                 assert_true(degrees_from_red(color, &chroma) < 15 && chroma > 60);
@@ -56,8 +56,8 @@ static void deeper_nodes_are_lighter_also_in_grey(void **state)
     (void)state;
     for (unsigned shade = 0; shade < THEME_SHADES; shade++)
         for (unsigned depth = 1; depth < THEME_NODE_DEPTHS; depth++)
-            assert_true(luminance(theme_color_at(theme_index(theme_node_role(depth), shade))) >
-                        luminance(theme_color_at(theme_index(theme_node_role(depth - 1), shade))));
+            assert_true(luminance(theme_color_at(theme_color_index(theme_node_role(depth), shade))) >
+                        luminance(theme_color_at(theme_color_index(theme_node_role(depth - 1), shade))));
 }
 
 static void nodes_deeper_than_the_ramp_have_its_last_colour(void **state)
@@ -70,7 +70,7 @@ static void nodes_deeper_than_the_ramp_have_its_last_colour(void **state)
 
 static int distance_to_ground(theme_color c)
 {
-    const theme_color ground = theme_color_at(theme_index(ROLE_BACKGROUND, 0));
+    const theme_color ground = theme_color_at(theme_color_index(ROLE_BACKGROUND, 0));
     return abs(c.r - ground.r) + abs(c.g - ground.g) + abs(c.b - ground.b);
 }
 
@@ -78,10 +78,10 @@ static void farther_shades_approach_the_background_and_stay_distinct_from_it(voi
 {
     (void)state;
     for (unsigned role = ROLE_BACKGROUND + 1; role < ROLE_COUNT; role++) {
-        int last = distance_to_ground(theme_color_at(theme_index(role, 0)));
+        int last = distance_to_ground(theme_color_at(theme_color_index(role, 0)));
         const unsigned step = role < ROLE_KIND ? 1 : THEME_SHADES / THEME_KIND_SHADES;
         for (unsigned shade = step; shade < THEME_SHADES; shade += step) {
-            const int now = distance_to_ground(theme_color_at(theme_index(role, shade)));
+            const int now = distance_to_ground(theme_color_at(theme_color_index(role, shade)));
             assert_true(now < last);
             last = now;
         }
@@ -92,9 +92,9 @@ static void farther_shades_approach_the_background_and_stay_distinct_from_it(voi
 static void the_background_has_no_shades_and_is_index_0(void **state)
 {
     (void)state;
-    assert_int_equal(theme_index(ROLE_BACKGROUND, 0), 0);
+    assert_int_equal(theme_color_index(ROLE_BACKGROUND, 0), 0);
     for (unsigned shade = 0; shade < THEME_SHADES; shade++)
-        assert_int_equal(distance_to_ground(theme_color_at(theme_index(ROLE_BACKGROUND, shade))), 0);
+        assert_int_equal(distance_to_ground(theme_color_at(theme_color_index(ROLE_BACKGROUND, shade))), 0);
 }
 
 static void every_index_fits_a_byte_and_is_used_once(void **state)
@@ -105,9 +105,9 @@ static void every_index_fits_a_byte_and_is_used_once(void **state)
     for (unsigned role = 0; role < ROLE_COUNT; role++) {
         const unsigned step = role < ROLE_KIND ? 1 : THEME_SHADES / THEME_KIND_SHADES;
         for (unsigned shade = 0; shade < THEME_SHADES; shade += step) {
-            assert_true(theme_index(role, shade) < THEME_COLORS);
-            assert_false(used[theme_index(role, shade)]);
-            used[theme_index(role, shade)] = true;
+            assert_true(theme_color_index(role, shade) < THEME_COLORS);
+            assert_false(used[theme_color_index(role, shade)]);
+            used[theme_color_index(role, shade)] = true;
         }
     }
     for (unsigned index = THEME_COLORS; index < 256; index++)
@@ -154,7 +154,7 @@ static double colors_apart(theme_color a, theme_color b, const double eye[3][3])
 
 static double apart(theme_role a, theme_role b, const double eye[3][3])
 {
-    return colors_apart(theme_color_at(theme_index(a, 0)), theme_color_at(theme_index(b, 0)), eye);
+    return colors_apart(theme_color_at(theme_color_index(a, 0)), theme_color_at(theme_color_index(b, 0)), eye);
 }
 
 /* A minimum distance in L*a*b*; colours at a distance of 2 or 3 are just distinct side by side. */
@@ -204,7 +204,7 @@ static void one_look_has_one_meaning(void **state)
 /* The contrast by WCAG 2.1 of a colour that is lighter than its background; text needs 4.5. */
 static double contrast(theme_color c, theme_role ground)
 {
-    return (luminance(c) + 0.05) / (luminance(theme_color_at(theme_index(ground, 0))) + 0.05);
+    return (luminance(c) + 0.05) / (luminance(theme_color_at(theme_color_index(ground, 0))) + 0.05);
 }
 
 /* ---- Colours of amounts and kinds --------------------------------------------------------------------------- */
@@ -219,7 +219,8 @@ static void the_ramp_grows_evenly_lighter_for_every_kind_of_sight(void **state)
     double smallest = 1000, largest = 0;
     for (size_t eye = 0; eye < EYES; eye++) {
         for (int i = 0; i < RAMP_TESTED; i++) {
-            const theme_color a = theme_ramp((double)i / RAMP_TESTED), b = theme_ramp((i + 1.0) / RAMP_TESTED);
+            const theme_color a = theme_ramp_color((double)i / RAMP_TESTED),
+                              b = theme_ramp_color((i + 1.0) / RAMP_TESTED);
             double before[3], after[3];
             to_lab(a, eyes[eye], before);
             to_lab(b, eyes[eye], after);
@@ -229,14 +230,15 @@ static void the_ramp_grows_evenly_lighter_for_every_kind_of_sight(void **state)
         }
     }
     assert_true(smallest > 5 && largest < 7);
-    assert_true(contrast(theme_ramp(0), ROLE_BACKGROUND) > 1.5);
+    assert_true(contrast(theme_ramp_color(0), ROLE_BACKGROUND) > 1.5);
 }
 
 static void the_ramp_has_a_colour_for_the_largest_amount(void **state)
 {
     (void)state;
-    const theme_color ends[] = {theme_ramp(0), theme_ramp(1)}, beyond[] = {theme_ramp(-3), theme_ramp(1e300)};
-    const theme_color none = theme_ramp(nan(""));
+    const theme_color ends[] = {theme_ramp_color(0), theme_ramp_color(1)},
+                      beyond[] = {theme_ramp_color(-3), theme_ramp_color(1e300)};
+    const theme_color none = theme_ramp_color(nan(""));
     assert_memory_equal(ends, beyond, sizeof ends);
     assert_memory_equal(&ends[0], &none, sizeof none);
 }
@@ -247,7 +249,7 @@ static void kinds_of_nodes_stay_distinct_without_red_or_green(void **state)
     for (size_t eye = 0; eye < EYES; eye++)
         for (unsigned i = 0; i < THEME_KINDS; i++)
             for (unsigned j = i + 1; j < THEME_KINDS; j++)
-                assert_true(colors_apart(theme_kind(i), theme_kind(j), eyes[eye]) > CLEARLY_APART);
+                assert_true(colors_apart(theme_kind_color(i), theme_kind_color(j), eyes[eye]) > CLEARLY_APART);
 }
 
 /* Boxes of several kinds cross each other: their colours differ clearly from each other and from elements on them. */
@@ -262,7 +264,7 @@ static void kinds_of_nodes_are_distinct_for_every_kind_of_sight(void **state)
             for (size_t j = 0; j < MEANINGS; j++)
                 assert_true(apart(kind, meanings[j], eyes[eye]) > CLEARLY_APART);
             assert_true(apart(kind, ROLE_NODE_PLAIN, eyes[eye]) > CLEARLY_APART);
-            assert_true(contrast(theme_color_at(theme_index(kind, 0)), ROLE_BACKGROUND) >= 3);
+            assert_true(contrast(theme_color_at(theme_color_index(kind, 0)), ROLE_BACKGROUND) >= 3);
         }
     assert_int_equal(theme_node_kind_role(THEME_NODE_KINDS), theme_node_kind_role(THEME_NODE_KINDS - 1));
 }
@@ -277,11 +279,11 @@ static double worth_of(theme_color c)
     if (contrast(c, ROLE_BACKGROUND) < 4.5 || contrast(c, ROLE_PANEL) < 4.5)
         return 0;
     for (unsigned shade = 0; shade < THEME_SHADES; shade++)
-        if (is_reddish(theme_shade(c, shade)) || distance_to_ground(theme_shade(c, shade)) < 64)
+        if (is_reddish(theme_shade_color(c, shade)) || distance_to_ground(theme_shade_color(c, shade)) < 64)
             return 0;
     for (size_t eye = 0; eye < EYES; eye++)
         for (unsigned role = 0; role < ROLE_COUNT; role++)
-            least = fmin(least, colors_apart(c, theme_color_at(theme_index(role, 0)), eyes[eye]));
+            least = fmin(least, colors_apart(c, theme_color_at(theme_color_index(role, 0)), eyes[eye]));
     return least;
 }
 

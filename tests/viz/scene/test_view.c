@@ -78,7 +78,7 @@ static void the_default_view_shows_all_but_heat_and_has_even_sides(void **state)
     assert_true(v.width == 1280 && v.height == 720);
     assert_int_equal(v.camera, CAMERA_ISO);
     for (int i = 0; i < LAYER_COUNT; i++)
-        assert_int_equal(view_shows(&v, (view_layer)i), i != LAYER_VISIT_HEAT && i != LAYER_POINT_HEAT);
+        assert_int_equal(view_shows_layer(&v, (view_layer)i), i != LAYER_VISIT_HEAT && i != LAYER_POINT_HEAT);
 }
 
 static void unit_is_a_whole_number_of_pixels_and_grows_with_the_picture(void **state)
@@ -87,13 +87,13 @@ static void unit_is_a_whole_number_of_pixels_and_grows_with_the_picture(void **s
     int last = 1;
     for (int height = 1; height <= 16384; height++) {
         const view wide = view_of(16384, height, CAMERA_ISO, 0), slit = view_of(1, height, CAMERA_ISO, 0);
-        assert_true(view_unit(&wide) >= last);
-        assert_int_equal(view_unit(&slit), 1);
-        last = view_unit(&wide);
+        assert_true(view_pixels_per_unit(&wide) >= last);
+        assert_int_equal(view_pixels_per_unit(&slit), 1);
+        last = view_pixels_per_unit(&wide);
     }
     const view usual = view_make_default(), film = view_of(3840, 2160, CAMERA_ISO, 0);
-    assert_int_equal(view_unit(&usual), 2);
-    assert_int_equal(view_unit(&film), 6);
+    assert_int_equal(view_pixels_per_unit(&usual), 2);
+    assert_int_equal(view_pixels_per_unit(&film), 6);
 }
 
 int main(void)

@@ -202,7 +202,7 @@ bool web_view(size_t recording)
     uint64_t every;
     if (!recording_parse("the view", page.room, recording, &v, &every, &page.error) || !fit_view(&v))
         return fail();
-    if (v.width != now->width || v.height != now->height || view_samples(&v) != view_samples(now) ||
+    if (v.width != now->width || v.height != now->height || view_samples_per_side(&v) != view_samples_per_side(now) ||
         view_is_rgb(&v) != view_is_rgb(now)) {
         picture_close(&page.playback.picture);
         free(page.rgba);
@@ -295,7 +295,7 @@ static void write_center(json_writer *w, const camera *c, const int origin[2])
     json_write_vector_member(w, "center", c->center);
     json_write_key(w, "middle");
     json_write_numbers(w, (double[]){c->middle[0] + origin[0], c->middle[1] + origin[1]}, 2);
-    json_write_number_member(w, "pixel", camera_pixel_length(c));
+    json_write_number_member(w, "pixel", camera_world_length_of_pixel(c));
 }
 
 static void write_closeup(json_writer *w, const scene *closeup)
@@ -339,7 +339,7 @@ void web_project(size_t count)
     for (size_t i = 0; i < count; i++) {
         double place[3], pixel[2] = {NAN, NAN};
         memcpy(place, numbers + 3 * i, sizeof place);
-        camera_pixel(&page.playback.scene.camera, place, pixel);
+        camera_find_pixel(&page.playback.scene.camera, place, pixel);
         memcpy(numbers + 2 * i, pixel, sizeof pixel);
     }
 }
