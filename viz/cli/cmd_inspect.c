@@ -295,7 +295,6 @@ static int run(int argc, char **argv)
                    .def = octree_def_default(),
                    .view = view_make_default(),
                    .renderer.fill = DRAW_FILL_CHECKED};
-    a.def.full_leaf = OCTREE_GROW;
     a.view.fit = FIT_POINTS; /* the world is a cube, and few clouds fill a cube */
     const int status = command_read_arguments(&command_inspect, &a, argc, argv);
     if (status != COMMAND_GO_ON)

@@ -229,6 +229,7 @@ octree_session session_make_default_header(void)
 {
     octree_session session = {.tree = octree_def_default()};
     session.tree.leaf_capacity = 8;
+    session.tree.full_leaf = OCTREE_REFUSE; /* what files of this version mean without "full" */
     set_default_player(&session.player, &session.tree.world);
     return session;
 }

@@ -36,7 +36,7 @@ const char *octree_status_text(octree_status status);
 /* The status as one word, such as "not_found", for files that programs read. Never null; static storage. */
 const char *octree_status_name(octree_status status);
 
-/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_REFUSE, malloc, the calling thread. */
+/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_GROW, malloc, the calling thread. */
 octree_def octree_def_default(void);
 
 /* Create an empty tree in *tree. The definition is copied.

@@ -90,7 +90,7 @@ typedef struct octree_stats {
 typedef struct octree octree;
 
 /* What happens to a point that meets a full leaf which cannot split: the tree refuses it with OCTREE_FULL, as the
- * paper does, or the leaf grows beyond its capacity. */
+ * paper does, or, by default, the leaf grows beyond its capacity. */
 typedef enum octree_full_leaf {
     OCTREE_REFUSE,
     OCTREE_GROW,

@@ -259,5 +259,6 @@ octree_session octree_session_default(void)
     };
     session.tree.leaf_capacity = 2;
     session.tree.max_depth = 5;
+    session.tree.full_leaf = OCTREE_REFUSE; /* the paper's rule; octree_def_default() keeps every point */
     return session;
 }

@@ -18,7 +18,7 @@ octree_def octree_def_default(void)
         .world = {{-1000, -1000, -1000}, {1000, 1000, 1000}},
         .leaf_capacity = 64,
         .max_depth = OCTREE_MAX_DEPTH,
-        .full_leaf = OCTREE_REFUSE,
+        .full_leaf = OCTREE_GROW,
     };
 }
 

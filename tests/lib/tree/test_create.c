@@ -20,9 +20,23 @@ static void default_definition_is_the_documented_one(void **state)
     }
     assert_int_equal(def.leaf_capacity, 64);
     assert_int_equal(def.max_depth, 21);
-    assert_int_equal(def.full_leaf, OCTREE_REFUSE);
+    assert_int_equal(def.full_leaf, OCTREE_GROW);
     assert_null(def.allocator.allocate);
     assert_null(def.allocator.release);
+    assert_int_equal(octree_session_default().tree.full_leaf, OCTREE_REFUSE); /* the paper's rule */
+}
+
+static void default_tree_keeps_all_coincident_points(void **state)
+{
+    (void)state;
+    octree *tree;
+    const octree_def def = octree_def_default();
+    const double at[3] = {1, 2, 3};
+    assert_int_equal(octree_create(&def, &tree), OCTREE_OK);
+    for (uint64_t id = 0; id < 200; id++)
+        assert_int_equal(octree_insert(tree, at, id), OCTREE_OK);
+    assert_int_equal(octree_count(tree), 200);
+    octree_destroy(tree);
 }
 
 /* The status of creating with one axis of the world set to [low, high]. */
@@ -433,6 +447,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(default_definition_is_the_documented_one),
+        cmocka_unit_test(default_tree_keeps_all_coincident_points),
         cmocka_unit_test(create_refuses_worlds_that_are_empty_or_not_finite),
         cmocka_unit_test(create_accepts_any_finite_world),
         cmocka_unit_test(create_clamps_and_reports_capacity_and_depth),

@@ -130,7 +130,8 @@ static void an_invalid_mix_is_refused_and_changes_nothing(void **state)
     octree *none = tree;
     octree_def def = octree_def_default();
     def.leaf_capacity = OCTREE_AUTO;
-    assert_int_equal(octree_create(&def, &none), OCTREE_BAD_CAPACITY); /* it refuses by default */
+    def.full_leaf = OCTREE_REFUSE;
+    assert_int_equal(octree_create(&def, &none), OCTREE_BAD_CAPACITY);
     assert_null(none);
     assert_true(octree_digest(tree) == digest && octree_version(tree) == version);
     octree_destroy(tree);

@@ -76,6 +76,7 @@ static film open_film(void **state, size_t ring)
     def.tree.world = cube(-8, 8);
     def.tree.leaf_capacity = 1;
     def.tree.max_depth = 3;
+    def.tree.full_leaf = OCTREE_REFUSE;
     def.every = 0;
     def.ring = ring;
     f.recorder = open_recorder(&def);
