@@ -67,7 +67,7 @@ octree_mix octree_mix_default(void);
 /* Choose the leaf capacity, a power of two from 4 to 256, for the points in the tree and a mix of operations (null: the
  * default mix), and rebuild the leaves. Each capacity is tried on a sample of whole cells with 128 operations of each
  * kind in the mix. The choice minimizes a weighted count of visited nodes and points; nothing is timed, so that it is
- * the same on every machine.
+ * the same on every machine. A tree without points gets the capacity 64.
  * Errors: NULL_ARGUMENT, BAD_CAPACITY (the tree is under OCTREE_REFUSE), NOT_FINITE, BAD_SIZE (a negative share, or all
  * shares zero), NO_MEMORY; the tree is then unchanged. Cost: seven bulk builds of at most about 40,000 points, and one
  * of all points. */

@@ -219,13 +219,14 @@ static octree_status check_mix(const octree_mix *mix)
     return none || mix->changes < 0 || mix->nearest < 0 || mix->ranges < 0 ? OCTREE_BAD_SIZE : OCTREE_OK;
 }
 
-/* Normalize the shares without overflow, and limit k and hits to the size of the sample. */
+/* Divide the shares by the largest, which cannot overflow, nor make all of them 0; limit k and hits to the size of the
+ * sample. */
 static octree_mix clamp_mix(octree_mix mix, size_t most)
 {
-    const double sum = mix.changes / 4 + mix.nearest / 4 + mix.ranges / 4;
-    mix.changes = mix.changes / 4 / sum;
-    mix.nearest = mix.nearest / 4 / sum;
-    mix.ranges = mix.ranges / 4 / sum;
+    const double largest = fmax(fmax(mix.changes, mix.nearest), mix.ranges);
+    mix.changes /= largest;
+    mix.nearest /= largest;
+    mix.ranges /= largest;
     mix.k = mix.k < most ? mix.k : most;
     mix.hits = mix.hits < most ? mix.hits : most;
     return mix;
@@ -253,6 +254,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
     const octree_mix asked = mix ? *mix : octree_mix_default();
     octree_def def = tree->def;
     octree_status status = check_mix(&asked);
+    def.leaf_capacity = octree_def_default().leaf_capacity; /* for a tree without points */
     if (status == OCTREE_OK && octree_count(tree) > 0)
         status = choose_by_sample(tree, &asked, &def.leaf_capacity);
     if (status == OCTREE_OK && def.leaf_capacity != tree->def.leaf_capacity)

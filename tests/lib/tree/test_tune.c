@@ -160,6 +160,24 @@ static void trees_of_any_size_and_world_can_be_tuned(void **state)
         }
 }
 
+static void few_points_and_tiny_shares_give_a_capacity_in_range(void **state)
+{
+    (void)state;
+    static const octree_mix mixes[] = {
+        {1, 1, 1, 1, 10}, {5e-324, 0, 1, 0, 0}, {0, 1e-323, 1, 5e-324, 10}, {DBL_MAX, DBL_MAX, 1, DBL_MAX, 10}};
+    static const size_t capacities[] = {1, 3, 1000};
+    for (size_t count = 0; count < 3; count++)
+        for (size_t c = 0; c < 3; c++)
+            for (size_t m = 0; m < sizeof mixes / sizeof mixes[0]; m++) {
+                octree *tree = make_tree(cube(-1, 1), capacities[c], 21, OCTREE_GROW);
+                insert_all(tree, (const double[][3]){{0.1, 0.2, 0.3}, {-0.1, -0.2, -0.3}}, count);
+                tune(tree, &mixes[m]);
+                assert_true(capacity_of(tree) >= 4 && capacity_of(tree) <= 256);
+                assert_true(count > 0 || capacity_of(tree) == 64);
+                octree_destroy(tree);
+            }
+}
+
 static void equal_points_can_be_tuned(void **state)
 {
     (void)state;
@@ -305,6 +323,7 @@ int main(void)
         cmocka_unit_test(the_scale_of_a_mix_does_not_count),
         cmocka_unit_test(an_invalid_mix_is_refused_and_changes_nothing),
         cmocka_unit_test(trees_of_any_size_and_world_can_be_tuned),
+        cmocka_unit_test(few_points_and_tiny_shares_give_a_capacity_in_range),
         cmocka_unit_test(equal_points_can_be_tuned),
         cmocka_unit_test(an_automatic_tree_is_tuned_as_it_grows),
         cmocka_unit_test(an_automatic_tree_is_tuned_when_it_is_built_and_keeps_to_its_last_mix),
