@@ -134,7 +134,7 @@ typedef enum octree_change_kind { OCTREE_INSERTED, OCTREE_REMOVED, OCTREE_MOVED 
 typedef struct octree_change {
     octree_change_kind kind;
     uint64_t id;
-    double from[3], to[3]; /* zero where unused: `from` of an insertion, `to` of a removal */
+    double from[3], to[3]; /* the bits as stored. Zero where unused: `from` of an insertion, `to` of a removal */
 } octree_change;
 
 typedef void (*octree_change_visitor)(const octree_change *change, void *context);

@@ -214,14 +214,80 @@ static octree_status change_by_kind(batch *b, octree_change_kind kind)
     }
 }
 
-static void log_changes(const batch *b, octree_change_kind kind)
+/* ---- Logging ------------------------------------------------------------------------------------------------ */
+
+/* Only zeros have two representations: a position without zeros has the same bits as the stored one. */
+static bool has_zero(const double position[3])
 {
-    for (size_t i = 0; i < b->count && change_log_is_on(&b->tree->changes); i++)
-        if (b->statuses[i] == OCTREE_OK)
-            change_log_append(b->tree, kind, &b->points[i], b->to ? b->to[i] : b->points[i].position);
+    return position[0] == 0 || position[1] == 0 || position[2] == 0;
 }
 
-/* Make a batch of changes and log them. Points that lie in the tree's own memory are copied first. */
+static bool have_zeros(const octree_point *points, size_t count)
+{
+    size_t i = 0;
+    while (i < count && !has_zero(points[i].position))
+        i++;
+    return i < count;
+}
+
+/* Give points the signs that the zeros of the stored positions have. */
+static void copy_stored_signs(const octree *tree, octree_point *points, size_t count)
+{
+    found_point found;
+    for (size_t i = 0; i < count; i++)
+        if (has_zero(points[i].position) && check_in_world(tree, points[i].position) == OCTREE_OK &&
+            find_point(tree, points[i].position, points[i].id, &found))
+            points[i] = stored_point(&found);
+}
+
+/* The points with zeros that moves of a batch have moved so far, as a leaf: a later move of the batch may start at
+ * such a point. */
+typedef struct moved_points {
+    store *store;
+    node points;
+    bool complete; /* false: no memory */
+} moved_points;
+
+/* Log a move from where an earlier move of the batch left the point, if one did. */
+static void log_move(const batch *b, size_t i, moved_points *moved)
+{
+    octree_point old = b->points[i], made = {.id = old.id};
+    memcpy(made.position, b->to[i], sizeof made.position);
+    const uint32_t index = has_zero(old.position) ? leaf_find(&moved->points, old.position, old.id) : LEAF_NONE;
+    if (index != LEAF_NONE) {
+        old = leaf_points(&moved->points)[index];
+        leaf_remove(moved->store, &moved->points, index);
+    }
+    if (has_zero(made.position))
+        moved->complete = leaf_append(moved->store, &moved->points, &made);
+    change_log_append(b->tree, OCTREE_MOVED, &old, made.position);
+}
+
+static void log_moves(const batch *b)
+{
+    change_log *log = &b->tree->changes;
+    moved_points moved = {.store = &b->tree->store, .complete = true};
+    for (size_t i = 0; i < b->count && moved.complete && change_log_is_on(log); i++)
+        if (b->statuses[i] == OCTREE_OK)
+            log_move(b, i, &moved);
+    leaf_release(moved.store, &moved.points);
+    if (!moved.complete)
+        change_log_stop(log, &moved.store->memory);
+}
+
+static void log_changes(const batch *b, octree_change_kind kind)
+{
+    if (kind == OCTREE_MOVED) {
+        log_moves(b);
+        return;
+    }
+    for (size_t i = 0; i < b->count && change_log_is_on(&b->tree->changes); i++)
+        if (b->statuses[i] == OCTREE_OK)
+            change_log_append(b->tree, kind, &b->points[i], b->points[i].position);
+}
+
+/* Make a batch of changes and log them. Points that lie in the tree's own memory are copied first, and so are points
+ * whose stored positions may have other bits. */
 static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
 {
     octree_status status = check_arguments(&b, kind);
@@ -230,16 +296,21 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
     change_log *log = &b.tree->changes;
     arena *memory = &b.tree->store.memory;
     const uint64_t version = b.tree->version;
-    const bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
-    const size_t copies_size = lies_in_tree_memory(b.tree, b.points, b.count) ? b.count * sizeof *b.points : 0;
+    const bool in_tree = lies_in_tree_memory(b.tree, b.points, b.count);
+    bool logs = change_log_is_on(log) && b.count <= change_log_limit(b.tree);
+    const bool signs = logs && kind != OCTREE_INSERTED && have_zeros(b.points, b.count);
+    const size_t copies_size = in_tree || signs ? b.count * sizeof *b.points : 0;
     const size_t statuses_size = logs && !b.statuses ? b.count * sizeof *b.statuses : 0;
     octree_point *copies = copies_size ? arena_allocate(memory, copies_size) : NULL;
     octree_status *statuses = statuses_size ? arena_allocate(memory, statuses_size) : NULL;
+    logs = logs && (copies || !signs);
     if (copies)
         b.points = memcpy(copies, b.points, copies_size);
+    if (copies && signs)
+        copy_stored_signs(b.tree, copies, b.count);
     if (statuses)
         b.statuses = statuses;
-    status = copies_size && !copies ? OCTREE_NO_MEMORY : change_by_kind(&b, kind);
+    status = in_tree && !copies ? OCTREE_NO_MEMORY : change_by_kind(&b, kind);
     const bool changes = status == OCTREE_OK && b.done > 0;
     b.tree->version = version + changes;
     if (changes && logs && b.statuses)

@@ -251,7 +251,7 @@ static void remove_found_point(octree *tree, const found_point *found, node *spa
     tree->version++;
 }
 
-octree_status remove_point(octree *tree, const octree_point *point)
+octree_status remove_point(octree *tree, octree_point *point)
 {
     found_point found;
     node spare;
@@ -259,6 +259,7 @@ octree_status remove_point(octree *tree, const octree_point *point)
         return OCTREE_NOT_FOUND;
     if (!allocate_merged_leaf(tree, &found, &spare))
         return OCTREE_NO_MEMORY;
+    *point = stored_point(&found);
     remove_found_point(tree, &found, &spare);
     return OCTREE_OK;
 }
@@ -268,7 +269,7 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
-    const octree_point removed = {{position[0], position[1], position[2]}, id}; /* `position` may be in the leaf */
+    octree_point removed = {{position[0], position[1], position[2]}, id}; /* `position` may be in the leaf */
     status = remove_point(tree, &removed);
     if (status == OCTREE_OK && change_log_is_on(&tree->changes))
         change_log_append(tree, OCTREE_REMOVED, &removed, NULL);
@@ -295,11 +296,13 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, const 
     return OCTREE_OK;
 }
 
-static octree_status move_point(octree *tree, const octree_point *old, const octree_point *moved)
+/* Move a point. `old` receives its stored position. */
+static octree_status move_point(octree *tree, octree_point *old, const octree_point *moved)
 {
     found_point found;
     if (!find_point(tree, old->position, old->id, &found))
         return OCTREE_NOT_FOUND;
+    *old = stored_point(&found);
     const uint64_t code = morton_code(tree->axes, moved->position);
     const path p = find_path(tree, code);
     node *leaf = path_end(&p);
@@ -320,7 +323,8 @@ octree_status octree_move(octree *tree, const double from[3], uint64_t id, const
         status = check_position(tree, to);
     if (status != OCTREE_OK)
         return status;
-    const octree_point old = {{from[0], from[1], from[2]}, id}, moved = {{to[0], to[1], to[2]}, id};
+    const octree_point moved = {{to[0], to[1], to[2]}, id};
+    octree_point old = {{from[0], from[1], from[2]}, id};
     status = move_point(tree, &old, &moved);
     if (status == OCTREE_OK && change_log_is_on(&tree->changes))
         change_log_append(tree, OCTREE_MOVED, &old, moved.position);

@@ -133,7 +133,8 @@ static void undo_insertions(const batch *b, const octree_status *statuses)
 {
     for (size_t i = 0, left = b->done; left > 0; i++)
         if (statuses[i] == OCTREE_OK) {
-            remove_point(b->tree, &b->points[i]);
+            octree_point point = b->points[i];
+            remove_point(b->tree, &point);
             left--;
         }
 }

@@ -56,8 +56,9 @@ octree_status check_position(const octree *tree, const double position[3]);
  * memory. */
 octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides);
 
-/* Remove a point whose position is in the world. Returns OK, NOT_FOUND or NO_MEMORY. */
-octree_status remove_point(octree *tree, const octree_point *point);
+/* Remove a point whose position is in the world; *point receives the stored position, whose zeros may have other signs.
+ * Returns OK, NOT_FOUND or NO_MEMORY. */
+octree_status remove_point(octree *tree, octree_point *point);
 
 /* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
 void remove_empty_child(octree *tree, node *parent, node *child);
@@ -88,6 +89,11 @@ typedef struct found_point {
     path path;
     uint32_t index; /* the point's index in the leaf at the path's end */
 } found_point;
+
+static inline octree_point stored_point(const found_point *found)
+{
+    return leaf_points(path_end(&found->path))[found->index];
+}
 
 /* Find a pair (position, id). False when it is not in the tree. */
 bool find_point(const octree *tree, const double position[3], uint64_t id, found_point *found);

@@ -215,6 +215,94 @@ static void a_point_may_be_removed_by_its_place_in_the_tree(void **state)
     octree_destroy(tree);
 }
 
+/* ---- Signs of zeros: a mirror may compare bits ----------------------------------------------------------------- */
+
+enum { MIRRORED = 8 };
+
+typedef struct mirror {
+    octree_point points[MIRRORED];
+    size_t count;
+} mirror;
+
+static size_t find_by_bits(const mirror *m, const double at[3], uint64_t id)
+{
+    size_t i = 0;
+    while (i < m->count && (m->points[i].id != id || memcmp(m->points[i].position, at, sizeof m->points[i].position)))
+        i++;
+    return i;
+}
+
+static void mirror_change(const octree_change *c, void *context)
+{
+    mirror *m = context;
+    if (c->kind != OCTREE_INSERTED) {
+        const size_t i = find_by_bits(m, c->from, c->id);
+        assert_true(i < m->count);
+        m->points[i] = m->points[--m->count];
+    }
+    if (c->kind != OCTREE_REMOVED) {
+        assert_true(m->count < MIRRORED);
+        octree_point *p = &m->points[m->count++];
+        p->id = c->id;
+        memcpy(p->position, c->to, sizeof p->position);
+    }
+}
+
+static void assert_mirrored(const octree *tree, octree_cursor *cursor, mirror *m)
+{
+    assert_true(octree_changes_since(tree, 1, cursor, mirror_change, m));
+    brute all = contents_of(tree);
+    assert_int_equal(all.count, m->count);
+    for (size_t i = 0; i < all.count; i++)
+        assert_true(find_by_bits(m, all.points[i].position, all.points[i].id) < m->count);
+    brute_free(&all);
+}
+
+static void changes_have_the_stored_signs_of_zeros(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
+    const double plus[3] = {0.0, 0.5, 0.0}, minus[3] = {-0.0, 0.5, 0.0}, other[3] = {0.25, -0.0, 0.5};
+    octree_cursor cursor = {0};
+    mirror m = {.count = 0};
+    octree_changes_since(tree, 1, &cursor, mirror_change, &m);
+    for (uint64_t id = 0; id < 4; id++)
+        assert_int_equal(octree_insert(tree, id % 2 ? plus : minus, id), OCTREE_OK);
+    assert_mirrored(tree, &cursor, &m);
+    assert_int_equal(octree_remove(tree, plus, 0), OCTREE_OK);
+    assert_int_equal(octree_move(tree, minus, 1, other), OCTREE_OK); /* to another leaf */
+    assert_int_equal(octree_move(tree, plus, 2, plus), OCTREE_OK);   /* within its leaf */
+    assert_int_equal(octree_remove(tree, minus, 3), OCTREE_OK);
+    assert_mirrored(tree, &cursor, &m);
+    octree_destroy(tree);
+}
+
+/* Two of the moves start where an earlier one of the batch ends, with the other sign. */
+static void batches_have_the_stored_signs_of_zeros(void **state)
+{
+    (void)state;
+    octree *tree = make_tree(cube(-1, 1), 1, 5, OCTREE_GROW);
+    const octree_point stored[4] = {
+        {{-0.0, 0.5, 1}, 1}, {{0.0, 0.5, 1}, 2}, {{0.5, -0.0, -0.0}, 2}, {{0.5, 0.5, 0}, 3}};
+    const octree_point moved[5] = {
+        {{0.0, 0.5, 1}, 1}, {{-0.5, 0.0, -0.0}, 1}, {{-0.0, 0.5, 1}, 2}, {{0.5, 0.0, 0.0}, 2}, {{0.0, 0.5, 1}, 2}};
+    const double to[5][3] = {{-0.5, -0.0, 0.0}, {0.0, 0.0, -0.0}, {1, 1, 1}, {-0.0, 0.5, 1}, {0.0, -0.5, 0.0}};
+    const octree_point removed[3] = {{{-0.0, -0.0, 0.0}, 1}, {{-0.0, -0.5, -0.0}, 2}, {{0.5, 0.5, -0.0}, 3}};
+    octree_cursor cursor = {0};
+    mirror m = {.count = 0};
+    octree_changes_since(tree, 1, &cursor, mirror_change, &m);
+    assert_int_equal(octree_insert_many(tree, stored, 4, NULL, NULL), OCTREE_OK);
+    assert_mirrored(tree, &cursor, &m);
+    size_t done;
+    assert_int_equal(octree_move_many(tree, moved, to, 5, NULL, &done), OCTREE_OK);
+    assert_int_equal(done, 5);
+    assert_mirrored(tree, &cursor, &m);
+    assert_int_equal(octree_remove_many(tree, removed, 3, NULL, &done), OCTREE_OK);
+    assert_int_equal(done, 3);
+    assert_mirrored(tree, &cursor, &m);
+    octree_destroy(tree);
+}
+
 /* ---- What is not known -------------------------------------------------------------------------------------- */
 
 static void changes_are_unknown_without_a_cursor_or_a_log_name(void **state)
@@ -402,6 +490,8 @@ int main(void)
         cmocka_unit_test(followers_match_the_contents_after_random_changes),
         cmocka_unit_test(a_refused_change_is_not_logged),
         cmocka_unit_test(a_point_may_be_removed_by_its_place_in_the_tree),
+        cmocka_unit_test(changes_have_the_stored_signs_of_zeros),
+        cmocka_unit_test(batches_have_the_stored_signs_of_zeros),
         cmocka_unit_test(changes_are_unknown_without_a_cursor_or_a_log_name),
         cmocka_unit_test(changes_are_unknown_for_a_cursor_of_another_tree),
         cmocka_unit_test(changes_are_unknown_after_a_new_world),
