@@ -263,15 +263,31 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double squar
         add_to_heap(h, point, square);
 }
 
+/* In FAST mode squares may underflow or round to the same double, so that the order need not be that of the distances:
+ * sort by the distances themselves. */
+static void sort_by_distance(neighbor_heap *h)
+{
+    for (size_t i = 0; i < h->count; i++) {
+        const octree_neighbor item = h->items[i];
+        rise_in_heap(h, &item, i);
+    }
+    sort_heap(h);
+}
+
 void neighbor_heap_finish(neighbor_heap *h)
 {
+    bool ascend = true;
     if (keeps_few(h))
         sort_few_neighbors(h, h->few.keys + FEW_FIRST);
     else
         sort_heap(h);
     for (size_t i = 0; i < h->count; i++) {
         const double distance = metric_distance(h->metric.target, h->items[i].point.position);
-        /* The order is exact; rounded distances must not contradict it. */
-        h->items[i].distance = i > 0 ? fmax(distance, h->items[i - 1].distance) : distance;
+        const double before = i > 0 ? h->items[i - 1].distance : 0;
+        ascend = ascend && distance >= before;
+        /* In EXACT mode the order is exact; rounded distances must not contradict it. */
+        h->items[i].distance = h->how.mode == OCTREE_FAST ? distance : fmax(distance, before);
     }
+    if (h->how.mode == OCTREE_FAST && !ascend)
+        sort_by_distance(h);
 }

@@ -409,6 +409,28 @@ static void fast_is_exact_where_squares_are(void **state)
     brute_free(&all);
 }
 
+/* Of these squares none can be told from 0, with an array and with a heap of neighbours. */
+static void fast_reports_the_distances_of_points_whose_squares_vanish(void **state)
+{
+    (void)state;
+    enum { COUNT = 40 };
+    static const octree_search fast = {.mode = OCTREE_FAST};
+    octree *tree = make_tree(cube(-1, 1), 64, 21, OCTREE_GROW);
+    octree_neighbor found[COUNT];
+    for (uint64_t id = 0; id < COUNT; id++)
+        assert_int_equal(octree_insert(tree, (double[3]){(double)(id * 7 % COUNT + 1) * 1e-162, 0, 0}, id), OCTREE_OK);
+    for (size_t k = 3; k <= COUNT; k += COUNT - 3) {
+        size_t count;
+        assert_int_equal(octree_nearest_k(tree, (double[3]){0}, k, &fast, found, &count), OCTREE_OK);
+        assert_int_equal(count, k);
+        for (size_t i = 0; i < count; i++) {
+            assert_true(found[i].distance == found[i].point.position[0]);
+            assert_true(i == 0 || found[i].distance > found[i - 1].distance);
+        }
+    }
+    octree_destroy(tree);
+}
+
 static void fast_excludes_points_far_outside_a_radius(void **state)
 {
     (void)state;
@@ -477,6 +499,7 @@ int main(void)
         cmocka_unit_test(epsilon_takes_any_box_and_length),
         cmocka_unit_test(epsilon_saves_work_on_clusters),
         cmocka_unit_test(fast_is_exact_where_squares_are),
+        cmocka_unit_test(fast_reports_the_distances_of_points_whose_squares_vanish),
         cmocka_unit_test(fast_excludes_points_far_outside_a_radius),
         cmocka_unit_test(fast_differs_on_some_near_ties),
     };
