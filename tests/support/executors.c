@@ -49,9 +49,21 @@ static void take_tasks(job *j)
             j->task(j->order[i], j->context);
 }
 
+static void take_too_many_tasks(job *j)
+{
+    static const size_t beyond[] = {TASKS_AT_MOST, TASKS_AT_MOST + 1, SIZE_MAX / 2, SIZE_MAX};
+    for (size_t i = 0; i < j->count; i++)
+        j->task(j->order[i], j->context);
+    for (size_t number = j->count; number < TASKS_AT_MOST; number++)
+        j->task(number, j->context);
+    for (size_t i = 0; i < sizeof beyond / sizeof beyond[0]; i++)
+        j->task(beyond[i], j->context);
+}
+
 static void *take_tasks_plainly(void *context)
 {
-    take_tasks(context);
+    job *j = context;
+    (j->threads->careless ? take_too_many_tasks : take_tasks)(j);
     return NULL;
 }
 

@@ -14,6 +14,7 @@ typedef struct test_threads {
     unsigned count;  /* of threads, at most 8 */
     uint64_t random; /* state */
     size_t left_out; /* skip one task in this number; 0: run all */
+    bool careless;   /* every thread runs every task, and numbers that are too large */
     bool odd_mode;   /* every second thread flushes subnormals to zero, if the processor can */
     size_t runs;     /* number of runs */
 } test_threads;

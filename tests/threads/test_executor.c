@@ -142,6 +142,13 @@ static void tasks_that_are_left_out_run_on_the_calling_thread(void **state)
     assert_same_as_alone(threads_executor(&threads), OCTREE_SAMPLE_UNIFORM, TREES);
 }
 
+static void tasks_that_are_repeated_or_out_of_range_do_no_harm(void **state)
+{
+    (void)state;
+    test_threads threads = {.count = 3, .careless = true};
+    assert_same_as_alone(threads_executor(&threads), OCTREE_SAMPLE_UNIFORM, TREES);
+}
+
 static void threads_of_another_floating_point_mode_change_no_answer(void **state)
 {
     (void)state;
@@ -273,6 +280,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(a_leaf_takes_memory_for_its_points_and_has_a_limit),
         cmocka_unit_test(any_order_of_tasks_does_the_same),
         cmocka_unit_test(tasks_that_are_left_out_run_on_the_calling_thread),
+        cmocka_unit_test(tasks_that_are_repeated_or_out_of_range_do_no_harm),
         cmocka_unit_test(threads_of_another_floating_point_mode_change_no_answer),
         cmocka_unit_test(what_is_built_takes_the_same_memory_for_any_number_of_threads),
         cmocka_unit_test(tasks_survive_the_failure_of_each_allocation),

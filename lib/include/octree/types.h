@@ -110,10 +110,12 @@ typedef struct octree_allocator {
 typedef void octree_task(size_t number, void *context);
 
 /* The caller's threads. `run` calls the task once for each number below `count` (at most 64), on any threads and in
- * any order, and returns when all calls have returned. Bulk changes, octree_nearest_batch, octree_digest and
- * octree_check divide large work, of some thousand points or more, into tasks. Nodes, statuses, answers and digests do
- * not depend on the number of threads; memory use may differ slightly, because tasks compete for free blocks. Tasks
- * call the allocator one at a time. Null means the calling thread. The context must outlive the tree. */
+ * any order, and returns when all calls have returned; it must not call the task later. A number that it leaves out
+ * runs on the calling thread, a number that it repeats runs once, and numbers from `count` on are ignored. Bulk
+ * changes, octree_nearest_batch, octree_digest and octree_check divide large work, of some thousand points or more,
+ * into tasks. Nodes, statuses, answers and digests do not depend on the number of threads; memory use may differ
+ * slightly, because tasks compete for free blocks. Tasks call the allocator one at a time. Null means the calling
+ * thread. The context must outlive the tree. */
 typedef struct octree_executor {
     void (*run)(octree_task *task, size_t count, void *task_context, void *context);
     void *context;

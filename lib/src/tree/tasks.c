@@ -2,6 +2,7 @@
 /* tasks.c - divides work into tasks, and trees into subtrees. See tasks.h. */
 #include "tasks.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 #ifndef OCTREE_LEAST_SHARE
@@ -17,26 +18,29 @@ unsigned count_tasks(const octree *tree, size_t points)
 typedef struct tasks {
     octree_task *task;
     void *context;
-    bool done[TASKS_AT_MOST]; /* each element is written by its own task only */
+    unsigned count;
+    atomic_bool started[TASKS_AT_MOST]; /* an executor that repeats a number must not run the task twice */
 } tasks;
 
 static void run_task(size_t number, void *context)
 {
     tasks *all = context;
-    if (!float_mode_is_default())
+    if (!float_mode_is_default() || number >= all->count)
         return;
-    all->task(number, all->context);
-    all->done[number] = true;
+    if (!atomic_exchange_explicit(&all->started[number], true, memory_order_relaxed))
+        all->task(number, all->context);
 }
 
 void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context)
 {
     const octree_executor *executor = &tree->def.executor;
-    tasks all = {task, context, {false}};
+    tasks all = {.task = task, .context = context, .count = count};
+    for (unsigned number = 0; number < count; number++)
+        atomic_init(&all.started[number], false);
     if (executor->run && count > 1)
         executor->run(run_task, count, &all, executor->context);
     for (unsigned number = 0; number < count; number++)
-        if (!all.done[number])
+        if (!atomic_load_explicit(&all.started[number], memory_order_relaxed))
             task(number, context);
 }
 
