@@ -226,10 +226,10 @@ typedef struct octree_game octree_game;
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
-/* Play one tick with this key instead of the session's. Errors: NULL_ARGUMENT, FLOAT_MODE, BAD_KEY (nothing is played);
- * NO_MEMORY (the game must not be stepped again). Cost: O(queries + v log v) for v visits; O(bodies) if a body has a
- * velocity or with sweep; and if inner nodes changed, 8 bytes for each inner node and the points near the changes, or
- * all points after very many changes. */
+/* Play one tick with this key instead of the session's. Errors: NULL_ARGUMENT, FLOAT_MODE, BUSY (a visitor, tracer or
+ * task of the game's tree is running), BAD_KEY (nothing is played); NO_MEMORY (the game must not be stepped again).
+ * Cost: O(queries + v log v) for v visits; O(bodies) if a body has a velocity or with sweep; and if inner nodes
+ * changed, 8 bytes for each inner node and the points near the changes, or all points after very many changes. */
 octree_status octree_game_step(octree_game *game, char key);
 
 /* The input of one tick, for sessions that are still being made. The ticks inside edits, queries, shapes, the gap and

@@ -14,6 +14,9 @@
  *   - Every function that can fail returns an octree_status; octree_status_text() returns its sentence. A change
  *     happens completely or leaves the tree as it was, OCTREE_NO_MEMORY included.
  *   - Functions that take `const octree *` may run on many threads at once. A change must run alone.
+ *   - Visitors, tracers and executors may ask the tree, but not change it: on their thread every change of the tree
+ *     returns OCTREE_BUSY and does nothing, and octree_destroy does nothing. They must return: after longjmp or a C++
+ *     exception out of one, changes on this thread may stay refused.
  *   - D is the depth of the tree (at most 21), M the leaf capacity, n the number of points, k the number of results.
  *   - Answers require the default floating-point mode. On a thread with another one (directed rounding, or subnormals
  *     flushed to zero) functions that compute with positions return OCTREE_FLOAT_MODE and do nothing; octree_digest
@@ -43,10 +46,11 @@ octree_def octree_def_default(void);
  * Errors: NULL_ARGUMENT, BAD_WORLD, BAD_CAPACITY, BAD_OPTION, NO_MEMORY; *tree is then null. Cost: O(1). */
 octree_status octree_create(const octree_def *def, octree **tree);
 
-/* Free the tree and all of its memory. Null is allowed. Cost: O(memory blocks). */
+/* Free the tree and all of its memory. Null is allowed. Does nothing inside a visitor, tracer or task of the tree.
+ * Cost: O(memory blocks). */
 void octree_destroy(octree *tree);
 
-/* Remove every point and release the memory. Cost: O(memory blocks). */
+/* Remove every point and release the memory. Errors: NULL_ARGUMENT. Cost: O(memory blocks). */
 octree_status octree_clear(octree *tree);
 
 /* The definition in force, after clamping; under OCTREE_AUTO with the chosen capacity. For null: the default. */
@@ -137,6 +141,8 @@ typedef struct octree_change {
     double from[3], to[3]; /* the bits as stored. Zero where unused: `from` of an insertion, `to` of a removal */
 } octree_change;
 
+/* Called with each change since a cursor, which is valid during the call. Changes of the tree inside the visitor return
+ * OCTREE_BUSY. */
 typedef void (*octree_change_visitor)(const octree_change *change, void *context);
 
 /* Visit the changes since the cursor, in the order in which they were made (those of a batch in the given order), and
@@ -160,7 +166,8 @@ bool octree_changes_since(const octree *tree, size_t log_name, octree_cursor *cu
 /* ---- Ask ---------------------------------------------------------------------------------------------------- */
 
 /* Called with each point that matches a query. The point is owned by the tree and valid during the call. Return
- * true to continue, false to stop. The visitor must not change the tree. */
+ * true to continue, false to stop. Changes of the tree inside the visitor return OCTREE_BUSY: collect the points first,
+ * with octree_range_collect for example. */
 typedef bool (*octree_point_visitor)(const octree_point *point, void *context);
 
 /* Algorithm 3. Find by coordinates: *id (may be null) receives the lowest id stored at exactly this position.
@@ -273,6 +280,7 @@ typedef enum octree_walk_order {
     OCTREE_WALK_STOP, /* end the walk */
 } octree_walk_order;
 
+/* Called with each node, which is valid during the call. Changes of the tree inside the visitor return OCTREE_BUSY. */
 typedef octree_walk_order (*octree_node_visitor)(const octree_node *node, void *context);
 
 /* Visit the nodes in pre-order, children by octant: ascending Morton order within a level. Only occupied octants

@@ -30,7 +30,8 @@
     X(BAD_PARENT, "bad_parent", "a foreign node is its own ancestor")                                                  \
     X(FLOAT_MODE, "float_mode", "the thread does not round to nearest, or flushes subnormals to zero")                 \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
-    X(TOO_MANY, "too_many", "the tree would exceed its limit of 4294967295 points")
+    X(TOO_MANY, "too_many", "the tree would exceed its limit of 4294967295 points")                                    \
+    X(BUSY, "busy", "the tree cannot be changed inside its own visitor, tracer or task")
 
 typedef enum octree_status {
 #define OCTREE_STATUS_ENUM(name, word, text) OCTREE_##name,
@@ -111,11 +112,12 @@ typedef void octree_task(size_t number, void *context);
 
 /* The caller's threads. `run` calls the task once for each number below `count` (at most 64), on any threads and in
  * any order, and returns when all calls have returned; it must not call the task later. A number that it leaves out
- * runs on the calling thread, a number that it repeats runs once, and numbers from `count` on are ignored. Bulk
- * changes, octree_nearest_batch, octree_digest and octree_check divide large work, of some thousand points or more,
- * into tasks. Nodes, statuses, answers and digests do not depend on the number of threads; memory use may differ
- * slightly, because tasks compete for free blocks. Tasks call the allocator one at a time. Null means the calling
- * thread. The context must outlive the tree. */
+ * runs on the calling thread, a number that it repeats runs once, and numbers from `count` on are ignored. Inside
+ * `run`, changes of the tree on the calling thread return OCTREE_BUSY. Bulk changes, octree_nearest_batch,
+ * octree_digest and octree_check divide large work, of some thousand points or more, into tasks. Nodes, statuses,
+ * answers and digests do not depend on the number of threads; memory use may differ slightly, because tasks compete for
+ * free blocks. Tasks call the allocator one at a time. Null means the calling thread. The context must outlive the
+ * tree. */
 typedef struct octree_executor {
     void (*run)(octree_task *task, size_t count, void *task_context, void *context);
     void *context;
@@ -178,7 +180,7 @@ typedef enum octree_trace_kind {
     OCTREE_TRACE_KINDS
 } octree_trace_kind;
 
-/* Called for each node that a query visits, prunes or takes. It must not change the tree. */
+/* Called for each node that a query visits, prunes or takes. Changes of the tree inside it return OCTREE_BUSY. */
 typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void *context);
 
 /* Options of a query. All zero, or a null pointer in its place, means exact and every point counts. */

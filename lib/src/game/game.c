@@ -382,6 +382,8 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
 {
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
+    if (is_visited(game->tree))
+        return OCTREE_BUSY;
     if (key == 'q') {
         game->quit = true;
         return OCTREE_OK;

@@ -306,7 +306,10 @@ static size_t search_tree(const octree *tree, const double target[3], size_t k, 
     neighbor_heap_begin(&s.found, how, radius, neighbors, k);
     s.meter = (meter){.how = how};
     s.open = 0;
+    const unsigned begun = how->trace ? begin_visit(tree) : 0;
     search_from_root(&s);
+    if (how->trace)
+        end_visit(begun);
     neighbor_heap_finish(&s.found);
     meter_report(&s.meter);
     return s.found.count;

@@ -265,7 +265,7 @@ void neighbor_heap_add(neighbor_heap *h, const octree_point *point, double squar
 
 /* In FAST mode squares may underflow or round to the same double, so that the order need not be that of the distances:
  * sort by the distances themselves. */
-static void sort_by_distance(neighbor_heap *h)
+static RARE void sort_by_distance(neighbor_heap *h)
 {
     for (size_t i = 0; i < h->count; i++) {
         const octree_neighbor item = h->items[i];

@@ -127,10 +127,12 @@ static void descend_from_root(region *r, octant_masks root)
 
 void region_search(region *r, octant_masks root)
 {
+    const unsigned begun = begin_visit(r->tree);
     if (root.meets & 1)
         descend_from_root(r, root);
     else
         meter_prune_root(&r->meter);
+    end_visit(begun);
     meter_report(&r->meter);
 }
 

@@ -167,7 +167,9 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    return b->count < UINT32_MAX ? OCTREE_OK : OCTREE_TOO_MANY;
+    if (b->count >= UINT32_MAX)
+        return OCTREE_TOO_MANY;
+    return is_visited(b->tree) ? OCTREE_BUSY : OCTREE_OK;
 }
 
 /* Whether the caller's array is part of a leaf: octree_node.points is such an array. */

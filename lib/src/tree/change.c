@@ -185,7 +185,7 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 {
-    octree_status status = check_position(tree, position);
+    octree_status status = check_change(tree, position);
     if (status != OCTREE_OK)
         return status;
     const octree_point point = {{position[0], position[1], position[2]}, id};
@@ -266,7 +266,7 @@ octree_status remove_point(octree *tree, octree_point *point)
 
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 {
-    octree_status status = check_position(tree, position);
+    octree_status status = check_change(tree, position);
     if (status != OCTREE_OK)
         return status;
     octree_point removed = {{position[0], position[1], position[2]}, id}; /* `position` may be in the leaf */
@@ -318,7 +318,7 @@ static octree_status move_point(octree *tree, octree_point *old, const octree_po
 
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
-    octree_status status = check_position(tree, from);
+    octree_status status = check_change(tree, from);
     if (status == OCTREE_OK)
         status = check_position(tree, to);
     if (status != OCTREE_OK)

@@ -37,11 +37,13 @@ void run_tasks(const octree *tree, octree_task *task, unsigned count, void *cont
     tasks all = {.task = task, .context = context, .count = count};
     for (unsigned number = 0; number < count; number++)
         atomic_init(&all.started[number], false);
+    const unsigned begun = begin_visit(tree);
     if (executor->run && count > 1)
         executor->run(run_task, count, &all, executor->context);
     for (unsigned number = 0; number < count; number++)
         if (!atomic_load_explicit(&all.started[number], memory_order_relaxed))
             task(number, context);
+    end_visit(begun);
 }
 
 /* Replace a subtree by those of its children. */

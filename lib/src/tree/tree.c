@@ -79,9 +79,8 @@ octree_status octree_create(const octree_def *def, octree **tree)
 
 void octree_destroy(octree *tree)
 {
-    if (!tree)
+    if (!tree || octree_clear(tree) != OCTREE_OK)
         return;
-    octree_clear(tree);
     arena memory = tree->store.memory;
     arena_free(&memory, tree, sizeof *tree);
 }
@@ -90,6 +89,8 @@ octree_status octree_clear(octree *tree)
 {
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
+    if (is_visited(tree))
+        return OCTREE_BUSY;
     store_release(&tree->store, &tree->root);
     change_log_stop(&tree->changes, &tree->store.memory);
     tree->root = (node){0};
@@ -159,8 +160,10 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
+        const unsigned begun = begin_visit(tree); /* its executor runs tasks of the other tree */
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
+        end_visit(begun);
     }
     arena_free(&other->store.memory, points, size);
     if (status == OCTREE_OK)
@@ -173,6 +176,8 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
 {
     if (!tree || !world)
         return OCTREE_NULL_ARGUMENT;
+    if (is_visited(tree))
+        return OCTREE_BUSY;
     octree_def def = tree->def;
     def.world = *world;
     return rebuild_tree(tree, &def);
@@ -180,7 +185,9 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
 
 octree_status octree_compact(octree *tree)
 {
-    return tree ? rebuild_tree(tree, &tree->def) : OCTREE_NULL_ARGUMENT;
+    if (!tree)
+        return OCTREE_NULL_ARGUMENT;
+    return is_visited(tree) ? OCTREE_BUSY : rebuild_tree(tree, &tree->def);
 }
 
 /* ---- Finding ------------------------------------------------------------------------------------------------ */

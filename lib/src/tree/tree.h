@@ -10,6 +10,7 @@
 #include "change_log.h"
 #include "leaf.h"
 #include "plane.h"
+#include "visits.h"
 
 /* The choice of the capacity under OCTREE_AUTO. A function pointer, so that a program without OCTREE_AUTO does not link
  * tune.c through insertion. */
@@ -50,6 +51,13 @@ static inline bool fits_leaf(const octree *tree, size_t count)
 
 /* Check whether a position is in the world. Returns OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
+
+/* The same for a change of the tree: also BUSY. */
+static inline octree_status check_change(const octree *tree, const double position[3])
+{
+    const octree_status status = check_position(tree, position);
+    return status == OCTREE_OK && is_visited(tree) ? OCTREE_BUSY : status;
+}
 
 /* Insert a point with a valid position and its code. Returns OK, DUPLICATE, FULL, NO_MEMORY or TOO_MANY. Unless
  * `divides`, a leaf that is at its capacity is FULL even if it could split; removing the point again then needs no

@@ -237,9 +237,11 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
     sample s = {.mix = clamp_mix(*mix, LEAST_CELL)};
     arena *memory = &tree->store.memory;
     const size_t size = ((s.mix.k > s.mix.hits ? s.mix.k : s.mix.hits) + 1) * sizeof *s.neighbors;
+    const unsigned begun = begin_visit(tree); /* its executor runs tasks of the trial trees */
     s.neighbors = arena_allocate(memory, size);
     const bool ok = make_sample(&s, tree) && s.neighbors;
     const octree_status status = ok ? choose_capacity(&s, tree->def, capacity) : OCTREE_NO_MEMORY;
+    end_visit(begun);
     arena_free(memory, s.neighbors, size);
     arena_free(memory, s.points, s.room * sizeof *s.points);
     return status;
@@ -253,7 +255,7 @@ octree_status octree_tune(octree *tree, const octree_mix *mix)
         return OCTREE_BAD_CAPACITY;
     const octree_mix asked = mix ? *mix : octree_mix_default();
     octree_def def = tree->def;
-    octree_status status = check_mix(&asked);
+    octree_status status = is_visited(tree) ? OCTREE_BUSY : check_mix(&asked);
     def.leaf_capacity = octree_def_default().leaf_capacity; /* for a tree without points */
     if (status == OCTREE_OK && octree_count(tree) > 0)
         status = choose_by_sample(tree, &asked, &def.leaf_capacity);

@@ -73,8 +73,10 @@ octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *c
         return OCTREE_NULL_ARGUMENT;
     if (!float_mode_is_default())
         return OCTREE_FLOAT_MODE;
-    walk_subtree(&(walk){.tree = tree, .visit = visit, .context = context}, &tree->root, OCTREE_ROOT, root_cell(),
-                 &tree->def.world);
+    walk w = {.tree = tree, .visit = visit, .context = context};
+    const unsigned begun = begin_visit(tree);
+    walk_subtree(&w, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
+    end_visit(begun);
     return OCTREE_OK;
 }
 

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* visits.h - refuses changes of a tree inside its own callbacks. Private.
+ *
+ * Problem: a visitor, a tracer or an executor that changes the tree frees nodes or changes that the query around it
+ * still reads.
+ *
+ * Idea: each thread lists the trees whose callbacks it is running. Every public change looks for its tree in the list
+ * of its thread and returns OCTREE_BUSY if it finds it. A change on another thread during a visit is outside the rule
+ * that changes run alone, and is not detected.
+ *
+ * Why not a counter in the tree: queries take a const tree and run on many threads, which would compete for the
+ * counter's cache line at every query. The list is not shared, so that it needs no atomics and cannot race.
+ *
+ * Cost: a walk, a query of a region or a traced search writes three words of its thread's memory (15 instructions), a
+ * change reads one. Other queries pay nothing.
+ */
+#ifndef OCTREE_VISITS_H
+#define OCTREE_VISITS_H
+
+#include "octree/types.h"
+
+/* Where the C library reserves room for it, thread-local memory is read without a function call in the shared library,
+ * too. */
+#if defined(__GLIBC__) && defined(__GNUC__)
+#define THREAD_LOCAL _Thread_local __attribute__((tls_model("initial-exec")))
+#else
+#define THREAD_LOCAL _Thread_local
+#endif
+
+/* Deeper visits are not listed; every tree then counts as visited. */
+enum { VISITS_AT_MOST = 15 };
+
+typedef struct visits {
+    const octree *trees[VISITS_AT_MOST]; /* nested visits: a visitor may ask this or another tree */
+    unsigned depth;
+} visits;
+
+extern THREAD_LOCAL visits visits_of_thread;
+
+/* Call before callbacks of the tree. Returns the argument of end_visit(). */
+static inline unsigned begin_visit(const octree *tree)
+{
+    const unsigned depth = visits_of_thread.depth;
+    if (depth < VISITS_AT_MOST)
+        visits_of_thread.trees[depth] = tree;
+    visits_of_thread.depth = depth + 1;
+    return depth;
+}
+
+static inline void end_visit(unsigned begun)
+{
+    visits_of_thread.depth = begun;
+}
+
+bool is_listed_visit(const octree *tree);
+
+/* Whether this thread runs a callback of the tree. */
+static inline bool is_visited(const octree *tree)
+{
+    return visits_of_thread.depth > 0 && is_listed_visit(tree);
+}
+
+#endif
