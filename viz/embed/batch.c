@@ -7,6 +7,89 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* ---- Changes ------------------------------------------------------------------------------------------------ */
+
+bool change_make(uint64_t id, const double *from, const double *to, change *made)
+{
+    if (from == to || (from && to && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])) /* -0 equals 0 */
+        return false;
+    change c = {.kind = !to ? OCTREE_EDIT_REMOVE : from ? OCTREE_EDIT_MOVE : OCTREE_EDIT_INSERT, .id = id};
+    if (from)
+        memcpy(c.from, from, sizeof c.from);
+    if (to)
+        memcpy(c.to, to, sizeof c.to);
+    *made = c;
+    return true;
+}
+
+size_t changes_between(const points *before, const points *after, change *changes)
+{
+    size_t i = 0, j = 0, count = 0;
+    while (i < before->count || j < after->count) {
+        const octree_point *old = i < before->count ? &before->items[i] : NULL;
+        const octree_point *new = j < after->count ? &after->items[j] : NULL;
+        change unused;
+        if (old && new && old->id != new->id) {
+            old = old->id < new->id ? old : NULL;
+            new = old ? NULL : new;
+        }
+        i += old != NULL;
+        j += new != NULL;
+        count += change_make(old ? old->id : new->id, old ? old->position : NULL, new ? new->position : NULL,
+                             changes ? &changes[count] : &unused);
+    }
+    return count;
+}
+
+static int compare_changes(const void *a, const void *b)
+{
+    const change *c = a, *d = b;
+    return c->id != d->id ? (c->id > d->id) - (c->id < d->id) : (c->order > d->order) - (c->order < d->order);
+}
+
+size_t changes_settle(change *changes, size_t count)
+{
+    size_t settled = 0;
+    bool sorted = true;
+    for (size_t i = 0; i < count; i++) {
+        changes[i].order = (uint32_t)i;
+        sorted = sorted && (i == 0 || changes[i - 1].id <= changes[i].id);
+    }
+    if (!sorted)
+        qsort(changes, count, sizeof *changes, compare_changes);
+    for (size_t first = 0, last; first < count; first = last + 1) {
+        for (last = first; last + 1 < count && changes[last + 1].id == changes[first].id;)
+            last++;
+        const double *from = changes[first].kind == OCTREE_EDIT_INSERT ? NULL : changes[first].from;
+        const double *to = changes[last].kind == OCTREE_EDIT_REMOVE ? NULL : changes[last].to;
+        settled += change_make(changes[first].id, from, to, &changes[settled]);
+    }
+    return settled;
+}
+
+static void put_point(point_table *table, uint64_t id, const double at[3])
+{
+    octree_point point = {.id = id};
+    memcpy(point.position, at, sizeof point.position);
+    point_table_put(table, &point);
+}
+
+void change_apply(const change *c, point_table *table)
+{
+    if (c->kind == OCTREE_EDIT_REMOVE)
+        point_table_remove(table, c->id);
+    else
+        put_point(table, c->id, c->to);
+}
+
+void change_revert(const change *c, point_table *table)
+{
+    if (c->kind == OCTREE_EDIT_INSERT)
+        point_table_remove(table, c->id);
+    else
+        put_point(table, c->id, c->from);
+}
+
 /* ---- Gaps --------------------------------------------------------------------------------------------------- */
 
 void gap_list_add(gap_list *list, const char *why)
@@ -108,9 +191,7 @@ batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const oc
 
 void batch_settle(batch *b)
 {
-    if (b->unsettled)
-        b->change_count = changes_settle(b->changes, b->change_count);
-    b->unsettled = false;
+    b->change_count = changes_settle(b->changes, b->change_count);
 }
 
 void batch_release(batch *b)

@@ -4,7 +4,31 @@
 #ifndef EMBED_BATCH_H
 #define EMBED_BATCH_H
 
-#include "changes.h"
+#include "octreel/recorder.h"
+#include "points.h"
+
+typedef struct change {
+    octree_edit_kind kind;
+    uint32_t order; /* used by changes_settle() only */
+    uint64_t id;
+    double from[3], to[3]; /* positions; an insertion has no `from`, a removal no `to` */
+} change;
+
+/* Find the changes from one list to another, by id. Returns their count; with null `changes` it only counts.
+ * Cost: O(before + after). */
+size_t changes_between(const points *before, const points *after, change *changes);
+
+/* Reduce changes in the order in which they were made to one for each id, sorted by id. Changes that cancel out vanish.
+ * Returns the new count; `count` is at most UINT32_MAX. Cost: O(m log m). */
+size_t changes_settle(change *changes, size_t count);
+
+/* Make the change of a point from one position to another; null: the point does not exist there. False if nothing
+ * changes. */
+bool change_make(uint64_t id, const double *from, const double *to, change *made);
+
+/* Apply a change to a table, or revert it. The table has room for one more point. */
+void change_apply(const change *c, point_table *table);
+void change_revert(const change *c, point_table *table);
 
 /* Consecutive refused ticks with the same reason. */
 typedef struct gap_run {
@@ -28,8 +52,7 @@ typedef struct batch {
     gap_run *gaps; /* before the tick */
     size_t gap_count;
     bool is_gap;     /* holds only the gaps */
-    change *changes; /* one for each id, in ascending order of ids */
-    bool unsettled;  /* the changes are still in the order in which they were made: call batch_settle() */
+    change *changes; /* in the order in which they were made, until batch_settle() */
     size_t change_count;
     octree_query *queries;
     size_t query_count;
@@ -44,7 +67,7 @@ typedef struct batch {
  * null. Null if out of memory. Cost: O(gaps + queries + shapes + nodes). */
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
-/* Reduce the changes to one for each id. */
+/* Reduce the changes to one for each id, sorted by id. */
 void batch_settle(batch *b);
 
 /* Make a batch of gaps alone. Null if out of memory. */

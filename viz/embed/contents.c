@@ -20,7 +20,6 @@ void contents_release(contents *c)
     points_release(&c->spare);
     point_table_release(&c->table);
     free(c->changes);
-    free(c->tree.heard);
     *c = (contents){0};
 }
 
@@ -29,8 +28,7 @@ static bool is_finite_place(const double at[3])
     return isfinite(at[0]) && isfinite(at[1]) && isfinite(at[2]);
 }
 
-/* ---- The definition of a tree
- * ---------------------------------------------------------------------------------------------- */
+/* ---- The definition of a tree ------------------------------------------------------------------------------- */
 
 /* Check that a tree has the world and the options that the recorder was opened with. */
 static octreel_status check_tree(const octree_def *own, const octree *tree, octreel_error *error)
@@ -58,11 +56,47 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
     return OCTREEL_OK;
 }
 
-/* ---- Changes from the program
- * ---------------------------------------------------------------------------------------- */
+/* ---- The changes of a tick ---------------------------------------------------------------------------------- */
 
+/* Bounds memory while no tick is accepted: changes that cancel out are dropped once they have doubled. */
+static void settle(contents *c)
+{
+    enum { FEW = 1024 };
+    if (c->change_count > FEW && c->change_count / 2 > c->settled)
+        c->change_count = c->settled = changes_settle(c->changes, c->change_count);
+}
+
+static bool reserve_changes(contents *c, size_t more)
+{
+    return more <= UINT32_MAX - c->change_count &&
+           array_grow(&c->changes, c->change_count + more, &c->change_room, sizeof *c->changes);
+}
+
+/* Change a point of the table; null: it does not exist. False if out of memory. */
+static bool change_point(contents *c, uint64_t id, const double *from, const double *to)
+{
+    if (!reserve_changes(c, 1) || (!from && !point_table_reserve(&c->table, c->table.count + 1)))
+        return false;
+    if (change_make(id, from, to, &c->changes[c->change_count]))
+        change_apply(&c->changes[c->change_count++], &c->table);
+    return true;
+}
+
+/* Revert the tick that was read last. */
+static void revert_tick(contents *c)
+{
+    while (c->change_count > c->kept) {
+        c->change_count--;
+        if (c->tabled)
+            change_revert(&c->changes[c->change_count], &c->table);
+    }
+}
+
+/* Go over from lists to the table. */
 static bool start_table(contents *c)
 {
+    if (c->tabled)
+        return true;
     if (!point_table_reserve(&c->table, c->now.count))
         return false;
     for (size_t i = 0; i < c->now.count; i++)
@@ -74,152 +108,12 @@ static bool start_table(contents *c)
     return true;
 }
 
-static bool make_room(contents *c, size_t more)
+/* Go back to lists: `now` becomes the points before the tick that is read. */
+static bool start_lists(contents *c)
 {
-    return more == 0 || (more <= UINT32_MAX - c->change_count &&
-                         array_grow(&c->changes, c->change_count + more, &c->change_room, sizeof *c->changes) &&
-                         point_table_reserve(&c->table, c->table.count + more));
-}
-
-/* Bounds memory while no tick is accepted: changes that cancel out are dropped once they have doubled. */
-static void settle(contents *c)
-{
-    enum { FEW = 1024 };
-    if (c->change_count > FEW && c->change_count / 2 > c->settled)
-        c->change_count = c->settled = changes_settle(c->changes, c->change_count);
-}
-
-static octreel_status add_change(contents *c, const octree_edit *edit, size_t number, octreel_error *error)
-{
-    const octree_body *body = &edit->body;
-    const octree_point *there = point_table_find(&c->table, body->id);
-    change made = {.kind = edit->kind, .id = body->id};
-    if ((unsigned)edit->kind > OCTREE_EDIT_MOVE)
-        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: unknown kind of edit", number);
-    if (body->id >= SESSION_ID_LIMIT)
-        return status_refuse(error, OCTREEL_BAD_ID, "changes[%zu]: %s: %" PRIu64, number,
-                             octreel_status_text(OCTREEL_BAD_ID), body->id);
-    if (edit->kind != OCTREE_EDIT_REMOVE && !is_finite_place(body->position))
-        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: a coordinate is NaN or infinite", number);
-    if (edit->kind == OCTREE_EDIT_INSERT && there)
-        return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: point %" PRIu64 " exists already", number,
-                             body->id);
-    if (edit->kind != OCTREE_EDIT_INSERT && !there)
-        return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: point %" PRIu64 " does not exist", number,
-                             body->id);
-    if (there)
-        memcpy(made.from, there->position, sizeof made.from);
-    if (edit->kind != OCTREE_EDIT_REMOVE)
-        memcpy(made.to, body->position, sizeof made.to);
-    change_make(&made, &c->table);
-    c->changes[c->change_count++] = made;
-    return OCTREEL_OK;
-}
-
-static octreel_status read_changes(contents *c, const octreel_tick_info *about, octreel_error *error)
-{
-    octreel_status first = OCTREEL_OK;
-    octreel_error later;
-    if ((!c->tabled && !start_table(c)) || !make_room(c, about->change_count))
-        return status_fail(error, OCTREEL_NO_MEMORY);
-    c->source = FROM_CHANGES;
-    for (size_t i = 0; i < about->change_count; i++) {
-        const octreel_status status = add_change(c, &about->changes[i], i, first == OCTREEL_OK ? error : &later);
-        first = first == OCTREEL_OK ? status : first;
-    }
-    return first;
-}
-
-void contents_undo(contents *c)
-{
-    while (c->change_count > c->kept)
-        change_undo(&c->changes[--c->change_count], &c->table);
-    c->tree.mark = (octree_cursor){0}; /* its log was read up to this tick */
-}
-
-/* ---- Changes from a tree's log ------------------------------------------------------------------------ */
-
-/* With more changes, reading all points takes less time. */
-static bool are_few(size_t changes, size_t points)
-{
-    return changes <= points / 8 + 16;
-}
-
-/* A name that no log was given before. */
-static size_t make_log_name(followed_tree *f)
-{
-    struct timespec now = {0};
-    if (f->names == 0 && timespec_get(&now, TIME_UTC))
-        f->names = octree_digest_word(octree_digest_word((uintptr_t)f, (uint64_t)now.tv_nsec), (uint64_t)now.tv_sec);
-    const size_t name = (size_t)octree_digest_word(0, f->names++);
-    return name ? name : 1;
-}
-
-static void add_heard(const octree_change *change, void *context)
-{
-    followed_tree *f = context;
-    if (array_grow(&f->heard, f->heard_count + 1, &f->heard_room, sizeof *f->heard))
-        f->heard[f->heard_count++] = *change;
-    else
-        f->lost = true;
-}
-
-static bool read_log(followed_tree *f, const octree *tree)
-{
-    f->heard_count = 0;
-    f->lost = false;
-    if (f->whole || f->busy) /* the log does not continue from `now` */
-        f->mark = (octree_cursor){0};
-    f->whole = false;
-    return !f->busy && octree_changes_since(tree, make_log_name(f), &f->mark, add_heard, f) && !f->lost;
-}
-
-/* Apply a change from the log. False if it contradicts the table, or if files cannot hold the id. */
-static bool apply_heard(contents *c, const octree_change *said)
-{
-    const octree_point *there = point_table_find(&c->table, said->id);
-    change made = {.kind = said->kind == OCTREE_INSERTED  ? OCTREE_EDIT_INSERT
-                           : said->kind == OCTREE_REMOVED ? OCTREE_EDIT_REMOVE
-                                                          : OCTREE_EDIT_MOVE,
-                   .id = said->id};
-    if (said->id >= SESSION_ID_LIMIT || !there != (said->kind == OCTREE_INSERTED))
-        return false;
-    for (int i = 0; there && i < 3; i++)
-        if (there->position[i] != said->from[i])
-            return false; /* two points have or had this id */
-    memcpy(made.from, said->from, sizeof made.from);
-    memcpy(made.to, said->to, sizeof made.to);
-    change_make(&made, &c->table);
-    c->changes[c->change_count++] = made;
-    return true;
-}
-
-/* Apply all changes from the log; an insertion waits until the point with its id is removed. False without any change
- * if two points share an id, or out of memory; reading the whole tree then reports which. */
-static bool apply_log(contents *c)
-{
-    followed_tree *f = &c->tree;
-    size_t waiting = 0;
-    bool made = (c->tabled || start_table(c)) && make_room(c, f->heard_count);
-    for (size_t i = 0; made && i < f->heard_count; i++) {
-        if (f->heard[i].kind == OCTREE_INSERTED && point_table_find(&c->table, f->heard[i].id))
-            f->heard[waiting++] = f->heard[i];
-        else
-            made = apply_heard(c, &f->heard[i]);
-    }
-    for (size_t i = 0; made && i < waiting; i++)
-        made = apply_heard(c, &f->heard[i]);
-    if (!made)
-        contents_undo(c);
-    return made;
-}
-
-/* Turn the table back into `now`, the points of the last accepted tick. */
-static bool list_accepted(contents *c)
-{
-    while (c->change_count > 0)
-        change_undo(&c->changes[--c->change_count], &c->table);
-    c->kept = 0;
+    if (!c->tabled)
+        return true;
+    revert_tick(c); /* of which a part may have come from the log */
     if (!point_table_list(&c->table, &c->now, &c->spare))
         return false;
     point_table_release(&c->table);
@@ -227,56 +121,125 @@ static bool list_accepted(contents *c)
     return true;
 }
 
-static octreel_status read_whole_tree(contents *c, const octree *tree, octreel_error *error)
+/* ---- Changes from the program ------------------------------------------------------------------------------- */
+
+static octreel_status add_edit(contents *c, const octree_edit *edit, size_t number, octreel_error *error)
+{
+    const octree_body *body = &edit->body;
+    const bool inserts = edit->kind == OCTREE_EDIT_INSERT, removes = edit->kind == OCTREE_EDIT_REMOVE;
+    if ((unsigned)edit->kind > OCTREE_EDIT_MOVE)
+        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: unknown kind of edit", number);
+    if (body->id >= SESSION_ID_LIMIT)
+        return status_refuse(error, OCTREEL_BAD_ID, "changes[%zu]: %s: %" PRIu64, number,
+                             octreel_status_text(OCTREEL_BAD_ID), body->id);
+    if (!removes && !is_finite_place(body->position))
+        return status_refuse(error, OCTREEL_BAD_POINT, "changes[%zu]: a coordinate is NaN or infinite", number);
+    const octree_point *there = point_table_find(&c->table, body->id);
+    if (inserts && there)
+        return status_refuse(error, OCTREEL_DUPLICATE_ID, "changes[%zu]: point %" PRIu64 " exists already", number,
+                             body->id);
+    if (!inserts && !there)
+        return status_refuse(error, OCTREEL_NO_POINT, "changes[%zu]: point %" PRIu64 " does not exist", number,
+                             body->id);
+    return change_point(c, body->id, there ? there->position : NULL, removes ? NULL : body->position)
+               ? OCTREEL_OK
+               : status_fail(error, OCTREEL_NO_MEMORY);
+}
+
+static octreel_status read_edits(contents *c, const octreel_tick_info *about, octreel_error *error)
+{
+    octreel_status first = OCTREEL_OK;
+    octreel_error later;
+    if (!start_table(c))
+        return status_fail(error, OCTREEL_NO_MEMORY);
+    c->source = FROM_CHANGES;
+    for (size_t i = 0; about && i < about->change_count; i++) {
+        const octreel_status status = add_edit(c, &about->changes[i], i, first == OCTREEL_OK ? error : &later);
+        if (status == OCTREEL_NO_MEMORY)
+            return status_fail(error, status);
+        first = first == OCTREEL_OK ? status : first;
+    }
+    return first;
+}
+
+/* ---- A list, or a whole tree -------------------------------------------------------------------------------- */
+
+/* Read all points of a tree or, where it is null, of a list. */
+static octreel_status read_whole(contents *c, const octree *tree, const octree_point *list, size_t count,
+                                 octreel_error *error)
 {
     uint64_t clash = 0;
-    c->tree.whole = true;
-    if (c->tabled && !list_accepted(c))
+    if (!start_lists(c))
         return status_fail(error, OCTREEL_NO_MEMORY);
-    const octreel_status status = points_read(&c->next, &c->spare, tree, &clash);
-    if (status == OCTREEL_BAD_ID || status == OCTREEL_DUPLICATE_ID)
-        return status_refuse(error, status, "%s: %" PRIu64, octreel_status_text(status), clash);
-    return status == OCTREEL_OK ? status : status_fail(error, status);
-}
-
-static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
-{
-    const octreel_status status = check_tree(def, tree, error);
+    const octreel_status status = points_read(&c->next, &c->spare, tree, list, count, &clash);
+    if (status == OCTREEL_DUPLICATE_ID && !tree)
+        return status_refuse(error, status, "points: two points have the id %" PRIu64, clash);
+    if (status == OCTREEL_DUPLICATE_ID || status == OCTREEL_BAD_ID)
+        return status_refuse(error, status, "%s%s: %" PRIu64, tree ? "" : "points: ", octreel_status_text(status),
+                             clash);
     if (status != OCTREEL_OK)
-        return status;
-    if (read_log(&c->tree, tree) && are_few(c->tree.heard_count, octree_count(tree)) && apply_log(c))
-        return OCTREEL_OK;
-    return read_whole_tree(c, tree, error);
-}
-
-/* ---- A list ---------------------------------------------------------------------------------------------- */
-
-/* Change the table to the list that was read. */
-static bool apply_list(contents *c)
-{
-    if (!point_table_list(&c->table, &c->now, &c->spare))
-        return false;
-    const size_t count = changes_between(&c->now, &c->next, NULL);
-    if (!make_room(c, count))
-        return false;
-    changes_between(&c->now, &c->next, c->changes + c->change_count);
-    for (const size_t end = c->change_count + count; c->change_count < end; c->change_count++)
-        change_make(&c->changes[c->change_count], &c->table);
-    return true;
+        return status_fail(error, status);
+    if (!reserve_changes(c, changes_between(&c->now, &c->next, NULL)))
+        return status_fail(error, OCTREEL_NO_MEMORY);
+    c->change_count += changes_between(&c->now, &c->next, c->changes + c->change_count);
+    return OCTREEL_OK;
 }
 
 static octreel_status read_list(contents *c, const octree_point *list, size_t count, octreel_error *error)
 {
-    uint64_t clash = 0;
     for (size_t i = 0; i < count; i++)
         if (!is_finite_place(list[i].position))
             return status_refuse(error, OCTREEL_BAD_POINT, "points[%zu]: a coordinate is NaN or infinite", i);
-    const octreel_status status = points_read_list(&c->next, &c->spare, list, count, &clash);
-    if (status == OCTREEL_BAD_ID)
-        return status_refuse(error, status, "points: %s: %" PRIu64, octreel_status_text(status), clash);
-    if (status == OCTREEL_DUPLICATE_ID)
-        return status_refuse(error, status, "points: two points have the id %" PRIu64, clash);
-    return status == OCTREEL_OK && (!c->tabled || apply_list(c)) ? OCTREEL_OK : status_fail(error, OCTREEL_NO_MEMORY);
+    return read_whole(c, NULL, list, count, error);
+}
+
+/* ---- Changes from a tree's log ------------------------------------------------------------------------------ */
+
+/* A name that no log was given before. */
+static size_t make_log_name(contents *c)
+{
+    struct timespec now = {0};
+    if (c->names == 0 && timespec_get(&now, TIME_UTC))
+        c->names = octree_digest_word(octree_digest_word((uintptr_t)c, (uint64_t)now.tv_nsec), (uint64_t)now.tv_sec);
+    const size_t name = (size_t)octree_digest_word(0, c->names++);
+    return name ? name : 1;
+}
+
+/* Apply a change from the log. While two points of the tree share an id, the table has one of them: changes of the
+ * other are left out. */
+static void apply_logged(const octree_change *logged, void *context)
+{
+    contents *c = context;
+    if (logged->id >= SESSION_ID_LIMIT)
+        return;
+    const octree_point *there = point_table_find(&c->table, logged->id);
+    change unused;
+    if (logged->kind != OCTREE_INSERTED && (!there || change_make(logged->id, there->position, logged->from, &unused)))
+        return;
+    c->log_incomplete |= !change_point(c, logged->id, there ? there->position : NULL,
+                                       logged->kind == OCTREE_REMOVED ? NULL : logged->to);
+}
+
+/* Apply the changes since the last read. False if the log does not have them, or if they are not the whole truth: all
+ * points of the table are in the tree, so a tree with more points has two with one id or one that files cannot hold. */
+static bool read_log(contents *c, const octree *tree)
+{
+    c->log_incomplete = false;
+    if (c->many_changes) /* let the tree keep no log */
+        c->mark = (octree_cursor){0};
+    if (c->many_changes || (c->mark.log != 0 && !start_table(c)))
+        return false;
+    return octree_changes_since(tree, make_log_name(c), &c->mark, apply_logged, c) && !c->log_incomplete &&
+           c->table.count == octree_count(tree);
+}
+
+static octreel_status read_tree(contents *c, const octree_def *def, const octree *tree, octreel_error *error)
+{
+    octreel_status status = check_tree(def, tree, error);
+    if (status == OCTREEL_OK && !read_log(c, tree))
+        status = read_whole(c, tree, NULL, octree_count(tree), error);
+    c->many_changes = c->change_count - c->kept > octree_count(tree) / 8 + 16;
+    return status;
 }
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
@@ -307,34 +270,41 @@ octreel_status contents_read(contents *c, const octree_def *def, const octree *t
     if (c->read_source == FROM_TREE)
         return read_tree(c, def, tree, error);
     if (c->read_source == FROM_CHANGES)
-        return about ? read_changes(c, about, error) : OCTREEL_OK;
+        return read_edits(c, about, error);
     return read_list(c, about ? about->points : NULL, about ? about->point_count : 0, error);
 }
 
-bool contents_add_changes(contents *c, batch *b)
+void contents_give_changes(contents *c, batch *b)
 {
-    const size_t most = c->tabled ? c->change_count : changes_between(&c->now, &c->next, NULL);
-    c->tree.busy = c->source == FROM_TREE && !c->tabled && !are_few(most, c->now.count);
-    if (most == 0)
-        return true;
-    b->changes = most <= SIZE_MAX / sizeof *b->changes ? malloc(most * sizeof *b->changes) : NULL;
-    if (!b->changes)
-        return false;
-    b->bytes += most * sizeof *b->changes;
-    if (c->tabled)
-        memcpy(b->changes, c->changes, most * sizeof *b->changes);
-    else
-        changes_between(&c->now, &c->next, b->changes);
-    b->change_count = most;
-    b->unsettled = c->tabled;
-    return true;
+    if (c->change_count == 0)
+        return;
+    change *fitting = realloc(c->changes, c->change_count * sizeof *fitting);
+    b->changes = fitting ? fitting : c->changes;
+    b->change_count = c->change_count;
+    b->bytes += c->change_count * sizeof *fitting;
+    c->changes = NULL;
+    c->change_count = c->change_room = 0;
+}
+
+void contents_take_changes(contents *c, batch *b)
+{
+    c->changes = b->changes;
+    c->change_count = c->change_room = b->change_count;
+    b->changes = NULL;
 }
 
 void contents_accept(contents *c)
 {
     c->source = c->read_source;
-    c->change_count = c->settled = 0;
-    c->tree.whole = false;
+    c->settled = 0;
     if (!c->tabled)
         points_swap(&c->now, &c->next); /* the next tick is compared with this one */
+}
+
+void contents_refuse(contents *c, octreel_status status)
+{
+    if (c->tabled && status != OCTREEL_NO_MEMORY)
+        return;
+    revert_tick(c);
+    c->mark = (octree_cursor){0}; /* the tree's log was read up to this tick */
 }

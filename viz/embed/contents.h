@@ -8,36 +8,28 @@
 
 typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } points_source;
 
-/* A cursor into the change log of the program's tree. */
-typedef struct followed_tree {
-    octree_cursor mark;   /* `now`, or the table, has the changes up to here; zero: there is no valid mark */
-    uint64_t names;       /* count of names that were given to logs */
-    octree_change *heard; /* the changes of the tick that was read last */
-    size_t heard_count, heard_room;
-    bool lost;  /* memory ran out for one of them */
-    bool whole; /* the whole tree was read for a tick that is not accepted yet */
-    bool busy;  /* many points changed in the last accepted tick: reading the whole tree is faster than its log */
-} followed_tree;
-
-/* The recorder needs the changes since the last accepted tick. There are two ways to them:
+/* Every source becomes `changes`: what changed since the last accepted tick.
  *
- * - Whole contents: a tree or a list is read into `next` and compared with `now`, that of the last accepted tick. This
- *   costs O(n) at each tick.
- * - Changes: the program gives them, or its tree's change log does. `table` then holds the current points, and
- * `changes` all changes since the last accepted tick. This costs O(changes).
+ * - A list, and a tree of which many points change, is read whole into `next` and compared with `now`, at O(n). This
+ *   takes a third of the time that looking up each point in a table would take.
+ * - Edits of the program, and the change log of its tree, are applied to `table`, which has the points of the tick
+ *   that was read last, at O(changes).
  *
- * A tree is read by its log while few of its points change; otherwise it is read whole, and the table is dropped.
- * Zero-initialized contents are empty. */
+ * Either the lists or the table are in use; contents change over when the source does. Zero-initialized contents are
+ * empty. */
 typedef struct contents {
     points_source source, read_source; /* of the last accepted tick with points, and of the tick that was read last */
-    points now, next, spare;           /* of the last accepted tick, of the tick that is read, and scratch */
+    points now, next, spare;           /* before the tick that was read last, at this tick, and scratch */
     bool tabled;
     point_table table;
-    change *changes; /* since the last accepted tick, in the order in which they were made */
+    change *changes; /* in the order in which they were made */
     size_t change_count, change_room;
-    size_t settled; /* count after they were last reduced to one for each id */
-    size_t kept;    /* count before the tick that was read last */
-    followed_tree tree;
+    size_t settled;      /* count after they were last reduced to one for each id */
+    size_t kept;         /* count before the tick that was read last */
+    octree_cursor mark;  /* in the tree's log: the points were read up to here */
+    uint64_t names;      /* the number of names that were given to logs, from a random start */
+    bool many_changes;   /* of the tree in the tick that was read last: reading it whole is then faster than a log */
+    bool log_incomplete; /* memory ran out for a change of the log */
 } contents;
 
 void contents_release(contents *c);
@@ -48,13 +40,13 @@ void contents_release(contents *c);
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error);
 
-/* Copy the changes since the last accepted tick into a batch. False if out of memory. */
-bool contents_add_changes(contents *c, batch *b);
+/* Move the changes since the last accepted tick into a batch, or back if the batch is not recorded. */
+void contents_give_changes(contents *c, batch *b);
+void contents_take_changes(contents *c, batch *b);
 
-/* Mark the tick that was read last as accepted. */
+/* Mark the tick that was read last as accepted or, with the status of its error, as refused. A list or a whole tree is
+ * then forgotten. Edits and logged changes stay for the next accepted tick, except after NO_MEMORY. */
 void contents_accept(contents *c);
-
-/* Revert the tick that was read last, after memory ran out, so that the program can give it again. */
-void contents_undo(contents *c);
+void contents_refuse(contents *c, octreel_status status);
 
 #endif

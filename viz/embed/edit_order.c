@@ -6,13 +6,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool edit_order_init(edit_order *o, const octree_def *def, const points *now)
+bool edit_order_init(edit_order *o, const octree_def *def, const batch *first)
 {
     *o = (edit_order){.world = def->world};
     if (def->full_leaf == OCTREE_GROW)
         return true;
-    return octree_create(def, &o->tree) == OCTREE_OK &&
-           (now->count == 0 || octree_insert_many(o->tree, now->items, now->count, NULL, NULL) == OCTREE_OK);
+    const size_t count = first->change_count;
+    octree_point *points = malloc((count ? count : 1) * sizeof *points);
+    for (size_t i = 0; points && i < count; i++) {
+        points[i].id = first->changes[i].id;
+        memcpy(points[i].position, first->changes[i].to, sizeof points[i].position);
+    }
+    const bool made = points && octree_create(def, &o->tree) == OCTREE_OK &&
+                      (count == 0 || octree_insert_many(o->tree, points, count, NULL, NULL) == OCTREE_OK);
+    free(points);
+    return made;
 }
 
 void edit_order_release(edit_order *o)
@@ -46,8 +54,8 @@ static bool is_inside(const edit_order *o, const double at[3])
     return inside;
 }
 
-/* Whether an edit of this kind is among those that a change becomes. */
-static bool needs(const edit_order *o, const change *c, octree_edit_kind kind)
+/* Whether a change becomes an edit of this kind: alone, or beside another one. */
+static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind kind)
 {
     const bool from = c->kind != OCTREE_EDIT_INSERT && is_inside(o, c->from);
     const bool to = c->kind != OCTREE_EDIT_REMOVE && is_inside(o, c->to);
@@ -77,42 +85,35 @@ static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, cons
     return status != OCTREE_NO_MEMORY;
 }
 
-/* Make the edits of a kind; those that find no room wait. */
-static bool make_all(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, size_t *waiting)
+/* Make edits of a kind: of all changes that need one or, with `again`, of those that wait. Changes that find no room
+ * wait; so do those that were removed to be inserted again. */
+static bool make_edits(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, bool again)
 {
-    for (size_t i = 0; i < b->change_count; i++) {
+    const size_t count = again ? o->waiting_count : b->change_count;
+    o->waiting_count = again ? 0 : o->waiting_count;
+    for (size_t i = 0; i < count; i++) {
+        const size_t index = again ? o->waiting[i] : i;
         bool made;
-        if (!needs(o, &b->changes[i], kind))
+        if (!again && !needs_edit(o, &b->changes[index], kind))
             continue;
-        if (!try_change(o, tick, kind, &b->changes[i], &made))
+        if (!try_change(o, tick, kind, &b->changes[index], &made))
             return false;
-        if (!made)
-            o->waiting[(*waiting)++] = i;
+        if (!made || (again && kind == OCTREE_EDIT_REMOVE))
+            o->waiting[o->waiting_count++] = index;
     }
-    return true;
-}
-
-/* Make all waiting changes as edits of this kind; those that still find no room stay in the list. */
-static bool make_waiting(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, size_t *waiting)
-{
-    size_t left = 0;
-    for (size_t i = 0; i < *waiting; i++) {
-        bool made;
-        if (!try_change(o, tick, kind, &b->changes[o->waiting[i]], &made))
-            return false;
-        if (!made || kind == OCTREE_EDIT_REMOVE) /* to be put back in */
-            o->waiting[left++] = o->waiting[i];
-    }
-    *waiting = left;
     return true;
 }
 
 bool edit_order_make(edit_order *o, const batch *b, uint64_t tick)
 {
-    size_t waiting = 0;
-    o->count = 0;
-    return reserve_edits(o, b->change_count) && make_all(o, b, tick, OCTREE_EDIT_REMOVE, &waiting) &&
-           make_all(o, b, tick, OCTREE_EDIT_MOVE, &waiting) && make_waiting(o, b, tick, OCTREE_EDIT_MOVE, &waiting) &&
-           make_waiting(o, b, tick, OCTREE_EDIT_REMOVE, &waiting) &&
-           make_waiting(o, b, tick, OCTREE_EDIT_INSERT, &waiting) && make_all(o, b, tick, OCTREE_EDIT_INSERT, &waiting);
+    static const struct {
+        octree_edit_kind kind;
+        bool again;
+    } passes[] = {{OCTREE_EDIT_REMOVE, false}, {OCTREE_EDIT_MOVE, false},  {OCTREE_EDIT_MOVE, true},
+                  {OCTREE_EDIT_REMOVE, true},  {OCTREE_EDIT_INSERT, true}, {OCTREE_EDIT_INSERT, false}};
+    o->count = o->waiting_count = 0;
+    bool made = reserve_edits(o, b->change_count);
+    for (size_t i = 0; made && i < sizeof passes / sizeof passes[0]; i++)
+        made = make_edits(o, b, tick, passes[i].kind, passes[i].again);
+    return made;
 }

@@ -19,11 +19,12 @@ typedef struct edit_order {
     octree_edit *edits;
     size_t count;
     size_t *waiting; /* indices of changes that found no room */
-    size_t room;     /* capacity of the arrays in changes */
+    size_t waiting_count;
+    size_t room; /* capacity of the arrays in changes */
 } edit_order;
 
-/* Start with the points `now` in a tree of this definition. False if out of memory. */
-bool edit_order_init(edit_order *o, const octree_def *def, const points *now);
+/* Start with the insertions of a batch in a tree of this definition. False if out of memory. */
+bool edit_order_init(edit_order *o, const octree_def *def, const batch *first);
 void edit_order_release(edit_order *o);
 
 /* Set o->edits to the edits of a batch at a tick. False if out of memory. */

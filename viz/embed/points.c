@@ -18,7 +18,7 @@ void points_release(points *p)
     *p = (points){0};
 }
 
-bool points_reserve(points *p, size_t count)
+static bool reserve(points *p, size_t count)
 {
     return array_grow(&p->items, count, &p->room, sizeof *p->items);
 }
@@ -93,27 +93,18 @@ static octreel_status check_and_sort(points *p, points *spare, uint64_t *clash)
     return OCTREEL_OK;
 }
 
-octreel_status points_read(points *p, points *spare, const octree *tree, uint64_t *clash)
+octreel_status points_read(points *p, points *spare, const octree *tree, const octree_point *list, size_t count,
+                           uint64_t *clash)
 {
-    const size_t count = octree_count(tree);
     p->count = 0;
     if (count == 0)
         return OCTREEL_OK;
-    if (!points_reserve(p, count) || !points_reserve(spare, count))
+    if (!reserve(p, count) || !reserve(spare, count))
         return OCTREEL_NO_MEMORY;
-    if (octree_walk(tree, add_leaf, p) != OCTREE_OK)
+    if (tree && octree_walk(tree, add_leaf, p) != OCTREE_OK)
         return OCTREEL_FLOAT_MODE;
-    return check_and_sort(p, spare, clash);
-}
-
-octreel_status points_read_list(points *p, points *spare, const octree_point *list, size_t count, uint64_t *clash)
-{
-    p->count = 0;
-    if (count == 0)
-        return OCTREEL_OK;
-    if (!points_reserve(p, count) || !points_reserve(spare, count))
-        return OCTREEL_NO_MEMORY;
-    memcpy(p->items, list, count * sizeof *list);
+    if (!tree)
+        memcpy(p->items, list, count * sizeof *list);
     p->count = count;
     return check_and_sort(p, spare, clash);
 }
@@ -200,7 +191,7 @@ bool point_table_list(const point_table *t, points *p, points *spare)
     p->count = 0;
     if (t->count == 0)
         return true;
-    if (!points_reserve(p, t->count) || !points_reserve(spare, t->count))
+    if (!reserve(p, t->count) || !reserve(spare, t->count))
         return false;
     for (size_t i = 0; i < t->size; i++)
         if (t->slots[i].id != NO_ID)

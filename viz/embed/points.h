@@ -13,17 +13,13 @@ typedef struct points {
 
 void points_release(points *p);
 
-/* Make room for `count` points. False if out of memory. */
-bool points_reserve(points *p, size_t count);
-
 void points_swap(points *a, points *b);
 
-/* Read the points of a tree; null is an empty tree. `spare` is scratch. On an error *clash is the id that is too large
- * or occurs twice. Errors: BAD_ID, DUPLICATE_ID, FLOAT_MODE, NO_MEMORY. Cost: O(nodes + n), by a radix sort of ids. */
-octreel_status points_read(points *p, points *spare, const octree *tree, uint64_t *clash);
-
-/* Read the points of a list in the same way. */
-octreel_status points_read_list(points *p, points *spare, const octree_point *list, size_t count, uint64_t *clash);
+/* Read all points of a tree or, where it is null, of a list. `spare` is scratch. On an error *clash is the id that is
+ * too large or occurs twice. Errors: BAD_ID, DUPLICATE_ID, FLOAT_MODE, NO_MEMORY. Cost: O(nodes + n), by a radix sort
+ * of ids. */
+octreel_status points_read(points *p, points *spare, const octree *tree, const octree_point *list, size_t count,
+                           uint64_t *clash);
 
 /* A hash table of points by id; each operation costs O(1) on average. A zero-initialized table is empty. */
 typedef struct point_table {

@@ -322,8 +322,10 @@ static octreel_status pass_batch(octreel_recorder *r, batch *b)
         status = queue_batch(r, b, &taken);
     else if (!(taken = ring_put(&r->ring, b)))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
-    if (!taken)
+    if (!taken) {
+        contents_take_changes(&r->contents, b);
         batch_release(b);
+    }
     return status;
 }
 
@@ -331,10 +333,10 @@ static octreel_status put_tick(octreel_recorder *r, const octreel_tick_info *abo
 {
     const octree_foreign_tree *said = about ? about->foreign : NULL;
     batch *b = batch_make(&r->gaps, about, said ? said : r->has_kept ? &r->kept : NULL);
-    if (b && contents_add_changes(&r->contents, b))
-        return pass_batch(r, b);
-    batch_release(b);
-    return status_fail(&r->error, OCTREEL_NO_MEMORY);
+    if (!b)
+        return status_fail(&r->error, OCTREEL_NO_MEMORY);
+    contents_give_changes(&r->contents, b);
+    return pass_batch(r, b);
 }
 
 static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
@@ -350,10 +352,10 @@ static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const
         status = put_tick(r, about);
     if (status != OCTREEL_OK && nodes == OCTREEL_OK && about && about->foreign && !keep_nodes(r, about->foreign))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
-    if (status == OCTREEL_NO_MEMORY)
-        contents_undo(&r->contents);
-    if (status != OCTREEL_OK)
+    if (status != OCTREEL_OK) {
+        contents_refuse(&r->contents, status);
         return status;
+    }
     contents_accept(&r->contents);
     foreign_tree_release(&r->kept);
     r->has_kept = false;

@@ -13,16 +13,21 @@ void ring_release(ring *r)
     *r = (ring){0};
 }
 
+static void clear_changes(batch *b)
+{
+    free(b->changes);
+    b->changes = NULL;
+    b->change_count = 0;
+}
+
 /* Make a tick the first of the ring: apply its changes to the start, and drop the gaps before it. */
 static bool start_at(ring *r, batch *b)
 {
     if (!point_table_reserve(&r->start, r->start.count + b->change_count))
         return false;
     for (size_t i = 0; i < b->change_count; i++)
-        change_make(&b->changes[i], &r->start);
-    free(b->changes);
-    b->changes = NULL;
-    b->change_count = 0;
+        change_apply(&b->changes[i], &r->start);
+    clear_changes(b);
     r->dropped += gap_list_ticks(b->gaps, b->gap_count);
     b->gap_count = 0;
     return true;
@@ -70,12 +75,23 @@ losses ring_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-/* ring_film() with the points of the first tick as a list. */
-static octreel_status film(const ring *r, const points *start, const filmer_settings *s, const char *folder,
-                           octreel_error *error)
+/* Give the first tick insertions of the points at the start. False if out of memory. */
+static bool add_insertions(const ring *r)
+{
+    batch *first = r->list.first;
+    first->changes = malloc((r->start.count + 1) * sizeof *first->changes);
+    for (size_t slot = 0; first->changes && slot < r->start.size; slot++) {
+        const octree_point *point = &r->start.slots[slot];
+        if (point->id != UINT64_MAX)
+            change_make(point->id, NULL, point->position, &first->changes[first->change_count++]);
+    }
+    return first->changes;
+}
+
+static octreel_status film_list(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
 {
     queue ticks;
-    session_filmer f = {.settings = s, .folder = folder, .start = start, .queue = &ticks};
+    session_filmer f = {.settings = s, .folder = folder, .queue = &ticks};
     if (!queue_init(&ticks, 0, 0)) {
         error_no_memory(error);
         return OCTREEL_NO_MEMORY;
@@ -95,13 +111,11 @@ static octreel_status film(const ring *r, const points *start, const filmer_sett
 
 octreel_status ring_film(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error)
 {
-    points start = {0}, spare = {0};
     octreel_status status = OCTREEL_NO_MEMORY;
-    if (point_table_list(&r->start, &start, &spare))
-        status = film(r, &start, s, folder, error);
+    if (add_insertions(r))
+        status = film_list(r, s, folder, error);
     else
         error_no_memory(error);
-    points_release(&start);
-    points_release(&spare);
+    clear_changes(r->list.first);
     return status;
 }

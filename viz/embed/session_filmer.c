@@ -21,12 +21,13 @@ static void number_tick(batch *b, uint64_t tick)
     b->foreign.tick = tick;
 }
 
-static octree_body *make_bodies(const points *start)
+/* The points that a batch inserts. */
+static octree_body *make_bodies(const batch *first)
 {
-    octree_body *bodies = calloc(start->count ? start->count : 1, sizeof *bodies);
-    for (size_t i = 0; bodies && i < start->count; i++) {
-        bodies[i].id = start->items[i].id;
-        memcpy(bodies[i].position, start->items[i].position, sizeof bodies[i].position);
+    octree_body *bodies = calloc(first->change_count ? first->change_count : 1, sizeof *bodies);
+    for (size_t i = 0; bodies && i < first->change_count; i++) {
+        bodies[i].id = first->changes[i].id;
+        memcpy(bodies[i].position, first->changes[i].to, sizeof bodies[i].position);
     }
     return bodies;
 }
@@ -37,13 +38,13 @@ static octreel_status fail_memory(session_filmer *f, octreel_status status)
     return status;
 }
 
-/* Record tick 0: these points with the queries and shapes of a batch, or a gap. */
-static octreel_status film_first(session_filmer *f, const points *start, const batch *first, const octree_gap *gap)
+/* Begin the recording with tick 0: the points of the first batch, with its queries and shapes or with a gap. */
+static octreel_status film_first_tick(session_filmer *f, const batch *first, const octree_gap *gap)
 {
     const filmer_settings *s = f->settings;
     film_options film = s->film;
-    octree_body *bodies = make_bodies(start);
-    if (!bodies || !edit_order_init(&f->order, &s->tree, start)) {
+    octree_body *bodies = make_bodies(first);
+    if (!bodies || !edit_order_init(&f->order, &s->tree, first)) {
         free(bodies);
         return fail_memory(f, OCTREEL_NO_MEMORY);
     }
@@ -51,7 +52,7 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
                                     .player = s->player,
                                     .ticks = SESSION_ENDLESS,
                                     .bodies = bodies,
-                                    .body_count = start->count,
+                                    .body_count = first->change_count,
                                     .queries = first->queries,
                                     .query_count = gap ? 0 : first->query_count,
                                     .shapes = first->shapes,
@@ -68,30 +69,12 @@ static octreel_status film_first(session_filmer *f, const points *start, const b
     if (!live_begin(f->live, &f->error))
         return OCTREEL_BAD_FOLDER;
     queue_begin(f->queue); /* later errors, such as a full disk, can happen at any tick */
-    return live_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
-}
-
-/* Begin the recording. Without a start, the first batch inserts the points. */
-static octreel_status begin(session_filmer *f, const batch *first, const octree_gap *gap)
-{
-    points start = {0};
-    if (f->start)
-        return film_first(f, f->start, first, gap);
-    if (!points_reserve(&start, first->change_count))
-        return fail_memory(f, OCTREEL_NO_MEMORY);
-    for (; start.count < first->change_count; start.count++) {
-        const change *c = &first->changes[start.count];
-        start.items[start.count].id = c->id;
-        memcpy(start.items[start.count].position, c->to, sizeof c->to);
-    }
-    const octreel_status status = film_first(f, &start, first, gap);
-    points_release(&start);
-    return status;
+    return live_film_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
 static octreel_status film_input(session_filmer *f, const octree_input *input)
 {
-    return live_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
+    return live_film_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
 /* `changes` is false if the recording has already begun with the batch's points. */
@@ -118,7 +101,7 @@ static octreel_status film_gaps(session_filmer *f, const batch *b)
         octree_gap gap = {0};
         memcpy(gap.why, b->gaps[i].why, sizeof gap.why);
         for (uint64_t left = b->gaps[i].ticks; status == OCTREEL_OK && left > 0; left--) {
-            status = f->tick == 0 ? begin(f, b, &gap) : film_input(f, &(octree_input){.gap = &gap});
+            status = f->tick == 0 ? film_first_tick(f, b, &gap) : film_input(f, &(octree_input){.gap = &gap});
             f->tick++;
         }
     }
@@ -133,7 +116,7 @@ static octreel_status film_batch(session_filmer *f, batch *b)
     if (status != OCTREEL_OK || b->is_gap)
         return status;
     number_tick(b, f->tick);
-    status = f->tick == 0 ? begin(f, b, NULL) : film_next(f, b, begun);
+    status = f->tick == 0 ? film_first_tick(f, b, NULL) : film_next(f, b, begun);
     f->tick++;
     return status;
 }

@@ -21,8 +21,7 @@ typedef struct filmer_settings {
 typedef struct session_filmer {
     const filmer_settings *settings;
     const char *folder;
-    const points *start; /* points of the first tick, whose batch then has no changes; null: that batch inserts them */
-    queue *queue;
+    queue *queue; /* its first batch inserts the points at the start */
     pthread_t thread;
     /* Used by the thread alone until the queue is broken or the thread has ended. */
     live_recording *live;
@@ -32,7 +31,7 @@ typedef struct session_filmer {
     octreel_error error;
 } session_filmer;
 
-/* Start the thread. The caller sets settings, folder, start and queue, and keeps *f in place until
+/* Start the thread. The caller sets settings, folder and queue, and keeps *f in place until
  * session_filmer_join(). Errors: NO_MEMORY. */
 octreel_status session_filmer_start(session_filmer *f);
 
