@@ -77,8 +77,7 @@ static bool film_octreel(work *w)
                                   .view = filmed_view(w->order->scene),
                                   .every = 1,
                                   .jobs = w->order->jobs,
-                                  .progress = note_frame,
-                                  .context = w};
+                                  .watch = {note_frame, NULL, w}};
     w->apart = w->order->jobs;
     if (!film_session(w->session, &options, &summary, &error))
         return fail(w, error.text);
@@ -93,7 +92,7 @@ static bool film_part(work *w, playback *p, const char *again, double spent[3])
     octreel_error error;
     octreel_error unwritten;
     const double start = worked();
-    if (!playback_tick(p, &step, &error))
+    if (!playback_film_tick(p, &step, &error))
         return fail(w, error.text);
     const double drawn = worked();
     if (!frame_write(w->order->folder, &p->picture.frame, &(frame_origin){.tick = step.tick}, &error))
@@ -146,7 +145,7 @@ static bool film_parts(work *w)
         .frames = FRAMES_SHOW, .folder = w->order->folder, .every = 1, .renderer.fill = fill};
     setenv("LP_NUM_THREADS", "0", 0); /* as in the processes of FILM_OCTREEL */
     const bool open = folder_create(w->order->folder, &error) && playback_open(&p, w->session, NULL, &v, &error) &&
-                      playback_film(&p, &target, &error);
+                      playback_open_picture(&p, &target, &error);
     const bool ok = open ? film_in_parts(w, &p) : fail(w, error.text);
     if (open)
         playback_close(&p);

@@ -155,7 +155,7 @@ static void verify(void)
 {
     verify_report report;
     octreel_error error = {""};
-    if (!told(verify_recording(edited, &(verify_options){.progress = NULL}, &report, &error), &error))
+    if (!told(verify_recording(edited, &(verify_options){.watch.progress = NULL}, &report, &error), &error))
         return;
     verify_print(nowhere, edited, &report, false);
     verify_print(nowhere, edited, &report, true);
@@ -220,7 +220,7 @@ static void audit(void)
     octreel_error error = {""};
     const audit_limits limits = {.by_ratio = true, .ratio = 1.5};
     const audit_verdict verdict = {edited, true, &report};
-    if (told(audit_read(edited, &limits, NULL, NULL, &report, &error), &error)) {
+    if (told(audit_read(edited, &limits, NULL, &report, &error), &error)) {
         audit_print_text(nowhere, &verdict);
         audit_print_json(nowhere, &verdict);
         audit_print_junit(nowhere, &verdict);

@@ -116,8 +116,8 @@ static void print_verdict(const arguments *a, const audit_verdict *verdict)
 static bool write_audit(const arguments *a, const char *path, audit_report *report, octreel_error *error)
 {
     progress p = progress_start("ticks");
-    const bool done =
-        check_files(path, a->outputs, error) && audit_read(path, &a->limits, progress_show, &p, report, error);
+    const bool done = check_files(path, a->outputs, error) &&
+                      audit_read(path, &a->limits, &(watcher){progress_show, NULL, &p}, report, error);
     progress_end(&p);
     const audit_verdict verdict = {file_display_name(path), file_kind_of(path) == KIND_RECORDING, report};
     if (!done || (a->folder && !folder_create(a->folder, error)) ||

@@ -239,7 +239,7 @@ static bool build_tree(const arguments *a, inspection *made, octreel_error *erro
             def.world = find_point_world(points.positions, sizeof *points.positions, points.count);
         progress_end(&r.bar);
         r.bar = progress_start("points inserted");
-        ok = inspect_build(&points, &def, progress_show, &r.bar, made, &why) ||
+        ok = inspect_build(&points, &def, &(watcher){progress_show, NULL, &r.bar}, made, &why) ||
              error_set(error, "%s: %s", file_display_name(a->cloud), why.text);
         memcpy(left_out, points.note, sizeof left_out);
         cloud_release(&points);

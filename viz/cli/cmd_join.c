@@ -10,7 +10,7 @@
 static int join(const char *folder, bool json)
 {
     progress p = progress_start("ticks");
-    film_options film = {.folder = folder, .progress = progress_show, .keep_going = has_no_stop_signal, .context = &p};
+    film_options film = {.folder = folder, .watch = {progress_show, has_no_stop_signal, &p}};
     film_summary summary;
     octreel_error error;
     block_stop_signals();

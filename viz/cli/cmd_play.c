@@ -117,7 +117,7 @@ static int make_page(arguments *a, const octree_session *session)
     progress p = progress_start("ticks");
     film_summary summary;
     octreel_error error;
-    a->film.context = &p;
+    a->film.watch.context = &p;
     block_stop_signals();
     const bool ok = write_file(a, session, &summary, &error);
     progress_end(&p);
@@ -148,7 +148,7 @@ static int play_session(arguments *a)
 
 static int run(int argc, char **argv)
 {
-    arguments a = {.film = {.view = view_make_default(), .progress = progress_show, .keep_going = has_no_stop_signal}};
+    arguments a = {.film = {.view = view_make_default(), .watch = {progress_show, has_no_stop_signal, NULL}}};
     char name[NAME_MAX + 1];
     const int status = command_read_arguments(&command_play, &a, argc, argv);
     if (status != COMMAND_GO_ON)

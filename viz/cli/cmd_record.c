@@ -86,7 +86,7 @@ static int film_to_folder(arguments *a, const octree_session *session)
     octreel_error error;
     if (a->film.jobs == 0)
         a->film.jobs = film_default_jobs(session, &a->film);
-    a->film.context = &p;
+    a->film.watch.context = &p;
     block_stop_signals();
     const bool ok = film_session(session, &a->film, &summary, &error), whole = ok && summary.ticks == summary.total;
     progress_end(&p);
@@ -141,7 +141,7 @@ static int film_standard_input(arguments *a)
     progress p = progress_start("ticks");
     film_summary summary;
     octreel_error error;
-    a->film.context = &p;
+    a->film.watch.context = &p;
     block_stop_signals();
     session_stream *stream = session_stream_open(STDIN_FILENO, FILE_STANDARD_INPUT, has_no_stop_signal, NULL);
     if (!stream)
@@ -238,8 +238,7 @@ static int run(int argc, char **argv)
 {
     arguments a = {.film = {.view = view_make_default(),
                             .renderer.fill = DRAW_FILL_CHECKED,
-                            .progress = progress_show,
-                            .keep_going = has_no_stop_signal}};
+                            .watch = {progress_show, has_no_stop_signal, NULL}}};
     const int status = command_read_arguments(&command_record, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;

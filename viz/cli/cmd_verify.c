@@ -20,7 +20,7 @@ static const command_option options[] = {
 static int verify(const char *folder, const arguments *a)
 {
     progress p = progress_start("ticks");
-    const verify_options options = {.renderer = a->renderer, .progress = progress_show, .context = &p};
+    const verify_options options = {.renderer = a->renderer, .watch = {progress_show, NULL, &p}};
     verify_report report;
     octreel_error error;
     const bool ok = verify_recording(folder, &options, &report, &error);

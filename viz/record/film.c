@@ -49,17 +49,11 @@ unsigned film_default_jobs(const octree_session *session, const film_options *op
     return jobs < 1 ? 1 : jobs > FILM_MOST_JOBS ? FILM_MOST_JOBS : (unsigned)jobs;
 }
 
-static bool keeps_going(void *context)
+static bool film_in_this_process(recording *r, playback *p, octreel_error *error)
 {
-    const film_options *options = ((const recording *)context)->options;
-    return !options->keep_going || options->keep_going(options->context);
-}
-
-static bool film_alone(recording *r, playback *p, octreel_error *error)
-{
-    if (!recording_film(r, p, error) || !recording_begin(r, p, error))
+    if (!recording_open_picture(r, p, error) || !recording_begin(r, p, error))
         return false;
-    const bool filmed = playback_run(p, &r->share, recording_add, keeps_going, r, error);
+    const bool filmed = playback_run(p, &r->share, recording_add_tick, r, &r->options->watch, error);
     r->summary->checks = p->checks;
     return recording_end(r, filmed, error);
 }
@@ -120,7 +114,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
     bool ok = prepare(&r, &p, error);
     if (ok)
         summary->start = film_count_start(session, octree_game_tick(p.game));
-    ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_alone(&r, &p, error));
+    ok = ok && (jobs > 1 ? film_by_jobs(&r, &p, jobs, error) : film_in_this_process(&r, &p, error));
     playback_close(&p);
     free(r.bytes.bytes);
     return ok;

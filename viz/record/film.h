@@ -17,7 +17,7 @@ bool film_session(const octree_session *session, const film_options *options, fi
 /* How recording a stream ended. */
 typedef enum film_stream_end {
     FILM_STREAM_WHOLE,   /* at the end of the stream */
-    FILM_STREAM_STOPPED, /* keep_going() of the stream or of the options returned false */
+    FILM_STREAM_STOPPED, /* keep_going() of the stream or of options->watch returned false */
     FILM_STREAM_BROKEN,  /* with an error */
 } film_stream_end;
 

@@ -7,6 +7,7 @@
 #include "octree/game.h"
 #include "point_values.h"
 #include "view.h"
+#include "watcher.h"
 
 #define FILM_MOST_JOBS 256
 
@@ -24,9 +25,7 @@ typedef struct film_options {
     unsigned jobs; /* at most FILM_MOST_JOBS and the number of frames */
     bool replace;  /* remove the recording in the folder once the first tick of this one is filmed; not with a chunk */
     bool resume;   /* complete this recording, part of which is in the folder; correct frames are kept */
-    void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
-    bool (*keep_going)(void *context);                              /* called between ticks: false stops; may be null */
-    void *context;
+    watcher watch; /* follows the recording of ticks, and may stop it */
 } film_options;
 
 /* The session's points, and how many of them tick 0 refused. */
@@ -39,7 +38,7 @@ typedef struct film_summary {
     uint64_t ticks; /* recorded ticks, including tick 0; of a chunk, those of the chunk */
     uint64_t frames;
     uint64_t kept;        /* frames that resuming found correct and did not draw again */
-    uint64_t gaps;        /* ticks of which nothing is known */
+    uint64_t gaps;        /* ticks without data, because they were refused */
     uint64_t left_out;    /* elements of all frames that could not be drawn: not finite, or too far away for doubles */
     uint64_t over_budget; /* frames that leave out elements beyond the view's budget */
     uint64_t below_lod;   /* frames that leave out elements smaller than the view's lod */

@@ -12,49 +12,44 @@ typedef struct streaming {
     uint64_t last; /* the last recorded tick */
 } streaming;
 
-static bool keeps_going(const streaming *s)
-{
-    return !s->options->keep_going || s->options->keep_going(s->options->context);
-}
-
 /* Record the next tick, with this input or, if it is null, with its key alone. */
-static film_stream_end film_next(streaming *s, const octree_input *input)
+static film_stream_end film_next_tick(streaming *s, const octree_input *input)
 {
     static const octree_input nothing = {0};
-    if (!keeps_going(s))
+    if (!watcher_continues(&s->options->watch))
         return FILM_STREAM_STOPPED;
-    if (!live_tick(s->live, input ? input : &nothing, s->error))
+    if (!live_film_tick(s->live, input ? input : &nothing, s->error))
         return FILM_STREAM_BROKEN;
     s->last++;
     return FILM_STREAM_WHOLE;
 }
 
 /* Record the ticks up to a tick, which have no object in the stream. */
-static film_stream_end film_up_to(streaming *s, uint64_t tick)
+static film_stream_end film_ticks_up_to(streaming *s, uint64_t tick)
 {
     film_stream_end how = FILM_STREAM_WHOLE;
     while (how == FILM_STREAM_WHOLE && s->last < tick && s->last < s->end)
-        how = film_next(s, NULL);
+        how = film_next_tick(s, NULL);
     return how;
 }
 
-static film_stream_end film_object(streaming *s, const session_stream_tick *tick)
+static film_stream_end film_stream_tick(streaming *s, const session_stream_tick *tick)
 {
-    const film_stream_end how = film_up_to(s, tick->number - 1);
+    const film_stream_end how = film_ticks_up_to(s, tick->number - 1);
     if (how != FILM_STREAM_WHOLE)
         return how;
     if (tick->number <= s->end)
-        return film_next(s, &tick->input);
-    return live_note(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
+        return film_next_tick(s, &tick->input);
+    return live_add_unplayed(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
 }
 
 /* At the end of the stream the number of ticks is known, and keys may be left that have no object. */
-static film_stream_end film_rest(streaming *s)
+static film_stream_end film_remaining_ticks(streaming *s)
 {
     octree_session session = *session_stream_first_session(s->from);
     session.ticks = session_stream_tick_count(s->from);
     s->end = octree_session_length(&session);
-    return film_up_to(s, s->end);
+    return film_ticks_up_to(s, s->end);
 }
 
 static film_stream_end film_ticks(streaming *s)
@@ -63,10 +58,10 @@ static film_stream_end film_ticks(streaming *s)
         film_stream_end how = FILM_STREAM_WHOLE;
         switch (session_stream_read_tick(s->from, &tick, s->error)) {
         case SESSION_STREAM_TICK:
-            how = film_object(s, &tick);
+            how = film_stream_tick(s, &tick);
             break;
         case SESSION_STREAM_END:
-            return film_rest(s);
+            return film_remaining_ticks(s);
         case SESSION_STREAM_STOPPED:
             return FILM_STREAM_STOPPED;
         case SESSION_STREAM_BROKEN:
@@ -93,7 +88,7 @@ film_stream_end film_stream(session_stream *from, const char *keys, const film_o
     s.live = live_open(start, &with_values, error);
     if (!s.live)
         return FILM_STREAM_BROKEN;
-    const bool begun = live_begin(s.live, error) && live_first(s.live, error);
+    const bool begun = live_begin(s.live, error) && live_film_first(s.live, error);
     film_stream_end how = begun ? film_ticks(&s) : FILM_STREAM_BROKEN;
     if (!live_close(s.live, session_stream_tick_count(from), summary, how == FILM_STREAM_BROKEN ? &late : error))
         how = FILM_STREAM_BROKEN;

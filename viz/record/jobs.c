@@ -106,9 +106,7 @@ static void learn_session(uint64_t *digest, void *context)
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
-    const film_options *options = self->options;
-    return (!options->keep_going || options->keep_going(options->context)) &&
-           !(self->has_session && pipe_poll(self->pipe, 0));
+    return watcher_continues(&self->options->watch) && !(self->has_session && pipe_poll(self->pipe, 0));
 }
 
 /* A thread that sleeps until the starter has died and then ends the job, since nobody needs its current frame. A
@@ -146,12 +144,13 @@ static bool write_step(void *context, const film_step *step, octreel_error *erro
 static _Noreturn void run_job(job *self, const recording *r, playback *p, const film_share *share)
 {
     octreel_error error;
+    const watcher watch = {.keep_going = job_keeps_going, .context = self};
     setenv("LP_NUM_THREADS", "0", 0); /* other cores are busy with other jobs */
     draw_context_set_report(NULL);    /* one report is enough: */
     begin_watch(self);
     p->learn_session = learn_session; /* the first frame is drawn meanwhile */
     p->learn_context = self;
-    const bool ok = recording_film(r, p, &error) && playback_run(p, share, write_step, job_keeps_going, self, &error);
+    const bool ok = recording_open_picture(r, p, &error) && playback_run(p, share, write_step, self, &watch, &error);
     if (ok && share->index == 0)
         write_message(self->pipe, (message){.kind = MESSAGE_ENDED}, &p->checks, sizeof p->checks);
     else if (!ok)
@@ -207,9 +206,8 @@ static void stop_jobs(job_pool *pool)
 static bool read_message(job_pool *pool, const job *j, message *m)
 {
     enum { PATIENCE = 50 }; /* milliseconds */
-    const film_options *options = pool->recording->options;
     while (!pool->stopped) {
-        if (options->keep_going && !options->keep_going(options->context))
+        if (!watcher_continues(&pool->recording->options->watch))
             stop_jobs(pool);
         else if (pipe_poll(j->pipe, PATIENCE))
             break;
@@ -238,7 +236,7 @@ static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
 }
 
 /* Read each tick from the job that films it, until all are there or the recording is stopped. */
-static bool collect(job_pool *pool, octreel_error *error)
+static bool collect_ticks(job_pool *pool, octreel_error *error)
 {
     recording *r = pool->recording;
     film_share share = r->share;
@@ -258,7 +256,7 @@ static bool collect(job_pool *pool, octreel_error *error)
             return true;
         }
         m.step.line = pool->bytes;
-        if (!recording_add(r, &m.step, error))
+        if (!recording_add_tick(r, &m.step, error))
             return false;
     }
     if (!read_message(pool, &pool->jobs[0], &last))
@@ -284,14 +282,14 @@ static void end_jobs(job_pool *pool)
 }
 
 /* Start the jobs, and write the first files of the recording while they begin to draw. */
-static bool begin(job_pool *pool, playback *p, octreel_error *error)
+static bool start_all_jobs(job_pool *pool, playback *p, octreel_error *error)
 {
     while (pool->count < pool->wanted)
         if (!start_job(pool, p, error))
             return false;
     octree_game_destroy(p->game); /* each job has a copy, and this process plays nothing */
     p->game = NULL;
-    const bool begun = recording_film(pool->recording, p, error) && recording_begin(pool->recording, p, error);
+    const bool begun = recording_open_picture(pool->recording, p, error) && recording_begin(pool->recording, p, error);
     picture_close(&p->picture);
     return begun;
 }
@@ -311,8 +309,8 @@ bool film_by_jobs(recording *r, playback *p, unsigned jobs, octreel_error *error
     job_pool pool = {.recording = r, .wanted = jobs, .jobs = calloc(jobs, sizeof *pool.jobs)};
     if (!pool.jobs)
         return error_no_memory(error);
-    const bool begun = begin(&pool, p, error);
-    const bool ok = begun && send_session(&pool, p->session_digest, error) && collect(&pool, error);
+    const bool begun = start_all_jobs(&pool, p, error);
+    const bool ok = begun && send_session(&pool, p->session_digest, error) && collect_ticks(&pool, error);
     end_jobs(&pool);
     return begun ? recording_end(r, ok, error) : false;
 }

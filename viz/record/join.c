@@ -111,21 +111,14 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     const bool gap = octree_session_gap(j->session, tick), filmed = !gap && frame_is_due(tick, j->options->every);
     const int length = snprintf(begin, sizeof begin, "{\"tick\": %" PRIu64 ", ", tick);
     if (strncmp(j->line, begin, (size_t)length) != 0 || tick_read_scene_digest(j->line, size, tick, &scene) != filmed)
-        return error_set(error, "%s/%s: no line of tick %" PRIu64 " where it belongs", j->options->folder, c->name,
-                         tick);
+        return error_set(error, "%s/%s: expected the line of tick %" PRIu64, j->options->folder, c->name, tick);
     if (filmed && !check_frame(j, scene, error))
         return false;
     fwrite(j->line, 1, size, j->ticks.stream); /* errors are reported by file_writer_close() */
     j->summary->ticks++;
     j->summary->gaps += gap;
-    if (j->options->progress)
-        j->options->progress(j->summary->ticks, j->summary->total, j->options->context);
+    watcher_report(&j->options->watch, j->summary->ticks, j->summary->total);
     return true;
-}
-
-static bool is_stopped(const joining *j)
-{
-    return j->options->keep_going && !j->options->keep_going(j->options->context);
 }
 
 /* Join the lines of a chunk, except ticks that earlier chunks had. A last line without a newline is ignored. */
@@ -141,7 +134,7 @@ static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, 
             continue;
         if (!join_line(j, c, (size_t)size, error))
             return false;
-        *stopped = j->summary->ticks < j->summary->total && is_stopped(j);
+        *stopped = j->summary->ticks < j->summary->total && !watcher_continues(&j->options->watch);
     }
     return !ferror(stream) ||
            error_set(error, "%s/%s: cannot be read: %s", j->options->folder, c->name, strerror(errno));

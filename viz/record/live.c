@@ -47,7 +47,7 @@ static bool fail_to_write(const live_recording *live, octreel_error *error)
 }
 
 /* Flushed bytes survive the death of the process. */
-static bool flush(live_recording *live, octreel_error *error)
+static bool flush_session(live_recording *live, octreel_error *error)
 {
     if (fflush(live->stream) != 0 || ferror(live->stream))
         return fail_to_write(live, error);
@@ -83,12 +83,12 @@ static bool begin_session(live_recording *live, octreel_error *error)
 {
     const octree_session header = live->start.session;
     session_write_header(&header, live->options.values, live->stream);
-    if (!flush(live, error))
+    if (!flush_session(live, error))
         return false;
     live->head = live->whole;
     const octree_input input = make_first_input(&header);
     session_write_tick(0, &input, live->options.values, live->stream);
-    return flush(live, error);
+    return flush_session(live, error);
 }
 
 static bool add_to_session(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
@@ -96,7 +96,7 @@ static bool add_to_session(live_recording *live, uint64_t tick, const octree_inp
     if (tick > SESSION_LAST_TICK)
         return error_set(error, "a recording has at most %d ticks", SESSION_LAST_TICK);
     session_write_tick(tick, input, live->options.values, live->stream);
-    return flush(live, error);
+    return flush_session(live, error);
 }
 
 static void remove_live_file(live_recording *live)
@@ -170,7 +170,7 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
 }
 
 /* Write the digest of session.json, which is only known now, into every frame. */
-static bool sign_frames(const live_recording *live, uint64_t digest, octreel_error *error)
+static bool write_digest_into_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
     size_t gap = 0;
     for (uint64_t tick = 0; live->options.every && tick < live->summary.ticks; tick += live->options.every)
@@ -189,14 +189,14 @@ static bool end_session(live_recording *live, uint64_t ticks, octreel_error *err
     ok = ok && digest_file(path, &digest, error);
     if (ok)
         remove_live_file(live);
-    ok = ok && sign_frames(live, digest, error);
+    ok = ok && write_digest_into_frames(live, digest, error);
     free(path);
     return ok;
 }
 
 /* ---- The recording ------------------------------------------------------------------------------------------ */
 
-static void release(live_recording *live)
+static void release_live(live_recording *live)
 {
     playback_close(&live->playback);
     if (live->stream)
@@ -215,7 +215,7 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     if (!live || !(live->folder = strdup(options->folder)) || !session_copy(start, &live->start, &ignored)) {
         error_no_memory(error);
         if (live)
-            release(live);
+            release_live(live);
         return NULL;
     }
     live->options = *options;
@@ -227,9 +227,9 @@ live_recording *live_open(const octree_session *start, const film_options *optio
     bool ok = playback_open(&live->playback, &live->start.session, live->options.values, &live->options.view, error);
     if (ok)
         live->summary.start = film_count_start(&live->start.session, octree_game_tick(live->playback.game));
-    if (ok && recording_film(&live->recording, &live->playback, error))
+    if (ok && recording_open_picture(&live->recording, &live->playback, error))
         return live;
-    release(live);
+    release_live(live);
     return NULL;
 }
 
@@ -244,11 +244,11 @@ static bool note_gap(live_recording *live, uint64_t tick, octreel_error *error)
 static bool film_tick(live_recording *live, octreel_error *error)
 {
     film_step step;
-    return playback_tick(&live->playback, &step, error) && recording_add(&live->recording, &step, error) &&
+    return playback_film_tick(&live->playback, &step, error) && recording_add_tick(&live->recording, &step, error) &&
            (!step.gap || !frame_is_due(step.tick, live->options.every) || note_gap(live, step.tick, error));
 }
 
-static void abandon(live_recording *live)
+static void abandon_recording(live_recording *live)
 {
     octreel_error late;
     tick_log_close(&live->recording.log, false, &late);
@@ -263,36 +263,36 @@ bool live_begin(live_recording *live, octreel_error *error)
         return false;
     if (open_session(live, error))
         return true;
-    abandon(live);
+    abandon_recording(live);
     return false;
 }
 
-bool live_first(live_recording *live, octreel_error *error)
+bool live_film_first(live_recording *live, octreel_error *error)
 {
     live->begun = begin_session(live, error) && film_tick(live, error);
     if (!live->begun)
-        abandon(live);
+        abandon_recording(live);
     return live->begun;
 }
 
-static char next_key(const live_recording *live)
+static char find_next_key(const live_recording *live)
 {
     const char *keys = live->start.session.keys;
     return live->ticks < live->key_count ? keys[live->ticks] : '.';
 }
 
-bool live_tick(live_recording *live, const octree_input *input, octreel_error *error)
+bool live_film_tick(live_recording *live, const octree_input *input, octreel_error *error)
 {
     octree_input played = *input;
     if (!played.key)
-        played.key = next_key(live);
+        played.key = find_next_key(live);
     live->broken = live->broken || !add_to_session(live, live->ticks + 1, input, error);
     live->ticks += !live->broken;
-    live->broken = live->broken || !playback_play(&live->playback, &played, error) || !film_tick(live, error);
+    live->broken = live->broken || !playback_play_input(&live->playback, &played, error) || !film_tick(live, error);
     return !live->broken;
 }
 
-bool live_note(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
+bool live_add_unplayed(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error)
 {
     live->broken = live->broken || !add_to_session(live, tick, input, error);
     return !live->broken;
@@ -311,6 +311,6 @@ bool live_close(live_recording *live, uint64_t ticks, film_summary *summary, oct
     }
     if (summary)
         *summary = live->summary;
-    release(live);
+    release_live(live);
     return ok;
 }

@@ -19,14 +19,14 @@ live_recording *live_open(const octree_session *start, const film_options *optio
 bool live_begin(live_recording *live, octreel_error *error);
 
 /* Record tick 0. After a failure the same holds. */
-bool live_first(live_recording *live, octreel_error *error);
+bool live_film_first(live_recording *live, octreel_error *error);
 
 /* Record the next tick. If input->key is 0, the key is that of the session. After a failure only live_close() may be
  * called. */
-bool live_tick(live_recording *live, const octree_input *input, octreel_error *error);
+bool live_film_tick(live_recording *live, const octree_input *input, octreel_error *error);
 
 /* Add a tick after the end of the session: it is written to session.json but not played. */
-bool live_note(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error);
+bool live_add_unplayed(live_recording *live, uint64_t tick, const octree_input *input, octreel_error *error);
 
 /* Check the last frame, write session.json with all ticks and the page, and free all memory. `ticks` is the number of
  * ticks in the session's header; a session that would be longer than what was recorded ends with the last recorded

@@ -28,7 +28,7 @@ typedef struct cutter {
 } cutter;
 
 /* Whether the character belongs to a string, including its quotes. */
-static bool pass_string(cutter *c, char at)
+static bool advance_string(cutter *c, char at)
 {
     const bool was = c->quoted;
     if (!c->escaped && at == '"')
@@ -37,7 +37,7 @@ static bool pass_string(cutter *c, char at)
     return was || c->quoted;
 }
 
-static bool pass_bracket(cutter *c, char at)
+static bool advance_nesting(cutter *c, char at)
 {
     if (at == '[' || at == '{') {
         if (++c->depth == DEPTH)
@@ -60,7 +60,7 @@ static bool pass_bracket(cutter *c, char at)
 
 /* Copy JSON text with at most PAGE_LIST entries of each list, before it is parsed: a tick may have refused a million
  * points. The caller frees the copy. Null: out of memory, or brackets do not match. */
-static char *cut_lists(const char *text, size_t size, size_t *left)
+static char *shorten_lists(const char *text, size_t size, size_t *left)
 {
     char *copy;
     text_stream s;
@@ -69,7 +69,7 @@ static char *cut_lists(const char *text, size_t size, size_t *left)
     size_t from = 0; /* where the text begins that is not written yet */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
-        ok = pass_string(&c, text[i]) || pass_bracket(&c, text[i]);
+        ok = advance_string(&c, text[i]) || advance_nesting(&c, text[i]);
         if (!cut && c.cut)
             fwrite(text + from, 1, i - from, c.out);
         from = cut && !c.cut ? i : from;
@@ -113,7 +113,7 @@ static bool write_json_text(const char *text, size_t size, FILE *page, const cha
                             octreel_error *error)
 {
     size_t left;
-    char *cut = cut_lists(text, size, &left);
+    char *cut = shorten_lists(text, size, &left);
     json_error_t why;
     json_t *object = cut ? json_parse(cut, left, 0, &why) : NULL;
     const bool ok = json_is_object(object) && write_object(object, page);
@@ -135,7 +135,7 @@ bool page_begin(FILE *page, const char *path, const char *recording, size_t size
     return write_json_text(recording, size, page, path, 1, error);
 }
 
-bool page_add(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error)
+bool page_add_tick(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error)
 {
     return write_json_text(line, size, page, path, number, error);
 }
@@ -160,7 +160,7 @@ void page_end(FILE *page, const char *session, size_t size)
 
 /* ---- The page of a folder ----------------------------------------------------------------------------------- */
 
-static bool begin(FILE *page, const char *path, octreel_error *error)
+static bool begin_folder_page(FILE *page, const char *path, octreel_error *error)
 {
     char *text;
     size_t size;
@@ -183,7 +183,7 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
         return error_set(error, "%s: %s", path, reason);
     bool ok = true;
     for (uintmax_t number = 1; ok && (size = getline(&line, &room, ticks)) > 0 && line[size - 1] == '\n';)
-        ok = page_add(page, path, number++, line, (size_t)size, error);
+        ok = page_add_tick(page, path, number++, line, (size_t)size, error);
     if (ferror(ticks))
         ok = error_set(error, "%s: cannot be read: %s", path, strerror(errno));
     fclose(ticks);
@@ -206,7 +206,7 @@ static bool copy_session(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
-static bool end(FILE *page, const char *path, octreel_error *error)
+static bool end_folder_page(FILE *page, const char *path, octreel_error *error)
 {
     struct stat status;
     begin_session(page);
@@ -221,7 +221,8 @@ static bool write_page(const char *folder, FILE *page, octreel_error *error)
     char *recording = path_join(folder, "recording.json"), *ticks = path_join(folder, "ticks.jsonl"),
          *session = path_join(folder, "session.json");
     const bool ok = recording && ticks && session
-                        ? begin(page, recording, error) && add_ticks(page, ticks, error) && end(page, session, error)
+                        ? begin_folder_page(page, recording, error) && add_ticks(page, ticks, error) &&
+                              end_folder_page(page, session, error)
                         : error_no_memory(error);
     free(recording);
     free(ticks);

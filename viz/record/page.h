@@ -22,7 +22,7 @@ bool page_plays(void);
 /* Write a page in this order: recording.json, each line of ticks.jsonl, session.json. `path` and `number`, a line, name
  * the text in errors. False with an error for text that is not JSON. Write errors stay with the stream. */
 bool page_begin(FILE *page, const char *path, const char *recording, size_t size, octreel_error *error);
-bool page_add(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error);
+bool page_add_tick(FILE *page, const char *path, uintmax_t number, const char *line, size_t size, octreel_error *error);
 void page_end(FILE *page, const char *session, size_t size);
 
 /* Write index.html into a recording, from its other files; an incomplete last line of ticks.jsonl is ignored. Replaces

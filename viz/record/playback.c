@@ -45,7 +45,7 @@ void playback_close(playback *p)
     *p = (playback){0};
 }
 
-static bool end_tick(playback *p, octree_status status, octreel_error *error)
+static bool finish_tick(playback *p, octree_status status, octreel_error *error)
 {
     if (status != OCTREE_OK)
         return error_set(error, "tick %" PRIu64 " cannot be played: %s", octree_game_tick(p->game)->number,
@@ -55,23 +55,23 @@ static bool end_tick(playback *p, octree_status status, octreel_error *error)
 
 bool playback_advance(playback *p, octreel_error *error)
 {
-    return end_tick(p, octree_game_advance(p->game), error);
+    return finish_tick(p, octree_game_advance(p->game), error);
 }
 
-bool playback_play(playback *p, const octree_input *input, octreel_error *error)
+bool playback_play_input(playback *p, const octree_input *input, octreel_error *error)
 {
-    return end_tick(p, octree_game_play(p->game, input), error);
+    return finish_tick(p, octree_game_play(p->game, input), error);
 }
 
 /* ---- Filming ------------------------------------------------------------------------------------------------ */
 
-bool playback_film(playback *p, const playback_target *target, octreel_error *error)
+bool playback_open_picture(playback *p, const playback_target *target, octreel_error *error)
 {
     p->target = *target;
     return target->every == 0 || picture_open(&p->picture, &p->view, &target->renderer, error);
 }
 
-bool playback_scene(playback *p, octreel_error *error)
+bool playback_compose_scene(playback *p, octreel_error *error)
 {
     return tick_scene_build(&p->scene, &p->view, p->game, &p->history, p->values) || error_no_memory(error);
 }
@@ -142,7 +142,7 @@ static bool draw_frame(playback *p, frame_origin *origin, bool *kept, octreel_er
 
 static bool film_frame(playback *p, film_step *step, octreel_error *error)
 {
-    if (!playback_scene(p, error))
+    if (!playback_compose_scene(p, error))
         return false;
     p->extras.scene_digest = scene_digest(&p->scene);
     frame_origin origin = {.tick = step->tick, .scene = p->extras.scene_digest};
@@ -167,7 +167,7 @@ static bool make_line(playback *p, film_step *step, octreel_error *error)
     return true;
 }
 
-bool playback_tick(playback *p, film_step *step, octreel_error *error)
+bool playback_film_tick(playback *p, film_step *step, octreel_error *error)
 {
     const octree_tick *tick = octree_game_tick(p->game);
     char name[FRAME_NAME];
@@ -186,16 +186,17 @@ static bool has_tick(const film_share *share, uint64_t tick, uint64_t every)
     return tick >= share->first && (share->count == 0 || share_find_job(share, tick / every, every) == share->index);
 }
 
-bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),
-                  void *context, octreel_error *error)
+bool playback_run(playback *p, const film_share *share, film_sink *sink, void *context, const watcher *watch,
+                  octreel_error *error)
 {
     p->share = *share;
     for (;;) {
         const uint64_t tick = octree_game_tick(p->game)->number;
         film_step step;
-        if (has_tick(share, tick, p->target.every) && !(playback_tick(p, &step, error) && sink(context, &step, error)))
+        if (has_tick(share, tick, p->target.every) &&
+            !(playback_film_tick(p, &step, error) && sink(context, &step, error)))
             return false;
-        if (tick + 1 >= share->last || (keep_going && !keep_going(context)))
+        if (tick + 1 >= share->last || !watcher_continues(watch))
             return playback_check_last(p, error);
         if (!playback_advance(p, error))
             return false;

@@ -2,12 +2,12 @@
 /* playback.h - plays a session and makes a scene, a frame and a line of ticks.jsonl from each tick.
  *
  *   playback p;
- *   bool ok = playback_open(&p, session, &view, &error) && playback_film(&p, &target, &error) &&
- *             playback_run(&p, &(film_share){.last = ticks}, sink, NULL, context, &error);
+ *   bool ok = playback_open(&p, session, &view, &error) && playback_open_picture(&p, &target, &error) &&
+ *             playback_run(&p, &(film_share){.last = ticks}, sink, context, NULL, &error);
  *   playback_close(&p);
  *
  * Every frame is made here: for recordings by one process or several, for programs that record themselves, and for
- * verify. Without playback_film() ticks are played and nothing is drawn. */
+ * verify. Without playback_open_picture() ticks are played and nothing is drawn. */
 #ifndef RECORD_PLAYBACK_H
 #define RECORD_PLAYBACK_H
 
@@ -17,6 +17,7 @@
 #include "scene.h"
 #include "tick_scene.h"
 #include "ticks_write.h"
+#include "watcher.h"
 
 typedef enum playback_frames {
     FRAMES_SHOW,  /* draw frames into playback.picture */
@@ -62,13 +63,13 @@ typedef struct playback {
     char *line;
 } playback;
 
-/* The result of playback_tick(). */
+/* The result of playback_film_tick(). */
 typedef struct film_step {
     uint64_t tick;
     unsigned events;      /* bits of octree_event */
     size_t refusals;      /* of points, edits and steps */
     bool foreign_nodes;   /* it shows the nodes of a foreign index */
-    bool gap;             /* nothing is known of this tick */
+    bool gap;             /* the tick has no data: it was refused */
     bool filmed;          /* it has a frame */
     bool kept;            /* its frame existed already and was correct */
     unsigned over_budget; /* the kinds of elements left out beyond the view's budget, as bits of scene.h */
@@ -85,17 +86,17 @@ bool playback_open(playback *p, const octree_session *session, const point_value
 void playback_close(playback *p);
 
 /* Open the picture into which frames are drawn, if there are any. */
-bool playback_film(playback *p, const playback_target *target, octreel_error *error);
+bool playback_open_picture(playback *p, const playback_target *target, octreel_error *error);
 
 /* Play the next tick of the session, or a tick with input from elsewhere. */
 bool playback_advance(playback *p, octreel_error *error);
-bool playback_play(playback *p, const octree_input *input, octreel_error *error);
+bool playback_play_input(playback *p, const octree_input *input, octreel_error *error);
 
 /* Fill p->scene with the scene of the last tick played. */
-bool playback_scene(playback *p, octreel_error *error);
+bool playback_compose_scene(playback *p, octreel_error *error);
 
 /* Make the scene, frame and line of the last tick played. */
-bool playback_tick(playback *p, film_step *step, octreel_error *error);
+bool playback_film_tick(playback *p, film_step *step, octreel_error *error);
 
 /* Check the last frame that was drawn, unless it is checked already: where filming ends at a tick that nobody could
  * foresee, this comes after the frame is written. */
@@ -104,9 +105,9 @@ bool playback_check_last(playback *p, octreel_error *error);
 /* Called for each tick of a share, in order. False ends the run. */
 typedef bool film_sink(void *context, const film_step *step, octreel_error *error);
 
-/* Play to the end of a share and film its ticks. Ends early, and returns true, when keep_going(), which is called after
- * each tick and may be null, returns false. */
-bool playback_run(playback *p, const film_share *share, film_sink *sink, bool (*keep_going)(void *context),
-                  void *context, octreel_error *error);
+/* Play to the end of a share and film its ticks. Ends early, and returns true, when the watcher, which is asked after
+ * each tick and may be null, stops it. Its progress() is not called. */
+bool playback_run(playback *p, const film_share *share, film_sink *sink, void *context, const watcher *watch,
+                  octreel_error *error);
 
 #endif

@@ -21,19 +21,11 @@ typedef struct playing {
 static bool add_tick(void *context, const film_step *step, octreel_error *error)
 {
     const playing *p = context;
-    const film_options *o = p->options;
-    if (!page_add(p->page, "the session's ticks", step->tick + 1, step->line, step->size, error))
+    if (!page_add_tick(p->page, "the session's ticks", step->tick + 1, step->line, step->size, error))
         return false;
     p->summary->ticks++;
-    if (o->progress)
-        o->progress(p->summary->ticks, p->summary->total, o->context);
+    watcher_report(&p->options->watch, p->summary->ticks, p->summary->total);
     return true;
-}
-
-static bool keeps_going(void *context)
-{
-    const film_options *o = ((const playing *)context)->options;
-    return !o->keep_going || o->keep_going(o->context);
 }
 
 /* Begin with the recording.json of a recording without frames. */
@@ -50,14 +42,15 @@ static bool begin_page(FILE *page, const view *v, octreel_error *error)
     return ok;
 }
 
-static bool play(playing *p, const octree_session *session, octreel_error *error)
+static bool play_and_write_ticks(playing *p, const octree_session *session, octreel_error *error)
 {
     const film_share all = {.last = p->summary->total};
     playback played;
     bool ok = playback_open(&played, session, p->options->values, &p->options->view, error);
     if (ok)
         p->summary->start = film_count_start(session, octree_game_tick(played.game));
-    ok = ok && begin_page(p->page, &played.view, error) && playback_run(&played, &all, add_tick, keeps_going, p, error);
+    ok = ok && begin_page(p->page, &played.view, error) &&
+         playback_run(&played, &all, add_tick, p, &p->options->watch, error);
     playback_close(&played);
     return ok;
 }
@@ -89,7 +82,8 @@ bool write_played_page(const octree_session *session, const film_options *option
                          "or build it with clang, lld and wasi-libc");
     if (!check_size(find_least_size(session), error) || !make_session_bytes(session, options->values, &written, error))
         return false;
-    const bool ok = check_size(written.size, error) && play(&(playing){options, summary, page}, session, error);
+    const bool ok =
+        check_size(written.size, error) && play_and_write_ticks(&(playing){options, summary, page}, session, error);
     if (ok)
         page_end(page, written.bytes, written.size);
     free(written.bytes);

@@ -12,7 +12,7 @@ static bool is_chunk(const recording *r)
     return r->options->last != 0;
 }
 
-bool recording_film(const recording *r, playback *p, octreel_error *error)
+bool recording_open_picture(const recording *r, playback *p, octreel_error *error)
 {
     const film_options *o = r->options;
     const playback_target target = {
@@ -21,7 +21,7 @@ bool recording_film(const recording *r, playback *p, octreel_error *error)
         .every = o->every,
         .renderer = o->renderer,
     };
-    return playback_film(p, &target, error);
+    return playback_open_picture(p, &target, error);
 }
 
 /* The facts of a recording that are known before its first tick. */
@@ -120,15 +120,14 @@ static void add_to_summary(film_summary *summary, const film_step *step)
         summary->events[i] += step->events >> i & 1;
 }
 
-bool recording_add(void *context, const film_step *step, octreel_error *error)
+bool recording_add_tick(void *context, const film_step *step, octreel_error *error)
 {
     recording *r = context;
     if (!tick_log_add(&r->log, step->line, step->size, error))
         return false;
     replacement_end(&r->replaced);
     add_to_summary(r->summary, step);
-    if (r->options->progress)
-        r->options->progress(r->summary->ticks, r->summary->total, r->options->context);
+    watcher_report(&r->options->watch, r->summary->ticks, r->summary->total);
     return true;
 }
 

@@ -20,15 +20,15 @@ typedef struct recording {
     replacement replaced; /* the recording that is replaced, until a tick is filmed */
 } recording;
 
-/* Call playback_film() with the options of the recording. */
-bool recording_film(const recording *r, playback *p, octreel_error *error);
+/* Call playback_open_picture() with the options of the recording. */
+bool recording_open_picture(const recording *r, playback *p, octreel_error *error);
 
 /* Create the folder and write the files that come before the first tick; session.json only if the session is known.
  * Frees r->bytes and sets p->session_digest. A failure leaves the folder as it was. */
 bool recording_begin(recording *r, playback *p, octreel_error *error);
 
 /* Write the line of the next tick. A film_sink, with the recording as its context. */
-bool recording_add(void *context, const film_step *step, octreel_error *error);
+bool recording_add_tick(void *context, const film_step *step, octreel_error *error);
 
 /* Close ticks.jsonl and write the page, also after a failure (`ok` is false, and so is the result) or a stop. */
 bool recording_end(recording *r, bool ok, octreel_error *error);

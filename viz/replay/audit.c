@@ -45,7 +45,7 @@ static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from,
 }
 
 /* True if an approximate search could give this wrong answer: farther neighbours, fewer neighbours, or fewer points. No
- * limit excuses any other fault. */
+ * limit excuses any other kind of wrong answer. */
 static bool is_inexact(const octree_judgement *made)
 {
     return made->wrong == OCTREE_WRONG_FARTHER ||
@@ -80,7 +80,7 @@ static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answ
         return true;
     if (!write_answer(answer, &c.answer))
         return false;
-    copy_points(c.missed, c.made.missing, c.made.missing_count);
+    copy_points(c.missing, c.made.missing, c.made.missing_count);
     copy_points(c.extra, c.made.extra, c.made.extra_count);
     c.made.given = NULL;
     c.made.missing = c.made.extra = NULL;
@@ -120,7 +120,7 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     row->asked++;
     row->wrong += made->wrong != OCTREE_WRONG_NONE;
     row->expected += made->expected;
-    row->missed += made->missing_count;
+    row->missing += made->missing_count;
     row->ratio = made->ratio > row->ratio ? made->ratio : row->ratio;
     return true;
 }
@@ -141,9 +141,9 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     kind->asked++;
     report->asked++;
     kind->expected += made->expected;
-    kind->missed += made->missing_count;
+    kind->missing += made->missing_count;
     kind->extra += made->extra_count;
-    kind->faults[made->wrong]++;
+    kind->wrong_by_kind[made->wrong]++;
     if (!count_in_tick(kind, tick, made) ||
         (octree_query_about(answer->kind)->neighbors && !keep_ratio(kind, made->ratio)))
         return false;
@@ -153,15 +153,15 @@ static bool count_answer(audit_report *report, uint64_t tick, size_t place, cons
     return count_wrong(kind, (audit_case){tick, place, is_allowed(made, &report->limits), .made = *made}, answer);
 }
 
-static void keep_first_faults(audit_nodes *nodes, const octree_tick *tick)
+static void keep_first_wrong_nodes(audit_nodes *nodes, const octree_tick *tick)
 {
     for (size_t i = 0; i < tick->foreign.listed_count; i++) {
-        const octree_wrong_node *fault = &tick->foreign.listed[i];
-        if (nodes->first[fault->kind].known)
+        const octree_wrong_node *wrong = &tick->foreign.listed[i];
+        if (nodes->first[wrong->kind].known)
             continue;
-        nodes->first[fault->kind].known = true;
-        nodes->first[fault->kind].tick = tick->number;
-        nodes->first[fault->kind].fault = *fault;
+        nodes->first[wrong->kind].known = true;
+        nodes->first[wrong->kind].tick = tick->number;
+        nodes->first[wrong->kind].node = *wrong;
     }
 }
 
@@ -172,10 +172,10 @@ static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
         return;
     if (nodes->ticks++ == 0)
         nodes->first_wrong = tick->number;
-    nodes->faults += tick->foreign.wrong_count;
+    nodes->wrong += tick->foreign.wrong_count;
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
-        nodes->kinds[i] += tick->foreign.wrong[i];
-    keep_first_faults(nodes, tick);
+        nodes->wrong_by_kind[i] += tick->foreign.wrong[i];
+    keep_first_wrong_nodes(nodes, tick);
 }
 
 /* A gap has no answers. False: out of memory. */
@@ -192,14 +192,13 @@ static bool count_tick(audit_report *report, const octree_tick *tick)
 
 /* ---- Playing ------------------------------------------------------------------------------------------------ */
 
-static bool play(octree_game *game, audit_progress *progress, void *context, audit_report *report, octreel_error *error)
+static bool play_and_count(octree_game *game, const watcher *watch, audit_report *report, octreel_error *error)
 {
     const uint64_t total = octree_session_length(octree_game_session(game)) + 1;
     for (;;) {
         if (!count_tick(report, octree_game_tick(game)))
             return error_no_memory(error);
-        if (progress)
-            progress(report->ticks, total, context);
+        watcher_report(watch, report->ticks, total);
         if (octree_game_over(game))
             return true;
         const octree_status status = octree_game_advance(game);
@@ -214,14 +213,14 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static bool play_session(const char *path, const octree_session *session, audit_progress *progress, void *context,
-                         audit_report *report, octreel_error *error)
+static bool play_session(const char *path, const octree_session *session, const watcher *watch, audit_report *report,
+                         octreel_error *error)
 {
     octree_game *game;
     const octree_status status = octree_game_create(session, &game);
     if (status != OCTREE_OK)
         return error_set(error, "%s: cannot be played: %s", file_display_name(path), octree_status_text(status));
-    const bool done = play(game, progress, context, report, error);
+    const bool done = play_and_count(game, watch, report, error);
     octree_game_destroy(game);
     for (int kind = 0; kind < OCTREE_QUERY_KINDS; kind++)
         if (report->kinds[kind].ratio_count > 1)
@@ -232,15 +231,15 @@ static bool play_session(const char *path, const octree_session *session, audit_
     return done;
 }
 
-bool audit_read(const char *path, const audit_limits *limits, audit_progress *progress, void *context,
-                audit_report *report, octreel_error *error)
+bool audit_read(const char *path, const audit_limits *limits, const watcher *watch, audit_report *report,
+                octreel_error *error)
 {
     session_file file = {0};
     uint64_t digest;
     *report = (audit_report){.limits = *limits};
     const bool done = (file_kind_of(path) == KIND_RECORDING ? read_session_file(path, &file, &digest, error)
                                                             : session_read(path, &file, error)) &&
-                      play_session(path, &file.session, progress, context, report, error);
+                      play_session(path, &file.session, watch, report, error);
     session_release(&file);
     return done;
 }
@@ -265,12 +264,12 @@ double audit_ratio(const audit_kind *kind, double share)
 
 double audit_recall(const audit_kind *kind)
 {
-    return kind->expected == 0 ? 1 : (double)(kind->expected - kind->missed) / (double)kind->expected;
+    return kind->expected == 0 ? 1 : (double)(kind->expected - kind->missing) / (double)kind->expected;
 }
 
 double audit_tick_recall(const audit_tick *tick)
 {
-    return tick->expected == 0 ? 1 : (double)(tick->expected - tick->missed) / (double)tick->expected;
+    return tick->expected == 0 ? 1 : (double)(tick->expected - tick->missing) / (double)tick->expected;
 }
 
 /* ---- Limits ------------------------------------------------------------------------------------------------ */
@@ -317,7 +316,7 @@ bool audit_kind_passes(const audit_kind *kind, const audit_limits *limits)
 
 bool audit_passes(const audit_report *report)
 {
-    bool passes = report->nodes.faults == 0;
+    bool passes = report->nodes.wrong == 0;
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++)
         passes = passes && audit_kind_passes(&report->kinds[i], &report->limits);
     return passes;

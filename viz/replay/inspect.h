@@ -6,6 +6,7 @@
 #include "cloud.h"
 #include "json_write.h"
 #include "octree/types.h"
+#include "watcher.h"
 
 #include <stdio.h>
 
@@ -24,11 +25,9 @@ typedef struct inspection {
 } inspection;
 
 /* Insert every point of a cloud into a new tree. Moves the cloud's values into the result and frees its positions.
- * `progress` may be null; it is called after each portion with the number of inserted points. Cost: O(count). Memory in
- * addition to the positions and the tree: about 12 bytes per point, and 40 under OCTREE_REFUSE. */
-typedef void inspect_progress(uint64_t done, uint64_t total, void *context);
-bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, void *context, inspection *result,
-                   octreel_error *error);
+ * `watch` may be null; its progress() is called after each portion with the number of inserted points. Cost: O(count).
+ * Memory in addition to the positions and the tree: about 12 bytes per point, and 40 under OCTREE_REFUSE. */
+bool inspect_build(cloud *c, const octree_def *def, const watcher *watch, inspection *result, octreel_error *error);
 void inspect_release(inspection *i);
 
 /* Print the statistics as text, or as one JSON object on one line. `name` is the name of the cloud in the output. */

@@ -78,7 +78,7 @@ static void assign_cells(portions *p, size_t count)
 }
 
 /* Sorts the points by portion and keeps their order within each. `cells` has room for one number per point. */
-static void divide(const cloud *c, const octree_def *def, portions *p, uint16_t *cells, octree_point *points)
+static void divide_points(const cloud *c, const octree_def *def, portions *p, uint16_t *cells, octree_point *points)
 {
     size_t next[MOST_PORTIONS] = {0};
     begin_portions(p, &def->world);
@@ -109,8 +109,7 @@ static octree_status insert_portion(const octree_point *points, size_t count, in
 }
 
 /* Inserts the last portion first, so that realloc() can free its memory at the end of the array. */
-static octree_status insert_portions(octree_point **points, const portions *p, inspect_progress *progress,
-                                     void *context, inspection *result)
+static octree_status insert_portions(octree_point **points, const portions *p, const watcher *watch, inspection *result)
 {
     octree_status status = OCTREE_OK;
     for (unsigned i = p->count; status == OCTREE_OK && i-- > 0;) {
@@ -118,25 +117,23 @@ static octree_status insert_portions(octree_point **points, const portions *p, i
         status = insert_portion(*points + first, p->ends[i] - first, result);
         octree_point *rest = first > 0 ? realloc(*points, first * sizeof *rest) : NULL;
         *points = rest ? rest : *points;
-        if (progress)
-            progress(result->points - first, result->points, context);
+        watcher_report(watch, result->points - first, result->points);
     }
     return status;
 }
 
-static octree_status insert_all(cloud *c, const octree_def *def, inspect_progress *progress, void *context,
-                                inspection *result)
+static octree_status insert_all(cloud *c, const octree_def *def, const watcher *watch, inspection *result)
 {
     portions *p = calloc(1, sizeof *p);
     uint16_t *cells = malloc(c->count * sizeof *cells);
     octree_point *points = malloc(c->count * sizeof *points);
     const bool divided = p && cells && points;
     if (divided)
-        divide(c, def, p, cells, points);
+        divide_points(c, def, p, cells, points);
     free(cells);
     free(c->positions); /* before the tree needs the same amount of memory */
     c->positions = NULL;
-    const octree_status status = divided ? insert_portions(&points, p, progress, context, result) : OCTREE_NO_MEMORY;
+    const octree_status status = divided ? insert_portions(&points, p, watch, result) : OCTREE_NO_MEMORY;
     free(points);
     free(p);
     return status;
@@ -151,15 +148,14 @@ static void move_values(cloud *c, inspection *result)
     memcpy(result->out_of_range, c->out_of_range, sizeof c->out_of_range);
 }
 
-bool inspect_build(cloud *c, const octree_def *def, inspect_progress *progress, void *context, inspection *result,
-                   octreel_error *error)
+bool inspect_build(cloud *c, const octree_def *def, const watcher *watch, inspection *result, octreel_error *error)
 {
     *result = (inspection){.points = c->count, .skipped = c->skipped, .why_skipped = c->why_skipped};
     octree_def on_all_cores = *def;
     on_all_cores.executor.run = parallel_run;
     octree_status status = octree_create(&on_all_cores, &result->tree);
     if (status == OCTREE_OK)
-        status = insert_all(c, def, progress, context, result);
+        status = insert_all(c, def, watch, result);
     if (status == OCTREE_OK) {
         move_values(c, result);
         status = inspect_count_classes(result) ? OCTREE_OK : OCTREE_NO_MEMORY;

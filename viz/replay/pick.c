@@ -52,7 +52,7 @@ static bool compose_scene_again(pick *p, replay *r, const char *folder, octreel_
     if (p->tick >= r->ticks)
         return error_set(error, "%s: shows tick %" PRIu64 ", but the session in its folder ends with tick %" PRIu64,
                          p->path, p->tick, r->ticks - 1);
-    if (!replay_to(r, p->tick, error) || !playback_scene(&r->playback, error))
+    if (!replay_to(r, p->tick, error) || !playback_compose_scene(&r->playback, error))
         return false;
     frame_origin origin = {.tick = p->tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};
     return frame_check_file(p->path, &origin, error);

@@ -2,7 +2,7 @@
 /* replay.h - opens a recording and replays it to any tick, with the game and the scene of that tick.
  *
  *   replay r;
- *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && playback_scene(&r.playback, &error))
+ *   if (replay_open(&r, "frames", &error) && replay_to(&r, 41, &error) && playback_compose_scene(&r.playback, &error))
  *       ... octree_game_tick(r.playback.game), r.playback.scene ...
  *   replay_close(&r);
  */

@@ -49,8 +49,8 @@ static void check_session(verifying *v)
     if (!frame_read_session_digest(v->folder, 0, &v->filmed_session) || v->filmed_session == v->replay.session_digest)
         return;
     add_finding(v, VERIFY_SESSION, 0,
-                "session.json is not the session that was filmed: its digest is %016" PRIx64
-                ", and the first frame is of %016" PRIx64,
+                "session.json is not the recorded session: its digest is %016" PRIx64
+                ", and the first frame names %016" PRIx64,
                 v->replay.session_digest, v->filmed_session)
         ->has_tick = false;
 }
@@ -95,7 +95,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
 /* Appended where the end of a recording is missing, because recording was interrupted. */
-#define COMPLETED "; octreel record --resume completes what broke off"
+#define COMPLETED "; octreel record --resume completes an interrupted recording"
 
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
 {
@@ -147,7 +147,7 @@ static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool
     const size_t length = strlen(v->folder);
     const bool inside = strncmp(sentence, v->folder, length) == 0 && sentence[length] == '/';
     add_finding(v, VERIFY_FRAME, tick, "%s%s", inside ? sentence + length + 1 : sentence,
-                drawn ? "; its pixels are those that are drawn now" : "");
+                drawn ? "; its pixels are correct" : "");
 }
 
 /* A file that cannot be read because of permissions or the disk is an error, not a difference. */
@@ -209,8 +209,7 @@ static bool check_tick(void *context, const film_step *step, octreel_error *erro
     v->report->frames += step->filmed;
     if (step->gap && v->report->gaps++ == 0)
         v->report->first_gap = *octree_session_gap(&v->replay.session.session, step->tick);
-    if (v->options->progress)
-        v->options->progress(step->tick + 1, v->replay.ticks, v->options->context);
+    watcher_report(&v->options->watch, step->tick + 1, v->replay.ticks);
     return true;
 }
 
@@ -246,8 +245,8 @@ static bool check_extra_frames(verifying *v, octreel_error *error)
     if (count > 0) {
         const bool has_tick = frame_parse_name(first, &tick);
         verify_finding *finding =
-            add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is no frame of this recording%s",
-                        make_printable(first), count > 1 ? ", nor are others beside it" : "");
+            add_finding(v, VERIFY_FRAME, has_tick ? tick : 0, "%s is not a frame of this recording%s",
+                        make_printable(first), count > 1 ? ", and neither are others" : "");
         finding->has_tick = has_tick;
     }
     free(names);
@@ -269,13 +268,13 @@ static bool open_renderer(verifying *v, octreel_error *error)
     playback *p = &v->replay.playback;
     playback_target target = {FRAMES_SHOW, v->folder, v->replay.film.every, v->options->renderer};
     target.renderer.fill = DRAW_FILL_GL;
-    if (playback_film(p, &target, error))
+    if (playback_open_picture(p, &target, error))
         return true;
     if (v->options->renderer.context != DRAW_AUTO)
         return false;
     v->report->no_gl = *error;
     target.renderer.fill = DRAW_FILL_INTEGERS;
-    return playback_film(p, &target, error);
+    return playback_open_picture(p, &target, error);
 }
 
 static bool replay_ticks(verifying *v, octreel_error *error)
@@ -287,7 +286,7 @@ static bool replay_ticks(verifying *v, octreel_error *error)
         return false;
     if (v->replay.playback.picture.renderer)
         report_renderer(v);
-    if (!playback_run(&v->replay.playback, &all, check_tick, NULL, v, error))
+    if (!playback_run(&v->replay.playback, &all, check_tick, v, NULL, error))
         return v->stopped;
     check_end_of_lines(v);
     return true;
@@ -334,7 +333,7 @@ static void print_identical(FILE *out, const char *folder, const verify_report *
     if (report->has_frames)
         fprintf(out, "%" PRIu64 " frame%s\n", report->frames, plural_ending(report->frames));
     else
-        fputs("by what happened in them alone: it has no frames\n", out);
+        fputs("compared by ticks.jsonl alone, since there are no frames\n", out);
 }
 
 static void print_people(FILE *out, const char *folder, const verify_report *report)
@@ -344,9 +343,8 @@ static void print_people(FILE *out, const char *folder, const verify_report *rep
         print_identical(out, folder, report);
     if (report->gaps > 0) {
         write_escaped(out, folder, escape_nothing);
-        fprintf(out, ": %" PRIu64 " of these ticks %s: nothing is known of %s; the first is tick %" PRIu64 ": ",
-                report->gaps, report->gaps == 1 ? "is a gap" : "are gaps", report->gaps == 1 ? "it" : "them",
-                gap->tick);
+        fprintf(out, ": %" PRIu64 " of these ticks %s without data; the first is tick %" PRIu64 ": ", report->gaps,
+                report->gaps == 1 ? "is a gap" : "are gaps", gap->tick);
         write_escaped(out, gap->why, escape_nothing);
         fputc('\n', out);
     }

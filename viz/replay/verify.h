@@ -10,6 +10,7 @@
 #include "renderer.h"
 #include "folder.h"
 #include "octree/game.h"
+#include "watcher.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -57,9 +58,8 @@ typedef struct verify_report {
 } verify_report;
 
 typedef struct verify_options {
-    renderer_choice renderer;                                       /* its `fill` is not read */
-    void (*progress)(uint64_t done, uint64_t total, void *context); /* after each tick; may be null */
-    void *context;
+    renderer_choice renderer; /* its `fill` is not read */
+    watcher watch;            /* of the ticks; its keep_going() is not called */
 } verify_options;
 
 /* Verify the recording in a folder. False with an error where it cannot be read, played or drawn. */

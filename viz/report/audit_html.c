@@ -275,11 +275,11 @@ static void write_worst(const page *p, const audit_case *c, bool neighbors)
 
 static void write_nodes(const page *p, const audit_nodes *nodes)
 {
-    fprintf(p->out, "<section%s><h2>nodes</h2>\n<p>", nodes->faults ? " class=\"fails\"" : "");
+    fprintf(p->out, "<section%s><h2>nodes</h2>\n<p>", nodes->wrong ? " class=\"fails\"" : "");
     audit_print_nodes_head(p->out, nodes);
-    fputs(nodes->faults ? "</p>\n<ul>\n" : "</p>\n", p->out);
+    fputs(nodes->wrong ? "</p>\n<ul>\n" : "</p>\n", p->out);
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++) {
-        if (!nodes->kinds[i])
+        if (!nodes->wrong_by_kind[i])
             continue;
         fputs("<li>", p->out);
         audit_print_wrong_nodes(p->out, nodes, (octree_wrong_node_kind)i);
@@ -287,7 +287,7 @@ static void write_nodes(const page *p, const audit_nodes *nodes)
             write_links(p, nodes->first[i].tick);
         fputs("</li>\n", p->out);
     }
-    fputs(nodes->faults ? "</ul>\n</section>\n" : "</section>\n", p->out);
+    fputs(nodes->wrong ? "</ul>\n</section>\n" : "</section>\n", p->out);
 }
 
 static void write_kind(const page *p, int of)

@@ -38,7 +38,7 @@ static void write_case(FILE *out, const audit_verdict *v, int kind, bool passes)
 void audit_print_junit(FILE *out, const audit_verdict *v)
 {
     const audit_report *report = v->report;
-    size_t tests = report->nodes.given, failures = report->nodes.faults > 0;
+    size_t tests = report->nodes.given, failures = report->nodes.wrong > 0;
     for (int i = 0; i < OCTREE_QUERY_KINDS; i++) {
         tests += report->kinds[i].asked > 0;
         failures += !audit_kind_passes(&report->kinds[i], &report->limits);
@@ -48,7 +48,7 @@ void audit_print_junit(FILE *out, const audit_verdict *v)
         if (report->kinds[i].asked)
             write_case(out, v, i, audit_kind_passes(&report->kinds[i], &report->limits));
     if (report->nodes.given)
-        write_case(out, v, OCTREE_QUERY_KINDS, report->nodes.faults == 0);
+        write_case(out, v, OCTREE_QUERY_KINDS, report->nodes.wrong == 0);
     fputs("    <system-out>", out);
     audit_print_all(out, v);
     audit_print_limits(out, "; allowed: ", &report->limits, "");

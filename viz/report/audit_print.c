@@ -69,7 +69,7 @@ void audit_print_case(FILE *out, const audit_case *c, bool neighbors)
     if (neighbors)
         fprintf(out, "; ratio of distances %s", audit_ratio_text(c->made.ratio, text));
     fprintf(out, "; %zu missing, %zu extra", c->made.missing_count, c->made.extra_count);
-    print_points(out, "; missing", c->missed, c->made.missing_count);
+    print_points(out, "; missing", c->missing, c->made.missing_count);
     print_points(out, "; extra", c->extra, c->made.extra_count);
 }
 
@@ -109,10 +109,10 @@ void audit_print_all(FILE *out, const audit_verdict *v)
         fprintf(out, ", %" PRIu64 " wrong", report->wrong);
     else if (report->asked)
         fputs(", all right", out);
-    if (report->nodes.faults)
-        fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.faults, plural_ending(report->nodes.faults));
+    if (report->nodes.wrong)
+        fprintf(out, ", %" PRIu64 " wrong node%s", report->nodes.wrong, plural_ending(report->nodes.wrong));
     print_if_within(out, &v->report->limits, audit_passes(report));
-    if (report->nodes.faults && has_limits(&report->limits))
+    if (report->nodes.wrong && has_limits(&report->limits))
         fputs("; wrong nodes are never allowed", out);
 }
 
@@ -128,28 +128,28 @@ void audit_print_kind(FILE *out, const audit_verdict *v, int of)
                 audit_ratio_text(audit_ratio(kind, 1), ratios[0]),
                 audit_ratio_text(audit_ratio(kind, 0.99), ratios[1]));
     else
-        fprintf(out, ", %" PRIu64 " missing, %" PRIu64 " extra", kind->missed, kind->extra);
+        fprintf(out, ", %" PRIu64 " missing, %" PRIu64 " extra", kind->missing, kind->extra);
     if (kind->wrong)
         fprintf(out, "; first wrong at tick %" PRIu64, kind->first_wrong);
     print_if_within(out, &v->report->limits, audit_kind_passes(kind, &v->report->limits));
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
-        if (kind->faults[i])
-            fprintf(out, "; %" PRIu64 " time%s: %s", kind->faults[i], plural_ending(kind->faults[i]),
+        if (kind->wrong_by_kind[i])
+            fprintf(out, "; %" PRIu64 " time%s: %s", kind->wrong_by_kind[i], plural_ending(kind->wrong_by_kind[i]),
                     reason_words((octree_wrong_kind)i));
 }
 
 void audit_print_nodes_head(FILE *out, const audit_nodes *nodes)
 {
-    fprintf(out, "nodes: %" PRIu64 " wrong", nodes->faults);
-    if (nodes->faults)
+    fprintf(out, "nodes: %" PRIu64 " wrong", nodes->wrong);
+    if (nodes->wrong)
         fprintf(out, " in %" PRIu64 " tick%s, first at tick %" PRIu64, nodes->ticks, plural_ending(nodes->ticks),
                 nodes->first_wrong);
 }
 
 void audit_print_wrong_nodes(FILE *out, const audit_nodes *nodes, octree_wrong_node_kind kind)
 {
-    const octree_wrong_node *wrong = &nodes->first[kind].fault;
-    fprintf(out, "%" PRIu64 " time%s: %s", nodes->kinds[kind], plural_ending(nodes->kinds[kind]),
+    const octree_wrong_node *wrong = &nodes->first[kind].node;
+    fprintf(out, "%" PRIu64 " time%s: %s", nodes->wrong_by_kind[kind], plural_ending(nodes->wrong_by_kind[kind]),
             octree_wrong_node_words(kind));
     if (!nodes->first[kind].known)
         return;
@@ -165,7 +165,7 @@ void audit_print_nodes(FILE *out, const audit_nodes *nodes)
 {
     audit_print_nodes_head(out, nodes);
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
-        if (nodes->kinds[i]) {
+        if (nodes->wrong_by_kind[i]) {
             fputs("; ", out);
             audit_print_wrong_nodes(out, nodes, (octree_wrong_node_kind)i);
         }
@@ -228,7 +228,7 @@ static void write_case(json_writer *w, const audit_case *c, bool neighbors)
         json_write_number_member(w, "ratio", c->made.ratio);
     json_write_integer_member(w, "missing", c->made.missing_count);
     json_write_integer_member(w, "extra", c->made.extra_count);
-    write_points(w, "missing_points", c->missed, c->made.missing_count);
+    write_points(w, "missing_points", c->missing, c->made.missing_count);
     write_points(w, "extra_points", c->extra, c->made.extra_count);
     json_write_key(w, "answer");
     fputs(c->answer, w->out);
@@ -245,7 +245,7 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
     json_write_integer_member(w, "wrong", kind->wrong);
     json_write_bool_member(w, "passes", audit_kind_passes(kind, &v->report->limits));
     json_write_number_member(w, "recall", audit_recall(kind));
-    json_write_integer_member(w, "missing", kind->missed);
+    json_write_integer_member(w, "missing", kind->missing);
     json_write_integer_member(w, "extra", kind->extra);
     if (about->neighbors) {
         json_write_number_member(w, "worst_ratio", audit_ratio(kind, 1));
@@ -255,8 +255,8 @@ static void write_kind(json_writer *w, const audit_verdict *v, int of)
         json_write_integer_member(w, "first_wrong_tick", kind->first_wrong);
     json_begin_object_member(w, "faults");
     for (int i = OCTREE_WRONG_NONE + 1; i < OCTREE_WRONG_KINDS; i++)
-        if (kind->faults[i])
-            json_write_integer_member(w, octree_wrong_name((octree_wrong_kind)i), kind->faults[i]);
+        if (kind->wrong_by_kind[i])
+            json_write_integer_member(w, octree_wrong_name((octree_wrong_kind)i), kind->wrong_by_kind[i]);
     json_write_end_object(w);
     json_begin_array_member(w, "worst");
     for (size_t i = 0; i < kind->worst_count; i++)
@@ -270,12 +270,12 @@ static void write_nodes(json_writer *w, const audit_nodes *nodes)
     if (!nodes->given)
         return;
     json_begin_object_member(w, "nodes");
-    json_write_integer_member(w, "faults", nodes->faults);
-    if (nodes->faults)
+    json_write_integer_member(w, "faults", nodes->wrong);
+    if (nodes->wrong)
         json_write_integer_member(w, "first_wrong_tick", nodes->first_wrong);
     for (int i = 0; i < OCTREE_WRONG_NODE_KINDS; i++)
-        if (nodes->kinds[i])
-            json_write_integer_member(w, octree_wrong_node_name((octree_wrong_node_kind)i), nodes->kinds[i]);
+        if (nodes->wrong_by_kind[i])
+            json_write_integer_member(w, octree_wrong_node_name((octree_wrong_node_kind)i), nodes->wrong_by_kind[i]);
     json_write_end_object(w);
 }
 
@@ -297,7 +297,7 @@ void audit_print_json(FILE *out, const audit_verdict *v)
     const audit_report *report = v->report;
     json_write_begin_object(w);
     json_write_text_member(w, "path", v->path);
-    json_write_bool_member(w, "right", report->wrong == 0 && report->nodes.faults == 0);
+    json_write_bool_member(w, "right", report->wrong == 0 && report->nodes.wrong == 0);
     json_write_bool_member(w, "passes", audit_passes(report));
     write_limits(w, &v->report->limits);
     json_write_integer_member(w, "ticks", report->ticks);

@@ -45,8 +45,8 @@ static bool count_down(void *context)
 
 film_options stopped_after(film_options options, uint64_t *ticks)
 {
-    options.keep_going = count_down;
-    options.context = ticks;
+    options.watch.keep_going = count_down;
+    options.watch.context = ticks;
     return options;
 }
 

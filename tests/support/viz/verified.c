@@ -28,7 +28,7 @@ void empty_test_folder(void **state)
 
 verify_report verify(const place *folder)
 {
-    const verify_options options = {.progress = NULL};
+    const verify_options options = {.watch.progress = NULL};
     verify_report report;
     octreel_error error = {""};
     if (!verify_recording(folder->path, &options, &report, &error))
@@ -60,7 +60,7 @@ verify_report assert_found(const place *folder, verify_kind kind, uint64_t tick,
 
 void assert_not_verified(const place *folder, const char *part)
 {
-    const verify_options options = {.progress = NULL};
+    const verify_options options = {.watch.progress = NULL};
     verify_report report;
     octreel_error error = {""};
     assert_false(verify_recording(folder->path, &options, &report, &error));

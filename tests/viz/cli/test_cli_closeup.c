@@ -90,7 +90,7 @@ static void pick_names_elements_of_a_close_up_without_a_player(void **state)
     octreel_error error = {""};
     replay replay;
     if (!replay_open(&replay, folder.path, &error) || !replay_to(&replay, 2, &error) ||
-        !playback_scene(&replay.playback, &error))
+        !playback_compose_scene(&replay.playback, &error))
         fail_msg("%s", error.text);
     const scene *s = &replay.playback.scene;
     const double point[] = {505, 500, 500};

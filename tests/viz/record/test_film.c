@@ -276,8 +276,8 @@ static void progress_is_reported_after_each_tick(void **state)
     film_options options = small_film(folder.path);
     steps taken = {0};
     options.every = 100;
-    options.progress = take_step;
-    options.context = &taken;
+    options.watch.progress = take_step;
+    options.watch.context = &taken;
     assert_filmed(&session, &options);
     assert_int_equal(taken.calls, DEFAULT_TICKS);
 }

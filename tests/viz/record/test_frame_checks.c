@@ -48,7 +48,7 @@ static film_options checked_film(const char *folder, draw_fill fill)
 {
     film_options options = small_film(folder);
     options.renderer.fill = fill;
-    options.progress = count_ticks;
+    options.watch.progress = count_ticks;
     filmed = 0;
     wrong_after = UINT64_MAX;
     return options;
@@ -102,9 +102,9 @@ static void last_frame_of_a_session_without_a_known_end_is_checked(void **state)
     const film_options options = checked_film(folder.path, DRAW_FILL_CHECKED);
     live_recording *live = live_open(&session, &options, &error);
     assert_non_null(live);
-    assert_true(live_begin(live, &error) && live_first(live, &error));
+    assert_true(live_begin(live, &error) && live_film_first(live, &error));
     for (int i = 0; i < 3; i++)
-        assert_true(live_tick(live, &(octree_input){0}, &error));
+        assert_true(live_film_tick(live, &(octree_input){0}, &error));
     assert_true(live_close(live, 3, &summary, &error));
     assert_int_equal(summary.checks.count, 2);
 }

@@ -59,8 +59,8 @@ static void error_names_a_folder_that_vanishes(void **state)
     octreel_error error = {""};
     char path[sizeof folder.path];
     snprintf(path, sizeof path, "%s", folder.path);
-    options.progress = take_away;
-    options.context = path;
+    options.watch.progress = take_away;
+    options.watch.context = path;
     assert_false(film_session(&session, &options, &summary, &error));
     assert_non_null(strstr(error.text, frame_place(folder.path, 5).path));
     assert_non_null(strstr(error.text, "No such file or directory"));

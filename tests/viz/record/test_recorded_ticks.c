@@ -20,7 +20,7 @@ static void open_it(replay *r, const place *folder)
 static void check_scene(replay *r, const place *folder, uint64_t tick)
 {
     octreel_error error = {""};
-    if (!replay_to(r, tick, &error) || !playback_scene(&r->playback, &error))
+    if (!replay_to(r, tick, &error) || !playback_compose_scene(&r->playback, &error))
         fail_msg("%s", error.text);
     assert_int_equal(octree_game_tick(r->playback.game)->number, tick);
     frame_origin origin = {.tick = tick, .session = r->session_digest, .scene = scene_digest(&r->playback.scene)};

@@ -70,7 +70,7 @@ static void world_holds_every_point_and_is_valid_for_a_tree(void **state)
         const octree_def def = define(world_of(&clouds[i]), 1, OCTREE_MAX_DEPTH, OCTREE_GROW);
         inspection made;
         octreel_error error = {""};
-        if (!inspect_build(&c, &def, NULL, NULL, &made, &error))
+        if (!inspect_build(&c, &def, NULL, &made, &error))
             fail_msg("%s: %s", clouds[i].name, error.text);
         assert_null(c.positions); /* building the tree has freed the positions */
         if (made.outside + made.refused != 0)
@@ -192,7 +192,7 @@ static void every_point_is_stored_refused_or_outside(void **state)
     c.skipped = 4;
     for (size_t i = 0; i < COUNT; i++)
         outside += !box_holds(&world, positions[i]);
-    assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
+    assert_true(inspect_build(&c, &def, NULL, &made, &error));
     assert_int_equal(made.points, COUNT);
     assert_int_equal(made.skipped, 4);
     assert_int_equal(made.outside, outside);
@@ -242,7 +242,7 @@ static void large_cloud_is_inserted_in_portions(void **state)
         size_t inserted = 0;
         octree *whole = make_tree(def.world, 8, 4, rows[r].full);
         assert_int_equal(octree_insert_many(whole, points, COUNT, NULL, &inserted), OCTREE_OK);
-        assert_true(inspect_build(&c, &def, tell, &t, &made, &error));
+        assert_true(inspect_build(&c, &def, &(watcher){tell, NULL, &t}, &made, &error));
         assert_int_equal(t.times, rows[r].times);
         assert_int_equal(t.done, COUNT);
         assert_true(octree_digest(made.tree) == octree_digest(whole));
@@ -265,7 +265,7 @@ static void skipped_points_are_reported_with_the_reason(void **state)
     assert_non_null(out);
     c.skipped = 3;
     c.why_skipped = "marked as withheld";
-    assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
+    assert_true(inspect_build(&c, &def, NULL, &made, &error));
     inspect_print(&made, "cloud", false, out);
     assert_int_equal(fclose(out), 0);
     assert_non_null(strstr(text, "\n  points    4 in the file, 1 in the tree, 0 refused, 0 outside the world\n"
@@ -294,7 +294,7 @@ static void statistics_name_the_values_of_the_points(void **state)
     octreel_error error = {""};
     (void)state;
     assert_true(cloud_parse("a.xyz", (const unsigned char *)text, sizeof text - 1, &c, &error));
-    assert_true(inspect_build(&c, &def, NULL, NULL, &made, &error));
+    assert_true(inspect_build(&c, &def, NULL, &made, &error));
     assert_int_equal(c.values.count, 0); /* the inspection has taken the values over */
     cloud_release(&c);
     assert_prints(&made, false, "\n  values    color 0-255; intensity -7.5 to 65535 of 2 points; classes 2, 6\n");
@@ -314,7 +314,7 @@ static void invalid_tree_definition_is_an_error(void **state)
     for (size_t i = 0; i < sizeof defs / sizeof defs[0]; i++) {
         inspection made;
         octreel_error error = {""};
-        assert_false(inspect_build(&c, &defs[i], NULL, NULL, &made, &error));
+        assert_false(inspect_build(&c, &defs[i], NULL, &made, &error));
         assert_non_null(strstr(error.text, "the tree cannot be built"));
         assert_null(made.tree);
     }

@@ -290,8 +290,8 @@ static void a_chunk_begins_with_the_heat_of_earlier_ticks(void **state)
         octreel_error error;
         playback p;
         assert_true(playback_open(&p, &session, NULL, &options.view, &error));
-        assert_true(playback_film(&p, &(playback_target){.frames = FRAMES_SHOW, .every = 1}, &error));
-        assert_true(playback_run(&p, &share, keep_digest, NULL, parted ? part : whole, &error));
+        assert_true(playback_open_picture(&p, &(playback_target){.frames = FRAMES_SHOW, .every = 1}, &error));
+        assert_true(playback_run(&p, &share, keep_digest, parted ? part : whole, NULL, &error));
         playback_close(&p);
     }
     assert_string_equal(whole, part);

@@ -132,7 +132,7 @@ bool web_step(int key)
     const unsigned layers = p->view.layers;
     page.drawn = false;
     p->view.layers |= page.summed_layers;
-    const bool done = key ? playback_play(p, &input, &page.error) : playback_advance(p, &page.error);
+    const bool done = key ? playback_play_input(p, &input, &page.error) : playback_advance(p, &page.error);
     p->view.layers = layers;
     return done || fail();
 }
@@ -259,7 +259,8 @@ const uint32_t *web_draw(void)
 {
     playback *p = &page.playback;
     clear_text();
-    if (!open_picture() || !playback_scene(p, &page.error) || !picture_draw(&p->picture, &p->scene, &page.error))
+    if (!open_picture() || !playback_compose_scene(p, &page.error) ||
+        !picture_draw(&p->picture, &p->scene, &page.error))
         return NULL;
     color_pixels(&p->picture.frame);
     page.drawn = true;

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/* watcher.h - how a caller follows a long task, and stops it. */
+#ifndef BASE_WATCHER_H
+#define BASE_WATCHER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct watcher {
+    void (*progress)(uint64_t done, uint64_t total, void *context); /* after each step; may be null */
+    bool (*keep_going)(void *context);                              /* between steps: false stops; may be null */
+    void *context;
+} watcher;
+
+static inline void watcher_report(const watcher *w, uint64_t done, uint64_t total)
+{
+    if (w && w->progress)
+        w->progress(done, total, w->context);
+}
+
+static inline bool watcher_continues(const watcher *w)
+{
+    return !w || !w->keep_going || w->keep_going(w->context);
+}
+
+#endif
