@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* about.c - whether files can have what a program says of a tick. */
+/* about.c - checks the queries, shapes and foreign nodes of a tick: see about.h. */
 #include "about.h"
 #include "octree/octree.h"
 #include "session_file.h"
@@ -7,8 +7,9 @@
 
 #include <math.h>
 
-/* A tree takes more than files do: boxes that are infinite, which JSON is not, and ids of any size. */
-static const char *fault_of(const octree_query *query, octree_player_kind player)
+/* Why a query cannot be recorded; null: it can be. A tree accepts infinite boxes and all 64-bit ids; files, which are
+ * JSON, do not. */
+static const char *find_query_error(const octree_query *query, octree_player_kind player)
 {
     const octree_input one = {.queries = query, .query_count = 1};
     octree_status status = octree_input_check(&one);
@@ -22,13 +23,13 @@ static const char *fault_of(const octree_query *query, octree_player_kind player
         if (query->answer[i] >= SESSION_ID_LIMIT)
             return octreel_status_text(OCTREEL_BAD_ID);
     if (status == OCTREE_OK && query->at_player && player == OCTREE_PLAYER_NONE)
-        return "there is no player";
+        return "at_player is set, but the recorder has no player";
     if (status == OCTREE_BAD_OPTION)
-        return "there is no such kind or no such skip; COINCIDENT needs a target, which a box has not";
+        return "unknown kind or skip; OCTREE_SKIP_COINCIDENT needs a query with a target";
     return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 
-/* One by one, so that the sentence can say which. */
+/* Queries and shapes are checked one by one, so that the error can name the first invalid one. */
 octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
 {
     if (!about)
@@ -36,9 +37,9 @@ octreel_status about_check(const octreel_tick_info *about, octree_player_kind pl
     if ((!about->queries && about->query_count) || (!about->shapes && about->shape_count))
         return status_fail(error, OCTREEL_NULL_ARGUMENT);
     for (size_t i = 0; i < about->query_count; i++) {
-        const char *fault = fault_of(&about->queries[i], player);
-        if (fault)
-            return status_refuse(error, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, fault);
+        const char *why = find_query_error(&about->queries[i], player);
+        if (why)
+            return status_refuse(error, OCTREEL_BAD_QUERY, "queries[%zu]: %s", i, why);
     }
     for (size_t i = 0; i < about->shape_count; i++) {
         const octree_input one = {.shapes = &about->shapes[i], .shape_count = 1};
@@ -49,7 +50,7 @@ octreel_status about_check(const octreel_tick_info *about, octree_player_kind pl
     return OCTREEL_OK;
 }
 
-/* Files keep no ids of points beyond their limit. */
+/* Files cannot hold ids of SESSION_ID_LIMIT and above. */
 octreel_status about_check_nodes(const octreel_tick_info *about, octreel_error *error)
 {
     size_t place = 0;

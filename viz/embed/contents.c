@@ -59,7 +59,7 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
 /* ---- The changes of a tick ---------------------------------------------------------------------------------- */
 
 /* Bounds memory while no tick is accepted: changes that cancel out are dropped once they have doubled. */
-static void settle(contents *c)
+static void settle_pending(contents *c)
 {
     enum { FEW = 1024 };
     if (c->change_count > FEW && c->change_count / 2 > c->settled)
@@ -220,8 +220,8 @@ static void apply_logged(const octree_change *logged, void *context)
                                        logged->kind == OCTREE_REMOVED ? NULL : logged->to);
 }
 
-/* Apply the changes since the last read. False if the log does not have them, or if they are not the whole truth: all
- * points of the table are in the tree, so a tree with more points has two with one id or one that files cannot hold. */
+/* Apply the changes since the last read. False if the log does not have them, or if the table then lacks a point of the
+ * tree, whose id another point has, or is too large for files. */
 static bool read_log(contents *c, const octree *tree)
 {
     c->log_incomplete = false;
@@ -262,7 +262,7 @@ static octreel_status find_source(contents *c, const octree *tree, const octreel
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error)
 {
-    settle(c);
+    settle_pending(c);
     c->kept = c->change_count;
     const octreel_status status = find_source(c, tree, about, error);
     if (status != OCTREEL_OK)

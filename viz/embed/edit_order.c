@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* edit_order.c - changes become edits that are all accepted. */
+/* edit_order.c - turns the changes of a tick into edits that the tree accepts: see edit_order.h. */
 #include "edit_order.h"
 #include "octree/octree.h"
 
@@ -31,7 +31,7 @@ void edit_order_release(edit_order *o)
     *o = (edit_order){0};
 }
 
-/* Each change is one edit, or two: out and in again. */
+/* Each change becomes at most two edits: a removal and an insertion. */
 static bool reserve_edits(edit_order *o, size_t changes)
 {
     if (changes <= o->room)
@@ -64,8 +64,7 @@ static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind ki
     return from && to == (kind == OCTREE_EDIT_MOVE);
 }
 
-/* Make a change as an edit of this kind, where there is room for it. False when there is no memory; *made is whether
- * it was made. */
+/* Make a change by an edit of this kind. *made: false if its leaf is full. Returns false if out of memory. */
 static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
 {
     octree_status status = OCTREE_OK;

@@ -124,15 +124,15 @@ void point_table_release(point_table *t)
     *t = (point_table){0};
 }
 
-static size_t home_of(const point_table *t, uint64_t id)
+static size_t find_home(const point_table *t, uint64_t id)
 {
     return (size_t)octree_digest_word(0, id) & (t->size - 1);
 }
 
 /* The slot of an id, or the empty slot where it belongs. */
-static size_t slot_of(const point_table *t, uint64_t id)
+static size_t find_slot(const point_table *t, uint64_t id)
 {
-    size_t slot = home_of(t, id);
+    size_t slot = find_home(t, id);
     while (t->slots[slot].id != id && t->slots[slot].id != NO_ID)
         slot = (slot + 1) & (t->size - 1);
     return slot;
@@ -159,13 +159,13 @@ bool point_table_reserve(point_table *t, size_t count)
 
 const octree_point *point_table_find(const point_table *t, uint64_t id)
 {
-    const octree_point *at = t->size ? &t->slots[slot_of(t, id)] : NULL;
+    const octree_point *at = t->size ? &t->slots[find_slot(t, id)] : NULL;
     return at && at->id == id ? at : NULL;
 }
 
 void point_table_put(point_table *t, const octree_point *point)
 {
-    octree_point *at = &t->slots[slot_of(t, point->id)];
+    octree_point *at = &t->slots[find_slot(t, point->id)];
     t->count += at->id == NO_ID;
     *at = *point;
 }
@@ -174,9 +174,9 @@ void point_table_put(point_table *t, const octree_point *point)
 void point_table_remove(point_table *t, uint64_t id)
 {
     const size_t mask = t->size - 1;
-    size_t hole = slot_of(t, id);
+    size_t hole = find_slot(t, id);
     for (size_t next = (hole + 1) & mask; t->slots[next].id != NO_ID; next = (next + 1) & mask) {
-        const size_t home = home_of(t, t->slots[next].id);
+        const size_t home = find_home(t, t->slots[next].id);
         if (((next - home) & mask) < ((next - hole) & mask))
             continue;
         t->slots[hole] = t->slots[next];

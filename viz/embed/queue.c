@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* queue.c - ticks on their way from the program's thread to the one that films. */
+/* queue.c - the queue of ticks from the program's thread to the recording thread: see queue.h. */
 #include "queue.h"
 
 bool queue_init(queue *q, size_t most, size_t most_bytes)
@@ -14,7 +14,7 @@ bool queue_init(queue *q, size_t most, size_t most_bytes)
 }
 
 /* The caller holds the lock, or is the last user of the queue. */
-static void drop_all(queue *q)
+static void drop_batches(queue *q)
 {
     if (!q->borrowed)
         batch_list_clear(&q->list);
@@ -23,18 +23,18 @@ static void drop_all(queue *q)
 
 void queue_release(queue *q)
 {
-    drop_all(q);
+    drop_batches(q);
     pthread_cond_destroy(&q->changed);
     pthread_mutex_destroy(&q->lock);
 }
 
-static void let_go(const queue *q, batch *b)
+static void release_unless_borrowed(const queue *q, batch *b)
 {
     if (!q->borrowed)
         batch_release(b);
 }
 
-static void change_and_unlock(queue *q)
+static void wake_and_unlock(queue *q)
 {
     pthread_cond_broadcast(&q->changed);
     pthread_mutex_unlock(&q->lock);
@@ -59,7 +59,7 @@ octreel_status queue_put(queue *q, batch *b, bool wait)
         status = OCTREEL_BUSY;
     else
         batch_list_add(&q->list, b);
-    change_and_unlock(q);
+    wake_and_unlock(q);
     return status;
 }
 
@@ -69,20 +69,20 @@ batch *queue_take(queue *q)
     while (!q->list.first && !q->ended && !q->broken)
         pthread_cond_wait(&q->changed, &q->lock);
     batch *b = batch_list_take(&q->list);
-    change_and_unlock(q);
+    wake_and_unlock(q);
     return b;
 }
 
 void queue_done(queue *q, batch *b)
 {
-    let_go(q, b);
+    release_unless_borrowed(q, b);
 }
 
 void queue_begin(queue *q)
 {
     pthread_mutex_lock(&q->lock);
     q->begun = true;
-    change_and_unlock(q);
+    wake_and_unlock(q);
 }
 
 bool queue_wait_begun(queue *q)
@@ -99,14 +99,14 @@ void queue_end(queue *q)
 {
     pthread_mutex_lock(&q->lock);
     q->ended = true;
-    change_and_unlock(q);
+    wake_and_unlock(q);
 }
 
 void queue_break(queue *q, batch *b)
 {
-    let_go(q, b);
+    release_unless_borrowed(q, b);
     pthread_mutex_lock(&q->lock);
     q->broken = true;
-    drop_all(q);
-    change_and_unlock(q);
+    drop_batches(q);
+    wake_and_unlock(q);
 }

@@ -107,9 +107,8 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     if (player->kind == OCTREE_PLAYER_NONE)
         return OCTREEL_OK;
     if (player->kind != OCTREE_PLAYER_BODY)
-        return status_refuse(
-            &r->error, OCTREEL_BAD_OPTION,
-            "player: it is OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; keys are the program's own matter");
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION,
+                             "player: kind must be OCTREE_PLAYER_NONE or OCTREE_PLAYER_BODY; a recorder has no keys");
     if (!(player->box_size >= 0) || isinf(player->box_size))
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "player: box_size must be finite and not negative");
     if (player->id >= SESSION_ID_LIMIT)
@@ -165,7 +164,7 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
               context = json_find_name(draw_context_name, def->context);
     if (fill < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
-                             "fill: there is no \"%s\"; octreel record --help lists the rasterizers", def->fill);
+                             "fill: unknown rasterizer \"%s\"; octreel record --help lists them", def->fill);
     if (context < 0)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "context: unknown name \"%s\"; octreel record --help lists the names", def->context);
@@ -173,8 +172,7 @@ static octreel_status set_film(octreel_recorder *r, const octreel_recorder_def *
     if (film->renderer.any_renderer && film->renderer.context != DRAW_EGL)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "any_renderer: works only with the context \"egl\"");
     if (def->every > SESSION_LAST_TICK)
-        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "every: it must be 0, for no frames, to %d",
-                             SESSION_LAST_TICK);
+        return status_refuse(&r->error, OCTREEL_BAD_OPTION, "every: must be 0 (no frames) to %d", SESSION_LAST_TICK);
     if (def->queue_ticks < 1)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION, "queue_ticks: the queue must hold at least one tick");
     return OCTREEL_OK;
@@ -224,7 +222,7 @@ static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_
     return status_fail(&r->error, OCTREEL_NO_MEMORY);
 }
 
-static void release(octreel_recorder *r)
+static void release_recorder(octreel_recorder *r)
 {
     contents_release(&r->contents);
     foreign_tree_release(&r->kept);
@@ -254,7 +252,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
     if (error)
         *error = r ? r->error : none.error;
     if (r)
-        release(r);
+        release_recorder(r);
     return status;
 }
 
@@ -269,13 +267,13 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
     if (r->put > 0)
         return status_refuse(
             &r->error, OCTREEL_OTHER_TREE,
-            "after ticks without points those of a list need OCTREE_GROW as the definition's full_leaf");
+            "a list after ticks without points needs OCTREE_GROW as full_leaf of the definition's tree");
     r->settings.tree.full_leaf = OCTREE_GROW;
     return OCTREEL_OK;
 }
 
 /* Keep the foreign nodes of a refused tick for the next accepted one. False if out of memory. */
-static bool keep_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
+static bool keep_foreign_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
 {
     octree_foreign_tree copy;
     if (!foreign_tree_duplicate(tree, &copy))
@@ -314,7 +312,7 @@ static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
     return r->filmer.status;
 }
 
-static octreel_status pass_batch(octreel_recorder *r, batch *b)
+static octreel_status hand_over_batch(octreel_recorder *r, batch *b)
 {
     octreel_status status = OCTREEL_OK;
     bool taken = true;
@@ -329,14 +327,14 @@ static octreel_status pass_batch(octreel_recorder *r, batch *b)
     return status;
 }
 
-static octreel_status put_tick(octreel_recorder *r, const octreel_tick_info *about)
+static octreel_status record_tick(octreel_recorder *r, const octreel_tick_info *about)
 {
     const octree_foreign_tree *said = about ? about->foreign : NULL;
     batch *b = batch_make(&r->gaps, about, said ? said : r->has_kept ? &r->kept : NULL);
     if (!b)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
     contents_give_changes(&r->contents, b);
-    return pass_batch(r, b);
+    return hand_over_batch(r, b);
 }
 
 static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
@@ -349,8 +347,9 @@ static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const
         r->error = why;
     }
     if (status == OCTREEL_OK)
-        status = put_tick(r, about);
-    if (status != OCTREEL_OK && nodes == OCTREEL_OK && about && about->foreign && !keep_nodes(r, about->foreign))
+        status = record_tick(r, about);
+    if (status != OCTREEL_OK && nodes == OCTREEL_OK && about && about->foreign &&
+        !keep_foreign_nodes(r, about->foreign))
         status = status_fail(&r->error, OCTREEL_NO_MEMORY);
     if (status != OCTREEL_OK) {
         contents_refuse(&r->contents, status);
@@ -466,5 +465,5 @@ void octreel_recorder_destroy(octreel_recorder *recorder)
         return;
     if (!recorder->closed)
         octreel_recorder_close(recorder);
-    release(recorder);
+    release_recorder(recorder);
 }

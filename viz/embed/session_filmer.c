@@ -32,7 +32,7 @@ static octree_body *make_bodies(const batch *first)
     return bodies;
 }
 
-static octreel_status fail_memory(session_filmer *f, octreel_status status)
+static octreel_status refuse_for_memory(session_filmer *f, octreel_status status)
 {
     error_no_memory(&f->error);
     return status;
@@ -46,7 +46,7 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
     octree_body *bodies = make_bodies(first);
     if (!bodies || !edit_order_init(&f->order, &s->tree, first)) {
         free(bodies);
-        return fail_memory(f, OCTREEL_NO_MEMORY);
+        return refuse_for_memory(f, OCTREEL_NO_MEMORY);
     }
     const octree_session session = {.tree = s->tree,
                                     .player = s->player,
@@ -82,7 +82,7 @@ static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
 {
     f->order.count = 0;
     if (changes && !edit_order_make(&f->order, b, f->tick))
-        return fail_memory(f, OCTREEL_BROKEN);
+        return refuse_for_memory(f, OCTREEL_BROKEN);
     return film_input(f, &(octree_input){.key = '.',
                                          .edits = f->order.edits,
                                          .edit_count = f->order.count,

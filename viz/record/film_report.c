@@ -77,7 +77,7 @@ static void report_counts(FILE *out, const film_summary *summary, const char *fo
     else
         fprintf(out, "%" PRIu64 " frame%s", summary->frames, plural_ending(summary->frames));
     if (summary->kept > 0)
-        fprintf(out, ", of which %" PRIu64 " %s there", summary->kept, summary->kept == 1 ? "was" : "were");
+        fprintf(out, ", of which %" PRIu64 " existed already", summary->kept);
 }
 
 const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT])
@@ -98,12 +98,11 @@ static void report_left_out(FILE *out, const film_summary *summary)
 {
     char text[FILM_LEFT_OUT];
     if (summary->gaps)
-        fprintf(out, "%" PRIu64 " %s, and ticks.jsonl says why\n", summary->gaps,
-                summary->gaps == 1 ? "tick is a gap: nothing is known of it"
-                                   : "ticks are gaps: nothing is known of them");
+        fprintf(out, "%" PRIu64 " %s without data; ticks.jsonl has the reason\n", summary->gaps,
+                summary->gaps == 1 ? "tick is a gap" : "ticks are gaps");
     if (summary->left_out)
-        fprintf(out, "%" PRIu64 " element%s too far off to be drawn: the frames lack what is so far away\n",
-                summary->left_out, plural_ending(summary->left_out));
+        fprintf(out, "%" PRIu64 " element%s too far away to be drawn; the frames leave %s out\n", summary->left_out,
+                plural_ending(summary->left_out), summary->left_out == 1 ? "it" : "them");
     if (summary->over_budget)
         fprintf(out, "%" PRIu64 " frame%s leave%s out %s beyond --budget\n", summary->over_budget,
                 plural_ending(summary->over_budget), verb_ending(summary->over_budget),
@@ -138,16 +137,15 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
                 summary->frames - summary->kept, plural_ending(summary->frames - summary->kept),
                 frame_checks_title(summary->checks.by));
     report_left_out(out, summary);
-    fputs("ticks that", out);
+    fputs("ticks with each event: player", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        if (1u << i != OCTREE_EVENT_WRONG ||
-            summary->events[i]) /* 0 wrong answers would be confusing where no answers were given */
+        if (1u << i != OCTREE_EVENT_WRONG || summary->events[i]) /* without answers, "wrong 0" would be confusing */
             fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
     if (summary->refusals)
         fprintf(out,
-                "refusals of points, edits and steps, but for steps out of the world: %" PRIu64
-                "; ticks.jsonl names them\n",
+                "refused points, edits and steps, without steps out of the world: %" PRIu64
+                "; ticks.jsonl lists them\n",
                 summary->refusals);
     if (options->last != 0)
         report_chunk(out, summary, options);
@@ -166,10 +164,10 @@ static void print_world(FILE *out, const octree_session *session)
 void film_report_start(FILE *out, const film_start *start, const octree_session *session)
 {
     if (start->outside > start->points / 2) {
-        fprintf(
-            out,
-            "octreel: %zu of the session's %zu points lie outside its world and are refused; to have them, give it ",
-            start->outside, start->points);
+        fprintf(out,
+                "octreel: %zu of the session's %zu points lie outside its world and are refused; a world that contains "
+                "them: ",
+                start->outside, start->points);
         print_world(out, session);
         putc('\n', out);
     } else if (start->full > start->points / 2) {
@@ -225,10 +223,10 @@ void film_report_joined(FILE *out, const film_summary *summary, const film_optio
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options)
 {
     if (summary->ticks == 0) {
-        fputs("octreel: stopped before a tick was filmed\n", out);
+        fputs("octreel: stopped before the first tick was recorded\n", out);
         return;
     }
-    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to go on: %s record --resume",
+    fprintf(out, "octreel: stopped after %" PRIu64 " of %" PRIu64 " tick%s; to continue: %s record --resume",
             summary->ticks, summary->total, plural_ending(summary->total), hint_program_name());
     if (options->last != 0)
         fprintf(out, " --ticks %" PRIu64 ":%" PRIu64, options->first, options->first + summary->total);

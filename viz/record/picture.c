@@ -33,7 +33,7 @@ static bool check_samples(const view *v, octreel_error *error)
 {
     const int samples = view_samples_per_side(v);
     if (samples != 1 && samples != 2 && samples != 4)
-        return error_set(error, "there is no anti-aliasing by %d; there are 1, 2 and 4", samples);
+        return error_set(error, "anti-aliasing must be 1, 2 or 4, not %d", samples);
     if (samples == 1 || (v->width <= VIEW_MAX_SIDE / samples && v->height <= VIEW_MAX_SIDE / samples))
         return true;
     return error_set(

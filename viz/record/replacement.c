@@ -55,7 +55,7 @@ static bool is_recording_file(const char *name)
 
 /* ---- Checks ------------------------------------------------------------------------------------------------- */
 
-static bool is_recording(const char *folder)
+static bool holds_recording(const char *folder)
 {
     char *path = path_join(folder, mark);
     struct stat status;
@@ -71,7 +71,7 @@ static bool is_recording(const char *folder)
 static bool has_recording_aside(const char *folder)
 {
     char *aside = path_join(folder, FOLDER_ASIDE);
-    const bool has = aside && is_recording(aside);
+    const bool has = aside && holds_recording(aside);
     free(aside);
     return has;
 }
@@ -110,7 +110,7 @@ bool replacement_check(const char *folder, octreel_error *error)
     for (size_t i = 0; ok && names[i]; i++)
         ok = check_entry(folder, names[i], &past, error);
     free(names);
-    return ok && (!past || is_recording(folder) || has_recording_aside(folder) ||
+    return ok && (!past || holds_recording(folder) || has_recording_aside(folder) ||
                   error_set(error,
                             "%s: cannot replace its files: recording.json is missing or belongs to another "
                             "program; choose another folder (-o)",
@@ -152,28 +152,28 @@ static bool move_or_remove_rest(const char *from, const char *to)
     return ok;
 }
 
-static bool restore(const replacement *r)
+static bool restore_old_recording(const replacement *r)
 {
     return move_or_remove_rest(r->aside, r->folder) && move_file(r->aside, r->folder, mark);
 }
 
-static bool remove_all(const char *folder)
+static bool remove_recording(const char *folder)
 {
     return move_or_remove(folder, NULL, mark) && move_or_remove_rest(folder, NULL);
 }
 
 /* Complete what a killed process left unfinished, so that the folder aside is empty. If the new recording has its mark,
  * it was in its first tick; otherwise it has at most an empty ticks.jsonl and an unfinished mark. */
-static bool recover(const replacement *r, octreel_error *error)
+static bool recover_from_crash(const replacement *r, octreel_error *error)
 {
     bool ok = true;
-    if (!is_recording(r->aside))
-        ok = remove_all(r->aside);
+    if (!holds_recording(r->aside))
+        ok = remove_recording(r->aside);
     else
-        ok = (folder_contains(r->folder, mark) ? remove_all(r->folder)
-                                               : move_or_remove(r->folder, NULL, unfinished_mark)) &&
-             restore(r);
-    return ok || error_set(error, "%s: what is there cannot be put back: %s", r->aside, strerror(errno));
+        ok = (folder_contains(r->folder, mark) ? remove_recording(r->folder)
+                                          : move_or_remove(r->folder, NULL, unfinished_mark)) &&
+             restore_old_recording(r);
+    return ok || error_set(error, "%s: cannot move the old recording back: %s", r->aside, strerror(errno));
 }
 
 /* ---- Set aside ---------------------------------------------------------------------------------------------- */
@@ -216,7 +216,7 @@ static bool set_aside(replacement *r, octreel_error *error)
     if (move_file(r->folder, r->aside, mark) && move_or_remove_rest(r->folder, r->aside))
         return true;
     error_set(error, "%s: cannot move the old recording aside: %s", r->folder, strerror(errno));
-    restore(r);
+    restore_old_recording(r);
     return false;
 }
 
@@ -226,7 +226,7 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     bool ok = (r->folder && r->aside) || error_no_memory(error);
     ok = ok && folder_create(folder, error) && replacement_check(folder, error);
     ok = ok && make_aside(r, error) && replacement_check(folder, error); /* another process may have been faster */
-    ok = ok && recover(r, error) && set_aside(r, error);
+    ok = ok && recover_from_crash(r, error) && set_aside(r, error);
     if (!ok)
         release(r);
     return ok;
@@ -235,15 +235,15 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
 void replacement_end(replacement *r)
 {
     if (r->aside)
-        remove_all(r->aside);
+        remove_recording(r->aside);
     release(r);
 }
 
 bool replacement_undo(replacement *r)
 {
     const bool set = r->aside;
-    if (set && remove_all(r->folder))
-        restore(r);
+    if (set && remove_recording(r->folder))
+        restore_old_recording(r);
     release(r);
     return set;
 }
@@ -251,7 +251,7 @@ bool replacement_undo(replacement *r)
 void replacement_sweep(const char *folder)
 {
     char *aside = path_join(folder, FOLDER_ASIDE);
-    if (aside && folder_contains(folder, FOLDER_ASIDE) && remove_all(aside))
+    if (aside && folder_contains(folder, FOLDER_ASIDE) && remove_recording(aside))
         rmdir(aside);
     free(aside);
 }

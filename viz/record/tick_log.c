@@ -15,7 +15,7 @@ static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
 }
 
 /* Empties the file only after locking it, so that the lines of another process stay. */
-static bool begin(tick_log *log, int file, bool keep, octreel_error *error)
+static bool lock_and_open(tick_log *log, int file, bool keep, octreel_error *error)
 {
     if (!file_lock(file))
         return error_set(error, "%s: another process is recording into this folder", log->path);
@@ -31,7 +31,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     if (!log->path)
         return error_no_memory(error);
     const int file = open(log->path, O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file < 0 ? fail_to_write(log, error, "") : begin(log, file, keep, error))
+    if (file < 0 ? fail_to_write(log, error, "") : lock_and_open(log, file, keep, error))
         return true;
     if (file >= 0)
         close(file);
@@ -40,7 +40,7 @@ bool tick_log_open(tick_log *log, const char *folder, const char *name, bool kee
     return false;
 }
 
-static bool give_up(tick_log *log, octreel_error *error)
+static bool cut_and_close(tick_log *log, octreel_error *error)
 {
     const int reason = errno;
     fclose(log->stream);
@@ -62,7 +62,7 @@ static bool is_kept(const tick_log *log, const char *line, size_t size)
 }
 
 /* Remove the rest of the earlier log, which differs from here on. */
-static bool drop_rest(tick_log *log)
+static bool remove_old_lines(tick_log *log)
 {
     log->kept = 0;
     return fseeko(log->stream, log->whole, SEEK_SET) == 0 && ftruncate(fileno(log->stream), log->whole) == 0;
@@ -74,17 +74,17 @@ bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *e
         log->whole += (off_t)size;
         return true;
     }
-    if (log->kept > 0 && !drop_rest(log))
-        return give_up(log, error);
+    if (log->kept > 0 && !remove_old_lines(log))
+        return cut_and_close(log, error);
     if (fwrite(line, 1, size, log->stream) != size || fflush(log->stream) != 0)
-        return give_up(log, error);
+        return cut_and_close(log, error);
     log->whole += (off_t)size;
     return true;
 }
 
 bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
-    const bool cut = !log->stream || !whole || log->kept == 0 || drop_rest(log) || fail_to_write(log, error, "");
+    const bool cut = !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || fail_to_write(log, error, "");
     if (log->stream)
         flock(fileno(log->stream), LOCK_UN); /* a child of the program may have the file open, too */
     const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;

@@ -30,7 +30,7 @@ static octree_status find_distances(const octree *tree, const octree_query *quer
     return octree_query_answer(tree, &by_distance, NULL, NULL, nearest);
 }
 
-static octree_status ask(const octree *tree, const octree_query *query, inspect_answers *result)
+static octree_status answer_query(const octree *tree, const octree_query *query, inspect_answers *result)
 {
     octree_answer *answer = &result->answers[result->count], *nearest = &result->nearest[result->count];
     result->count++; /* released with the result from here on */
@@ -49,7 +49,7 @@ bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, 
                                 .nearest = calloc(room, sizeof *result->nearest)};
     octree_status status = result->answers && result->nearest ? OCTREE_OK : OCTREE_NO_MEMORY;
     for (size_t i = 0; status == OCTREE_OK && i < count; i++)
-        status = ask(tree, &queries[i], result);
+        status = answer_query(tree, &queries[i], result);
     if (status == OCTREE_OK)
         return true;
     inspect_answers_release(result);

@@ -151,11 +151,13 @@ static bool report_other_tick(const json_t *found, uint64_t tick, verify_finding
 static void compare_lines(const json_t *found, const json_t *expected, uint64_t tick, verify_finding *finding)
 {
     if (!json_is_object(found)) {
-        report_line(finding, "its line in ticks.jsonl is no JSON object");
+        report_line(finding, "its line in ticks.jsonl is not a JSON object");
     } else if (!report_other_tick(found, tick, finding)) {
         finding->kind = VERIFY_FACTS;
         if (!compare_objects(NULL, found, expected, finding))
-            report_line(finding, "its line in ticks.jsonl says the same, but is not written as octreel writes it");
+            report_line(
+                finding,
+                "its line in ticks.jsonl has the same values, but is formatted differently than octreel formats it");
         else if (strcmp(finding->fact, "scene") == 0)
             finding->kind = VERIFY_SCENE;
     }
@@ -205,7 +207,7 @@ bool line_matches(const line_reader *found, const expected_line *expected, verif
     if (a)
         compare_lines(a, b, expected->tick->number, finding);
     else
-        report_line(finding, "its line in ticks.jsonl is no JSON");
+        report_line(finding, "its line in ticks.jsonl is not JSON");
     json_decref(a);
     json_decref(b);
     return false;

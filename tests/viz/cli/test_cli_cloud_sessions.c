@@ -178,9 +178,8 @@ static void refused_points_are_counted(void **state)
         write_session(folder, "\"points\": [[5000, 0, 0], [0, 6000, 0], [1, 2, 3], [4, 5, 6], [7, 8, 9]]");
     command_result result = run_octreel(NULL, FILM, session.path, film.path);
     assert_done(&result);
-    assert_non_null(
-        strstr(result.out,
-               "\nrefusals of points, edits and steps, but for steps out of the world: 2; ticks.jsonl names them\n"));
+    assert_non_null(strstr(
+        result.out, "\nrefused points, edits and steps, without steps out of the world: 2; ticks.jsonl lists them\n"));
     command_release(&result);
 }
 

@@ -44,7 +44,8 @@ static void assert_says(const temp_folder *folder, const char *arguments, int st
 
 static void verify_says_that_it_compared_ticks(void **state)
 {
-    assert_says(*state, "verify a", 0, "a: identical: 4 ticks, by what happened in them alone: it has no frames\n");
+    assert_says(*state, "verify a", 0,
+                "a: identical: 4 ticks, compared by ticks.jsonl alone, since there are no frames\n");
     assert_says(*state, "verify a --json", 0, "\"drawn_by\": null, \"drawn_now\": null, \"fill\": null}\n");
 }
 

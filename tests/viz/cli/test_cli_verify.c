@@ -128,7 +128,7 @@ static void finding_without_a_tick_prints_no_tick(void **state)
     file_copy(folder.path, "frame_000003.png", "frame_last.png");
     command_result result = run_octreel(NULL, "verify %s", folder.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, ": frame_last.png is no frame of this recording\n"));
+    assert_non_null(strstr(result.out, ": frame_last.png is not a frame of this recording\n"));
     command_release(&result);
     result = run_octreel(NULL, "verify %s --json", folder.path);
     json_t *said = json_read(result.out);

@@ -214,8 +214,8 @@ static void pictures_with_too_many_samples_are_refused(void **state)
         {16384, 16384, 4, "16384 x 16384"},
         {INT32_MAX, INT32_MAX, 2, "1 to 8192"},
         {0, 5, 2, "1 to"},
-        {64, 64, 3, "there is no anti-aliasing by 3; there are 1, 2 and 4"},
-        {64, 64, 1000, "anti-aliasing by 1000"},
+        {64, 64, 3, "anti-aliasing must be 1, 2 or 4, not 3"},
+        {64, 64, 1000, "anti-aliasing must be 1, 2 or 4, not 1000"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         picture p;

@@ -66,7 +66,7 @@ static void invalid_definitions_are_refused(void **state)
     REFUSE(diagram, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(fill, NULL, OCTREEL_NULL_ARGUMENT, "null");
     REFUSE(context, NULL, OCTREEL_NULL_ARGUMENT, "null");
-    REFUSE(fill, "glow", OCTREEL_BAD_OPTION, "fill: there is no \"glow\"");
+    REFUSE(fill, "glow", OCTREEL_BAD_OPTION, "fill: unknown rasterizer \"glow\"");
     REFUSE(show_tree, "mine", OCTREEL_BAD_OPTION, "no tree \"mine\"");
     REFUSE(diagram, "above", OCTREEL_BAD_OPTION, "no diagram \"above\"");
     REFUSE(context, "glx", OCTREEL_BAD_OPTION, "context: unknown name \"glx\"");
@@ -192,7 +192,7 @@ static void refuse_queries(octreel_recorder *recorder, const octree *tree)
         const octreel_tick_info about = {.queries = queries, .query_count = 2};
         const bool unlisted = rows[i].skip == OCTREE_SKIP_COINCIDENT || rows[i].kind == OCTREE_QUERY_KINDS;
         assert_refused(recorder, tree, &about, OCTREEL_BAD_QUERY,
-                       unlisted ? "queries[1]: there is no such kind or no such skip" : "queries[1]: ");
+                       unlisted ? "queries[1]: unknown kind or skip" : "queries[1]: ");
     }
 }
 

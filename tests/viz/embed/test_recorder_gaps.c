@@ -153,7 +153,7 @@ static void verify_and_record_report_gaps(void **state)
     command_result result = run_octreel(NULL, "verify %s", folder.path);
     assert_done(&result);
     assert_non_null(strstr(result.out, ": identical: 4 ticks, 3 frames\n"));
-    assert_non_null(strstr(result.out, ": 1 of these ticks is a gap: nothing is known of it; the first is tick 2: two "
+    assert_non_null(strstr(result.out, ": 1 of these ticks is a gap without data; the first is tick 2: two "
                                        "points of the tree have one id: 0\n"));
     command_release(&result);
     result = run_octreel(NULL, "verify --json %s", folder.path);
@@ -177,7 +177,7 @@ static void frame_in_a_gap_is_found(void **state)
     assert_int_equal(rename(frame_place(folder.path, 3).path, gap.path), 0);
     command_result result = run_octreel(NULL, "verify %s", folder.path);
     assert_int_equal(result.status, 1);
-    assert_non_null(strstr(result.out, "frame_000002.png is no frame of this recording"));
+    assert_non_null(strstr(result.out, "frame_000002.png is not a frame of this recording"));
     command_release(&result);
 }
 

@@ -199,6 +199,22 @@ static void changes_of_a_refused_tick_are_not_lost(void **state)
     assert_told(&f, OCTREEL_GAPS, "1 - 2 - 3");
 }
 
+/* The changes of a refused tick before it stay. */
+static void list_of_a_refused_tick_is_forgotten(void **state)
+{
+    film f = open_film(state, 0);
+    const octree_query bad = {.kind = OCTREE_QUERY_NEAREST, .target = {NAN}};
+    const octree_edit insertion = {.kind = OCTREE_EDIT_INSERT, .body = {.id = 4, .position = {4, 4, 4}}};
+    octreel_tick_info about = {.changes = &insertion, .change_count = 1, .queries = &bad, .query_count = 1};
+    assert_int_equal(list_tick(&f, three, 1), OCTREEL_OK);
+    assert_int_equal(change_tick(&f, OCTREE_EDIT_INSERT, 9, 1), OCTREEL_OK);
+    assert_int_equal(octreel_recorder_tick(f.recorder, NULL, &about), OCTREEL_BAD_QUERY);
+    about = (octreel_tick_info){.points = three, .point_count = 3, .queries = &bad, .query_count = 1};
+    assert_int_equal(octreel_recorder_tick(f.recorder, NULL, &about), OCTREEL_BAD_QUERY);
+    assert_int_equal(change_tick(&f, OCTREE_EDIT_INSERT, 5, 1), OCTREEL_OK); /* the list has it already */
+    assert_told(&f, OCTREEL_GAPS, "1 2 - - 4");
+}
+
 static void assert_refused(film *f, const octreel_tick_info *about, octreel_status why, const char *sentence)
 {
     assert_int_equal(octreel_recorder_tick(f->recorder, NULL, about), why);
@@ -289,6 +305,7 @@ int main(void)
         TEST(point_outside_the_world_is_refused_until_it_returns),
         TEST(ring_remembers_points_outside_the_world),
         TEST(changes_of_a_refused_tick_are_not_lost),
+        TEST(list_of_a_refused_tick_is_forgotten),
         TEST(invalid_lists_and_changes_are_refused_with_the_reason),
         TEST(points_from_two_sources_are_refused),
         TEST(waiting_changes_are_combined),

@@ -225,11 +225,11 @@ static void line_of_another_tick_or_frame_is_named(void **state)
          *scene = strstr(third, "\"scene\": ");
     third[strlen("\"tick\": ")] = '8';
     file_write_text(lines.path, text);
-    assert_not_joined(chunks.path, "ticks_5_11.jsonl: ", "no line of tick 7");
+    assert_not_joined(chunks.path, "ticks_5_11.jsonl: ", "expected the line of tick 7");
     third[strlen("\"tick\": ")] = '7';
     scene[1] = 'S';
     file_write_text(lines.path, text);
-    assert_not_joined(chunks.path, "ticks_5_11.jsonl: ", "no line of tick 7");
+    assert_not_joined(chunks.path, "ticks_5_11.jsonl: ", "expected the line of tick 7");
     scene[1] = 's';
     char *digit = scene + strlen("\"scene\": \"");
     *digit = *digit == '0' ? '1' : '0';

@@ -67,8 +67,8 @@ static void edit_of_a_missing_point_is_reported_as_refused(void **state)
     film_report(out, &summary, &options, 1, false);
     assert_int_equal(fclose(out), 0);
     assert_non_null(strstr(text, " refused 1,"));
-    assert_non_null(strstr(
-        text, "\nrefusals of points, edits and steps, but for steps out of the world: 2; ticks.jsonl names them\n"));
+    assert_non_null(
+        strstr(text, "\nrefused points, edits and steps, without steps out of the world: 2; ticks.jsonl lists them\n"));
     free(text);
 }
 
@@ -90,15 +90,15 @@ static void stopped_recording_is_reported_with_the_command_to_continue(void **st
         film_summary summary;
         uint64_t first, last;
         const char *text;
-    } rows[] = {{{.ticks = 0, .total = 9}, 0, 0, "octreel: stopped before a tick was filmed\n"},
+    } rows[] = {{{.ticks = 0, .total = 9}, 0, 0, "octreel: stopped before the first tick was recorded\n"},
                 {{.ticks = 4, .total = 9},
                  0,
                  0,
-                 "octreel: stopped after 4 of 9 ticks; to go on: octreel record --resume -o film\n"},
+                 "octreel: stopped after 4 of 9 ticks; to continue: octreel record --resume -o film\n"},
                 {{.ticks = 4, .total = 9},
                  10,
                  19,
-                 "octreel: stopped after 4 of 9 ticks; to go on: octreel record --resume --ticks 10:19 -o film\n"}};
+                 "octreel: stopped after 4 of 9 ticks; to continue: octreel record --resume --ticks 10:19 -o film\n"}};
     film_options options = small_film("film");
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -393,12 +393,12 @@ static void counts_of_one_are_in_the_singular(void **state)
     (void)state;
     assert_counted(1,
                    "f: 1 tick, 1 frame\n"
-                   "1 element too far off to be drawn: the frames lack what is so far away\n"
+                   "1 element too far away to be drawn; the frames leave it out\n"
                    "1 frame leaves out nodes beyond --budget\n",
                    "octreel: stopped after 1 of 1 tick; ");
     assert_counted(2,
                    "f: 2 ticks, 2 frames\n"
-                   "2 elements too far off to be drawn: the frames lack what is so far away\n"
+                   "2 elements too far away to be drawn; the frames leave them out\n"
                    "2 frames leave out nodes beyond --budget\n",
                    "octreel: stopped after 2 of 2 ticks; ");
 }

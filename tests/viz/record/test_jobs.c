@@ -174,7 +174,7 @@ static void stopped_jobs_report_the_command_to_continue(void **state)
         assert_int_equal(result.status, 128 + sent);
         snprintf(sentence, sizeof sentence, " record --resume -o %s\n", folder.path);
         assert_non_null(strstr(result.err, "octreel: stopped after "));
-        assert_non_null(strstr(result.err, " ticks; to go on: "));
+        assert_non_null(strstr(result.err, " ticks; to continue: "));
         assert_string_equal(result.err + strlen(result.err) - strlen(sentence), sentence);
         assert_nothing_half_written(folder.path);
         assert_true(file_exists(place_below(folder.path, "index.html").path));

@@ -58,14 +58,14 @@ static void malformed_lines_are_found(void **state)
     static const struct {
         const char *text, *part;
     } rows[] = {
-        {"hello\n", "no JSON"},
-        {"\n", "no JSON"},
-        {"7\n", "no JSON"},
-        {"[]\n", "no JSON object"},
+        {"hello\n", "not JSON"},
+        {"\n", "not JSON"},
+        {"7\n", "not JSON"},
+        {"[]\n", "not a JSON object"},
         {"{}\n", "tick is missing"},
-        {"{\"tick\": 5\n", "no JSON"},
-        {"{\"tick\": 5, \"tick\": 5}\n", "no JSON"},
-        {"{\"tick\": 1e400}\n", "no JSON"},
+        {"{\"tick\": 5\n", "not JSON"},
+        {"{\"tick\": 5, \"tick\": 5}\n", "not JSON"},
+        {"{\"tick\": 1e400}\n", "not JSON"},
         {"{\"tick\": \"\\u001b[2J\"}\n", "tick is \"\\u001B[2J\" in"},
         {"", "has the line of tick 6 where that of tick 5 belongs"},
         {"{\"tick\": -7}\n", "tick is -7 in ticks.jsonl, and 5"},
@@ -83,7 +83,7 @@ static void line_with_other_formatting_is_found(void **state)
 {
     const place folder = film_short(*state);
     edit_line(folder.path, 5, "{", "{ ");
-    assert_found(&folder, VERIFY_LINES, 5, "says the same");
+    assert_found(&folder, VERIFY_LINES, 5, "has the same values");
 }
 
 static void overlong_line_is_found_without_reading_all_of_it(void **state)

@@ -32,10 +32,11 @@
  *   - The recorder never ends the process, handles signals or keeps globals. Any thread may use it, one at a time. The
  *     program's floating-point mode and GL contexts stay as they are: the recorder draws in its own thread, with all
  *     signals blocked. A child of fork() must not use its parent's recorders.
- *   - Functions return a status; octreel_status_text() returns its text, octreel_recorder_error() the last error in
- * full. Each call of octreel_recorder_tick() is a tick. A refused tick keeps its number and is a gap in the recording:
- * it has no frame, and ticks.jsonl holds only the reason. Closing reports the count of gaps. No change is lost: the
- *     next accepted tick holds all changes since the last accepted one. After OCTREEL_BROKEN no more ticks are
+ *   - Functions return a status. octreel_status_text() returns its text; octreel_recorder_error() returns the last
+ * error in full.
+ *   - Each call of octreel_recorder_tick() is a tick. A refused tick keeps its number and becomes a gap in the
+ * recording: it has no frame, and ticks.jsonl holds only the reason. Closing reports the number of gaps. No change is
+ * lost: the next accepted tick holds all changes since the last accepted one. After OCTREEL_BROKEN no more ticks are
  * recorded; the earlier ones are complete.
  *   - Every function accepts a null recorder, does nothing, and returns OCTREEL_OK.
  *   - n is the number of points.
@@ -57,26 +58,28 @@ extern "C" {
 #define OCTREEL_STATUS_MAP(X)                                                                                          \
     X(OK, "done")                                                                                                      \
     X(NULL_ARGUMENT, "a required pointer is null")                                                                     \
-    X(BAD_OPTION, "an option of the recorder has no such value")                                                       \
+    X(BAD_OPTION, "an option of the recorder has an invalid value")                                                    \
     X(BAD_FOLDER, "the folder cannot be recorded into")                                                                \
-    X(CANNOT_DRAW, "there is nothing that draws this")                                                                 \
-    X(OTHER_TREE, "the tree is not of the world and the options that the recorder was opened for")                     \
-    X(TWO_SOURCES, "points come from a tree, or from lists and changes: from one of these in a tick")                  \
+    X(CANNOT_DRAW, "no renderer can draw this")                                                                        \
+    X(OTHER_TREE, "the tree has another world or other options than the recorder was opened for")                      \
+    X(TWO_SOURCES,                                                                                                     \
+      "a tick has more than one of tree, points and changes, or a recorder of trees got points or changes")            \
     X(DUPLICATE_ID, "two points of the tree have one id")                                                              \
-    X(BAD_POINT, "a point or a change has a NaN or an infinity, or is of no such kind")                                \
-    X(NO_POINT, "a change is of a point that is not there")                                                            \
+    X(BAD_POINT, "a point or a change has a NaN or an infinity, or a change has an unknown kind")                      \
+    X(NO_POINT, "a change moves or removes a point that does not exist")                                               \
     X(BAD_ID, "an id is not below 2^53, as files need it")                                                             \
-    X(BAD_QUERY, "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or no such skip") \
-    X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or a text that is none")           \
-    X(BAD_NODE, "a node has a box, an id, a parent, a kind or points that no node can have")                           \
-    X(FLOAT_MODE, "the thread's floating-point mode is not the default: nearest rounding, subnormals")                 \
+    X(BAD_QUERY,                                                                                                       \
+      "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or an unknown skip")         \
+    X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or an invalid text")               \
+    X(BAD_NODE, "a foreign node has an invalid box, id, parent, kind or list of points")                               \
+    X(FLOAT_MODE, "the thread's floating-point mode is not the default: rounding to nearest, with subnormals")         \
     X(BUSY, "the queue is full, and the recorder was told not to wait")                                                \
-    X(BROKEN, "the recording broke off")                                                                               \
+    X(BROKEN, "the recording failed at an earlier tick")                                                               \
     X(CLOSED, "the recorder is closed")                                                                                \
-    X(NOTHING, "there is no tick to be recorded")                                                                      \
+    X(NOTHING, "there is no tick to record")                                                                           \
     X(NO_RING, "the recorder has no ring")                                                                             \
-    X(NO_MEMORY, "there is no memory")                                                                                 \
-    X(GAPS, "ticks were refused, and are gaps in the recording")
+    X(NO_MEMORY, "out of memory")                                                                                      \
+    X(GAPS, "refused ticks are gaps in the recording")
 
 typedef enum octreel_status {
 #define OCTREEL_STATUS_ENUM(name, text) OCTREEL_##name,
@@ -93,41 +96,43 @@ typedef struct octreel_recorder octreel_recorder;
 /* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that
  * "octreel record --help" lists. */
 typedef struct octreel_recorder_def {
-    const char *folder; /* where the recording goes: a new folder, or one without a recording. A ring needs none */
-    bool replace;       /* or one with a recording, which goes once tick 0 of this one is filmed; until then, and where
-                          that fails, it stays. Other files of the folder stay. What is no recording, and one that is
-                          being filmed, are BAD_FOLDER */
-    octree_def tree;    /* octree_definition() of the trees to come; their allocator is not used. For lists of points:
-                           the world, which is to hold all of them, and the capacity and depth of the tree that shows
-                           them; its full leaves grow */
-    octree_player player;  /* OCTREE_PLAYER_NONE, or _BODY: the point that collides, by id, box_size and sweep */
-    int width, height;     /* pixels; 1 to 16384 */
-    const char *camera;    /* "iso", "orbit", "follow" ... */
-    const char *layers;    /* "default", "all", "-text", "nodes,points,shapes" ... */
-    const char *color_by;  /* "depth", "occupancy", "plain" */
-    const char *show_tree; /* "auto", "own", "foreign", "both": whose nodes are shown, where octreel_tick_info.foreign
-                              has the program's; by "auto" those instead of Octreel's, once there are any */
+    const char *folder;   /* the recording's folder: new, or without a recording. Null with a ring */
+    bool replace;         /* the folder may hold a recording, which is removed once tick 0 of the new one is filmed. If
+                             that fails, the old recording stays. Other files always stay. BAD_FOLDER if the folder holds
+                             files that only look like a recording, or if a process is recording into it */
+    octree_def tree;      /* octree_definition() of the program's trees; its allocator is not used. For lists of points:
+                             the world, which should contain all of them, and the capacity and depth of the tree that
+                             Octreel builds to show them; full leaves of that tree grow */
+    octree_player player; /* OCTREE_PLAYER_NONE; or OCTREE_PLAYER_BODY: the point whose collisions are found, given by
+                             id, box_size and sweep */
+    int width, height;    /* pixels; 1 to 16384 */
+    const char *camera;   /* "iso", "orbit", "follow" ... */
+    const char *layers;   /* "default", "all", "-text", "nodes,points,shapes" ... */
+    const char *color_by; /* colours of nodes: "depth", "occupancy", "plain" ... */
+    const char *show_tree; /* whose nodes are drawn: "own" (Octreel's), "foreign" (those of octreel_tick_info.foreign),
+                              "both", or "auto": Octreel's until a tick has foreign nodes, then the foreign ones */
     const char *color_points; /* "plain", "height", "leaf" ... */
     const char *shade;        /* of points: "bands", "edl", "none" */
     const char *diagram;      /* "none", "beside", "only" */
-    bool labels;              /* write paths such as 0/3/7 on nodes, where there is room */
+    bool labels;              /* write paths such as 0/3/7 on nodes where there is room */
     double lod;               /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
-    uint64_t budget;          /* the most boxes, and the most points, of a frame; 0: any number */
+    uint64_t budget;          /* the most boxes, and the most points, in a frame; 0: no limit */
     int aa;                   /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
-    uint64_t every;           /* film each N-th tick, or none with 0: the page draws. ticks.jsonl has all of them */
-    const char *fill;    /* the rasterizer: "integers", "checked" or "gl"; the pixels are the same. "integers" costs
-                            the program least: OpenGL, 0.2 s of processor time and 85 MB, is never loaded, and
-                            octreel verify checks the frames later. "checked" compares the first frame, every 100th
-                            and, once the recording is closed, the last with OSMesa's, where OpenGL can be loaded */
-    const char *context; /* which OpenGL, where it is loaded: "auto", "osmesa", "egl" */
-    bool any_renderer;   /* with "egl": OpenGL draws, also with a graphics card; frames are then the same on that
-                            card alone */
-    size_t queue_ticks;  /* ticks that may wait for the worker, at least 1 */
-    size_t queue_bytes;  /* and what they may take together; one tick alone may take more */
-    bool never_wait;     /* return OCTREEL_BUSY where the queue is full, instead of waiting for the worker: such a tick
-                           is a gap; at tick 0 the worker is waited for all the same */
-    size_t ring;         /* keep this many of the last ticks, and film them when asked to; 0: film every tick.
-                           Beside the points of the first it holds what changed in the others */
+    uint64_t every;           /* film each N-th tick; 0: no frames, since the page can draw every tick itself.
+                                 ticks.jsonl has all ticks in any case */
+    const char *fill;    /* the rasterizer: "integers", "checked" or "gl". All three draw the same pixels. "integers" is
+                            the cheapest: it never loads OpenGL, which takes 0.2 s of processor time and 85 MB; octreel
+                            verify can check the frames later. "checked" compares the first frame, every 100th and the
+                            last with OSMesa's, if OpenGL can be loaded */
+    const char *context; /* the OpenGL to load: "auto", "osmesa", "egl" */
+    bool any_renderer;   /* with "egl": OpenGL draws on any renderer, graphics cards included. Frames may then differ on
+                            other machines */
+    size_t queue_ticks;  /* the most ticks that wait for the worker, at least 1 */
+    size_t queue_bytes;  /* the most memory of these ticks together; one tick alone may take more */
+    bool never_wait; /* return OCTREEL_BUSY if the queue is full, instead of waiting for the worker; the tick is then a
+                        gap. Tick 0 always waits */
+    size_t ring;     /* keep the last N ticks in memory, and film them only in octreel_recorder_write(); 0: film every
+                        tick. Memory: the points of the oldest tick, and the changes of the others */
 } octreel_recorder_def;
 
 /* No player, 1280 x 720, "iso", the default layers, "integers", 16 ticks or 64 MiB in the queue, no ring. */
@@ -145,17 +150,17 @@ octreel_recorder_def octreel_recorder_def_default(void);
  *
  * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
-    const octree_query *queries; /* in any order; all numbers finite; at_player where the recorder has a player */
+    const octree_query *queries; /* in any order; all numbers finite; at_player only if the recorder has a player */
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
-    const octree_point *points; /* all that there are, in any order, each id once */
+    const octree_point *points; /* all points, in any order, each id once */
     size_t point_count;
-    const octree_edit *changes; /* since the call before, in the order in which they were made, several of one point
-                                   too; velocities are not read */
+    const octree_edit *changes; /* since the last call, in the order in which they were made. A point may change several
+                                   times. Velocities are not read */
     size_t change_count;
-    const octree_foreign_tree *foreign; /* the nodes of the program's own index, from this tick on: boxes, with which
-                                           its queries' `met` says what it visited, left out and hit. Null: as before */
+    const octree_foreign_tree *foreign; /* the nodes of the program's own index, from this tick on; `visits` of the
+                                           queries name the nodes that were visited, left out or hit. Null: as before */
 } octreel_tick_info;
 
 /* Open a recorder. On an error *recorder is null and the text is in *error, which may be null. The definition is

@@ -133,8 +133,10 @@ class Timeline {
     eventLane([name, sign, of], bit)
     {
         const count = this.recording.count(bit);
-        const label = element("button", this.recording.nameOf(name, of), {type: "button", class: "lane-label", "data-event": name,
-                                               "aria-pressed": "false", title: `Select ticks with the event ${name}`});
+        /* Other points may move at every tick. */
+        const words = bit === MOVED ? "player moved" : this.recording.nameOf(name, of);
+        const label = element("button", words, {type: "button", class: "lane-label", "data-event": name,
+                                               "aria-pressed": "false", title: `Select ticks with the event ${words}`});
         label.prepend(element("span", sign, {class: "sign", "aria-hidden": "true"}));
         label.disabled = count === 0;
         label.addEventListener("click", () => this.toggle(bit));
