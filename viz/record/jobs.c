@@ -146,7 +146,7 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
     octreel_error error;
     const watcher watch = {.keep_going = job_keeps_going, .context = self};
     setenv("LP_NUM_THREADS", "0", 0); /* other cores are busy with other jobs */
-    draw_context_set_report(NULL);    /* one report is enough: */
+    draw_context_set_report(NULL);    /* the starter reports the GL context */
     begin_watch(self);
     p->learn_session = learn_session; /* the first frame is drawn meanwhile */
     p->learn_context = self;

@@ -18,7 +18,7 @@ live_recording *live_open(const octree_session *start, const film_options *optio
 /* Create the folder and its first files. After a failure no files are left, and only live_close() may be called. */
 bool live_begin(live_recording *live, octreel_error *error);
 
-/* Record tick 0. After a failure the same holds. */
+/* Record tick 0. After a failure no files are left, and only live_close() may be called. */
 bool live_film_first(live_recording *live, octreel_error *error);
 
 /* Record the next tick. If input->key is 0, the key is that of the session. After a failure only live_close() may be

@@ -54,9 +54,8 @@ typedef struct playback {
     film_share share;           /* where it is known: what playback_run() films */
     frame_checks checks;        /* under DRAW_FILL_CHECKED */
     char unchecked[FRAME_NAME]; /* the frame that playback.picture shows, until it is checked; "": none */
-    uint64_t session_digest;    /* of session.json, which frames contain; set by the caller, */
-    void (*learn_session)(uint64_t *digest,
-                          void *context); /* or by this function before the first frame is written; may be null */
+    uint64_t session_digest;    /* of session.json, for the frames; set by the caller or by learn_session() */
+    void (*learn_session)(uint64_t *digest, void *context); /* called before the first frame is written; may be null */
     void *learn_context;
     picture picture;
     tick_extras extras;
@@ -98,8 +97,8 @@ bool playback_compose_scene(playback *p, octreel_error *error);
 /* Make the scene, frame and line of the last tick played. */
 bool playback_film_tick(playback *p, film_step *step, octreel_error *error);
 
-/* Check the last frame that was drawn, unless it is checked already: where filming ends at a tick that nobody could
- * foresee, this comes after the frame is written. */
+/* Check the last frame that was drawn, unless it is checked already. A live recording calls this when it is closed:
+ * only then is it known which frame is the last, and that frame has been written. */
 bool playback_check_last(playback *p, octreel_error *error);
 
 /* Called for each tick of a share, in order. False ends the run. */
