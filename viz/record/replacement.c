@@ -171,7 +171,7 @@ static bool recover_from_crash(const replacement *r, octreel_error *error)
         ok = remove_recording(r->aside);
     else
         ok = (folder_contains(r->folder, mark) ? remove_recording(r->folder)
-                                          : move_or_remove(r->folder, NULL, unfinished_mark)) &&
+                                               : move_or_remove(r->folder, NULL, unfinished_mark)) &&
              restore_old_recording(r);
     return ok || error_set(error, "%s: cannot move the old recording back: %s", r->aside, strerror(errno));
 }
