@@ -86,7 +86,7 @@ char **folder_names(const char *folder, octreel_error *error)
     for (int i = 0; i < count; i++)
         size += strlen(entries[i]->d_name) + 1;
     char **names = count < 0 ? NULL : malloc(((size_t)count + 1) * sizeof *names + size);
-    const int reason = errno;
+    const int reason = count < 0 ? errno : ENOMEM;
     char *at = names ? (char *)(names + count + 1) : NULL;
     for (int i = 0; i < count; i++) {
         if (names) {
@@ -98,9 +98,11 @@ char **folder_names(const char *folder, octreel_error *error)
     free(entries);
     if (names)
         names[count] = NULL;
+    else if (reason == ENOMEM)
+        error_no_memory(error);
     else
         error_set(error, "%s: the folder cannot be read: %s", folder, strerror(reason));
-    errno = reason;
+    errno = names ? errno : reason;
     return names;
 }
 

@@ -16,6 +16,7 @@
 #include "recording_file.h"
 #include "view_options.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -198,10 +199,13 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
 /* An existing recording that is replaced stays until the first tick is written. */
-static bool check_folder(octreel_recorder *r, const char *folder)
+static octreel_status check_folder(octreel_recorder *r, const char *folder)
 {
-    return r->settings.film.replace ? folder_create(folder, &r->error) && replacement_check(folder, &r->error)
-                                    : folder_create_for_recording(folder, &r->error);
+    errno = 0;
+    const bool usable = r->settings.film.replace
+                            ? folder_create(folder, &r->error) && replacement_check(folder, &r->error)
+                            : folder_create_for_recording(folder, &r->error);
+    return usable ? OCTREEL_OK : errno == ENOMEM ? OCTREEL_NO_MEMORY : OCTREEL_BAD_FOLDER;
 }
 
 static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_def *def)
@@ -211,8 +215,9 @@ static octreel_status start_filming(octreel_recorder *r, const octreel_recorder_
     r->folder = strdup(def->folder);
     if (!r->folder)
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
-    if (!check_folder(r, r->folder))
-        return OCTREEL_BAD_FOLDER;
+    const octreel_status status = check_folder(r, r->folder);
+    if (status != OCTREEL_OK)
+        return status;
     if (!queue_init(&r->queue, def->queue_ticks, def->queue_bytes))
         return status_fail(&r->error, OCTREEL_NO_MEMORY);
     r->filmer = (session_filmer){.settings = &r->settings, .folder = r->folder, .queue = &r->queue};
@@ -419,8 +424,9 @@ octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *fo
         return status_fail(&r->error, OCTREEL_NO_RING);
     if (r->ring.list.count == 0)
         return status_fail(&r->error, OCTREEL_NOTHING);
-    if (!check_folder(r, folder))
-        return OCTREEL_BAD_FOLDER;
+    const octreel_status status = check_folder(r, folder);
+    if (status != OCTREEL_OK)
+        return status;
     if (first)
         *first = r->ring.dropped;
     return ring_write(r, folder);
