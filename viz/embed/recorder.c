@@ -17,6 +17,7 @@
 #include "view_options.h"
 
 #include <errno.h>
+#include <fenv.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -236,7 +237,7 @@ static void release_recorder(octreel_recorder *r)
     free(r);
 }
 
-octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder, octreel_error *error)
+static octreel_status open_recorder(const octreel_recorder_def *def, octreel_recorder **recorder, octreel_error *error)
 {
     octreel_recorder *r = NULL, none = {.closed = false};
     octreel_status status = OCTREEL_OK;
@@ -377,11 +378,8 @@ static void add_gap(octreel_recorder *r)
     memcpy(r->lost.why, r->gaps.runs[0].why, sizeof r->lost.why);
 }
 
-octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about)
+static octreel_status record_or_add_gap(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
-    octreel_recorder *r = recorder;
-    if (!r)
-        return OCTREEL_OK;
     if (r->closed)
         return status_fail(&r->error, OCTREEL_CLOSED);
     const octreel_status status = accept_tick(r, tree, about);
@@ -411,11 +409,8 @@ static octreel_status ring_write(octreel_recorder *r, const char *folder)
     return status == OCTREEL_OK ? report_losses(r, &lost, ticks) : status;
 }
 
-octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first)
+static octreel_status write_recorder(octreel_recorder *r, const char *folder, uint64_t *first)
 {
-    octreel_recorder *r = recorder;
-    if (!r)
-        return OCTREEL_OK;
     if (!folder)
         return status_fail(&r->error, OCTREEL_NULL_ARGUMENT);
     if (r->closed)
@@ -440,11 +435,8 @@ static void queue_last_gaps(octreel_recorder *r)
         batch_release(b); /* the recording failed, and its error says more */
 }
 
-octreel_status octreel_recorder_close(octreel_recorder *recorder)
+static octreel_status close_recorder(octreel_recorder *r)
 {
-    octreel_recorder *r = recorder;
-    if (!r)
-        return OCTREEL_OK;
     if (r->closed)
         return status_fail(&r->error, OCTREEL_CLOSED);
     r->closed = true;
@@ -463,6 +455,53 @@ octreel_status octreel_recorder_close(octreel_recorder *recorder)
                ? status_fail(&r->error, OCTREEL_NOTHING)
                : status_refuse(&r->error, OCTREEL_NOTHING, "%s: all ticks were refused; the first error is: %s",
                                octreel_status_text(OCTREEL_NOTHING), r->lost.why);
+}
+
+/* ---- The public functions ------------------------------------------------------------------------------------ *
+ *
+ * The program may have any floating-point mode: each function sets the default one and restores the program's. The
+ * compiler cannot move arithmetic out of the inner calls: they take and return pointers and integers only, and the
+ * doubles that those point to may, for all it knows, be read and written by the calls that change the mode.
+ */
+
+static fenv_t enter_default_mode(void)
+{
+    fenv_t program;
+    fegetenv(&program);
+    fesetenv(FE_DFL_ENV);
+    return program;
+}
+
+octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder, octreel_error *error)
+{
+    const fenv_t program = enter_default_mode();
+    const octreel_status status = open_recorder(def, recorder, error);
+    fesetenv(&program);
+    return status;
+}
+
+octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about)
+{
+    const fenv_t program = enter_default_mode();
+    const octreel_status status = recorder ? record_or_add_gap(recorder, tree, about) : OCTREEL_OK;
+    fesetenv(&program);
+    return status;
+}
+
+octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first)
+{
+    const fenv_t program = enter_default_mode();
+    const octreel_status status = recorder ? write_recorder(recorder, folder, first) : OCTREEL_OK;
+    fesetenv(&program);
+    return status;
+}
+
+octreel_status octreel_recorder_close(octreel_recorder *recorder)
+{
+    const fenv_t program = enter_default_mode();
+    const octreel_status status = recorder ? close_recorder(recorder) : OCTREEL_OK;
+    fesetenv(&program);
+    return status;
 }
 
 void octreel_recorder_destroy(octreel_recorder *recorder)

@@ -29,9 +29,10 @@
  *     octreel_recorder_tick(recorder, NULL, &(octreel_tick_info){.changes = &moved, .change_count = 1});
  *
  * Conventions
- *   - The recorder never ends the process, handles signals or keeps globals. Any thread may use it, one at a time. The
- *     program's floating-point mode and GL contexts stay as they are: the recorder draws in its own thread, with all
- *     signals blocked. A child of fork() must not use its parent's recorders.
+ *   - The recorder never ends the process, handles signals or keeps globals. Any thread may use it, one at a time, in
+ *     any floating-point mode: the files are the same. The program's mode and GL contexts stay as they are: each call
+ *     restores the mode, and the recorder draws in its own thread, with all signals blocked. A child of fork() must
+ *     not use its parent's recorders.
  *   - Functions return a status. octreel_status_text() returns its text; octreel_recorder_error() returns the last
  * error in full.
  *   - Each call of octreel_recorder_tick() is a tick. A refused tick keeps its number and becomes a gap in the
@@ -72,7 +73,6 @@ extern "C" {
       "a query has a NaN, an infinity, a negative size, a box whose min is above its max, or an unknown skip")         \
     X(BAD_SHAPE, "a shape has a NaN, an infinity, a box whose min is above its max, or an invalid text")               \
     X(BAD_NODE, "a foreign node has an invalid box, id, parent, kind or list of points")                               \
-    X(FLOAT_MODE, "the thread's floating-point mode is not the default: rounding to nearest, with subnormals")         \
     X(BUSY, "the queue is full, and the recorder was told not to wait")                                                \
     X(BROKEN, "the recording failed at an earlier tick")                                                               \
     X(CLOSED, "the recorder is closed")                                                                                \
@@ -181,7 +181,7 @@ octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_re
  * NO_MEMORY no change is kept: pass the tick again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
- * BAD_NODE, FLOAT_MODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree
+ * BAD_NODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree
  * O(changes + queries + shapes), some hundred nanoseconds a change, while few of its points change in a tick: it then
  * keeps its changes for the recorder (octree_changes_since), at 64 bytes each. Of a tree of which more than an eighth
  * changes, of one that is handed over first, tuned, compacted or cleared, and of a list O(nodes + n + queries +
