@@ -226,7 +226,7 @@ typedef struct octree_game octree_game;
 octree_status octree_game_create(const octree_session *session, octree_game **game);
 void octree_game_destroy(octree_game *game);
 
-/* Play one tick with this key instead of the session's. Errors: NULL_ARGUMENT, FLOAT_MODE, BUSY (a visitor, tracer or
+/* Play one tick with this key instead of the session's. Errors: NULL_ARGUMENT, BUSY (a visitor, tracer or
  * task of the game's tree is running), BAD_KEY (nothing is played); NO_MEMORY (the game must not be stepped again).
  * Cost: O(queries + v log v) for v visits; O(bodies) if a body has a velocity or with sweep; and if inner nodes
  * changed, 8 bytes for each inner node and the points near the changes, or all points after very many changes. */
@@ -260,7 +260,7 @@ octree_status octree_input_check(const octree_input *input);
 octree_status octree_game_advance(octree_game *game);
 
 /* Ask more queries at the end of the last played tick. Their answers follow the existing ones, and their visits and
- * leaves are added. Later ticks do not change. Errors: NULL_ARGUMENT, FLOAT_MODE, and those of octree_query_check
+ * leaves are added. Later ticks do not change. Errors: NULL_ARGUMENT and those of octree_query_check
  * (nothing is asked); NO_MEMORY (the tick must not be read nor the game stepped). Cost: that of the queries, and of
  * sorting all visits and leaves of the tick. */
 octree_status octree_game_ask(octree_game *game, const octree_query *queries, size_t count);

@@ -18,9 +18,10 @@
  *     returns OCTREE_BUSY and does nothing, and octree_destroy does nothing. They must return: after longjmp or a C++
  *     exception out of one, changes on this thread may stay refused.
  *   - D is the depth of the tree (at most 21), M the leaf capacity, n the number of points, k the number of results.
- *   - Answers require the default floating-point mode. On a thread with another one (directed rounding, or subnormals
- *     flushed to zero) functions that compute with positions return OCTREE_FLOAT_MODE and do nothing; octree_digest
- *     then returns 0 and octree_contains returns false.
+ *   - Answers are the same in every floating-point mode of the calling thread: with subnormals flushed to zero, with
+ *     directed rounding, in a program linked with -ffast-math. A function sets the default mode and restores the
+ *     caller's (some 10 ns). Visitors, tracers, allocators and executors run in the caller's mode and must leave it
+ *     as it is. Tasks run in the default mode, whatever mode the executor's threads have.
  *   - -0.0 equals +0.0 in every comparison; stored coordinates keep their bits.
  *   - The points passed to a change may lie in the tree's own memory, such as the points of an octree_node.
  */
@@ -174,8 +175,7 @@ typedef bool (*octree_point_visitor)(const octree_point *point, void *context);
  * Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE, NOT_FOUND. Cost: O(D + M). */
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id);
 
-/* True when the pair (position, id) is stored. Always false when the floating-point mode is not the default.
- * Cost: O(D + M). */
+/* True when the pair (position, id) is stored. Cost: O(D + M). */
 bool octree_contains(const octree *tree, const double position[3], uint64_t id);
 
 /* Algorithm 4. Visit every point in a closed box, in no stated order. The box may reach beyond the world; infinite

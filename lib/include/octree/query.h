@@ -129,7 +129,7 @@ typedef struct octree_query {
 
 /* Check whether a query can be asked; its tick is not read. Errors: NULL_ARGUMENT (also for an id array that is
  * missing); BAD_OPTION (kind, precision or skip is invalid, or COINCIDENT without a target); NOT_FINITE, BAD_RANGE,
- * BAD_SIZE, FLOAT_MODE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not below
+ * BAD_SIZE (epsilon, or a member that the kind reads); BAD_SIZE (the id of a foreign node is not below
  * OCTREE_NODE_ID_LIMIT). */
 octree_status octree_query_check(const octree_query *query);
 

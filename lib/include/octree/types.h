@@ -28,7 +28,6 @@
     X(BAD_TEXT, "bad_text", "text must be printable ASCII and end with a zero byte within its array")                  \
     X(BAD_ORDER, "bad_order", "edits, queries and shapes must be in ascending order of their ticks")                   \
     X(BAD_PARENT, "bad_parent", "a foreign node is its own ancestor")                                                  \
-    X(FLOAT_MODE, "float_mode", "the thread does not round to nearest, or flushes subnormals to zero")                 \
     X(NO_MEMORY, "no_memory", "the allocator returned null")                                                           \
     X(TOO_MANY, "too_many", "the tree would exceed its limit of 4294967295 points")                                    \
     X(BUSY, "busy", "the tree cannot be changed inside its own visitor, tracer or task")

@@ -3,6 +3,7 @@
  * point counts.
  */
 #include "foreign.h"
+#include "float_mode.h"
 #include "octree/digest.h"
 #include "search.h"
 
@@ -139,6 +140,7 @@ static octree_status index_nodes(arena *memory, const octree_foreign_tree *tree,
 
 octree_status octree_foreign_check(const octree_foreign_tree *tree, size_t *place)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_foreign_check, tree, place);
     size_t fault;
     if (!tree)
         return OCTREE_NULL_ARGUMENT;

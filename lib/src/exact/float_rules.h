@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT */
-/* float_rules.h - the floating-point rules that the library's answers depend on, checked at compile time and run time.
- * Every source file that computes with positions includes it.
+/* float_rules.h - the floating-point rules that the library's answers depend on, checked at compile time. Every source
+ * file that computes with positions includes it.
  *
- * Compile time: no fast-math, and doubles are evaluated in double precision. Run time: the thread has the default
- * floating-point mode. On x86-64 SSE2 processes two doubles at once; OCTREE_PORTABLE selects the portable code instead,
- * and the tests build both. Subnormal numbers are converted to integers, because processors multiply them slowly.
+ * The library is compiled without fast-math, and doubles are evaluated in double precision. The mode in which it runs
+ * is set by float_mode.h. On x86-64 SSE2 processes two doubles at once; OCTREE_PORTABLE selects the portable code
+ * instead, and the tests build both. Subnormal numbers are converted to integers, because processors multiply them
+ * slowly.
  */
 #ifndef OCTREE_FLOAT_RULES_H
 #define OCTREE_FLOAT_RULES_H
@@ -32,26 +33,6 @@
 #if defined(__SSE2__) && !defined(OCTREE_PORTABLE)
 #define OCTREE_SSE2
 #include <emmintrin.h>
-#endif
-
-/* Whether the thread rounds to nearest and keeps subnormals. Host programs change this mode: audio and physics code
- * flushes subnormals to zero, interval arithmetic rounds up and down. On x86-64 one read of the control register shows
- * it (about 1 ns). Elsewhere test operations show it, with volatile operands so that the compiler does not fold them.
- */
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-
-static inline bool float_mode_is_default(void)
-{
-    return (_mm_getcsr() & 0xe040u) == 0; /* flush to zero, rounding control, denormals are zero */
-}
-#else
-static inline bool float_mode_is_default(void)
-{
-    static const volatile double one = 1, half_ulp = 0x1p-53, more = 0x1.8p-53, least = 0x1p-1074, normal = 0x1p-1022;
-    const bool nearest = one + half_ulp == one && -one - half_ulp == -one && one + more > one && -one - more < -one;
-    return nearest && least + least > 0 && normal * 0.5 > 0;
-}
 #endif
 
 /* Many processors multiply subnormal numbers in microcode, at some 150 cycles each (measured: a nearest-neighbour

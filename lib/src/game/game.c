@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* game.c - the game loop: plays one tick after another, in the order that game.h states. */
-#include "float_rules.h"
+#include "float_mode.h"
 #include "game_state.h"
 #include "queries.h"
 #include "session.h"
@@ -300,6 +300,7 @@ static octree_status start_game(octree_game *game)
 
 octree_status octree_game_create(const octree_session *session, octree_game **game)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_game_create, session, game);
     if (!game)
         return OCTREE_NULL_ARGUMENT;
     *game = NULL;
@@ -380,8 +381,6 @@ static bool play_changes(octree_game *game, const octree_input *input)
 /* Play one tick with the given input, or if it is null with the session's. */
 static octree_status play_tick(octree_game *game, char key, const octree_input *given)
 {
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     if (is_visited(game->tree))
         return OCTREE_BUSY;
     if (key == 'q') {
@@ -402,11 +401,13 @@ static octree_status play_tick(octree_game *game, char key, const octree_input *
 
 octree_status octree_game_step(octree_game *game, char key)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_game_step, game, key);
     return game ? play_tick(game, key, NULL) : OCTREE_NULL_ARGUMENT;
 }
 
 octree_status octree_game_play(octree_game *game, const octree_input *input)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_game_play, game, input);
     if (!game || !input)
         return OCTREE_NULL_ARGUMENT;
     const octree_status status = octree_input_check(input);
@@ -415,9 +416,10 @@ octree_status octree_game_play(octree_game *game, const octree_input *input)
 
 octree_status octree_game_ask(octree_game *game, const octree_query *queries, size_t count)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_game_ask, game, queries, count);
     if (!game || (!queries && count))
         return OCTREE_NULL_ARGUMENT;
-    octree_status status = float_mode_is_default() ? OCTREE_OK : OCTREE_FLOAT_MODE;
+    octree_status status = OCTREE_OK;
     for (size_t i = 0; status == OCTREE_OK && i < count; i++)
         status = octree_query_check(&queries[i]);
     if (status != OCTREE_OK)

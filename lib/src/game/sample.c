@@ -2,6 +2,7 @@
 /* sample.c - generates points of each distribution. It calls no function of libm except sqrt(), so the points are the
  * same on every machine. */
 #include "octree/sample.h"
+#include "float_mode.h"
 #include "point.h"
 #include "octree/digest.h"
 
@@ -141,10 +142,9 @@ static double map_to_interval(double unit, double min, double max)
 octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count,
                             double (*positions)[3])
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_sample, kind, seed, box, count, positions);
     if (!box || (!positions && count))
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     if ((unsigned)kind >= OCTREE_SAMPLE_KINDS)
         return OCTREE_BAD_OPTION;
     if (!is_world(box))

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* session.c - checks a session, finds the input of a tick in it, and loads its bodies; the default session. */
 #include "session.h"
+#include "float_mode.h"
 #include "game_state.h"
 #include "search.h"
 
@@ -69,6 +70,7 @@ static octree_status check_gap(const octree_gap *gap)
 
 octree_status octree_input_check(const octree_input *input)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_input_check, input);
     if (!input || (!input->edits && input->edit_count) || (!input->queries && input->query_count) ||
         (!input->shapes && input->shape_count))
         return OCTREE_NULL_ARGUMENT;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* ask.c - the tables of octree/query.h, and checking and asking a query of any kind by its row. */
+#include "float_mode.h"
 #include "kind.h"
 #include "search.h"
 
@@ -81,6 +82,7 @@ static octree_status check_visits(const octree_ids *visit)
 
 octree_status octree_query_check(const octree_query *query)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_query_check, query);
     if (!query)
         return OCTREE_NULL_ARGUMENT;
     const octree_query_traits *about = octree_query_about(query->kind);
@@ -201,6 +203,7 @@ static void *move_to_block(arena *memory, list *l, size_t item_size)
 octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
                                   const octree_search *how, octree_answer *answer)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_query_answer, tree, query, player, CALLER_SEARCH(how), answer);
     if (!answer)
         return OCTREE_NULL_ARGUMENT;
     *answer = (octree_answer){0};
@@ -237,6 +240,7 @@ void octree_answer_release(const octree *tree, octree_answer *answer)
 
 bool octree_answer_bound(const octree_answer *answer, octree_box *bound)
 {
+    RETURN_IN_DEFAULT_MODE(bool, octree_answer_bound, answer, bound);
     const query_rules *rules = query_rules_of(answer->kind);
     if (rules->bound)
         *bound = rules->bound(answer, 0);

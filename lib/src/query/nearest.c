@@ -16,6 +16,7 @@
  * Cost: O(D + M) on average for points of bounded density, O(n) at worst. Source: the paper, Algorithms
  * 6 and 7; Samet (2006) on best-first and depth-first search. neighbor_heap.c keeps the results and decides near ties.
  */
+#include "float_mode.h"
 #include "leaf.h"
 #include "morton_sort.h"
 #include "neighbor_heap.h"
@@ -335,12 +336,14 @@ static octree_status check_and_search(const octree *tree, const double target[3]
 octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
                                octree_neighbor *neighbors, size_t *count)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_nearest_k, tree, target, k, CALLER_SEARCH(how), neighbors, count);
     return check_and_search(tree, target, k, NO_RADIUS, how, neighbors, count);
 }
 
 octree_status octree_nearest_within(const octree *tree, const double target[3], double radius, const octree_search *how,
                                     octree_neighbor *nearest)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_nearest_within, tree, target, radius, CALLER_SEARCH(how), nearest);
     size_t count = 0;
     octree_status status = check_length(radius);
     if (status == OCTREE_OK)
@@ -351,6 +354,7 @@ octree_status octree_nearest_within(const octree *tree, const double target[3], 
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
                              octree_neighbor *nearest)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_nearest, tree, target, skip, skip_id, nearest);
     const octree_search how = {.skip = skip, .skip_id = skip_id};
     size_t count;
     const octree_status status = check_and_search(tree, target, 1, NO_RADIUS, &how, nearest, &count);
@@ -433,6 +437,8 @@ static void search_in_morton_order(target_batch *b, arena *memory)
 octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
                                    const octree_search *how, octree_neighbor *neighbors, bool *found)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_nearest_batch, tree, targets, count, CALLER_SEARCH(how), neighbors,
+                           found);
     const octree_search search = search_or_default(how);
     const octree_status status = check_batch_arguments(tree, targets, count, &search, neighbors);
     if (status != OCTREE_OK || count == 0)

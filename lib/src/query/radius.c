@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* radius.c - range search in a closed ball: octree_radius(). */
+#include "float_mode.h"
 #include "region.h"
 
 /* Squared distances from the ball's centre to the parts of a cell, axis by axis. Values of the lower and upper half are
@@ -124,6 +125,8 @@ static void search_ball(const octree *tree, const double center[3], double radiu
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
                             octree_point_visitor visit, void *context)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_radius, tree, center, radius, CALLER_SEARCH(how),
+                           CALLER_VISITOR(visit, context));
     if (!tree || !center || !visit)
         return OCTREE_NULL_ARGUMENT;
     const octree_search search = search_or_default(how);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* range.c - range search in a closed box (Algorithm 4), and collision as a range search (Algorithm 5). */
+#include "float_mode.h"
 #include "exact.h"
 #include "region.h"
 
@@ -30,6 +31,8 @@ static size_t search_box(const octree *tree, const octree_box *box, const octree
 octree_status octree_range_search(const octree *tree, const octree_box *box, const octree_search *how,
                                   octree_point_visitor visit, void *context)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_range_search, tree, box, CALLER_SEARCH(how),
+                           CALLER_VISITOR(visit, context));
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
     const octree_search search = search_or_default(how);
@@ -48,6 +51,7 @@ octree_status octree_range(const octree *tree, const octree_box *box, octree_poi
 
 octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_range_count, tree, box, count);
     if (!count)
         return OCTREE_NULL_ARGUMENT;
     *count = 0;
@@ -127,12 +131,15 @@ static octree_status collect_in_array(const octree *tree, const octree_box *box,
 octree_status octree_range_collect(const octree *tree, const octree_box *box, const octree_search *how,
                                    octree_point *points, size_t room, size_t *count)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_range_collect, tree, box, CALLER_SEARCH(how), points, room, count);
     return collect_in_array(tree, box, how, collect_first, points, room, count);
 }
 
 octree_status octree_range_collect_sorted(const octree *tree, const octree_box *box, const octree_search *how,
                                           octree_point *points, size_t room, size_t *count)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_range_collect_sorted, tree, box, CALLER_SEARCH(how), points, room,
+                           count);
     const octree_status status = collect_in_array(tree, box, how, collect_smallest, points, room, count);
     const size_t stored = !count ? 0 : *count < room ? *count : room;
     if (stored > 1)
@@ -144,6 +151,7 @@ octree_status octree_range_collect_sorted(const octree *tree, const octree_box *
 
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_collision_box, center, box_size, box);
     if (!center || !box)
         return OCTREE_NULL_ARGUMENT;
     octree_status status = check_finite_position(center);
@@ -161,6 +169,8 @@ octree_status octree_collide_search(const octree *tree, const double center[3], 
                                     const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                     void *context)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_collide_search, tree, center, box_size, self, CALLER_SEARCH(how),
+                           CALLER_VISITOR(visit, context));
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
     octree_box box;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* search.c - checks of arguments that all queries share. */
 #include "search.h"
-#include "float_rules.h"
 
 octree_search search_or_default(const octree_search *how)
 {
@@ -17,8 +16,6 @@ octree_status check_search_options(const octree_search *how)
 
 octree_status check_finite_position(const double position[3])
 {
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     return is_finite_position(position) ? OCTREE_OK : OCTREE_NOT_FINITE;
 }
 
@@ -31,8 +28,6 @@ octree_status check_box(const octree_box *box)
 {
     if (!box)
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     for (int i = 0; i < 3; i++) {
         if (isnan(box->min[i]) || isnan(box->max[i]))
             return OCTREE_NOT_FINITE;

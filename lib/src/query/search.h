@@ -17,13 +17,13 @@ octree_search search_or_default(const octree_search *how);
 /* Returns OK, BAD_OPTION, NOT_FINITE or BAD_SIZE. */
 octree_status check_search_options(const octree_search *how);
 
-/* Returns OK, FLOAT_MODE, or NOT_FINITE. */
+/* Returns OK or NOT_FINITE. */
 octree_status check_finite_position(const double position[3]);
 
 /* Returns OK, NOT_FINITE, or BAD_SIZE for a negative length. */
 octree_status check_length(double length);
 
-/* Returns OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE (a NaN) or BAD_RANGE. */
+/* Returns OK, NULL_ARGUMENT, NOT_FINITE (a NaN) or BAD_RANGE. */
 octree_status check_box(const octree_box *box);
 
 /* Whether `size` bytes hold printable ASCII characters and a final zero. */

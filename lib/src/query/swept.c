@@ -25,6 +25,7 @@
  * plus 2^-1000 for underflow, on either side of R covers all of this: beyond it a point is certainly outside, within it
  * certainly inside.
  */
+#include "float_mode.h"
 #include "region.h"
 #include "sweep.h"
 
@@ -209,6 +210,8 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                    void *context)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_collide_swept, tree, from, to, box_size, self, CALLER_SEARCH(how),
+                           CALLER_VISITOR(visit, context));
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
     octree_box start, end;

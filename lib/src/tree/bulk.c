@@ -2,7 +2,7 @@
 /* bulk.c - octree_insert_many(), octree_remove_many() and octree_move_many(): statuses, and the lists of points that
  * leave and arrive. */
 #include "batch.h"
-#include "float_rules.h"
+#include "float_mode.h"
 #include "few.h"
 
 #include <string.h>
@@ -165,8 +165,6 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
 {
     if (!b->tree || (b->count && (!b->points || (kind == OCTREE_MOVED && !b->to))))
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     if (b->count >= UINT32_MAX)
         return OCTREE_TOO_MANY;
     return is_visited(b->tree) ? OCTREE_BUSY : OCTREE_OK;
@@ -329,6 +327,7 @@ static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_insert_many, tree, points, count, statuses, inserted);
     const batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses, .inserts = true};
     const octree_status status = change_many(b, OCTREE_INSERTED, inserted);
     if (status == OCTREE_OK)
@@ -339,6 +338,7 @@ octree_status octree_insert_many(octree *tree, const octree_point *points, size_
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_remove_many, tree, points, count, statuses, removed);
     const batch b = {.tree = tree, .points = points, .count = count, .statuses = statuses};
     return change_many(b, OCTREE_REMOVED, removed);
 }
@@ -346,6 +346,7 @@ octree_status octree_remove_many(octree *tree, const octree_point *points, size_
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_move_many, tree, points, to, count, statuses, moved);
     const batch b = {.tree = tree, .points = points, .to = to, .count = count, .statuses = statuses};
     return change_many(b, OCTREE_MOVED, moved);
 }

@@ -5,6 +5,7 @@
  * whose remaining points fit one leaf merge. A move within a leaf overwrites the point; any other is an insertion and a
  * removal. Memory is allocated before anything changes, so that a failure leaves the tree as it was.
  */
+#include "float_mode.h"
 #include "tree.h"
 
 #include <string.h>
@@ -185,6 +186,7 @@ octree_status insert_point(octree *tree, const octree_point *point, uint64_t cod
 
 octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_insert, tree, position, id);
     octree_status status = check_change(tree, position);
     if (status != OCTREE_OK)
         return status;
@@ -266,6 +268,7 @@ octree_status remove_point(octree *tree, octree_point *point)
 
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_remove, tree, position, id);
     octree_status status = check_change(tree, position);
     if (status != OCTREE_OK)
         return status;
@@ -318,6 +321,7 @@ static octree_status move_point(octree *tree, octree_point *old, const octree_po
 
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3])
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_move, tree, from, id, to);
     octree_status status = check_change(tree, from);
     if (status == OCTREE_OK)
         status = check_position(tree, to);

@@ -14,6 +14,7 @@
  * and two coordinates are processed at once with SSE2.
  */
 #include "octree/octree.h"
+#include "float_mode.h"
 #include "plane.h"
 
 /* Set sum[0] + sum[1] = a + b exactly (Knuth's TwoSum). */
@@ -346,6 +347,7 @@ bool octree_address_parse(const char *text, octree_address *address)
 
 octree_box octree_cell_box(const octree_box *world, octree_address address)
 {
+    RETURN_IN_DEFAULT_MODE(octree_box, octree_cell_box, world, address);
     axis axes[3];
     for (int i = 0; i < 3; i++)
         axes[i] = axis_make(world->min[i], world->max[i]);

@@ -15,6 +15,7 @@
  */
 #include "pool.h"
 #include "bits.h"
+#include "float_mode.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -70,7 +71,9 @@ static void unlock_owner(arena *a)
 void *arena_allocate(arena *a, size_t size)
 {
     arena *owner = lock_owner(a);
+    const bool paused = float_mode_pause();
     void *memory = owner->allocator.allocate(size, owner->allocator.context);
+    float_mode_resume(paused);
     owner->bytes += memory ? size : 0;
     unlock_owner(a);
     return memory;
@@ -82,7 +85,9 @@ void arena_free(arena *a, void *memory, size_t size)
         return;
     arena *owner = lock_owner(a);
     owner->bytes -= size;
+    const bool paused = float_mode_pause();
     owner->allocator.release(memory, size, owner->allocator.context);
+    float_mode_resume(paused);
     unlock_owner(a);
 }
 

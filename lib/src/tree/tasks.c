@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tasks.c - divides work into tasks, and trees into subtrees. See tasks.h. */
 #include "tasks.h"
+#include "float_mode.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -22,13 +23,26 @@ typedef struct tasks {
     atomic_bool started[TASKS_AT_MOST]; /* an executor that repeats a number must not run the task twice */
 } tasks;
 
+/* A thread of the executor may have any mode. The compiler knows neither the task nor its arguments here. */
 static void run_task(size_t number, void *context)
 {
     tasks *all = context;
-    if (!float_mode_is_default() || number >= all->count)
+    const bool enters = !float_mode_is_default();
+    if (number >= all->count || atomic_exchange_explicit(&all->started[number], true, memory_order_relaxed))
         return;
-    if (!atomic_exchange_explicit(&all->started[number], true, memory_order_relaxed))
-        all->task(number, all->context);
+    if (enters)
+        float_mode_enter();
+    all->task(number, all->context);
+    if (enters)
+        float_mode_leave();
+}
+
+/* The executor runs in the caller's mode, like all of the caller's functions. */
+static void call_executor(const octree_executor *executor, size_t count, tasks *all)
+{
+    const bool paused = float_mode_pause();
+    executor->run(run_task, count, all, executor->context);
+    float_mode_resume(paused);
 }
 
 void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context)
@@ -39,7 +53,7 @@ void run_tasks(const octree *tree, octree_task *task, unsigned count, void *cont
         atomic_init(&all.started[number], false);
     const unsigned begun = begin_visit(tree);
     if (executor->run && count > 1)
-        executor->run(run_task, count, &all, executor->context);
+        call_executor(executor, count, &all);
     for (unsigned number = 0; number < count; number++)
         if (!atomic_load_explicit(&all.started[number], memory_order_relaxed))
             task(number, context);

@@ -13,8 +13,8 @@ enum { TASKS_AT_MOST = 64 };
 /* The number of tasks for work on this many points; 1 without an executor. */
 unsigned count_tasks(const octree *tree, size_t points);
 
-/* Run a task once for each number below `count`, at most TASKS_AT_MOST. A task that the executor does not run, or runs
- * on a thread whose floating-point mode is not the default, runs on the calling thread at the end. */
+/* Run a task once for each number below `count`, at most TASKS_AT_MOST, in the default floating-point mode on every
+ * thread. A task that the executor does not run runs on the calling thread at the end. */
 void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context);
 
 /* The index of the first of `things` in the share of a task; the share ends where the next begins. */

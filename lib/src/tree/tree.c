@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tree.c - creates, rebuilds and destroys trees, finds points, and names statuses. */
 #include "tree.h"
-#include "float_rules.h"
+#include "float_mode.h"
 #include "metric.h"
 
 #include <math.h>
@@ -24,8 +24,6 @@ octree_def octree_def_default(void)
 
 static octree_status check_definition(const octree_def *def)
 {
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     if (!is_world(&def->world))
         return OCTREE_BAD_WORLD;
     if (def->leaf_capacity == 0)
@@ -54,6 +52,7 @@ static octree_def clamp_definition(octree_def def)
 
 octree_status octree_create(const octree_def *def, octree **tree)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_create, def, tree);
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
     *tree = NULL;
@@ -174,6 +173,7 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
 
 octree_status octree_reworld(octree *tree, const octree_box *world)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_reworld, tree, world);
     if (!tree || !world)
         return OCTREE_NULL_ARGUMENT;
     if (is_visited(tree))
@@ -185,6 +185,7 @@ octree_status octree_reworld(octree *tree, const octree_box *world)
 
 octree_status octree_compact(octree *tree)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_compact, tree);
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
     return is_visited(tree) ? OCTREE_BUSY : rebuild_tree(tree, &tree->def);
@@ -196,8 +197,6 @@ octree_status check_position(const octree *tree, const double position[3])
 {
     if (!tree || !position)
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     if (box_contains(&tree->def.world, position))
         return OCTREE_OK;
     return is_finite_position(position) ? OCTREE_OUTSIDE : OCTREE_NOT_FINITE;
@@ -229,6 +228,7 @@ bool find_point(const octree *tree, const double position[3], uint64_t id, found
 
 octree_status octree_find(const octree *tree, const double position[3], uint64_t *id)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_find, tree, position, id);
     const octree_status status = check_position(tree, position);
     if (status != OCTREE_OK)
         return status;
@@ -251,6 +251,7 @@ octree_status octree_find(const octree *tree, const double position[3], uint64_t
 
 bool octree_contains(const octree *tree, const double position[3], uint64_t id)
 {
+    RETURN_IN_DEFAULT_MODE(bool, octree_contains, tree, position, id);
     found_point found;
     return check_position(tree, position) == OCTREE_OK && find_point(tree, position, id, &found);
 }
@@ -280,6 +281,7 @@ int octree_compare_points(const void *a, const void *b)
     const octree_point *p = a, *q = b;
     if (p->id != q->id)
         return p->id < q->id ? -1 : 1;
+    RETURN_IN_DEFAULT_MODE(int, octree_compare_points, a, b);
     for (int i = 0; i < 3; i++)
         if (p->position[i] != q->position[i])
             return p->position[i] < q->position[i] ? -1 : 1;

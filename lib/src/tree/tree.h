@@ -49,7 +49,7 @@ static inline bool fits_leaf(const octree *tree, size_t count)
     return count <= tree->def.leaf_capacity;
 }
 
-/* Check whether a position is in the world. Returns OK, NULL_ARGUMENT, FLOAT_MODE, NOT_FINITE or OUTSIDE. */
+/* Check whether a position is in the world. Returns OK, NULL_ARGUMENT, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
 
 /* The same for a change of the tree: also BUSY. */

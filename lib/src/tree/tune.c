@@ -10,6 +10,7 @@
  * sample would thin the points out and change their density. Cost: seven bulk builds of at most 40,000 points, 128
  * operations of each kind per capacity, and one rebuild.
  */
+#include "float_mode.h"
 #include "tree.h"
 
 #include <math.h>
@@ -249,6 +250,7 @@ static octree_status choose_by_sample(octree *tree, const octree_mix *mix, size_
 
 octree_status octree_tune(octree *tree, const octree_mix *mix)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_tune, tree, mix);
     if (!tree)
         return OCTREE_NULL_ARGUMENT;
     if (tree->def.full_leaf != OCTREE_GROW)

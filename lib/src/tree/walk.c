@@ -2,7 +2,7 @@
 /* walk.c - traversals of all nodes: octree_walk(), octree_check(), octree_statistics() and octree_digest(). */
 #include "walk.h"
 #include "exact.h"
-#include "float_rules.h"
+#include "float_mode.h"
 #include "tasks.h"
 
 static octree_node describe_node(const node *n, octree_address address, unsigned depth, const octree_box *bounds)
@@ -69,10 +69,9 @@ static bool walk_subtree(walk *w, const node *n, octree_address address, cell c,
 
 octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_walk, tree, CALLER_NODE_VISITOR(visit, context));
     if (!tree || !visit)
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     walk w = {.tree = tree, .visit = visit, .context = context};
     const unsigned begun = begin_visit(tree);
     walk_subtree(&w, &tree->root, OCTREE_ROOT, root_cell(), &tree->def.world);
@@ -89,10 +88,9 @@ static octree_node describe_path_node(const octree *tree, const path *p, uint64_
 
 octree_status octree_node_at(const octree *tree, octree_address address, octree_node *result)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_node_at, tree, address, result);
     if (!tree || !result)
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     if (!is_address(address))
         return OCTREE_NOT_FOUND;
     const unsigned depth = octree_address_depth(address);
@@ -106,6 +104,7 @@ octree_status octree_node_at(const octree *tree, octree_address address, octree_
 
 octree_status octree_locate(const octree *tree, const double position[3], octree_node *result)
 {
+    RETURN_IN_DEFAULT_MODE(octree_status, octree_locate, tree, position, result);
     const octree_status status = result ? check_position(tree, position) : OCTREE_NULL_ARGUMENT;
     if (status != OCTREE_OK)
         return status;
@@ -240,10 +239,9 @@ static void check_subtrees_of_share(size_t number, void *context)
 
 const char *octree_check(const octree *tree, octree_address *where)
 {
+    RETURN_IN_DEFAULT_MODE(const char *, octree_check, tree, where);
     if (!tree)
         return "there is no tree";
-    if (!float_mode_is_default())
-        return octree_status_text(OCTREE_FLOAT_MODE);
     reading r;
     memset(r.first, 0, sizeof r.first);
     divide_tree(&r.forest, tree, check_divided_node, &r);
@@ -285,8 +283,6 @@ octree_status octree_statistics(const octree *tree, octree_stats *stats)
 {
     if (!tree || !stats)
         return OCTREE_NULL_ARGUMENT;
-    if (!float_mode_is_default())
-        return OCTREE_FLOAT_MODE;
     *stats = (octree_stats){.points = tree->root.count, .memory = tree->store.memory.bytes};
     count_node(stats, &tree->root, 0);
     count_nodes_below(stats, &tree->root, 0);
@@ -352,7 +348,7 @@ static void digest_subtrees_of_share(size_t number, void *context)
 
 uint64_t octree_digest(const octree *tree)
 {
-    if (!tree || !float_mode_is_default())
+    if (!tree)
         return 0;
     reading r;
     memset(r.sums, 0, sizeof r.sums);

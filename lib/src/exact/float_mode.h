@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: MIT */
+/* float_mode.h - makes public functions compute in the default floating-point mode, whatever mode the caller has.
+ *
+ * Problem: games and audio code flush subnormal numbers to zero, a program linked with -ffast-math does so from its
+ * start, interval arithmetic rounds up and down. In these modes exact answers would be wrong. C has no portable way to
+ * keep a compiler from moving arithmetic across a change of the mode: gcc ignores #pragma STDC FENV_ACCESS, and a
+ * volatile asm statement orders only memory accesses and other volatile statements, not operations on doubles.
+ *
+ * Idea: a public function only reads the mode (about 1 ns). In the default mode, which is the rule, it simply runs. In
+ * any other mode it sets the default mode, calls itself through a volatile pointer, and restores the caller's mode
+ * (some 10 ns). The compiler cannot look through such a pointer, so the inner call's arithmetic stays within it; and
+ * the arithmetic of the outer call's own body, wherever the compiler moves it, matters in the default mode only.
+ * Results are in memory, integers, or finished doubles before the mode is restored.
+ *
+ * The caller's functions - visitors, tracers, allocators, executors - run in the caller's mode. An internal call of a
+ * public function finds the default mode, so its visitors, which are the library's, run in that. float_mode_pause() and
+ * float_mode_resume() enclose nothing but the call of a caller's function.
+ */
+#ifndef OCTREE_FLOAT_MODE_H
+#define OCTREE_FLOAT_MODE_H
+
+#include "octree/octree.h"
+
+/* Whether the thread rounds to nearest, keeps subnormals and traps no floating-point exception. */
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+
+static inline bool float_mode_is_default(void)
+{
+    return (_mm_getcsr() & 0xffc0u) == 0x1f80u; /* flush to zero, rounding, masks of exceptions, denormals are zero */
+}
+#elif defined(__aarch64__) && defined(__GNUC__)
+static inline bool float_mode_is_default(void)
+{
+    uint64_t control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    return control == 0;
+}
+#else
+bool float_mode_is_default(void); /* tries some operations */
+#endif
+
+/* Remember the thread's mode as the caller's and set the default mode; restore the caller's mode. */
+void float_mode_enter(void);
+void float_mode_leave(void);
+
+/* Before and after a function of the caller: restore the caller's mode if the library has changed it, and set the
+ * default mode again. The function may call the library. If it does not return (longjmp, a C++ exception), the thread
+ * has the caller's mode. */
+bool float_mode_pause(void);
+void float_mode_resume(bool paused);
+
+/* A pointer that the compiler does not look through. Without __typeof__ the call is a plain recursion. */
+#if defined(__GNUC__)
+#define POINTER_TO_ITSELF(function) __typeof__(&(function)) volatile again = (function)
+#define CALL_ITSELF(function) again
+#define RARELY(condition) __builtin_expect(condition, 0)
+#else
+#define POINTER_TO_ITSELF(function) ((void)0)
+#define CALL_ITSELF(function) function
+#define RARELY(condition) (condition)
+#endif
+
+/* The first statement of a public function that computes with doubles: unless the mode is the default, call the
+ * function again in the default mode with these arguments, and return its result. */
+#define RETURN_IN_DEFAULT_MODE(type, function, ...)                                                                    \
+    do {                                                                                                               \
+        if (RARELY(!float_mode_is_default())) {                                                                        \
+            POINTER_TO_ITSELF(function);                                                                               \
+            float_mode_enter();                                                                                        \
+            type result_ = CALL_ITSELF(function)(__VA_ARGS__);                                                         \
+            float_mode_leave();                                                                                        \
+            return result_;                                                                                            \
+        }                                                                                                              \
+    } while (false)
+
+/* ---- Arguments of that inner call: the caller's functions, to be called in the caller's mode ------------------- */
+
+typedef struct caller_visitor {
+    octree_point_visitor visit;
+    void *context;
+} caller_visitor;
+
+typedef struct caller_node_visitor {
+    octree_node_visitor visit;
+    void *context;
+} caller_node_visitor;
+
+typedef struct caller_search {
+    octree_search search; /* the caller's options, with the tracer replaced */
+    octree_tracer trace;
+    void *context;
+} caller_search;
+
+bool visit_in_caller_mode(const octree_point *point, void *context);
+octree_walk_order visit_node_in_caller_mode(const octree_node *node, void *context);
+const octree_search *trace_in_caller_mode(const octree_search *how, caller_search *copy);
+
+/* A visitor and its context; null stays null. */
+#define CALLER_VISITOR(visit, context)                                                                                 \
+    (visit) ? visit_in_caller_mode : NULL, &(caller_visitor)                                                           \
+    {                                                                                                                  \
+        visit, context                                                                                                 \
+    }
+#define CALLER_NODE_VISITOR(visit, context)                                                                            \
+    (visit) ? visit_node_in_caller_mode : NULL, &(caller_node_visitor)                                                 \
+    {                                                                                                                  \
+        visit, context                                                                                                 \
+    }
+
+/* Search options. */
+#define CALLER_SEARCH(how) trace_in_caller_mode(how, &(caller_search){.context = NULL})
+
+#endif
