@@ -225,7 +225,7 @@ static void existing_recording_of_any_name_is_resumed(void **state)
                                        "cd rec.png && ../octreel record --resume -o .",
                                        own->name);
     assert_done(&result);
-    const char *frames = strstr(result.out, " frames, of which "), *there = strstr(result.out, " were there, ");
+    const char *frames = strstr(result.out, " frames, of which "), *there = strstr(result.out, " existed already, ");
     assert_true(frames && there && strstr(result.out, "frames a second") == NULL);
     command_release(&result);
 }
