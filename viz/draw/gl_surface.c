@@ -84,7 +84,7 @@ static bool check_driver(gl_surface *s, bool any, octreel_error *error)
     if (name && (any || strncmp(name, "llvmpipe", 8) == 0))
         return true;
     return error_set(error,
-                     "the %s context draws with \"%.60s\"; frames are the same everywhere with llvmpipe alone (is "
+                     "the %s context draws with \"%.60s\"; only llvmpipe draws the same frames on every machine (is "
                      "GALLIUM_DRIVER set?)",
                      s->context->name, name ? name : "nothing");
 }

@@ -330,7 +330,7 @@ static bool can_reach_pixel(const quad *q, const renderer_part *part)
 }
 
 /* Find the samples of the pixel that the quad covers, as bits. *ok: whether drawing succeeds. */
-static unsigned find_covered_samples(renderer *r, const probe *p, bool *ok, octreel_error *error)
+static unsigned find_covered_sample_bits(renderer *r, const probe *p, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
     quad alone = *p->quad;
@@ -377,7 +377,7 @@ static bool add_all_quad_covers(renderer *r, probe *p, octreel_error *error)
     bool ok = true;
     for (size_t i = p->painter.quads.count; ok && i-- > 0;) {
         p->quad = &p->painter.quads.items[i];
-        const unsigned bits = can_reach_pixel(p->quad, &p->part) ? find_covered_samples(r, p, &ok, error) : 0;
+        const unsigned bits = can_reach_pixel(p->quad, &p->part) ? find_covered_sample_bits(r, p, &ok, error) : 0;
         if (bits)
             add_quad_covers(p, bits);
     }

@@ -30,7 +30,7 @@ static const cause_row rows[] = {
     {"player.sweep", "swept collision test", OPTION},
     {"ticks", "last tick", PLAIN},
     {"keys", "key", PLAIN},
-    {"points", "point at the start", .plural = "points at the start"},
+    {"points", "initial point", .plural = "initial points"},
     {"points.velocity", "velocity of a point", .plural = "velocities of points"},
     {"points.color", "colour of a point", .plural = "colours of points"},
     {"points.intensity", "intensity of a point", .plural = "intensities of points"},

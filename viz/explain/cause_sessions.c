@@ -124,7 +124,7 @@ static char key_at(const octree_session *session, size_t length, uint64_t i)
 }
 
 /* Compare the keys of the ticks that both sessions have. A missing key is a wait. */
-static void compare_keys(const octree_session *a, const octree_session *b, cause_facts *facts)
+static void compare_key_presses(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const uint64_t lengths[2] = {octree_session_length(a), octree_session_length(b)};
     const uint64_t both = lengths[0] < lengths[1] ? lengths[0] : lengths[1];
@@ -168,7 +168,7 @@ static json_t *parse_next_object(const char **at)
 }
 
 /* Give the player of a session the members "kind" and "sweep", even if there is no player or no "sweep". */
-static json_t *add_player_kind(json_t *header)
+static json_t *normalize_player(json_t *header)
 {
     json_t *player = json_object_get(header, "player");
     json_t *named = json_is_null(player) ? json_object() : json_incref(player);
@@ -230,7 +230,7 @@ static void compare_texts(const cause_place *place, const char *x, const char *y
 {
     json_t *a = parse_next_object(&x), *b = parse_next_object(&y);
     if (a && b) {
-        json_t *const players[2] = {add_player_kind(a), add_player_kind(b)};
+        json_t *const players[2] = {normalize_player(a), normalize_player(b)};
         remove_missing(players[0], players[1]);
         remove_missing(players[1], players[0]);
         cause_compare_members(place, a, b);
@@ -253,7 +253,7 @@ static void compare_sessions(const octree_session *a, const octree_session *b, c
         compare_texts(&place, texts[0], texts[1]);
     free(texts[0]);
     free(texts[1]);
-    compare_keys(a, b, facts);
+    compare_key_presses(a, b, facts);
     compare_bodies(a, b, facts);
 }
 

@@ -65,7 +65,7 @@ static void read_font(font *f, const char *path)
     if (f->width > MOST_WIDTH || f->height > MOST_HEIGHT || f->each == 0 || f->each != (f->width + 7) / 8 * f->height)
         stop(path, "has letters larger than 16 x 32 pixels or of a wrong size");
     if (f->count < GLYPH_FIRST + GLYPH_COUNT || f->at > f->size || (f->size - f->at) / f->each < f->count)
-        stop(path, "is cut short, or has too few letters");
+        stop(path, "is truncated, or has too few glyphs");
 }
 
 static bitmap glyph_of(const font *f, unsigned letter)

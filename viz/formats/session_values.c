@@ -49,7 +49,7 @@ static void write_intensity(json_writer *w, const void *from)
     json_write_number(w, number_from_float(*(const float *)from));
 }
 
-static bool read_class(json_reader *r, json_t *value, const json_place *at, void *into)
+static bool read_point_class(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     uint64_t whole;
     uint16_t *class = into;
@@ -59,7 +59,7 @@ static bool read_class(json_reader *r, json_t *value, const json_place *at, void
     return true;
 }
 
-static void write_class(json_writer *w, const void *from)
+static void write_point_class(json_writer *w, const void *from)
 {
     json_write_integer(w, *(const uint16_t *)from);
 }
@@ -172,7 +172,7 @@ const json_member session_body_members[] = {
     {"velocity", &json_vector, POINT(body.velocity), JSON_IF(valued_body, body.velocity)},
     [FIRST_VALUE + POINT_COLOR] = {"color", JSON_CODEC(read_color, write_color), VALUE(POINT_COLOR, color)},
     {"intensity", JSON_CODEC(read_intensity, write_intensity), VALUE(POINT_INTENSITY, intensity)},
-    {"class", JSON_CODEC(read_class, write_class), VALUE(POINT_CLASS, class)},
+    {"class", JSON_CODEC(read_point_class, write_point_class), VALUE(POINT_CLASS, class)},
     {0},
 };
 

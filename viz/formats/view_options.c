@@ -222,7 +222,7 @@ static bool parse_depths(const view_option *option, const char *text, view *v, o
 static bool check_depths(json_reader *r, const json_place *at, void *structure)
 {
     const view_filter *f = &((const view *)structure)->filter;
-    return f->min_depth <= f->max_depth || json_fail(r, at, "the first depth must not be above the second");
+    return f->min_depth <= f->max_depth || json_fail(r, at, "the first depth must not be greater than the second");
 }
 
 static bool parse_region(const view_option *option, const char *text, view *v, octreel_error *error)

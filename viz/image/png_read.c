@@ -223,7 +223,7 @@ static void read_description(image_source *s)
     s->about.height = (int)png_get_image_height(png, info);
     s->about.channels = s->samples == 1 ? 1 : 3;
     if (png_get_rowbytes(png, info) != find_row_size(s))
-        png_error(png, "libpng cannot convert the pixels to whole samples");
+        png_error(png, "libpng did not expand the pixels to 8 or 16 bits a sample");
     if (s->samples == 1)
         set_palette(s);
     /* Interlaced rows arrive in passes, and whether 16 bits a sample are needed shows only when all rows are read. */

@@ -182,7 +182,7 @@ static void describe_arrow(description *d, const described_element *element)
             continue;
         describe_point(d, "the velocity of ", body->id, body->position);
         append_position(d, ": ", body->velocity);
-        append_text(d, " per tick, drawn for %u tick%s", velocity_ticks(d->game),
+        append_text(d, " per tick; the arrow is the motion of %u tick%s", velocity_ticks(d->game),
                     plural_ending(velocity_ticks(d->game)));
     }
 }

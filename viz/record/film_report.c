@@ -188,11 +188,11 @@ void film_report_empty(FILE *out, const film_summary *summary, const film_option
     if (summary->foreign_nodes > 0)
         return;
     if (v->tree == TREE_FOREIGN)
-        fputs("octreel: no tick has nodes of a program: --tree foreign shows no nodes\n", out);
+        fputs("octreel: no tick has nodes of a foreign index, so --tree foreign shows no nodes\n", out);
     else if (v->tree == TREE_BOTH)
-        fputs("octreel: no tick has nodes of a program: --tree both shows Octreel's alone\n", out);
+        fputs("octreel: no tick has nodes of a foreign index, so --tree both shows only the nodes of Octreel\n", out);
     if (v->coloring == COLORING_KIND)
-        fputs("octreel: no tick has nodes of a program: --color-by kind shows all nodes alike\n", out);
+        fputs("octreel: no tick has nodes of a foreign index, so --color-by kind shows all nodes alike\n", out);
 }
 
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,

@@ -353,7 +353,7 @@ static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
     return true;
 }
 
-static span empty_list_from(span list, size_t before)
+static span empty_span_at(span list, size_t before)
 {
     return (span){list.items ? list.items + before : NULL, 0};
 }
@@ -366,8 +366,8 @@ static void visit_leaves_of_part(size_t number, void *context)
     const job *jobs = d->work.jobs.items;
     batch *b = &d->parts[number].batch;
     const size_t before = first < end ? (size_t)(jobs[first].arriving.items - b->valid.items) : 0;
-    b->leaving = empty_list_from(b->leaving, before);
-    b->arriving = empty_list_from(b->arriving, before);
+    b->leaving = empty_span_at(b->leaving, before);
+    b->arriving = empty_span_at(b->arriving, before);
     b->done = 0;
     for (size_t i = first; i < end; i++) /* const is cast away: the nodes of the tree are not const */
         visit_leaves_below(b, (node *)(uintptr_t)jobs[i].old, jobs[i].cell.depth, jobs[i].arriving, d->visitor);

@@ -247,7 +247,7 @@ static bool are_close(const octree_point *a, const octree_point *b, const double
 
 /* An upper bound of the number of points in one indivisible cell, among 2 * half points: of two points that are not
  * close at most one counts. */
-static size_t bound_of_pairs(const octree_point *points, uint32_t half, const double distance[3])
+static size_t max_paired_points_in_one_cell(const octree_point *points, uint32_t half, const double distance[3])
 {
     size_t most = half;
     for (uint32_t i = 0; i < half; i++)
@@ -255,13 +255,13 @@ static size_t bound_of_pairs(const octree_point *points, uint32_t half, const do
     return most;
 }
 
-/* The bound of bound_of_pairs() for the points of two leaves together. */
-static size_t bound_of_leaves(const node *old, const node *made, const double distance[3])
+/* The bound of max_paired_points_in_one_cell() for the points of two leaves together. */
+static size_t max_points_in_one_cell(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);
     const uint32_t odd = old->count % 2, made_odd = made->count % 2;
-    size_t most = bound_of_pairs(before + odd, old->count / 2, distance) +
-                  bound_of_pairs(after, made->count / 2, distance) + (odd | made_odd);
+    size_t most = max_paired_points_in_one_cell(before + odd, old->count / 2, distance) +
+                  max_paired_points_in_one_cell(after, made->count / 2, distance) + (odd | made_odd);
     if (odd && made_odd)
         most += are_close(&before[0], &after[made->count - 1], distance);
     return most;
@@ -272,7 +272,7 @@ static bool can_overflow_in_nodes(const octree *tree, const node *old, const nod
     if (fits_leaf(tree, (size_t)old->count + made->count))
         return false;
     if (old->octants == 0 && made->octants == 0)
-        return !fits_leaf(tree, bound_of_leaves(old, made, distance));
+        return !fits_leaf(tree, max_points_in_one_cell(old, made, distance));
     for (unsigned octant = 0; octant < 8; octant++) {
         const node *before = old->octants ? child_at(old, octant) : old;
         const node *after = made->octants ? child_at(made, octant) : made;

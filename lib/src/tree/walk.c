@@ -136,7 +136,7 @@ static const char *check_inner_node(const octree *tree, const node *n, cell c)
 
 /* The closed box in which the points of a leaf lie. A cell excludes its upper planes, except the world's maximum faces.
  */
-static octree_box box_of_leaf_points(octree_box box, cell c)
+static octree_box closed_box_of_cell(octree_box box, cell c)
 {
     for (int i = 0; i < 3; i++)
         if (c.low[i] + cell_size(c.depth) != PLANE_GRID)
@@ -158,7 +158,7 @@ static bool is_stored_twice(const node *n, uint32_t index)
 
 static const char *check_leaf(const octree *tree, const node *n, cell c, const octree_box *bounds)
 {
-    const octree_box box = box_of_leaf_points(*bounds, c);
+    const octree_box box = closed_box_of_cell(*bounds, c);
     if (!fits_leaf(tree, n->count) && can_split(tree, c))
         return "a leaf that could split is over its capacity";
     if (!fits_leaf(tree, n->count) && tree->def.full_leaf == OCTREE_REFUSE)

@@ -188,7 +188,7 @@ static void renderer_other_than_llvmpipe_is_refused(void **state)
         char option[32];
         snprintf(option, sizeof option, "--fill gl --context %s", draw_context_name(kind));
         assert_not_drawn(&softpipe, option, &folder,
-                         draw_context_is_built((draw_context)kind) ? "llvmpipe alone" : "without the");
+                         draw_context_is_built((draw_context)kind) ? "only llvmpipe" : "without the");
     }
 }
 

@@ -289,7 +289,8 @@ static void view_options_without_effect_are_reported(void **state)
         NULL, "record --every 100 " SMALL " --color-points class --tree foreign --color-by kind -o %s", film.path);
     assert_int_equal(result.status, 0);
     assert_non_null(strstr(result.err, "octreel: no point has a class: --color-points class shows all points alike\n"));
-    assert_non_null(strstr(result.err, "octreel: no tick has nodes of a program: --tree foreign shows no nodes\n"));
+    assert_non_null(
+        strstr(result.err, "octreel: no tick has nodes of a foreign index, so --tree foreign shows no nodes\n"));
     assert_non_null(strstr(result.err, "--color-by kind shows all nodes alike\n"));
     command_release(&result);
     file_write_text(points.path, "x y z class\n1 2 3 2\n4 5 6 2\n7 8 9 6\n");

@@ -194,7 +194,7 @@ static void points_are_named_without_a_player(void **state)
     (void)state;
     assert_change_headline_from(
         move_body_of_no_player, move_body,
-        "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in the "
+        "another initial point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in the "
         "frames, node 7 divided only in the reference, "
         "point 3 moved");
 }
@@ -203,19 +203,18 @@ static void points_at_the_start_are_named(void **state)
 {
     (void)state;
     assert_change_headline(
-        add_body,
-        "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
+        add_body, "one more initial point (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
     assert_change_headline(
         drop_body,
-        "one point at the start fewer (point 2: (-4, 5, -6)); tick 0: node 2 only in the reference, point 2 removed");
+        "one initial point fewer (point 2: (-4, 5, -6)); tick 0: node 2 only in the reference, point 2 removed");
     assert_change_headline(move_body,
-                           "another point at the start (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in "
+                           "another initial point (point 3: (7, -7, 7), was (7, 7, 7)); tick 0: node 5 only in "
                            "the frames, point 3 moved");
     assert_change_headline(push_body,
                            "another velocity of a point (point 3: (0, -0.5, 0), was (0, 0, 0)); tick 1: point 3 moved");
-    assert_change_headline(swap_bodies, "another order of the points at the start; " SAME_TICKS);
+    assert_change_headline(swap_bodies, "another order of the initial points; " SAME_TICKS);
     assert_change_headline(move_all,
-                           "4 other points at the start (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
+                           "4 other initial points (points 1, 2, 3 and 4); tick 0: points 1, 2, 3 and 4 moved");
 }
 
 /* ---- Values of points ----------------------------------------------------------------------------------------- */
@@ -282,7 +281,7 @@ static void values_of_a_point_on_one_side_are_not_named(void **state)
     (void)state;
     assert_change_headline(
         add_body_with_class,
-        "one more point at the start (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
+        "one more initial point (point 5: (9, -9, 9)); tick 0: node 5 only in the frames, point 5 added");
 }
 
 /* ---- Keys ---------------------------------------------------------------------------------------------------- */

@@ -189,7 +189,7 @@ static void different_seed_is_the_cause_instead_of_its_points(void **state)
     assert_filmed(&again.session, &options);
     session_release(&again);
     comparison_of made = assert_explained(&a, &d, 10);
-    assert_contains(made.why.headline, "another point at the start (point 8: (500, ");
+    assert_contains(made.why.headline, "another initial point (point 8: (500, ");
     comparison_release(&made);
 }
 

@@ -214,7 +214,7 @@ static void invalid_view_is_refused_with_line_and_reason(void **state)
         {VIEW ", \"slice\": {\"x\": true}}", "slice.x: expected a number, found true"},
         {VIEW ", \"depths\": 1}", "depths: expected two depths as in [2, 5], found 1"},
         {VIEW ", \"depths\": [1]}", "depths: expected two depths"},
-        {VIEW ", \"depths\": [3, 2]}", "depths: the first depth must not be above the second"},
+        {VIEW ", \"depths\": [3, 2]}", "depths: the first depth must not be greater than the second"},
         {VIEW ", \"depths\": [0, 22]}", "depths[1]"},
         {VIEW ", \"leaves\": 1}", "leaves: expected true or false, found 1"},
         {VIEW ", \"region\": {\"min\": [0, 0, 0]}}", "region: the member \"max\" is missing"},
