@@ -15,7 +15,8 @@
 
 /* ---- Deciding ----------------------------------------------------------------------------------------------- */
 
-/* Check that the name of a new reference fits its kind: no folder "x.json", and no picture "golden". */
+/* Check that the name of a new reference fits its kind. A name such as "x.json" is refused for a folder, and a name
+ * without ".png" is refused for a picture. */
 static bool check_new_name(const accept_options *o, diff_kind kind, octreel_error *error)
 {
     const output_kind name = output_kind_of_name(o->reference);
@@ -35,7 +36,8 @@ static bool check_new_name(const accept_options *o, diff_kind kind, octreel_erro
                      o->reference);
 }
 
-/* Check that the options fit the reference: a baseline needs a reason, and other references take none. */
+/* Check that the options fit the kind of the reference: a baseline needs a reason; a picture, a folder or a
+ * recording takes none. */
 static bool check_options(const accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
@@ -47,14 +49,15 @@ static bool check_options(const accepting *a, octreel_error *error)
                      o->reference, diff_kind_name(a->reference.kind));
 }
 
-/* A reference without frames. */
+/* Return a side without frames, which stands for a reference that does not exist yet. */
 static diff_side empty_side(const char *path, diff_kind kind, bool no_frames)
 {
     return (diff_side){.path = path, .source = path, .kind = kind, .background = IMAGE_WHITE, .no_frames = no_frames};
 }
 
-/* A reference that does not exist yet becomes a side of the same kind as the frames, or a baseline. An empty folder
- * becomes a recording if a recording is accepted into it. */
+/* Open the reference and the frames. A reference that does not exist yet becomes an empty side: a baseline if a
+ * reason was given, else a side of the same kind as the frames. An empty folder becomes a recording if a recording
+ * is accepted into it. */
 static bool open_sides(accepting *a, octreel_error *error)
 {
     const accept_options *o = a->options;
@@ -114,7 +117,8 @@ static action action_for(diff_finding finding)
     return finding == FOUND_SAME_BYTES || finding == FOUND_SAME_PIXELS ? KEPT : CHANGED;
 }
 
-/* Check that a new frame can be read, and compute its digest. An unreadable reference may be replaced. */
+/* Check that a new frame can be read, and compute its digest. An unreadable reference is no error, because the new
+ * frame replaces it. */
 static bool check_frame(const accepting *a, diff_pair *pair, octreel_error *error)
 {
     pair->about[1].kind = IMAGE_DIGEST_NEWEST;
@@ -138,7 +142,8 @@ static bool decide_actions(accepting *a, octreel_error *error)
     return true;
 }
 
-/* Refuse to remove all references: if none has a frame, the wrong folder was probably given. */
+/* Refuse to remove all references. If no reference has a new frame of the same name, the user probably gave the
+ * wrong folder. */
 static bool check_overlap(const accepting *a, octreel_error *error)
 {
     const size_t references = a->reference.count;

@@ -6,7 +6,8 @@
 
 #include <stdlib.h>
 
-/* Store the pictures of all frames that the new baseline accepts, also of unchanged ones: so an empty store fills. */
+/* Store the pictures of all frames that the new baseline accepts. Unchanged frames are included, so that a store
+ * that was empty becomes complete. */
 static bool store_pictures(const accepting *a, octreel_error *error)
 {
     bool ok = true;
@@ -18,7 +19,8 @@ static bool store_pictures(const accepting *a, octreel_error *error)
     return ok;
 }
 
-/* Add a changed or new frame: its digest and, with --variant, the digests that were accepted before. */
+/* Add a changed or new frame to the new baseline `now`: its digest and, with --variant, its previously accepted
+ * digests. */
 static bool add_accepted(const accepting *a, diff_side *now, const diff_pair *pair, octreel_error *error)
 {
     frame_digest digest = pair->about[1];
@@ -44,7 +46,7 @@ bool accept_digests(accepting *a, octreel_error *error)
     diff_side now = a->reference;
     now.frames = NULL;
     now.count = now.room = 0;
-    a->reference.acceptances = NULL; /* `now` owns them */
+    a->reference.acceptances = NULL; /* `now` owns the acceptances */
     a->reference.acceptance_count = 0;
     bool ok = store_pictures(a, error);
     for (size_t i = 0; ok && i < a->result.count; i++) {

@@ -12,8 +12,8 @@
 /* ---- A set of files that is replaced together ---------------------------------------------------------------- */
 
 typedef struct set_file {
-    file_writer copy; /* the complete copy, NAME.part, which is not renamed yet */
-    char *path;       /* its final name; owned */
+    file_writer copy; /* a complete copy named NAME.part, not yet renamed */
+    char *path;       /* the final name of the copy; owned */
 } set_file;
 
 typedef struct file_set {
@@ -21,7 +21,8 @@ typedef struct file_set {
     size_t count, room;
 } file_set;
 
-/* Copy a file to NAME.part beside its final path. The set takes ownership of `path`; null: out of memory. */
+/* Copy the file `from` to NAME.part beside its final path. The set takes ownership of `path`. A null `path` means
+ * that memory ran out. */
 static bool prepare_copy(file_set *set, const char *from, char *path, octreel_error *error)
 {
     const bool room = path && array_grow(&set->files, set->count + 1, &set->room, sizeof *set->files);
@@ -60,7 +61,8 @@ static char *copy_final_path(const accepting *a, const diff_pair *pair)
     return a->reference.kind == DIFF_PICTURE ? strdup(a->reference.path) : path_join(a->reference.path, pair->b->name);
 }
 
-/* Prepare a copy of a recording's file, unless the reference has the same bytes or the recording has no such file. */
+/* Prepare a copy of one of the recording's files, unless the reference has the same bytes or the recording has no
+ * such file. */
 static bool prepare_recording_file(const accepting *a, const char *name, file_set *set, octreel_error *error)
 {
     char *from = path_join(a->frames.path, name), *to = path_join(a->reference.path, name);
@@ -74,8 +76,8 @@ static bool prepare_recording_file(const accepting *a, const char *name, file_se
     return ok;
 }
 
-/* Prepare copies of all files that change. A whole recording also replaces the files that describe its frames, and the
- * frames with equal pixels, since their text chunks may name another session. */
+/* Prepare copies of all files that change. If a whole recording is accepted, the files that describe its frames are
+ * copied, too. Frames with equal pixels are also copied, because their text chunks may name another session. */
 static bool prepare_copies(const accepting *a, file_set *set, octreel_error *error)
 {
     const bool whole = a->reference.kind == DIFF_RECORDING && a->options->names->count == 0;
@@ -94,7 +96,7 @@ static bool prepare_copies(const accepting *a, file_set *set, octreel_error *err
 
 /* ---- Replacing ----------------------------------------------------------------------------------------------- */
 
-/* Remove the references that have no frame any more. */
+/* Remove each reference that has no new frame. */
 static bool remove_references(const accepting *a, octreel_error *error)
 {
     for (size_t i = 0; i < a->result.count; i++) {
@@ -120,6 +122,6 @@ bool accept_pictures(accepting *a, octreel_error *error)
         return false;
     const bool ok = replace_files(a, error);
     if (!ok && makes)
-        rmdir(a->reference.path); /* unless something is in it */
+        rmdir(a->reference.path); /* fails if the folder is not empty */
     return ok;
 }

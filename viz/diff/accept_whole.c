@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* accept_whole.c - checks that a recording is complete before it is accepted.
  *
- * The problem: accepting a whole recording removes references without a frame. A recording that is still being written,
- * was interrupted or lost a file would silently remove references that are still valid.
+ * The problem: accepting a whole recording removes references without a frame. A recording may still be written, may
+ * have been interrupted, or may have lost a file. Accepting it would silently remove references that are still valid.
  *
- * The checks: no process holds the lock of ticks.jsonl (or of a chunk's ticks-*.jsonl); session.json and ticks.jsonl
- * exist; the session, read from session.json, says which ticks there are, and every interval-th of them must have its
- * frame, except in gaps; and ticks.jsonl has one line for each tick. The content of frames is not checked here, since
- * the comparison reads it anyway. Cost: one file lookup for each frame and one pass over ticks.jsonl.
+ * The checks: (1) No process holds the lock of ticks.jsonl, or of ticks-*.jsonl in a chunk. (2) session.json and
+ * ticks.jsonl exist. (3) Every tick that should have a frame has one, except in gaps. The ticks come from session.json,
+ * and every interval-th tick should have a frame. (4) ticks.jsonl has one line for each tick. The pixels of frames are
+ * not checked here, because the comparison reads them anyway.
+ *
+ * Cost: one file lookup for each frame and one pass over ticks.jsonl.
  */
 #include "accepting.h"
 #include "file.h"
@@ -22,7 +24,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frames written during the acceptance would be missed. A chunk of a recording has its own log of ticks. */
+/* Refuse a recording that is still being written: the acceptance would miss its later frames. A chunk of a recording
+ * has its own tick log, ticks-*.jsonl. */
 bool accept_check_ended(const diff_side *side, octreel_error *error)
 {
     octreel_error ignored;

@@ -39,7 +39,7 @@ bool baseline_is_date(const char *text)
            (month != 2 || day < 29 || leap);
 }
 
-/* A name or a reason with a control character would not stay on its line. */
+/* A name or a reason must fit on one line, so it must not contain control characters such as newline. */
 static bool has_control_character(const char *text)
 {
     for (; *text; text++)
@@ -54,8 +54,8 @@ bool baseline_is_reason(const char *text)
     return length > 0 && text[0] != ' ' && text[length - 1] != ' ' && !has_control_character(text);
 }
 
-/* The length of a name without its ".png". The ending stays where read_name() could not restore it: after a blank or
- * after another ".png". */
+/* Return the length of a name as it is written: without its ".png". If the rest of the name ends with ".png" or a
+ * blank, the ending stays, because read_name() could not restore it. */
 static size_t written_length(const char *name)
 {
     const size_t length = strlen(name), stem = length > 4 ? length - 4 : 0;
@@ -64,7 +64,7 @@ static size_t written_length(const char *name)
     return plain ? stem : length;
 }
 
-/* The name of a frame from its written form; null if memory runs out. The caller frees it. */
+/* Return the name of a frame from its written form, or null if memory runs out. The caller frees the name. */
 static char *read_name(const char *written)
 {
     const size_t length = strlen(written);
@@ -96,7 +96,7 @@ static bool is_same_acceptance(const acceptance *a, const acceptance *b)
            strcmp(a->reason, b->reason) == 0;
 }
 
-/* Append a copy that owns its reason. */
+/* Append a copy of an acceptance. The copy owns its reason. */
 static bool append_acceptance(diff_side *side, const acceptance *from, octreel_error *error)
 {
     if (!array_grow(&side->acceptances, side->acceptance_count + 1, &side->acceptance_room, sizeof *side->acceptances))
@@ -109,7 +109,8 @@ static bool append_acceptance(diff_side *side, const acceptance *from, octreel_e
     return true;
 }
 
-/* Set a->id to the first free id, starting at the hash of the acceptance. False when all ids are in use. */
+/* Set a->id to a free id: start at the hash of the acceptance and take the next free one. Return false when all ids
+ * are in use. */
 static bool choose_id(const diff_side *side, acceptance *a)
 {
     uint64_t digest = octree_digest_bytes(OCTREE_DIGEST_START, a->date, strlen(a->date));
@@ -143,8 +144,9 @@ bool baseline_add_acceptance(diff_side *side, const acceptance_note *note, frame
 
 /* ---- Reading -------------------------------------------------------------------------------------------------
  *
- * Values are read with sscanf() and printed again: a line is valid only if it begins with the text that
- * baseline_write() writes for its values. This refuses additional blanks, zeros and signs, and capital letters.
+ * Values are read with sscanf() and printed again. A line is valid only if it begins with the text that
+ * baseline_write() prints for these values. Additional blanks, additional zeros, signs and capital letters are
+ * therefore refused.
  */
 
 static bool fail_line(const diff_side *side, size_t number, octreel_error *error)
@@ -237,7 +239,7 @@ static bool read_background(diff_side *side, const char *line, octreel_error *er
     return true;
 }
 
-/* A marker that git leaves around a conflict: seven equal characters, as in "<<<<<<< ours". */
+/* Return whether a line is a conflict marker of git: it begins with seven equal characters, as in "<<<<<<< ours". */
 static bool is_conflict_marker(const char *line)
 {
     return strlen(line) >= 7 && strchr("<=>|", line[0]) && strspn(line, (char[]){line[0], 0}) == 7 &&
@@ -293,7 +295,7 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const diff_frame *)a)->name, ((const diff_frame *)b)->name);
 }
 
-/* After a union merge, a frame may hold a variant twice. */
+/* Skip a variant that the frame already has: a union merge may repeat the line of a variant. */
 bool baseline_add_variant(diff_frame *frame, const frame_digest *digest)
 {
     for (size_t i = 0; i < frame->variant_count; i++)
@@ -381,7 +383,8 @@ static bool write_acceptances(FILE *out, const diff_side *side)
     return true;
 }
 
-/* The variant after `last` in the order of ids, then digests; the first one for null. Null after the last. */
+/* Return the variant that follows `last` in the order of ids, then digests. With `last` null, return the first
+ * variant. After the last variant, return null. */
 static const frame_digest *next_variant(const diff_side *side, const diff_frame *frame, const frame_digest *last)
 {
     const frame_digest *next = NULL;

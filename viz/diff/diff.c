@@ -90,13 +90,13 @@ static bool same_color(image_color a, image_color b)
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-/* Whether a side is one picture, or a baseline of at most one: a new baseline is empty. */
+/* Return whether a side has at most one frame: it is a picture or such a baseline. A new baseline has no frame. */
 static bool has_one_frame(const diff_side *side)
 {
     return side->kind == DIFF_PICTURE || (side->kind == DIFF_BASELINE && side->count <= 1);
 }
 
-/* Whether one picture is compared with one picture or with a baseline of one. */
+/* Return whether a picture is compared with another picture or with a baseline of at most one frame. */
 static bool is_single_pair(const diff_side *a, const diff_side *b)
 {
     return (a->kind == DIFF_PICTURE || b->kind == DIFF_PICTURE) && has_one_frame(a) && has_one_frame(b);
@@ -131,8 +131,8 @@ bool diff_check(const diff_side *a, const diff_side *b, const diff_options *opti
     return true;
 }
 
-/* The order of the next frames of both sides, as strcmp() returns it. Two single pictures are a pair whatever their
- * names are. */
+/* Compare the next frame names of both sides; the result is as of strcmp(). Two single pictures are always a pair,
+ * even if their names differ. */
 static int compare_next_names(const diff_side *a, size_t i, const diff_side *b, size_t j)
 {
     if (i == a->count || j == b->count)
@@ -157,13 +157,13 @@ static bool make_pairs(const diff_side *a, const diff_side *b, diff_result *resu
 
 /* ---- One pair ------------------------------------------------------------------------------------------------- */
 
-/* Set the finding if both files have the same bytes and are a PNG; return whether it is set. */
+/* Set the finding if both files are PNG files with the same bytes. Return whether the finding was set. */
 static bool compare_bytes(diff_pair *pair)
 {
     frame_digest about = {0};
     if (!pair->a->path || !pair->b->path || !have_same_bytes(pair->a->path, pair->b->path) ||
         !image_read_png_size(pair->a->path, &about.width, &about.height))
-        return false; /* equal but damaged files: the PNG reader reports what is wrong */
+        return false; /* not proven equal: pixels or digests decide */
     pair->about[0] = pair->about[1] = about;
     pair->finding = FOUND_SAME_BYTES;
     return true;
@@ -182,11 +182,12 @@ static void set_unreadable(diff_pair *pair, const octreel_error *error)
 /* A picture that is read in bands of rows. */
 typedef struct reading {
     image_source *source; /* null: the picture cannot be read */
-    int rows;             /* the height of a band */
+    int rows;             /* the number of rows of a band */
     octreel_error error;
 } reading;
 
-/* Recognizing anti-aliasing needs the rows above and below, so the whole picture is then one band. */
+/* Open a picture. Recognizing anti-aliasing needs the rows above and below each row, so with --antialias the band is
+ * the whole picture. */
 static void open_reading(reading *r, const char *path, const diff_options *options)
 {
     r->source = image_source_open(path, options->background, options->tolerance.antialias, &r->error);
@@ -206,8 +207,8 @@ static bool read_next_rows(reading *r, image *band)
     return r->source && image_source_read_band(r->source, r->rows, band);
 }
 
-/* Compare two pictures. Both are read to the end even if their sizes differ, since an error may come late. An error in
- * the first picture ends the loop: it is the one that is reported. */
+/* Compare two pictures. Both are read to the end even if their sizes differ, because a damaged part may come late.
+ * An error in the first picture ends the loop, and this error is reported. */
 static image_difference compare_rows(reading of[2], const image_tolerance *tolerance)
 {
     const bool opened = of[0].source && of[1].source;
@@ -270,12 +271,13 @@ static void compare_pictures(diff_pair *pair, const diff_options *options)
 
 /* The digests of a frame: the digest of its picture, or all variants of a baseline. */
 typedef struct known_digests {
-    frame_digest newest; /* the digest of the picture, or the newest variant of the kind */
+    frame_digest newest; /* the digest of the picture, or the newest variant of the requested kind */
     const frame_digest *list;
     size_t count;
 } known_digests;
 
-/* Collect the digests of a frame. Return false with an error, or without one if no digest is of this kind. */
+/* Collect the digests of a frame. Return false with an error if the picture cannot be read. Return false without an
+ * error if the frame has no digest of this kind. */
 static bool collect_digests(const diff_frame *frame, image_digest_kind kind, image_color background, known_digests *k,
                             octreel_error *error)
 {
@@ -294,8 +296,8 @@ static bool collect_digests(const diff_frame *frame, image_digest_kind kind, ima
     return k->newest.kind == kind;
 }
 
-/* Compare two frames by digests of one kind. They are equal if any two digests and their sizes are equal. Return false
- * if a frame has no digest of this kind. */
+/* Compare two frames by digests of one kind. The frames are equal if any digest of one equals any digest of the
+ * other, size included. Return false if a frame has no digest of this kind. */
 static bool compare_digests_of_kind(diff_pair *pair, image_digest_kind kind, image_color background,
                                     octreel_error *error)
 {

@@ -26,7 +26,7 @@ typedef enum diff_finding {
         DIFF_FINDINGS
 } diff_finding;
 
-/* In ascending order of severity: the verdict of a comparison is that of its worst pair. */
+/* In ascending order of severity. The verdict of a comparison is the verdict of its worst pair. */
 typedef enum diff_verdict { DIFF_SAME, DIFF_DIFFERENT, DIFF_TROUBLE } diff_verdict;
 
 const char *diff_finding_name(diff_finding finding);
@@ -34,8 +34,8 @@ diff_verdict diff_finding_verdict(diff_finding finding);
 
 struct diff_pair;
 
-/* A callback that adds the pixels of ignored layers to the mask of each pair. The caller provides it, because it plays
- * recordings, which this room cannot do. Returns false with an error on failure. */
+/* A callback that adds the pixels of ignored layers to the mask of each pair. The caller of diff_run() provides it,
+ * because this folder cannot play recordings. Returns false with an error on failure. */
 typedef bool diff_mask(void *context, const diff_side *a, const diff_side *b, struct diff_pair **pairs, size_t count,
                        octreel_error *error);
 
@@ -47,21 +47,21 @@ typedef struct diff_options {
     const char *layers; /* the names of the ignored layers, separated by commas */
 } diff_options;
 
-/* No tolerance, a white background. */
+/* Return options without a tolerance and with a white background. */
 diff_options diff_options_default(void);
 
-/* A frame of the reference (a), the frame that is compared with it (b), and the result. */
+/* A frame `a` of the reference, the frame `b` that is compared with it, and the result. */
 typedef struct diff_pair {
-    const diff_frame *a, *b; /* null: this side has no such frame */
+    const diff_frame *a, *b; /* null: the side has no frame of this name */
     diff_finding finding;
-    frame_digest about[2];       /* the sizes, and the digests if one side is a baseline; zero: unknown */
-    bool transparent;            /* one of the frames has transparent pixels, so the background shows */
-    bool other_color_space;      /* gamma or color profile differ, which is ignored */
-    image_difference difference; /* if both frames were decoded */
+    frame_digest about[2];       /* the size of each frame, and its digest if one side is a baseline; zero: unknown */
+    bool transparent;            /* a frame has transparent pixels, so the background color shows */
+    bool other_color_space;      /* gamma or color profile differ; they are ignored */
+    image_difference difference; /* valid if both frames were decoded */
     pixel_mask mask;             /* the pixels of ignored layers */
-    char *trouble;               /* the error for an unreadable frame; owned */
-    char *no_picture;            /* why the store has no picture of the reference; owned */
-    bool lacks_resources;        /* the system refused memory or a file handle: the frame itself may be readable */
+    char *trouble;               /* the error if a frame is unreadable; owned */
+    char *no_picture;            /* the reason why the store has no picture of the reference; owned */
+    bool lacks_resources;        /* the system refused memory or a file handle, so the frame may be readable */
 } diff_pair;
 
 typedef struct diff_result {
@@ -70,17 +70,18 @@ typedef struct diff_result {
     size_t count;
     size_t found[DIFF_FINDINGS]; /* the number of pairs with each finding */
     diff_verdict verdict;
-    bool by_ticks; /* neither recording has frames, so ticks.jsonl was compared, byte by byte */
+    bool by_ticks; /* neither recording has frames, so their ticks.jsonl files were compared byte by byte */
 } diff_result;
 
 /* Check that two sides can be compared, without reading a picture. Return false with an error for a picture and a
- * folder, a tolerance with a baseline, two empty folders, or if only one side is a recording without frames. */
+ * folder, a tolerance with a baseline, or two empty folders. Also return false if only one side is a recording
+ * without frames. */
 bool diff_check(const diff_side *a, const diff_side *b, const diff_options *options, octreel_error *error);
 
-/* Compare b with the reference a, on all cores. Files with equal bytes are not decoded. Other pairs are read a few rows
- * at a time; whole pictures are in memory only for --antialias and for pictures that are interlaced or have 16 bits a
- * sample. Both sides and the lists of the options must outlive the result. Return false with an error if diff_check()
- * fails or memory runs out. */
+/* Compare the frames of b with the reference a, on all cores. Files with equal bytes are not decoded. Other pairs
+ * are read a few rows at a time. Whole pictures are in memory only for --antialias, and if a picture is interlaced
+ * or has 16 bits a sample. Both sides and the lists in the options must outlive the result. Return false with an
+ * error if diff_check() fails or memory runs out. */
 bool diff_run(const diff_side *a, const diff_side *b, const diff_options *options, diff_result *result,
               octreel_error *error);
 void diff_release(diff_result *result);
@@ -88,22 +89,22 @@ void diff_release(diff_result *result);
 /* Count the findings of all pairs and update the verdict. */
 void diff_count(diff_result *result);
 
-/* Set the finding of a pair with two frames by their pixels, or by digests if one side is a baseline. */
+/* Compare the two frames of a pair and set the finding. Compare pixels or, if one side is a baseline, digests. */
 void compare_pixels(diff_pair *pair, const diff_options *options);
 
-/* The tolerance for one pair: that of the options and the pair's mask. Return false if memory runs out; release it in
- * any case. */
+/* Set *tolerance to the tolerance of the options together with the mask of one pair. Return false if memory runs
+ * out. Release the tolerance in any case. */
 bool pair_tolerance(const diff_pair *pair, const diff_options *options, image_tolerance *tolerance);
 void pair_tolerance_release(image_tolerance *tolerance);
 
-/* The name of a pair: that of its frame or, if there is none, of its reference. */
+/* Return the name of a pair: the name of its frame or, if the frame is missing, of its reference. */
 const char *diff_pair_name(const diff_pair *pair);
 
-/* The tick in the name of a pair; DIFF_NO_TICK for other names than those of a recording's frames. */
+/* Return the tick in the name of a pair. Return DIFF_NO_TICK if the name is not the name of a recording's frame. */
 #define DIFF_NO_TICK UINT64_MAX
 uint64_t diff_pair_tick(const diff_pair *pair);
 
-/* The pair with this name, or null. */
+/* Return the pair with this name, or null. */
 const diff_pair *diff_find(const diff_result *result, const char *name);
 
 #endif

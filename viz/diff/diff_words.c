@@ -32,7 +32,8 @@ static void print_forgiven(FILE *out, const image_difference *d)
         fprintf(out, ", %" PRIu64 " more in ignored areas", d->ignored);
 }
 
-/* Print the largest difference and where it is: of the pixels beyond the tolerance or, if there are none, of all. */
+/* Print the largest difference and its position. If pixels differ beyond the tolerance, take the largest difference
+ * among them, else among all pixels. */
 static void print_worst(FILE *out, const image_difference *d)
 {
     const image_tally *tally = d->counted.pixels ? &d->counted : &d->unlike;
@@ -146,7 +147,7 @@ void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdi
 
 /* ---- The tolerance ------------------------------------------------------------------------------------------- */
 
-/* Print one item of a list, after "forgiven: " or a comma. */
+/* Print one item of a list. The text before it is "forgiven: " for the first item and a comma for others. */
 static void print_item(FILE *out, bool *first, const char *format, ...)
 {
     va_list arguments;
@@ -165,7 +166,7 @@ static bool any_transparent(const diff_result *result)
     return false;
 }
 
-/* Whether a rectangle lies outside of all frames, which is probably a mistake of the user. */
+/* Return whether a rectangle lies outside of all frames. The user probably mistyped such a rectangle. */
 static bool is_outside(const image_rectangle *r, const diff_result *result)
 {
     bool compared = false;

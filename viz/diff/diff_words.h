@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* diff_words.h - prints the result of a comparison for people, in lines without their newlines. */
+/* diff_words.h - prints the result of a comparison for people. Each function prints one line without its newline. */
 #ifndef DIFF_WORDS_H
 #define DIFF_WORDS_H
 
@@ -7,29 +7,33 @@
 
 #include <stdio.h>
 
-/* "same", "different" or "trouble". */
+/* Return "same", "different" or "trouble". */
 const char *diff_verdict_name(diff_verdict verdict);
 
-/* Print the verdict and the counts. The verdict may be worse than that of the result, because explaining may fail. */
+/* Print the verdict and the counts. The argument `verdict` may be worse than the verdict of the result, because
+ * explaining the differences may fail. */
 void diff_print_verdict(FILE *out, const diff_result *result, diff_verdict verdict);
 
-/* Print the tolerance, or that there is none; the background of transparent pixels; and ignored colour spaces. */
+/* Print the tolerance, or that no tolerance is set. Also print the background of transparent pixels and whether
+ * color spaces were ignored. */
 void diff_print_tolerance(FILE *out, const diff_result *result);
 
-/* Print how one pair differs: with its name, and without. */
+/* Print how the frames of a pair differ. diff_print_pair() prints the name of the pair first;
+ * diff_print_difference() does not. */
 void diff_print_pair(FILE *out, const diff_pair *pair);
 void diff_print_difference(FILE *out, const diff_pair *pair);
 
-/* A color difference rounded up to four decimals, so that the printed number works as --max-delta. */
+/* Round a color difference up to four decimals, so that the printed number works as the value of --max-delta. */
 double diff_shown_delta(double delta);
 
-/* Whether reports list pairs with this finding: all except pairs that are equal without any tolerance. */
+/* Return whether reports list pairs with this finding. They list all pairs except those that are equal without a
+ * tolerance. */
 bool diff_is_listed(diff_finding finding);
 
-/* The number of pairs that differ, without unreadable ones. */
+/* Return the number of pairs that differ. Unreadable pairs are not counted. */
 size_t diff_count_different(const diff_result *result);
 
-/* The number of pairs that differ in gamma or color profile, which is ignored. */
+/* Return the number of pairs that differ in gamma or color profile. These differences are ignored. */
 size_t diff_count_color_spaces(const diff_result *result);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* frame_list.h - reads a list of frame names, one on each line. The report page saves the frames that a person ticked
- * in such a file, accept.txt. Empty lines are ignored. */
+/* frame_list.h - reads a list of frame names, one name on each line. The report page saves such a list, accept.txt,
+ * with the frames that a person ticked. Empty lines are ignored. */
 #ifndef DIFF_FRAME_LIST_H
 #define DIFF_FRAME_LIST_H
 
@@ -11,21 +11,21 @@
 
 typedef struct listed_frame {
     const char *name;
-    size_t line; /* the line of the file; 0: the name is from the command line */
+    size_t line; /* the line number in the file; 0: from the command line */
 } listed_frame;
 
 /* Zeroed: empty. */
 typedef struct frame_list {
     listed_frame *frames; /* owned */
     size_t count, room;
-    char *text; /* the file, into which the names point; owned */
+    char *text; /* the text of the file, into which the names point; owned */
 } frame_list;
 
-/* Append a name, which must outlive the list. */
+/* Append a name. The name must outlive the list. */
 bool frame_list_add(frame_list *list, const char *name, size_t line, octreel_error *error);
 
-/* Append the names of one file, or of standard input. Return false with an error if it cannot be read or holds no name,
- * since an empty list would mean all frames. */
+/* Append the names of one file, or of standard input. Return false with an error if the file cannot be read. Also
+ * return false if it holds no name, because an empty list would mean all frames. */
 bool frame_list_read(frame_list *list, const char *path, octreel_error *error);
 void frame_list_release(frame_list *list);
 

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The path of a digest's picture, DIR/runs/01/0123456789abcdef.png; the caller frees it. */
+/* Return the path of the picture with a digest: DIR/runs/01/0123456789abcdef.png. The caller frees the path. */
 static char *path_of(const char *store, const frame_digest *digest)
 {
     const char *kind = image_digest_kind_name(digest->kind);
@@ -23,7 +23,7 @@ static char *path_of(const char *store, const frame_digest *digest)
     return path;
 }
 
-/* Whether a file is a picture with this digest; if not, the error says what is wrong. */
+/* Return whether a file is a picture with this digest. If it is not, the error says why. */
 static bool is_picture(const char *path, const frame_digest *digest, image_color background, octreel_error *error)
 {
     frame_digest found = {.kind = digest->kind};
@@ -70,7 +70,8 @@ typedef struct fetching {
     diff_result *result;
 } fetching;
 
-/* Fetch the newest variant or else any variant whose picture exists. The error is about the newest. */
+/* Return the path of the newest variant's picture or, if the store lacks it, of any other variant's picture. If the
+ * store has no picture, the error is about the newest variant. */
 static char *find_variant_picture(const fetching *f, diff_frame *frame, frame_digest *found, octreel_error *why)
 {
     octreel_error ignored;
@@ -83,8 +84,8 @@ static char *find_variant_picture(const fetching *f, diff_frame *frame, frame_di
     return path;
 }
 
-/* Compare with a fetched picture; a pair that differs by digest stays different, even if the picture changes meanwhile.
- */
+/* Compare the pixels of a pair with a fetched picture. A pair that differs by digest stays different, even if
+ * another process replaces the picture meanwhile. */
 static void compare_fetched(diff_pair *pair, const diff_options *options)
 {
     const diff_finding before = pair->finding;

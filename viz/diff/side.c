@@ -25,7 +25,7 @@ const char *diff_kind_name(diff_kind kind)
     return names[kind];
 }
 
-/* The part of a path after the last slash; "stdin" for standard input. */
+/* Return the part of a path after the last slash, or "stdin" for standard input. */
 static const char *base_name(const char *path)
 {
     return file_is_standard_stream(path) ? "stdin" : path_base_name(path);
@@ -70,8 +70,8 @@ static bool is_frame_name(const diff_side *side, const char *name)
     return name[0] != '.' && name[diff_stem_length(name)];
 }
 
-/* Whether recording.json says that there are no frames. An unreadable file is reported later, when the recording is
- * explained. */
+/* Return whether recording.json says that the recording was made without frames. If recording.json is unreadable,
+ * return false: the error is reported later, when the recording is explained. */
 static bool is_without_frames(const diff_side *side)
 {
     octreel_error ignored;
@@ -151,7 +151,8 @@ static bool check_recording_file(const diff_side *side, const char *name, const 
     return ok;
 }
 
-/* An output that does not exist yet overwrites nothing; checking this first avoids a stat for each frame. */
+/* An output file that does not exist yet overwrites nothing. This check comes first and avoids a stat() call for
+ * each frame. */
 bool diff_side_check_output(const diff_side *side, const output_file *output, octreel_error *error)
 {
     struct stat status;
