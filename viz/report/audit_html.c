@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_html.c - writes an audit as an HTML page: see audit_print.h. Charts are SVG without a script. Each point is a
- * link to the frame of its tick or, if there is none, to the page of the recording at that tick.
- */
+/* audit_html.c - writes an audit as an HTML page: see audit_print.h. Charts are SVG and need no script. Each point
+ * of a chart is a link to the frame of its tick. If the tick has no frame, the link leads to the recording's page at
+ * that tick. */
 #include "audit_page.h"
 #include "audit_print.h"
 #include "file.h"
@@ -18,15 +18,15 @@
 
 /* ---- Links -------------------------------------------------------------------------------------------------- */
 
-/* The page, and where its links lead. */
+/* The page, and the recording to which its links lead. */
 typedef struct page {
     FILE *out;
     const audit_verdict *verdict;
-    char *base;      /* the relative folder, "./../flight/"; null: there is no recording to link to */
+    char *base;      /* the relative path of the recording, such as "./../flight/"; null: no recording to link to */
     bool has_viewer; /* the recording has an index.html */
 } page;
 
-/* The relative path from one absolute folder to another. */
+/* Return the relative path from one absolute folder to another. */
 static char *relative_path(const char *from, const char *to)
 {
     size_t shared = 0;
@@ -49,8 +49,8 @@ static char *relative_path(const char *from, const char *to)
     return text_stream_end(&s, &path) ? path : NULL;
 }
 
-/* The absolute path of a folder, without ".", ".." and double slashes, which are resolved as in a browser: links in the
- * file system are not followed. Null if memory runs out or the current folder is unknown. */
+/* Return the absolute path of a folder. The parts "." and "..", and double slashes, are resolved in the text, as a
+ * browser does; symbolic links are not followed. Return null if memory runs out or the current folder is unknown. */
 static char *absolute_path(const char *path)
 {
     char here[PATH_MAX] = "";
@@ -77,7 +77,7 @@ static char *absolute_path(const char *path)
     return made;
 }
 
-/* Set where links lead. Return false if memory runs out. */
+/* Set `base` and `has_viewer` of the page. Return false if memory runs out. */
 static bool find_recording(page *p, const char *from)
 {
     if (!p->verdict->recording)
@@ -100,7 +100,8 @@ static void write_url(FILE *out, const char *path)
             fprintf(out, "%%%02X", (unsigned char)*path);
 }
 
-/* Print a text and begin a link to the frame of a tick. Return false, and print nothing, if there is no frame. */
+/* Print the text `before` and begin a link to the frame of a tick. If there is no frame, print nothing and return
+ * false. */
 static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
 {
     char name[FRAME_NAME];
@@ -113,7 +114,8 @@ static bool begin_frame_link(const page *p, uint64_t tick, const char *before)
     return true;
 }
 
-/* The same for the recording's page at a tick. */
+/* Print the text `before` and begin a link to the recording's page at a tick. If there is no page, print nothing and
+ * return false. */
 static bool begin_viewer_link(const page *p, uint64_t tick, const char *before)
 {
     if (!p->base || !p->has_viewer)
@@ -128,12 +130,12 @@ static bool begin_viewer_link(const page *p, uint64_t tick, const char *before)
 
 enum { WIDTH = 960, HEIGHT = 150, LEFT = 70, RIGHT = 20, TOP = 12, FOOT = 26 };
 
-/* A chart of one value over the ticks. */
+/* A chart of one value, the recall or the ratio, over the ticks. */
 typedef struct chart {
     const audit_kind *kind;
-    bool ratio; /* the value is the ratio of distances; false: it is the recall */
+    bool ratio; /* true: the value is the ratio of distances; false: the recall */
     double from, to;
-    double finite;       /* the largest finite value on the axis; infinite values are drawn above it, at `to` */
+    double finite;       /* the end of the axis for finite values; infinite values are drawn above it, at `to` */
     const double *limit; /* null: no limit is drawn */
 } chart;
 
@@ -147,7 +149,8 @@ static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than
     return c->ratio ? a->ratio > than->ratio : audit_tick_recall(a) < audit_tick_recall(than);
 }
 
-/* The axis ends at 1 and at the worst finite value or the limit. Infinite values get another quarter of the axis. */
+/* Lay out a chart. Its axis runs from 1 to the worst finite value or the limit. If there are infinite values, the
+ * axis is longer by a quarter. */
 static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *limits)
 {
     chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};
@@ -175,7 +178,7 @@ static double x_of(const chart *c, uint64_t tick)
     return LEFT + (last > first ? (double)(tick - first) / (double)(last - first) : 0.5) * (WIDTH - LEFT - RIGHT);
 }
 
-/* Infinite values are drawn on the upper edge. */
+/* Return the vertical position of a value. An infinite value is on the upper edge. */
 static double y_of(const chart *c, double value)
 {
     const double share = isinf(value) ? 1 : (value - c->from) / (c->to - c->from);
@@ -201,7 +204,7 @@ static void write_ticks_scale(const page *p, const chart *c)
     putc('\n', p->out);
 }
 
-/* The worst of the ticks that one point of the chart represents. */
+/* Return the worst of the ticks that one point of the chart represents. */
 static const audit_tick *worst_of(const chart *c, size_t point, size_t points)
 {
     const size_t count = c->kind->tick_count;
@@ -261,7 +264,7 @@ static void write_links(const page *p, uint64_t tick)
     fputs(frame || viewer ? ")" : "", p->out);
 }
 
-/* Print a case as a sentence, and its answer as in ticks.jsonl, with all digits. */
+/* Print a wrong answer: first as a sentence, then as the JSON of ticks.jsonl with all digits. */
 static void write_worst(const page *p, const audit_case *c, bool neighbors)
 {
     fprintf(p->out, "<li>tick %" PRIu64, c->tick);
@@ -307,7 +310,8 @@ static void write_kind(const page *p, int of)
     fputs(kind->worst_count ? "</ol>\n</section>\n" : "</section>\n", p->out);
 }
 
-/* Print the verdict, the path, the limits and, if there is no recording, that frames cannot be linked. */
+/* Print the verdict, the path and the limits. If there is no recording, also print that the page has no links to
+ * frames. */
 static void write_head(const page *p)
 {
     const audit_verdict *v = p->verdict;

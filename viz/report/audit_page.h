@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* audit_page.h - the HTML page of octreel audit, embedded by CMake: the parts before and after the contents. */
+/* audit_page.h - the HTML page of octreel audit, embedded by CMake as two strings: the part before the contents and
+ * the part after them. */
 #ifndef REPORT_AUDIT_PAGE_H
 #define REPORT_AUDIT_PAGE_H
 

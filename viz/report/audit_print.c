@@ -17,7 +17,7 @@ const char *audit_ratio_text(double ratio, char text[AUDIT_RATIO_TEXT])
     return text;
 }
 
-/* Print a share with six digits, or with as many as show that it differs from 1. */
+/* Print a share with six digits. If the share is just below 1, print as many digits as are needed to tell it from 1. */
 static const char *share_text(double share, char text[NUMBER_TEXT])
 {
     int digits = 6;
@@ -41,7 +41,7 @@ static const char *reason_words(octree_wrong_kind kind)
     return words[kind];
 }
 
-/* Print "; missing 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". */
+/* Print points: "; missing 3 at (1, 2, 3), 4 at (5, 6, 7) and 2 more". The word "missing" is `what`. */
 static void print_points(FILE *out, const char *what, const octree_point *points, size_t count)
 {
     const size_t printed = count < AUDIT_POINTS ? count : AUDIT_POINTS;
@@ -93,7 +93,7 @@ void audit_print_limits(FILE *out, const char *before, const audit_limits *limit
     fputs(after, out);
 }
 
-/* Print whether a value is within its limit; nothing if there is no limit. */
+/* Print whether a value is within its limit. If there is no limit, print nothing. */
 static void print_if_within(FILE *out, const audit_limits *limits, bool passes)
 {
     if (has_limits(limits))
@@ -215,7 +215,7 @@ static void write_points(json_writer *w, const char *key, const octree_point *po
     json_write_end_array(w);
 }
 
-/* Write the answer, which is JSON text already. */
+/* Write a wrong answer as a JSON object. Its member c->answer is JSON text already and is copied. */
 static void write_case(json_writer *w, const audit_case *c, bool neighbors)
 {
     json_write_begin_object(w);

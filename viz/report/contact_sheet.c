@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* contact_sheet.c - draws small copies of the pictures of evidence into contact.png.
  *
- * Each cell shows a picture as large as it fits. A pixel of the cell covers a rectangle of the picture: its color is
- * the mean of the rectangle for expected and actual pictures, but for the difference it is the brightest pixel. With
- * the mean, one differing pixel of a large picture would fade to black. A picture is read, drawn and
- * released before the next one, so at most one is in memory.
+ * Each cell shows a picture as large as it fits. A pixel of the cell covers a rectangle of the picture. For expected
+ * and actual pictures, the pixel has the mean color of the rectangle. For the difference, it has the color of the
+ * brightest pixel: with the mean, one differing pixel of a large picture would fade to black. Each picture is read,
+ * drawn and released before the next one, so at most one picture is in memory.
  */
 #include "contact_sheet.h"
 #include "file.h"
@@ -20,7 +20,7 @@ enum {
     CELL_WIDTH = 320,
     CELL_HEIGHT = 180,
     GAP = 12,
-    LINE = 18, /* of text */
+    LINE = 18, /* height of a line of text, in pixels */
     HEAD = GAP + LINE + GAP / 2 + LINE,
     ROW = 2 * LINE + CELL_HEIGHT + 2 * GAP,
     WIDTH = EVIDENCE_PICTURES * (CELL_WIDTH + GAP) + GAP,
@@ -40,7 +40,7 @@ static void fill_rectangle(image *sheet, int x, int y, int width, int height, im
                    (uint8_t[]){color.r, color.g, color.b}, 3);
 }
 
-/* Draw at most `most` letters of a text; a longer text ends in dots. */
+/* Draw at most `most` characters of a text. A longer text is cut and ends in dots. */
 static void draw_text(image *sheet, int x, int y, size_t most, const char *text, image_color color)
 {
     const glyph_set *face = &glyph_sets[FACE_8X16];
@@ -61,12 +61,13 @@ typedef struct patch {
     int x0, y0, x1, y1;
 } patch;
 
-/* The color of a cell's pixel: the brightest color of its rectangle, so that a single differing pixel stays visible, or
- * else the mean. */
+/* Return the color of a cell's pixel: the color of the brightest pixel of its rectangle if `brightest`, else the
+ * mean. */
 static image_color color_of(const image *picture, const patch *p, bool brightest)
 {
     const uint64_t count = (uint64_t)(p->x1 - p->x0) * (uint64_t)(p->y1 - p->y0);
-    uint64_t sum[3] = {count / 2, count / 2, count / 2}; /* so that divisions round */
+    /* Starting at half the divisor makes the divisions round to nearest. */
+    uint64_t sum[3] = {count / 2, count / 2, count / 2};
     image_color best = image_color_at(picture, p->x0, p->y0);
     for (int y = p->y0; y < p->y1; y++)
         for (int x = p->x0; x < p->x1; x++) {
@@ -81,7 +82,8 @@ static image_color color_of(const image *picture, const patch *p, bool brightest
                      : (image_color){(uint8_t)(sum[0] / count), (uint8_t)(sum[1] / count), (uint8_t)(sum[2] / count)};
 }
 
-/* The pixels [*first, *end) of a picture of `length` pixels that are drawn at pixel `at` of `across`: at least one. */
+/* Find the pixels [*first, *end) of the picture that pixel `at` of the cell covers along one axis: at least one. The
+ * picture has `length` pixels along this axis; its reduced copy has `across`. */
 static void find_source_span(int at, int across, int length, int *first, int *end)
 {
     *first = (int)((int64_t)at * length / across);
@@ -89,7 +91,7 @@ static void find_source_span(int at, int across, int length, int *first, int *en
     *end += *end == *first;
 }
 
-/* Draw a picture as large as it fits into the middle of its cell. */
+/* Draw a picture, centered in its cell and as large as it fits. */
 static void draw_picture(image *sheet, int left, int top, const image *picture, evidence_picture kind)
 {
     int width = CELL_WIDTH, height = (int)((int64_t)CELL_WIDTH * picture->height / picture->width);
@@ -112,7 +114,7 @@ static void draw_picture(image *sheet, int left, int top, const image *picture, 
 
 /* ---- Rows ---------------------------------------------------------------------------------------------------- */
 
-/* Draw one picture of a row. An unreadable picture leaves its cell empty; the other reports say why. */
+/* Draw one picture of a row. If the picture is unreadable, the cell stays empty; the other reports print the error. */
 static void draw_cell(image *sheet, const diff_report *report, size_t pair, evidence_picture kind, int left, int top)
 {
     octreel_error ignored;
@@ -139,7 +141,7 @@ static void draw_row(image *sheet, const diff_report *report, const frame_group 
 static void draw_sheet(image *sheet, const diff_report *report, size_t failing)
 {
     const char *headline = report->why->headline;
-    char line[LETTERS + 2]; /* one letter more than fits shows that the text goes on */
+    char line[LETTERS + 2]; /* room for one character too many, so that draw_text() sees that the text is cut */
     size_t row = 0;
     snprintf(line, sizeof line, "%s%s%s", report->groups->verdict, headline ? ": " : "", headline ? headline : "");
     draw_text(sheet, GAP, GAP, LETTERS, line, text_color);

@@ -15,7 +15,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-/* A file that marks a folder as evidence and says which files the next comparison removes. */
+/* The file that marks a folder as a folder of evidence. Its text says which files the next comparison removes. */
 #define MARKER "evidence.txt"
 static const char marker_beginning[] = "octreel evidence 1\n";
 static const char marker_text[] = "octreel evidence 1\n"
@@ -35,10 +35,11 @@ const char *evidence_word(evidence_picture picture)
     return words[picture];
 }
 
-/* The longest ending of a name, that of an unfinished file included. */
+/* The longest ending of an evidence file's name, including the ".part" of an unfinished file. */
 #define LONGEST_ENDING "~0123456789abcdef.difference.png.part"
 
-/* The number of bytes of a stem that fit into a file name, without cutting a UTF-8 character. */
+/* Return how many bytes of a stem fit into a file name together with LONGEST_ENDING, without cutting a UTF-8
+ * character. */
 static size_t fitting_length(const char *stem)
 {
     size_t length = NAME_MAX - (sizeof LONGEST_ENDING - 1);
@@ -47,8 +48,8 @@ static size_t fitting_length(const char *stem)
     return length;
 }
 
-/* The word is inserted before the suffix, so that different names stay different. A name that becomes too long is cut
- * and ends with a digest of the whole name. */
+/* The word is inserted before the suffix, so different frame names give different file names. A name that becomes
+ * too long is cut and ends with a digest of the whole name. */
 char *evidence_name(const char *frame, evidence_picture picture)
 {
     const size_t stem = diff_stem_length(frame), size = strlen(frame) + sizeof LONGEST_ENDING;
@@ -114,7 +115,8 @@ static bool has_marker(const char *folder)
     return size == sizeof text - 1 && memcmp(text, marker_beginning, size) == 0;
 }
 
-/* Other files in a folder of evidence stay; a folder without the marker must be empty. */
+/* Remove a file of an earlier comparison. In a folder with the marker, other files stay. A folder without the marker
+ * must be empty. */
 static bool clear_entry(const char *folder, const char *name, bool marked, octreel_error *error)
 {
     if (marked)
@@ -144,7 +146,8 @@ bool evidence_prepare(const char *folder, const diff_side *a, const diff_side *b
 
 /* ---- The files of both sides --------------------------------------------------------------------------------- */
 
-/* Only regular files and standard input are copied; others are reported as unreadable. */
+/* Return whether the file of a frame can be copied: only regular files and standard input are. Other files are
+ * reported as unreadable. */
 static bool has_file(const diff_frame *frame)
 {
     struct stat status;
@@ -167,7 +170,7 @@ static bool copy_frame(const diff_frame *frame, const diff_pair *pair, evidence_
 
 /* ---- The difference ------------------------------------------------------------------------------------------ */
 
-/* Both images and the data from which the rows of their difference are computed. */
+/* Both images of a pair, and the data from which the rows of their difference are computed. */
 typedef struct canvas {
     image images[2];
     image_tolerance tolerance;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* groups.c - groups pairs by cause and prints the sentences of reports.
  *
- * The listed pairs are sorted by key and then by index; each run of equal keys is one group, whose first pair has the
- * lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists them in the
- * order of frames. Cost: O(n log n). Names that are frames of ticks are printed as ranges of ticks.
+ * The listed pairs are sorted by key and then by index. Each run of equal keys is one group; the first pair of a group
+ * has its lowest index. A second pass numbers the groups in the order of their first pairs, so that a report lists them
+ * in the order of frames. If all names of a group are names of a recording's frames, they are printed as ranges of
+ * ticks. Cost: O(n log n).
  */
 #include "groups.h"
 #include "diff_words.h"
@@ -31,7 +32,7 @@ static void print_frame(FILE *out, const diff_pair *pair, bool ticks)
         write_escaped(out, diff_pair_name(pair), escape_nothing);
 }
 
-/* Print the names of a group's frames; with `others` without the first. */
+/* Print the names of a group's frames. With `others`, leave out the first frame. */
 static void print_frames(FILE *out, const frame_groups *g, const diff_result *result, size_t group, bool others)
 {
     const bool ticks = are_ticks(g, result, group);
@@ -57,7 +58,7 @@ static void print_frames(FILE *out, const frame_groups *g, const diff_result *re
         fprintf(out, " and %zu more", all - shown);
 }
 
-/* The text at *at; move *at behind it. */
+/* Return the zero-terminated text at *at, and move *at behind it. */
 static const char *next_text(const char **at)
 {
     const char *text = *at;
@@ -65,7 +66,7 @@ static const char *next_text(const char **at)
     return text;
 }
 
-/* Print all texts into one block of memory, each with a zero at its end. */
+/* Print all sentences into one block of memory, each terminated by a zero byte. */
 static bool print_sentences(frame_groups *g, const diff_result *result, const explanation *why)
 {
     text_stream s;
@@ -103,7 +104,7 @@ static bool print_sentences(frame_groups *g, const diff_result *result, const ex
 
 /* ---- Groups -------------------------------------------------------------------------------------------------- */
 
-/* A pair and the key by which it is sorted. */
+/* A pair, and the cause's key by which pairs are sorted. */
 typedef struct keyed_pair {
     const char *key;
     size_t pair;

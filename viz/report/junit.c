@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* junit.c - writes the frame of a JUnit XML report. */
+/* junit.c - writes the elements of JUnit XML that enclose the test cases. */
 #include "junit.h"
 
 void write_attribute(FILE *out, const char *name, const char *value)
@@ -9,7 +9,7 @@ void write_attribute(FILE *out, const char *name, const char *value)
     putc('"', out);
 }
 
-/* All cases are in one suite, so the document and the suite have the same counts. */
+/* All test cases are in one suite, so the document and the suite have the same counts. */
 void junit_begin(FILE *out, const char *tool, const char *path, size_t tests, size_t failures, size_t errors)
 {
     static const char counts[] = " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" skipped=\"0\" time=\"0\">\n";

@@ -19,33 +19,34 @@ typedef struct diff_report {
     const frame_groups *groups;
 } diff_report;
 
-/* Print the text for people: the verdict, the headline, up to report->lines groups, and the tolerance. A group has a
- * line for its first frame, one for its cause and one for its other frames. */
+/* Print the report as text for people: the verdict, the headline, up to report->lines groups, and the tolerance. A
+ * group has a line for its first frame, a line for its cause and a line for its other frames. */
 void diff_report_text(FILE *out, const diff_report *report);
 
-/* Write one JSON object on one line, with all differing frames and their groups; diff.schema.json describes it. */
+/* Write the report as one JSON object on one line. The object holds all differing frames and their groups;
+ * diff.schema.json describes it. */
 #define DIFF_REPORT_JSON_VERSION 1
 void diff_report_json(FILE *out, const diff_report *report);
 
-/* Write JUnit XML for GitHub actions, GitLab and Jenkins: a test case for each frame, because these systems track a
- * case by its name. The first case of a group has all details, the others refer to it. */
+/* Write the report as JUnit XML for GitHub actions, GitLab and Jenkins. Each frame is a test case, because these
+ * systems track test cases by name. The first case of a group has all details; the other cases refer to the first. */
 void diff_report_junit(FILE *out, const diff_report *report);
 
-/* Write GitHub workflow commands, "::error file=...,title=...::...", which annotate a change: one line for each of the
- * first groups, because GitHub shows only a few for each step. */
+/* Write GitHub workflow commands, "::error file=...,title=...::...", which GitHub shows as annotations of a pull
+ * request. Each of the first groups has one line, because GitHub shows only a few annotations for each step. */
 #define DIFF_REPORT_ANNOTATIONS 10
 void diff_report_github(FILE *out, const diff_report *report);
 
-/* Write a section of GitHub Markdown for the summary of a CI job: the verdict and a table of up to DIFF_REPORT_ROWS
- * groups. */
+/* Write the report as a section of GitHub Markdown for the summary of a CI job. The section has the verdict and a
+ * table of up to DIFF_REPORT_ROWS groups. */
 #define DIFF_REPORT_ROWS 20
 void diff_report_markdown(FILE *out, const diff_report *report);
 
-/* Write report.html into the folder of evidence: one self-contained page to look through the differences and to tick
- * frames for acceptance. It holds the first DIFF_REPORT_PAGE_FRAMES groups and their pictures, up to
- * DIFF_REPORT_PAGE_BYTES, and says what is left out. */
+/* Write report.html into the folder of evidence. It is one self-contained page on which a person looks through the
+ * differences and ticks frames for acceptance. The page holds the first DIFF_REPORT_PAGE_FRAMES groups, and pictures
+ * of up to DIFF_REPORT_PAGE_BYTES bytes. It says how much is left out. */
 #define DIFF_REPORT_PAGE_FRAMES 50
-#define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* of PNG files; more slows browsers down */
+#define DIFF_REPORT_PAGE_BYTES (UINT64_C(96) << 20) /* bytes of PNG files; more bytes slow browsers down */
 bool diff_report_page(const diff_report *report, octreel_error *error);
 
 #endif

@@ -24,7 +24,7 @@ static void write_side(json_writer *w, const char *key, const diff_side *side)
     json_write_end_object(w);
 }
 
-/* Write a comma-separated list as an array of texts. */
+/* Write a comma-separated list of layers as a JSON array of strings. */
 static void write_layers(json_writer *w, const char *layers)
 {
     char name[64];
@@ -140,7 +140,7 @@ static void write_findings(json_writer *w, const diff_report *report)
     json_write_end_array(w);
 }
 
-/* Write the names of a group's frames. Each frame is in one group only. */
+/* Write the names of a group's frames. Each frame is in exactly one group. */
 void diff_json_group(json_writer *w, const diff_report *report, size_t group)
 {
     const diff_result *result = report->result;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* report_junit.c - writes a comparison as JUnit XML: see report.h. GitLab and Jenkins show the picture of an ATTACHMENT
- * line if they find the file at its path. */
+/* report_junit.c - writes a comparison as JUnit XML: see report.h. A failure contains lines that begin with
+ * ATTACHMENT and name a picture. GitLab and Jenkins show the picture if they find the file. */
 #include "diff_words.h"
 #include "junit.h"
 #include "report.h"
@@ -13,7 +13,8 @@ static void write_xml(FILE *out, const char *before, const char *text)
     write_escaped(out, text, escape_xml);
 }
 
-/* Write why a pair fails: all details for the first pair of a group, only the first pair's name for the others. */
+/* Write why a pair fails. For the first pair of a group, write all details. For the other pairs, write only the name
+ * of the first pair. */
 static void write_message(FILE *out, const diff_report *report, size_t i)
 {
     const diff_pair *pairs = report->result->pairs;
@@ -30,7 +31,7 @@ static void write_message(FILE *out, const diff_report *report, size_t i)
         write_xml(out, ". Alike: ", group->others);
 }
 
-/* Some readers show the attribute of a failure and some its text, so both have the message. */
+/* Some readers show the message attribute of a failure and others show its text, so both contain the message. */
 static void write_failure(FILE *out, const diff_report *report, size_t i)
 {
     const diff_finding finding = report->result->pairs[i].finding;
@@ -76,7 +77,7 @@ static void write_case(FILE *out, const diff_report *report, size_t i)
     fputs("    </testcase>\n", out);
 }
 
-/* Write the only test case for recordings without frames: their ticks. */
+/* Write the only test case of recordings without frames. It is about their ticks. */
 static void write_ticks_case(FILE *out, const diff_report *report)
 {
     const char *headline = report->why->headline ? report->why->headline : "";
@@ -90,7 +91,7 @@ static void write_ticks_case(FILE *out, const diff_report *report)
     fputs("</failure>\n    </testcase>\n", out);
 }
 
-/* Write what holds for all cases: the verdict, the headline and the tolerance. */
+/* Write the output that concerns all cases: the verdict, the headline and the tolerance. */
 static void write_summary(FILE *out, const diff_report *report)
 {
     write_xml(out, "    <system-out>", report->groups->verdict);

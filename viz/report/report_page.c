@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* report_page.c - writes report.html into the folder of evidence: see report.h.
  *
- * Between the page's two halves go the facts, a line of JSON for the whole and one for each group that differs, and
- * then the pictures. They stay on the disk until they are copied, a block at a time.
+ * The facts and the pictures are inserted between the two parts of the embedded page. The facts are lines of JSON: one
+ * line for the whole comparison and one for each differing group. The pictures follow. They are copied from disk block
+ * by block, so that they are never in memory as a whole.
  */
 #include "evidence_page.h"
 #include "report_json.h"
@@ -27,7 +28,7 @@ typedef struct page {
     size_t count, left_out;
 } page;
 
-/* The first pair of the n-th group on the page. */
+/* Return the index of the first pair of the n-th group on the page. */
 static size_t first_pair(const page *p, size_t n)
 {
     return p->report->groups->groups[p->groups[n].group].first;
@@ -35,7 +36,7 @@ static size_t first_pair(const page *p, size_t n)
 
 /* ---- Contents ------------------------------------------------------------------------------------------------ */
 
-/* Unreadable pictures are left out: a browser cannot show them. */
+/* Return whether a picture is embedded in the page. Unreadable pictures are not, because a browser cannot show them. */
 static bool is_embedded(const diff_report *report, size_t i, evidence_picture picture)
 {
     return (report->evidence->pictures[i] & 1u << picture) && report->result->pairs[i].finding != FOUND_UNREADABLE;
@@ -75,8 +76,8 @@ static void choose_groups(page *p)
 
 /* ---- Facts --------------------------------------------------------------------------------------------------- */
 
-/* Write the number of differing pixels of each pair; null if they were not counted, as for pictures of different sizes.
- */
+/* Write the number of differing pixels of each pair. Write null if the pixels were not counted, for example because
+ * the pictures have different sizes. */
 static void write_curve(json_writer *w, const diff_result *result)
 {
     json_begin_array_member(w, "pixels");
@@ -98,7 +99,7 @@ static void write_curve(json_writer *w, const diff_result *result)
     json_write_end_array(w);
 }
 
-/* Write for each pair the number of its group on the page, or null. */
+/* Write, for each pair, the number of its group on the page, or null if its group is not on the page. */
 static void write_entries(json_writer *w, const page *p)
 {
     json_begin_array_member(w, "entries");
@@ -128,7 +129,7 @@ static void write_whole(json_writer *w, const page *p)
     json_write_end_line(w);
 }
 
-/* Write the names of the files beside the page. */
+/* Write the file names of the pictures that lie beside the page. */
 static void write_files(json_writer *w, const diff_report *report, size_t i)
 {
     json_begin_object_member(w, "files");
@@ -157,8 +158,8 @@ static void write_group(json_writer *w, const page *p, size_t n)
     json_write_end_line(w);
 }
 
-/* Write lines of JSON. They are built in memory, because "</" in a string would end the HTML element: "<", which occurs
- * only in strings of JSON, is escaped. */
+/* Write lines of JSON. They are built in memory first, because "</" in a string would end the enclosing HTML
+ * element. Every "<" is escaped: JSON has it only in strings. */
 static bool write_facts(const page *p, octreel_error *error)
 {
     text_stream s;
@@ -204,7 +205,7 @@ static bool write_picture(const page *p, size_t n, evidence_picture picture, oct
     return ok;
 }
 
-/* Pictures are in template elements, so that the browser decodes them only when the page shows them. */
+/* Write the pictures in template elements, so that the browser decodes a picture only when the page shows it. */
 static bool write_pictures(const page *p, octreel_error *error)
 {
     bool ok = true;
