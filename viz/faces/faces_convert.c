@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
-/* faces_convert.c - run by the build: reads console fonts (PSF, version 1 or 2, compressed or not), in the order of
- * FACE_MAP, and writes their ASCII letters as rectangles.
- *   faces_convert GLYPHS_C FONT... */
+/* faces_convert.c - writes the glyphs of console fonts as C source; the build runs it. Usage: faces_convert GLYPHS_C
+ * FONT...
+ *
+ * The fonts are PSF files, version 1 or 2, compressed or not, in the order of FACE_MAP. The program writes the glyphs
+ * of their ASCII characters as rectangles. */
 #include "glyphs.h"
 
 #include <stdio.h>
@@ -11,7 +13,8 @@
 
 enum { MOST_FACES = 16, MOST_WIDTH = 16, MOST_HEIGHT = 32, MOST_BYTES = 1 << 20, PSF2_HEADER = 32 };
 
-/* A font's file, and where its glyphs lie in it: rows of whole bytes, the highest bit at the left. */
+/* The bytes of a font file, and the place of its glyphs in them. Each row of a glyph is a whole number of bytes; the
+ * highest bit is the leftmost pixel. */
 typedef struct font {
     unsigned char bytes[MOST_BYTES];
     unsigned size, at, count, each, width, height;
@@ -78,7 +81,7 @@ static bitmap glyph_of(const font *f, unsigned letter)
     return b;
 }
 
-/* The number of set pixels from (x, y) to the right, at most `most`. */
+/* Returns the number of consecutive set pixels from (x, y) to the right, at most `most`. */
 static int run_of(const bitmap *b, int x, int y, int most)
 {
     int run = 0;
@@ -87,7 +90,7 @@ static int run_of(const bitmap *b, int x, int y, int most)
     return run;
 }
 
-/* The largest rectangle of set pixels whose top left corner is (x, y). */
+/* Returns the largest rectangle of set pixels whose top left corner is (x, y). */
 static glyph_part largest_at(const bitmap *b, int x, int y)
 {
     glyph_part best = {0};
@@ -101,7 +104,7 @@ static glyph_part largest_at(const bitmap *b, int x, int y)
     return best;
 }
 
-/* Clear the largest rectangle of set pixels and return it; its width is 0 if no pixel is set. */
+/* Find the largest rectangle of set pixels, clear its pixels and return it. Its width is 0 if no pixel is set. */
 static glyph_part take_largest(bitmap *b)
 {
     glyph_part best = {0};
@@ -116,12 +119,13 @@ static glyph_part take_largest(bitmap *b)
     return best;
 }
 
-/* A face: the size of its letters, and the number of the first part of each letter, and one after the last. */
+/* A face: the size of its glyph cells, and for each glyph the index of its first rectangle. The last entry of `first`
+ * is the number of rectangles. */
 typedef struct face {
     unsigned width, height, first[GLYPH_COUNT + 1];
 } face;
 
-/* Write the parts of the letters of a font. */
+/* Write the rectangles of all glyphs of a font. */
 static face write_parts(FILE *out, const font *f, int number)
 {
     face made = {.width = f->width, .height = f->height};
