@@ -1,20 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* box_lines.c - the set of lines on which the edges of a scene's boxes lie.
  *
- * The problem: each box has twelve edges, most of them shared by several boxes of a tree, and each needs its line: a
- * hash look-up, 1.2 million of them for 100,000 boxes in every frame. Between two frames, though, few boxes appear or
- * vanish, and the others keep their order. So the boxes of the new scene are matched with those of the last one, as
- * diff matches the lines of two files: both lists are walked side by side, and a box that is not next in the old list
- * is looked for among the MISSING_AT_MOST boxes that follow. Boxes skipped in the old list were removed; a box that is
- * not found is new. A wrong guess costs time only: the box is then removed and added again. Only removed and new boxes
- * look up lines in the hash map. Each line counts its users; lines without users stay until edges.c rebuilds the whole
+ * The problem: each box has twelve edges, and the line of each edge must be found. With one hash look-up per edge,
+ * 100,000 boxes would need 1.2 million look-ups in every frame. Between two frames, however, few boxes appear or
+ * vanish, and the other boxes keep their order.
+ *
+ * The idea: match the boxes of the new scene with the boxes of the last scene, as diff matches the lines of two files.
+ * Both lists are walked side by side. If a box is not next in the old list, it is searched among the next
+ * MISSING_AT_MOST old boxes. Old boxes that are skipped were removed; a box that is not found is new. A wrong match
+ * costs only time: the box is then removed and added again. Only removed and new boxes change lines, and only new boxes
+ * look up lines in the hash map.
+ *
+ * Each line counts the box edges on it. Lines without box edges stay in the set until edges.c rebuilds the whole
  * set. */
 #include "edges.h"
 #include "array.h"
 
 #include <string.h>
 
-/* The number of boxes in a row that can be recognized as removed. */
+/* The greatest number of consecutive old boxes that are searched for a box of the new scene. */
 #define MISSING_AT_MOST 64
 
 void box_lines_clear(box_lines *kept)
@@ -35,12 +39,12 @@ void box_lines_release(box_lines *kept)
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* Coordinates of tree planes have few bits set, all of them high; the fold moves them down before they are multiplied.
- */
+/* Coordinates of tree planes have few bits set, all of them high. Folding copies the high bits into the low bits, so
+ * that the multiplication in hash_key() spreads them. */
 static uint64_t fold_bits(double value)
 {
     uint64_t bits;
-    const double canonical = value + 0.0; /* turns -0 into 0, which compares equal */
+    const double canonical = value + 0.0; /* turns -0 into 0: equal coordinates need equal hashes */
     memcpy(&bits, &canonical, sizeof bits);
     return bits ^ bits >> 32;
 }
@@ -74,7 +78,8 @@ static uint32_t add_line(box_lines *kept, const line_key *key)
     return (uint32_t)kept->count++;
 }
 
-/* Count one more user of a line, which is added if it is new. LINE_NONE when out of memory. */
+/* Count one more box edge on a line, and add the line if it is new. Returns the line's index, or LINE_NONE when out of
+ * memory. */
 static uint32_t add_line_user(box_lines *kept, const line_key *key)
 {
     uint32_t place = hash_map_find(&kept->map, &by_key, kept->lines, key);
@@ -130,7 +135,7 @@ static bool are_boxes_equal(const scene_box *a, const scene_box *b)
            memcmp(&a->box, &b->box, sizeof a->box) == 0;
 }
 
-/* Find a box among MISSING_AT_MOST old boxes, starting with number `from`. Null: it is not among them. */
+/* Find a box among at most MISSING_AT_MOST old boxes, from index `from` on. Null if none of them is equal to it. */
 static const lined_box *find_old_box(const lined_boxes *in, size_t from, const scene_box *box)
 {
     const size_t left = in->count - from, end = from + (left < MISSING_AT_MOST ? left : MISSING_AT_MOST);
@@ -140,7 +145,8 @@ static const lined_box *find_old_box(const lined_boxes *in, size_t from, const s
     return NULL;
 }
 
-/* Add the next box of the scene: an old box, searched from number *old on, or a new one. */
+/* Add the next box of the scene. If an equal old box is found from index *old on, its lines are reused, and the old
+ * boxes before it lose their lines. */
 static bool add_box(box_lines *kept, const scene_box *box, size_t *old, bool *changed)
 {
     const lined_box *next = *old < kept->before.count ? &kept->before.items[*old] : NULL,

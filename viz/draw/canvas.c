@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* canvas.c - fills the quads of a frame, and copies the pixels of quads that did not change since the last frame. */
+/* canvas.c - fills the quads of a frame. Where the first quads are the same as in the last frame, their pixels are
+ * copied. */
 #include "fill.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Copying a picture costs about as much as filling this many quads. */
+/* Keeping a picture costs about as much as filling this many quads. */
 #define WORTH_KEEPING 256
 
 void canvas_release(canvas *c)
@@ -29,8 +30,8 @@ static size_t count_same_quads(const quad_list *a, const quad_list *b)
     return same;
 }
 
-/* True if to keep a picture of the first `same` quads, of which the first `start` are drawn already. False if that
- * saves too little, or when out of memory. */
+/* True if a picture of the first `same` quads should be kept; the first `start` of them are drawn already. False if
+ * that would save too little time, or when out of memory. */
 static bool can_keep_picture(canvas *c, size_t start, size_t same, size_t pixels)
 {
     if (same - start < WORTH_KEEPING)

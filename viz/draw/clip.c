@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
-/* clip.c - clips quads to a rectangle with the algorithm of Sutherland and Hodgman (1974): the polygon is cut with one
- * side of the rectangle after the other. Each cut walks around the corners, keeps those inside, and adds a corner where
- * an edge crosses the side.
+/* clip.c - clips quads to a rectangle with the algorithm of Sutherland and Hodgman (1974). The polygon is cut at one
+ * side of the rectangle after the other. Each cut walks around the corners, keeps the corners inside, and adds a corner
+ * where an edge crosses the side.
  *
- * Coordinates are integers of 1/256 pixel and so are new corners. GL would clip too, but in single precision, and
- * pixels would depend on the CPU. find_crossing() orders the two ends of an edge before it divides: two quads that
- * share an edge, each in its own direction, get the same new corner, so no gap opens between them. The result has up to
- * eight corners. It is split into a fan of quads around the first corner, because rasterizers take quads only. */
+ * All coordinates, also of new corners, are multiples of 1/256 pixel. GL would clip too, but in single precision, and
+ * the pixels would depend on the CPU. find_crossing() sorts the two ends of an edge before it divides. So two quads
+ * that share an edge get the same new corner, even if they list the ends in opposite order, and no gap opens between
+ * them.
+ *
+ * The result has up to eight corners. Rasterizers take only quads, so it is split into a fan of quads around its first
+ * corner. */
 #include "quads.h"
 
 /* A cut removes at least one corner of a convex polygon and adds two: 4 corners and 4 cuts give at most 8. */
@@ -34,8 +37,8 @@ static void append_corner(polygon *p, int32_t x, int32_t y)
     }
 }
 
-/* The coordinate, on the other axis, at which an edge crosses a bound; rounded. The order of the ends does not matter.
- */
+/* Returns the other coordinate of the point at which the edge from a to b crosses a bound on `axis`, rounded. Swapping
+ * a and b does not change the result. */
 static int32_t find_crossing(const int32_t a[2], const int32_t b[2], int axis, int32_t bound)
 {
     const int32_t *low = a[axis] < b[axis] ? a : b, *high = a[axis] < b[axis] ? b : a;
@@ -44,7 +47,7 @@ static int32_t find_crossing(const int32_t a[2], const int32_t b[2], int axis, i
     return low[1 - axis] + (int32_t)(doubled / whole - (doubled % whole < 0));
 }
 
-/* Cut off the part of a polygon that is below (side 1) or above (side -1) a bound on one axis. */
+/* Remove the part of a polygon whose coordinate on `axis` is less (side 1) or greater (side -1) than the bound. */
 static void clip_to_bound(polygon *p, int axis, int side, int32_t bound)
 {
     const polygon all = *p;
@@ -62,7 +65,7 @@ static void clip_to_bound(polygon *p, int axis, int side, int32_t bound)
     }
 }
 
-/* Split a polygon into quads that share its first corner; the last one may be a triangle. */
+/* Split a polygon into quads that share its first corner; the last quad may be a triangle. */
 static int split_into_quads(const polygon *p, const quad *whole, quad pieces[CLIP_PIECES])
 {
     int count = 0;

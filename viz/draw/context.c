@@ -12,7 +12,7 @@
 
 static const struct {
     const char *name;
-    context_opener *open; /* null: not built */
+    context_opener *open; /* null: this kind was not compiled in */
 } kinds[DRAW_CONTEXTS] = {
     [DRAW_AUTO] = {"auto", context_open},
 #ifdef OCTREEL_OSMESA
@@ -44,14 +44,15 @@ void draw_context_set_report(draw_context_report *function)
     report = function;
 }
 
-/* Report that another kind than the preferred one is used, unless the preferred library is not installed. */
+/* Report that `kind` is used instead of the preferred kind. No report if the preferred kind's library is not
+ * installed. */
 static void report_fallback(int kind, int preferred, const octreel_error *why)
 {
     if (report && kind != preferred && !strstr(why->text, strerror(ENOENT)))
         report(kinds[kind].name, kinds[preferred].name, why->text);
 }
 
-/* If none can be opened, the error is that of the first kind. */
+/* Open the first kind of context that can be opened. If all kinds fail, the error is that of the first kind. */
 static context *open_first_available(const renderer_choice *choice, octreel_error *error)
 {
     octreel_error *reason = error, later;
@@ -97,7 +98,8 @@ void *context_create(const context *face, size_t size, const char *const names[2
     return c;
 }
 
-/* ISO C has no cast from an object pointer to a function pointer; POSIX promises that the bits are the same. */
+/* Copy the bits of the symbol's address: ISO C has no cast from an object pointer to a function pointer, but POSIX
+ * promises that both have the same bits. */
 bool context_find_symbol(void *library, const char *name, void *function, size_t size)
 {
     void *symbol = dlsym(library, name);
@@ -114,7 +116,7 @@ static void *wait_for_lock(void *lock)
     return NULL;
 }
 
-/* True if this process can run this many more threads at the same time. */
+/* True if this process can run `wanted` more threads at the same time. */
 static bool can_start_threads(unsigned wanted)
 {
     enum { MOST = 34 };

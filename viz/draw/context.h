@@ -11,29 +11,29 @@
 /* DRAW_AUTO tries the kinds in this order. */
 typedef enum draw_context { DRAW_AUTO, DRAW_OSMESA, DRAW_EGL, DRAW_CONTEXTS } draw_context;
 
-/* "auto", "osmesa", "egl"; null from DRAW_CONTEXTS on. */
+/* Returns "auto", "osmesa" or "egl"; null if `kind` is not below DRAW_CONTEXTS. */
 const char *draw_context_name(int kind);
 
-/* True if this program was built with a kind. */
+/* True if this program was compiled with this kind of context. */
 bool draw_context_is_built(draw_context kind);
 
-/* What fills the quads of a frame. Both rasterizers give the same pixels. */
+/* The rasterizer that fills the quads of a frame. Both rasterizers give the same pixels. */
 typedef enum draw_fill {
     DRAW_FILL_INTEGERS, /* the integer rasterizer; GL is never loaded */
-    DRAW_FILL_CHECKED,  /* the integer rasterizer; GL is loaded at the first renderer_redraw_with_gl() */
+    DRAW_FILL_CHECKED,  /* the integer rasterizer; the first renderer_redraw_with_gl() loads GL */
     DRAW_FILL_GL,
     DRAW_FILLS
 } draw_fill;
 
-/* How to draw. All zero: with the integer rasterizer alone. */
+/* How to draw. All zero: with the integer rasterizer, without GL. */
 typedef struct renderer_choice {
-    draw_context context; /* which GL, where GL is loaded */
+    draw_context context; /* the kind of GL context, if GL is loaded */
     draw_fill fill;
-    bool any_renderer; /* draw with GL, whatever `fill` is, and accept drivers other than llvmpipe: a graphics card */
+    bool any_renderer; /* draw with GL, whatever `fill` is, and accept any driver, such as a graphics card's */
 } renderer_choice;
 
-/* Called when DRAW_AUTO opens context `name` because `instead_of`, which is installed, cannot be opened; `why` is the
- * reason. Each process has one such function. Null, the default: no report. */
+/* Called when DRAW_AUTO opens context `name` although context `instead_of`, which is installed, comes first; `why` says
+ * why `instead_of` cannot be opened. The function is global to the process. Null, the default: no report. */
 typedef void draw_context_report(const char *name, const char *instead_of, const char *why);
 void draw_context_set_report(draw_context_report *report);
 
@@ -41,40 +41,41 @@ void draw_context_set_report(draw_context_report *report);
 
 typedef void (*context_function)(void);
 
-/* What all kinds have in common: the first member of the struct of each kind. */
+/* The members that all kinds of contexts have. It is the first member of the struct of each kind. */
 typedef struct context context;
 struct context {
     const char *name;
     void *library; /* set by context_create() */
 
-    /* Make the context current, even if its library says that it is: contexts of different kinds share Mesa's current
-     * context, so a library may not know that another one changed it. */
+    /* Make the context current, even if its library reports that it is current already: contexts of different kinds
+     * share Mesa's current context, so a library may not notice that another library changed it. */
     bool (*make_current)(context *c);
 
-    /* Look up a GL function in this context's own library, since two GL libraries in one process export the same
-     * symbols. Null: the library does not have it. */
+    /* Look up a GL function in this context's own library, because two GL libraries in one process export the same
+     * symbols. Null if the library does not have the function. */
     context_function (*find_function)(const context *c, const char *name);
 
     void (*close)(context *c);
 };
 
-/* Set LP_NUM_THREADS=0, which makes llvmpipe draw without threads of its own, where this process cannot start as many
- * threads as llvmpipe uses: it would wait forever for a thread that did not start. The pixels are the same. */
+/* Set LP_NUM_THREADS=0 if this process cannot start as many threads as llvmpipe uses. llvmpipe then draws in the
+ * calling thread, with the same pixels. Otherwise it would wait forever for a thread that did not start. */
 void context_limit_threads(void);
 
 /* Open a context and make it current. Null with an error. */
 typedef context *context_opener(const renderer_choice *choice, octreel_error *error);
 context_opener context_osmesa_open, context_egl_open;
 
-/* Opens the kind that is chosen; under DRAW_AUTO, the first kind that can be opened. */
+/* Opens a context of the kind in choice->context; for DRAW_AUTO, of the first kind that can be opened. */
 context_opener context_open;
 
-/* Load a library by either of two names, and allocate a context of `size` bytes: a copy of `face`, then zeros. Null
- * with an error, which begins with `sentence` if the library cannot be loaded. */
+/* Load a library, which has two possible file names, and allocate a context of `size` bytes: a copy of `face`, then
+ * zeros. Null with an error; if the library cannot be loaded, the error begins with `sentence`. */
 void *context_create(const context *face, size_t size, const char *const names[2], const char *sentence,
                      octreel_error *error);
 
-/* Look up a function of a library and write it to *function, a function pointer of `size` bytes. */
+/* Look up a function of a library and write its address to *function, a function pointer of `size` bytes. False if the
+ * library does not have it. */
 bool context_find_symbol(void *library, const char *name, void *function, size_t size);
 
 #endif

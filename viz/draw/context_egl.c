@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* context_egl.c - an EGL context without a display, surface or configuration. It draws off-screen with versions of Mesa
- * that no longer have OSMesa (25.1 and later). EGL prefers graphics cards, so the software device is requested where
- * devices can be listed. The library is loaded at run time. */
+ * that no longer have OSMesa (25.1 and later).
+ *
+ * EGL prefers graphics cards, so the software device is requested if EGL can list devices. The library is loaded at run
+ * time. */
 #include "context.h"
 
 #include <EGL/egl.h>
@@ -42,7 +44,7 @@ static bool contains(const char *list, const char *word)
     return list && strstr(list, word);
 }
 
-/* The device that draws with the CPU. Null: devices cannot be listed, or there is none. */
+/* Returns the device that draws with the CPU. Null if EGL cannot list devices or none of them draws with the CPU. */
 static EGLDeviceEXT find_software_device(const egl *egl)
 {
     const PFNEGLQUERYDEVICESEXTPROC list = (PFNEGLQUERYDEVICESEXTPROC)egl->GetProcAddress("eglQueryDevicesEXT");
@@ -59,7 +61,7 @@ static EGLDeviceEXT find_software_device(const egl *egl)
     return NULL;
 }
 
-/* Initialize the display of the software device, or else the display without a window system. */
+/* Initialize the display of the software device; if there is none, the display without a window system. */
 static EGLDisplay open_display(const egl *egl, bool any_renderer)
 {
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get =
@@ -72,8 +74,8 @@ static EGLDisplay open_display(const egl *egl, bool any_renderer)
     return display && egl->Initialize(display, NULL, NULL) ? display : EGL_NO_DISPLAY;
 }
 
-/* Releases the context first: EGL does nothing for a context that it believes current, even if another library has
- * made its own context current since. */
+/* Releases the context before making it current: EGL ignores the call for a context that it believes to be current,
+ * even if another library has made a different context current. */
 static bool make_current(context *face)
 {
     const egl_context *c = (const egl_context *)face;
@@ -88,7 +90,7 @@ static context_function find_function(const context *face, const char *name)
     return ((const egl_context *)face)->egl.GetProcAddress(name);
 }
 
-/* Keeps the display, which all contexts of the process share. */
+/* Does not terminate the display, because all contexts of the process share it. */
 static void close_context(context *face)
 {
     egl_context *c = (egl_context *)face;

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* context_osmesa.c - Mesa's off-screen context. The library is loaded at run time, so that the program starts without
- * it.
- */
+/* context_osmesa.c - Mesa's off-screen context. The library is loaded at run time, so that the program also starts on
+ * machines without it. */
 #include "context.h"
 
 #include <GL/osmesa.h>
 #include <stdlib.h>
 
-/* Octreel draws into a framebuffer object, but OSMesa requires a buffer as well; a tiny one will do. */
+/* The side of OSMesa's own buffer, in pixels. OSMesa requires a buffer, but Octreel draws into a framebuffer object. */
 #define OWN_SIDE 4
 
 typedef struct osmesa_context {

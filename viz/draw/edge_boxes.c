@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* edge_boxes.c - finds the boxes that share a merged edge at a sample of the picture.
  *
- * The problem: edges.c merges the edges of many boxes into one segment, which is drawn as one stroke, but `octreel
- * pick` must name the boxes at a pixel. Keeping every box of every merged edge would cost memory in every frame, for a
- * question that is rarely asked. So the question is answered backwards: from the sample to a coordinate on the line,
- * and from there to the box edges that contain it, which a binary search finds among all box edges sorted by line.
+ * The problem: edges.c merges the edges of many boxes into one segment, which is drawn as one stroke. `octreel pick`
+ * must nevertheless name the boxes at a pixel. Listing the boxes of every merged edge would cost memory in every frame,
+ * although `pick` is rare.
  *
- * From sample to line: a column (or row) of the picture is a plane through the eye. The distances of the two ends of
- * the segment from this plane have a ratio, and the plane cuts the segment in that ratio. This is exact under
- * perspective, where equal steps on the line are not equal steps in the picture. */
+ * The idea: compute backwards from the sample to a coordinate on the line. Then find the box edges that contain this
+ * coordinate, by a binary search among all box edges sorted by line.
+ *
+ * From sample to line: a column (or row) of the picture is a plane through the eye. The plane cuts the segment in the
+ * ratio of the distances of its two ends from the plane. This is exact under perspective, where equal steps on the line
+ * are not equal steps in the picture. */
 #include "edge_boxes.h"
 #include "project.h"
 
@@ -65,13 +67,13 @@ void edge_boxes_release(edge_boxes *all)
     *all = (edge_boxes){0};
 }
 
-/* A merged edge as it was painted. */
+/* A merged edge and its projection into the picture. */
 typedef struct stroke {
     line_key line;
     double from, to;
-    double seen[2][3]; /* camera coordinates of the ends */
-    int across;        /* the axis of the picture along which the stroke is longer */
-    bool speck;        /* less than a sample long: every sample stands for the whole edge */
+    double seen[2][3]; /* the two ends in camera coordinates */
+    int across;        /* the axis of the picture (0: x, 1: y) along which the stroke is longer */
+    bool speck;        /* shorter than a sample: each sample of the stroke shows the whole edge */
 } stroke;
 
 static stroke project_edge_line(const scene *s, const edge *e)
@@ -99,7 +101,8 @@ static stroke project_edge_line(const scene *s, const edge *e)
     return k;
 }
 
-/* The coordinate on the line that is seen at a column or row of the picture, clamped to the edge. */
+/* Returns the world coordinate, along the line, of the point that is seen at a column or row of the picture. The result
+ * is clamped to the merged edge. */
 static double find_coordinate(const scene *s, const stroke *k, double pixel)
 {
     const camera *c = &s->camera;
@@ -113,7 +116,7 @@ static double find_coordinate(const scene *s, const stroke *k, double pixel)
     return part < 1 ? k->from * (1 - part) + k->to * part : k->to;
 }
 
-/* The index of the first box edge on a line, or where it would be inserted. */
+/* Returns the index of the first box edge on a line; if there is none, the index at which one would be inserted. */
 static size_t find_first_edge(const edge_boxes *all, const line_key *wanted)
 {
     size_t low = 0, high = all->count;
@@ -149,7 +152,7 @@ size_t edge_boxes_find_owner(const edge_boxes *all, const edge *e, int x, int y)
             (!best || find_distance_from_edge(found, at) < find_distance_from_edge(best, at)))
             best = found;
     }
-    return best->box; /* not null: a merged edge consists of edges of boxes */
+    return best->box; /* `best` is not null: a merged edge consists of edges of boxes */
 }
 
 void edge_boxes_visit_sharing(const edge_boxes *all, const edge *e, int x, int y,

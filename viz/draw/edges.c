@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /* edges.c - merges the edges of a scene's boxes into segments that do not overlap.
  *
- * The problem: in a tree most edges of boxes coincide with edges of the parent, the siblings and the neighbours.
- * Drawing each box by itself would draw the same line many times, and the last one drawn, not the shallowest, would
- * give it its colour. Comparing all pairs of edges would cost O(n^2).
+ * The problem: in a tree most edges of a box coincide with edges of its parent, siblings and neighbours. Drawing each
+ * box separately would draw the same line many times. The box drawn last, not the shallowest box, would give the line
+ * its colour. Comparing all pairs of edges would cost O(n^2).
  *
- * The idea: edges that overlap lie on the same line. box_lines.c groups them by line; coordinates are compared exactly,
- * since nodes share planes bit for bit. On its line an edge is an interval. The intervals are sorted by their start,
- * and one sweep emits, from point to point, the shallowest interval that covers it. Most intervals never reach the
- * sort: a tree's boxes come from the root down, and an edge that lies within a parent's edge is dropped at once.
+ * The idea: edges that overlap lie on the same line. box_lines.c groups the edges by line; it compares coordinates
+ * exactly, because nodes share planes bit for bit. On its line an edge is an interval. The intervals of a line are
+ * sorted by their start. One sweep then walks along the line and emits, for each part of it, the shallowest interval
+ * that covers this part. Most intervals are dropped before they are sorted: boxes come from the root down, and an edge
+ * within an edge of its parent is not visible.
  *
- * A line keeps its merged edges from frame to frame unless one of its boxes was added or removed. */
+ * A line keeps its merged edges from frame to frame until one of its boxes is added or removed. */
 #include "edges.h"
 #include "array.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The edge of a box as an interval of its line. */
+/* One edge of a box, as an interval on its line. */
 typedef struct interval {
     double from, to;
     uint64_t id;
@@ -44,7 +45,8 @@ static int compare_lines(const void *a, const void *b)
     return line_key_compare(&(*p)->key, &(*q)->key);
 }
 
-/* Merge the new lines, which are sorted, into list->order, backwards so that nothing is overwritten too early. */
+/* Merge the sorted new lines into list->order. The merge runs backwards, so that no entry is overwritten before it is
+ * read. */
 static void merge_new_lines_into_order(edge_list *list, const line *const *sorted)
 {
     const line *lines = list->boxes.lines;
@@ -82,8 +84,7 @@ static interval make_interval(const scene_box *box, unsigned axis)
         .from = box->box.min[axis], .to = box->box.max[axis], .id = box->id, .style = box->style, .depth = box->depth};
 }
 
-/* True if `by`, an earlier interval of the same line, covers this one, so that sweep_line() would emit nothing for it.
- */
+/* True if `by`, an earlier interval of the same line, covers `it`: sweep_line() would then emit no edge for `it`. */
 static bool is_covered(const interval *it, const interval *by)
 {
     if (it->from < by->from || it->to > by->to || it->depth < by->depth)
@@ -101,8 +102,8 @@ static void collect_edge(uint32_t *places, line *on, const lined_box *boxes, uin
     places[on->start + on->intervals++] = on->last = place;
 }
 
-/* Allocate one list for all changed lines, with a range for each line that has room for all of its boxes. Null when out
- * of memory. */
+/* Allocate one list for the box indices of all changed lines. Each changed line gets a range with room for all of its
+ * box edges. Null when out of memory. */
 static uint32_t *allocate_places(edge_list *list)
 {
     box_lines *from = &list->boxes;
@@ -116,7 +117,8 @@ static uint32_t *allocate_places(edge_list *list)
     return total < UINT32_MAX ? malloc((total + 1) * sizeof(uint32_t)) : NULL;
 }
 
-/* List the boxes of each changed line, as indices into from->now. Null when out of memory. */
+/* List the boxes of each changed line, as indices into from->now. Null when out of memory. The caller frees the
+ * list. */
 static uint32_t *collect_boxes(edge_list *list)
 {
     box_lines *from = &list->boxes;
@@ -141,8 +143,8 @@ static int compare_intervals(const void *a, const void *b)
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
-/* Insertion sort, since a tree's boxes come in Morton order: the intervals of a line are nearly sorted, and few move
- * far. Falls back to qsort() after 16 moves per interval. */
+/* Sort intervals by insertion: boxes come in Morton order, so that the intervals of a line are nearly sorted and few of
+ * them move far. Falls back to qsort() after 16 moves per interval. */
 static void sort_intervals(interval *line, size_t count)
 {
     enum { MOVES_OF_EACH = 16 };
@@ -161,7 +163,7 @@ static void sort_intervals(interval *line, size_t count)
     }
 }
 
-/* Fill *one with the sorted intervals of a line. */
+/* Fill *one with the sorted intervals of the line `on`. False when out of memory. */
 static bool gather_line_intervals(interval_list *one, const lined_box *boxes, const uint32_t *places, const line *on)
 {
     if (!array_grow(&one->items, on->intervals + 1, &one->room, sizeof *one->items))
@@ -175,7 +177,7 @@ static bool gather_line_intervals(interval_list *one, const lined_box *boxes, co
 
 /* ---- The sweep of a line -------------------------------------------------------------------------------------- */
 
-/* The line being swept; its merged edges begin at number `first` of *edges. */
+/* The line that is being swept. Its merged edges are those of *edges from index `first` on. */
 typedef struct sweep {
     edge_array *edges;
     const line_key *on;
@@ -183,7 +185,7 @@ typedef struct sweep {
     size_t first;
 } sweep;
 
-/* The end of the line's last merged edge. Null: it has none yet. */
+/* Returns a pointer to the end coordinate of the line's last merged edge. Null if the line has no merged edge yet. */
 static double *find_last_end(const sweep *w)
 {
     return w->edges->count > w->first ? &w->edges->items[w->edges->count - 1].ends[1][w->axis] : NULL;
@@ -203,7 +205,8 @@ static bool add_edge(const sweep *w, const interval *of, double from, double to)
     return true;
 }
 
-/* Emit [from, to] with the style of an interval: extend the last edge where it fits, else add one. */
+/* Emit [from, to] with the style of an interval: extend the last merged edge if it ends at `from` and has the same
+ * style and depth, else add an edge. False when out of memory. */
 static bool extend_or_add_edge(const sweep *w, const interval *of, double from, double to)
 {
     double *end = find_last_end(w);
@@ -214,7 +217,7 @@ static bool extend_or_add_edge(const sweep *w, const interval *of, double from, 
     return true;
 }
 
-/* The shallowest of the first `begun` intervals that has not ended at `at`. Null: all have ended. */
+/* Returns the shallowest of the first `begun` intervals that ends after `at`. Null if all of them have ended. */
 static const interval *find_shallowest(const interval *line, size_t begun, double at)
 {
     const interval *best = NULL;
@@ -224,7 +227,7 @@ static const interval *find_shallowest(const interval *line, size_t begun, doubl
     return best;
 }
 
-/* Where interval `now` ends or a shallower one begins, whichever comes first. */
+/* Returns the coordinate at which the interval `now` ends or a shallower interval begins, whichever comes first. */
 static double find_next_change(const interval *line, size_t count, size_t begun, const interval *now)
 {
     for (size_t i = begun; i < count && line[i].from < now->to; i++)
@@ -234,7 +237,7 @@ static double find_next_change(const interval *line, size_t count, size_t begun,
 }
 
 /* Sweep the intervals of one line, sorted by their start. Intervals that have ended are dropped from the front, so that
- * the cost is about the number of intervals times the depth of the tree. */
+ * the cost is about the number of intervals times the depth of the tree. False when out of memory. */
 static bool sweep_line(const sweep *w, const interval *line, size_t count)
 {
     size_t first = 0;
@@ -247,7 +250,7 @@ static bool sweep_line(const sweep *w, const interval *line, size_t count)
         if (!now) {
             const double *end = find_last_end(w);
             if (!(end && *end == at) && !add_edge(w, &line[first], at, at))
-                return false; /* adds an edge of length 0 for a box that is a single point */
+                return false; /* the edge of length 0 belongs to a box that is a single point */
             first = begun;
             at = begun < count ? line[begun].from : at;
             continue;
@@ -277,7 +280,7 @@ static bool copy_line_edges(edge_list *list, const line *of)
     return true;
 }
 
-/* In painting order, sweep the changed lines and copy the edges of the others. */
+/* Sweep the changed lines and copy the merged edges of all other lines, in painting order. False when out of memory. */
 static bool sweep_lines(edge_list *list, const uint32_t *places)
 {
     bool ok = true;
@@ -319,7 +322,7 @@ bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned end)
 {
     bool changed;
     if (list->boxes.idle > list->boxes.count / 2)
-        clear_lines(list); /* too many lines without users */
+        clear_lines(list); /* too many lines have no box edges left: rebuild the set */
     if (box_lines_update(&list->boxes, s, first, end, &changed) && (!changed || merge_lines(list)))
         return true;
     clear_lines(list);

@@ -7,18 +7,18 @@
 #include "hash_map.h"
 #include "scene.h"
 
-/* ---- box_lines.c: the set of lines in the world on which the edges of a scene's boxes lie --------------------
+/* ---- box_lines.c: the set of world lines on which the edges of a scene's boxes lie ---------------------------
  *
- * Boxes with equal lines may share edges. The set is updated from scene to scene, and lines whose boxes changed are
- * marked. */
+ * Edges on the same line may overlap. The set is updated from scene to scene. A line is marked as changed if one of its
+ * boxes was added or removed. */
 
-/* A line parallel to an axis; `u` and `v` are its coordinates on the two other axes. */
+/* A line parallel to one axis; `u` and `v` are its coordinates on the next two axes, cyclically. */
 typedef struct line_key {
     double u, v;
-    uint32_t kind; /* layer, stroke, width and axis */
+    uint32_t kind; /* layer, stroke, width and axis, packed */
 } line_key;
 
-/* The line through a point. */
+/* The key of the line through the point `at` parallel to an axis. */
 static inline line_key line_key_through_point(scene_style style, unsigned axis, const double at[3])
 {
     return (line_key){
@@ -28,7 +28,7 @@ static inline line_key line_key_through_point(scene_style style, unsigned axis, 
     };
 }
 
-/* The line of one of the four edges of a box that are parallel to an axis. */
+/* The key of the line of a box's edge. Four edges of a box are parallel to `axis`; `corner` selects one of them. */
 static inline line_key line_key_of_box_edge(const scene_box *box, unsigned axis, unsigned corner)
 {
     double at[3] = {0};
@@ -47,7 +47,7 @@ static inline int compare_doubles(double a, double b)
     return (a > b) - (a < b);
 }
 
-/* The painting order: by kind, then by coordinates. */
+/* Compare two lines in painting order: by kind, then by coordinates. */
 static inline int line_key_compare(const line_key *a, const line_key *b)
 {
     if (a->kind != b->kind)
@@ -59,16 +59,17 @@ static inline int line_key_compare(const line_key *a, const line_key *b)
 typedef struct line {
     line_key key;
     uint32_t users;        /* the number of box edges on this line */
-    uint32_t first, count; /* its merged edges: a range of edge_list.now */
-    /* Used while edges.c merges: the number of intervals collected, the box of the last one, and the index of the first
-     * one in the list for all lines. */
+    uint32_t first, count; /* the line's merged edges: a range of edge_list.now */
+    /* Used only during a merge, in edges.c: the number of intervals collected for this line, the index of the last
+     * collected box, and where the line's range begins in the list for all lines. */
     uint32_t intervals, last, start;
 } line;
 
 #define LINE_NONE HASH_MAP_NONE
 #define BOX_EDGES 12
 
-/* A box and the lines of its edges, four along each axis. LINE_NONE where the box has no extent along that axis. */
+/* A box, and for each of its 12 edges the index of the edge's line: four edges along each axis. The index is LINE_NONE
+ * if the box has no extent along that axis. */
 typedef struct lined_box {
     scene_box box;
     uint32_t lines[BOX_EDGES];
@@ -76,23 +77,23 @@ typedef struct lined_box {
 
 typedef ARRAY(lined_box) lined_boxes;
 
-/* Zeroed: empty. */
+/* A zeroed struct is an empty set. */
 typedef struct box_lines {
-    lined_boxes now, before; /* of the last two scenes */
-    line *lines;             /* no two are equal; new lines are appended */
+    lined_boxes now, before; /* the boxes of the last two scenes */
+    line *lines;             /* all keys differ; new lines are appended */
     size_t count, room;
-    uint8_t *changed; /* for each line: whether its merged edges are out of date */
+    uint8_t *changed; /* for each line: 1 if its merged edges are out of date */
     size_t changed_room;
-    size_t idle;  /* lines without users */
-    hash_map map; /* from keys to lines */
+    size_t idle;  /* the number of lines without box edges */
+    hash_map map; /* from line keys to indices of lines */
 } box_lines;
 
 void box_lines_clear(box_lines *kept);
 void box_lines_release(box_lines *kept);
 
-/* Replace the boxes by those of a scene in the layers [first, end). Marks the lines of boxes that were added or removed
- * as changed; *changed: whether there are any. False when out of memory; the caller must then call box_lines_clear().
- * Cost: O(n) for n boxes, plus one hash look-up for each edge of an added box. */
+/* Replace the boxes by the boxes of a scene in the layers [first, end). Lines whose boxes were added or removed are
+ * marked as changed; *changed: whether there are any. False when out of memory; the caller must then call
+ * box_lines_clear(). Cost: O(n) for n boxes, plus one hash look-up for each edge of an added box. */
 bool box_lines_update(box_lines *kept, const scene *s, unsigned first, unsigned end, bool *changed);
 
 /* ---- edges.c ------------------------------------------------------------------------------------------------- */
@@ -116,10 +117,14 @@ typedef struct edge_list {
 
 void edges_release(edge_list *list);
 
-/* Merge the edges of all boxes in the layers [first, end) into list->now. Where boxes with one layer, stroke and width
- * overlap, the shallowest box gives the edge its colour; edges of one depth and colour that touch become one. Sorted by
- * layer, stroke, width and axis, then by the coordinates of their lines. False when out of memory. Cost: O(n log n) for
- * n boxes; where most boxes are those of the last call, O(n) plus the work for changed lines. */
+/* Merge the edges of all boxes in the layers [first, end) into list->now. False when out of memory.
+ *
+ * Where edges with the same layer, stroke and width overlap, the shallowest box gives the merged edge its colour.
+ * Touching edges with the same depth and colour become one edge. The result is sorted by layer, stroke, width and axis,
+ * then by the coordinates of the lines.
+ *
+ * Cost: O(n log n) for n boxes. If most boxes are the same as in the last call: O(n) plus the work for changed
+ * lines. */
 bool edges_merge(edge_list *list, const scene *s, unsigned first, unsigned end);
 
 #endif

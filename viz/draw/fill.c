@@ -2,28 +2,27 @@
 /* fill.c - the integer rasterizer: fills quads with exactly the pixels that llvmpipe gives them.
  *
  * GL's rule, which llvmpipe follows to the bit: a pixel is drawn if its centre is inside the shape. A centre on an edge
- * counts as inside if the edge is a left edge or a horizontal top edge, so that shapes that share an edge never share a
- * pixel. A quad is the triangles 0 1 2 and 0 2 3, of either winding. Corners are multiples of 1/256 pixel, so that
- * integers decide exactly what GL decides.
+ * counts as inside if the edge is a left edge or a horizontal top edge. So two shapes with a common edge never draw the
+ * same pixel. A quad is drawn as the triangles 0 1 2 and 0 2 3, in either winding. Corners are multiples of 1/256
+ * pixel, so that integers decide exactly what GL decides.
  *
- * Testing every pixel of a quad's bounding box would be slow, so an edge is walked from row to row (or column to
- * column) as Bresenham walks a line: the crossing is kept as a whole pixel and a remainder, and a step is two
- * additions. Three shapes that make up most of a picture have paths of their own, each with the same pixels as the
- * general one: axis-aligned rectangles, strips of constant width (lines), and convex quads. Other quads are split into
- * triangles. */
+ * Testing every pixel of a quad's bounding box would be slow. Instead, an edge is walked from row to row (or column to
+ * column) as Bresenham's algorithm walks a line: the crossing is a whole pixel and a remainder, and a step is two
+ * additions. Three shapes make up most of a picture and have faster code, which gives the same pixels: axis-aligned
+ * rectangles, strips of constant width (lines), and convex quads. All other quads are split into triangles. */
 #include "fill.h"
 
 #include <string.h>
 
 #define CENTRE (QUAD_SUBPIXELS / 2)
 
-/* The bytes of a part of a picture. */
+/* The pixels of a rectangle of the picture. */
 typedef struct target {
     uint8_t *bytes;
     int width, height;
 } target;
 
-/* The first pixel whose centre is at or after a coordinate, clamped to 0..size. */
+/* Returns the first pixel whose centre is at or after a coordinate, clamped to 0..size. */
 static int find_first_pixel(int32_t at, int size)
 {
     if (at <= CENTRE)
@@ -55,16 +54,16 @@ static void fill_rectangle(const target *t, const quad *q)
 
 /* ---- Edges -------------------------------------------------------------------------------------------------- */
 
-/* An edge that is walked pixel by pixel along one axis. Where it crosses the current row (or column), `at` is the first
- * pixel whose centre is at or after the crossing, and beyond / whole is the distance from the crossing to that centre.
- */
+/* An edge that is walked pixel by pixel along one axis. At the current row (or column), `at` is the first pixel whose
+ * centre is at or after the point where the edge crosses the row. The distance from this point to that centre is beyond
+ * / whole pixels. */
 typedef struct edge_walk {
     int64_t at, beyond;
-    int64_t turn, rest; /* from one row to the next the crossing moves by turn + rest / whole pixels */
+    int64_t turn, rest; /* from one row to the next, the crossing moves by turn + rest / whole pixels */
     int64_t whole;
 } edge_walk;
 
-/* Divide and round down; *rest: the remainder, from 0 to b - 1. b > 0. */
+/* Returns a / b rounded down, and in *rest the remainder, from 0 to b - 1. b must be positive. */
 static int64_t divide_rounding_down(int64_t a, int64_t b, int64_t *rest)
 {
     int64_t quotient = a / b;
@@ -76,7 +75,7 @@ static int64_t divide_rounding_down(int64_t a, int64_t b, int64_t *rest)
     return quotient;
 }
 
-/* Begin to walk the edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of a pixel of axis a. */
+/* Begin to walk the edge from (a0, b0) to (a1, b1), a0 < a1, at the centre of pixel number `pixel` on axis a. */
 static edge_walk begin_edge_walk(int32_t a0, int32_t b0, int32_t a1, int32_t b1, int pixel)
 {
     const int64_t length = (int64_t)a1 - a0, rise = (int64_t)b1 - b0;
@@ -104,7 +103,8 @@ static void advance_edge(edge_walk *w)
  * long. Every row (or column) then has the same number of pixels, and only one edge needs to be walked.
  */
 
-/* True if the sides 0-3 and 1-2 are parallel to the axis `across` and equally long: a whole number of pixels. */
+/* True if the sides 0-3 and 1-2 are parallel to the axis `across` and have the same length, a whole number of
+ * pixels. */
 static bool is_strip(const int32_t along[4], const int32_t across[4])
 {
     const int32_t width = across[3] - across[0];
@@ -112,19 +112,19 @@ static bool is_strip(const int32_t along[4], const int32_t across[4])
            width % QUAD_SUBPIXELS == 0;
 }
 
-/* An axis of the picture: the number of its pixels, and the distance in bytes from one to the next. */
+/* An axis of the picture: its number of pixels, and the distance in bytes from one pixel to the next. */
 typedef struct fill_axis {
     int size;
     ptrdiff_t step;
 } fill_axis;
 
-/* A strip, walked along its long axis: each step sets `width` pixels across. */
+/* A strip, walked along its long axis. Each step sets `width` pixels on the axis `across`. */
 typedef struct strip_walk {
     uint8_t *step;  /* pixel 0 of the current row (or column) */
-    ptrdiff_t next; /* bytes to the next one */
+    ptrdiff_t next; /* the number of bytes from this row (or column) to the next */
     fill_axis across;
     int steps, width;
-    bool lower_is_out; /* a centre on the lower edge is outside */
+    bool lower_is_out; /* a pixel whose centre is on the lower edge is outside */
     edge_walk lower;
     uint8_t color;
 } strip_walk;
@@ -152,15 +152,15 @@ static void fill_strip_unclipped(strip_walk w)
     }
 }
 
-/* True if a strip stays inside the picture on the axis across. */
+/* True if a strip stays inside the picture on the axis `across`. */
 static bool is_strip_inside(const int32_t across[4], int size)
 {
     const int64_t end = (int64_t)size * QUAD_SUBPIXELS;
     return across[0] >= 0 && across[1] >= 0 && across[2] <= end && across[3] <= end;
 }
 
-/* By GL's rule a centre on the lower edge is inside, except on a flat strip that falls to the right: there this edge is
- * neither a left nor a top edge. */
+/* By GL's rule a centre on the strip's lower edge is inside. Exception: on a flat strip that falls to the right, the
+ * lower edge is neither a left edge nor a top edge. */
 static void fill_strip(const target *t, const quad *q, bool flat)
 {
     const int32_t *along = flat ? q->x : q->y, *across = flat ? q->y : q->x;
@@ -187,13 +187,13 @@ static void fill_strip(const target *t, const quad *q, bool flat)
 
 /* The left or right side of a quad: a chain of edges, walked from row to row. */
 typedef struct side {
-    int corner; /* where the current edge ends */
-    int way;    /* the step to the next corner, modulo 4: 1 or 3 */
-    int end;    /* the row after the edge's last */
+    int corner; /* the number of the corner at which the current edge ends */
+    int way;    /* added to a corner's number, modulo 4, it gives the next corner: 1 or 3 */
+    int end;    /* the row after the last row of the current edge */
     edge_walk edge;
 } side;
 
-/* Advance to the edge that crosses the centres of a row. */
+/* Advance to the edge that crosses the centres of a row's pixels. */
 static void begin_next_edge(side *s, const quad *q, int row, int height)
 {
     int from;
@@ -205,7 +205,7 @@ static void begin_next_edge(side *s, const quad *q, int row, int height)
     s->edge = begin_edge_walk(q->y[from], q->x[from], q->y[s->corner], q->x[s->corner], row);
 }
 
-/* `turn` is the sign of the quad's area: positive when corners go clockwise on screen. */
+/* Fill a convex quad. `turn` is the sign of its area: positive if its corners go clockwise on the screen. */
 static void fill_convex(const target *t, const quad *q, int turn)
 {
     int top = 0, bottom = 0;
@@ -231,7 +231,7 @@ static void fill_convex(const target *t, const quad *q, int turn)
 
 /* ---- Any quad ----------------------------------------------------------------------------------------------- */
 
-/* The turn at corner b on the way from a to c: 1 clockwise on screen, -1 counterclockwise, 0 straight. */
+/* Returns how the path a, b, c turns at corner b: 1 clockwise on the screen, -1 counterclockwise, 0 straight. */
 static int find_corner_turn(const quad *q, int a, int b, int c)
 {
     const int64_t area = ((int64_t)q->x[b] - q->x[a]) * ((int64_t)q->y[c] - q->y[b]) -
@@ -239,7 +239,7 @@ static int find_corner_turn(const quad *q, int a, int b, int c)
     return (area > 0) - (area < 0);
 }
 
-/* Fill the triangle of corner 0, b and c: a quad with a repeated corner. */
+/* Fill the triangle of the corners 0, b and c, as a quad with a repeated corner. */
 static void fill_triangle(const target *t, const quad *q, int b, int c)
 {
     const int turn = find_corner_turn(q, 0, b, c);

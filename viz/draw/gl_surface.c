@@ -2,9 +2,9 @@
 /* gl_surface.c - fills quads with GL into a framebuffer object and reads its pixels back. GL only rasterizes.
  *
  * The framebuffer has one channel, which holds indices of colours, as PNG files do. The viewport is a square whose side
- * is a power of two: the way from 1/256 pixel to clip space and back is then exact in single precision, so that no CPU
- * can round it differently, with FMA or without. Quads lie inside it (clip.c), so that GL has nothing to clip.
- */
+ * is a power of two. The conversion from 1/256 pixel to clip space and back is then exact in single precision, and no
+ * CPU can round it differently, with or without FMA. clip.c clips all quads to this square, so that GL has nothing to
+ * clip. */
 #include "context.h"
 #include "fill.h"
 
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The GL functions that are used: result, name, parameters. */
+/* The GL functions in use: result type, name, parameters. */
 #define GL_FUNCTIONS(X)                                                                                                \
     X(const GLubyte *, GetString, (GLenum name))                                                                       \
     X(void, GetIntegerv, (GLenum name, GLint * value))                                                                 \
@@ -47,7 +47,7 @@ typedef struct gl {
 #undef GL_MEMBER
 } gl;
 
-/* Look up all functions. False with an error that names a missing one. */
+/* Look up all GL functions. False with an error that names the first missing function. */
 static bool load_gl_functions(gl *functions, const context *c, octreel_error *error)
 {
     const char *missing = NULL;
@@ -60,7 +60,7 @@ static bool load_gl_functions(gl *functions, const context *c, octreel_error *er
     return !missing || error_set(error, "the %s context has no %s", c->name, missing);
 }
 
-#define BATCH 8192 /* quads per draw call */
+#define BATCH 8192 /* the most quads in one draw call */
 
 typedef struct vertex {
     GLfloat x, y;
@@ -72,12 +72,13 @@ typedef struct gl_surface {
     context *context;
     gl gl;
     int width, height;
-    int side; /* of the viewport */
+    int side; /* the side of the viewport in samples */
     vertex vertices[BATCH * 4];
     GLuint indices[BATCH * 6];
 } gl_surface;
 
-/* Accept llvmpipe only, unless any driver will do: only llvmpipe is known to give the same pixels everywhere. */
+/* Accept only llvmpipe, or any driver if `any` is set. No other driver is known to give the same pixels on every
+ * machine. */
 static bool check_driver(gl_surface *s, bool any, octreel_error *error)
 {
     const char *name = (const char *)s->gl.GetString(GL_RENDERER);
@@ -109,7 +110,7 @@ static bool make_framebuffer(gl_surface *s, octreel_error *error)
                      s->height);
 }
 
-/* Set all GL state that frames depend on, once. */
+/* Set, once, all GL state on which frames depend. */
 static void set_gl_state(gl_surface *s)
 {
     const gl *gl = &s->gl;
@@ -140,7 +141,8 @@ static void make_vertex_indices(gl_surface *s)
         s->indices[i] = i / 6 * 4 + corners[i % 6];
 }
 
-/* Convert 1/256 pixel to clip space: exact, since coordinates have at most 23 bits and the side is a power of two. */
+/* Convert from 1/256 pixel to clip space. This is exact: coordinates have at most 23 bits, and the side is a power of
+ * two. */
 static void write_vertices(gl_surface *s, const quad *quads, size_t count)
 {
     const float scale = 2.0f / ((float)s->side * QUAD_SUBPIXELS);
@@ -172,7 +174,7 @@ static bool fill_with_gl(surface *face, const quad *quads, size_t count, rendere
 static renderer_info describe_surface(surface *face)
 {
     gl_surface *s = (gl_surface *)face;
-    s->context->make_current(s->context); /* GL describes the current context */
+    s->context->make_current(s->context); /* glGetString() describes the current context */
     return (renderer_info){
         .context = s->context->name,
         .vendor = (const char *)s->gl.GetString(GL_VENDOR),

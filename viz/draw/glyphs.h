@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: MIT */
-/* glyphs.h - the letters of each face as rectangles. glyphs.c is made by viz/faces during the build. */
+/* glyphs.h - the glyphs of each face (bitmap font) as rectangles. The build generates glyphs.c with viz/faces. */
 #ifndef DRAW_GLYPHS_H
 #define DRAW_GLYPHS_H
 
 #include <stdint.h>
 
-/* The printable ASCII characters. */
+/* The characters with glyphs: printable ASCII. */
 #define GLYPH_FIRST ' '
 #define GLYPH_COUNT 95
 
-/* A rectangle in pixels of the face, relative to the top left corner of the letter's cell. */
+/* A rectangle in pixels of the face, relative to the top left corner of the glyph's cell. */
 typedef struct glyph_part {
     uint8_t x, y, width, height;
 } glyph_part;
 
-/* Letter i consists of parts first[i] to first[i + 1] - 1, which do not overlap. */
+/* The glyph of character GLYPH_FIRST + i consists of the rectangles first[i] to first[i + 1] - 1, which do not
+ * overlap. */
 typedef struct glyph_set {
-    uint8_t width, height; /* of a cell */
+    uint8_t width, height; /* of a glyph's cell, in pixels */
     const glyph_part *parts;
     uint16_t first[GLYPH_COUNT + 1];
 } glyph_set;

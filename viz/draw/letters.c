@@ -10,8 +10,8 @@
 /* Text that begins this many pixels away from the origin cannot reach into a picture. */
 #define FARTHEST 1e6
 
-/* Move from a position to where the text beside it begins. Text of a position in the picture is not cut off at its
- * edge. */
+/* Move from the pixel of a world position to the pixel at which the text beside it begins. If the position is inside
+ * the picture, the text is moved so that the picture's edge does not cut it off. */
 static void move_beside_position(const scene *s, const scene_label *label, double pixel[2])
 {
     const int aside[2] = {s->text.width / 2, -(s->text.height / 2)};
@@ -26,8 +26,8 @@ static void move_beside_position(const scene *s, const scene_label *label, doubl
     }
 }
 
-/* Find the top left pixel of a label's text. False: its position is not visible. Text begins at a whole pixel, so that
- * it stays crisp with anti-aliasing. */
+/* Find the top left pixel of a label's text. False if the label's position is not visible. Text begins at a whole
+ * pixel, so that it stays crisp with anti-aliasing. */
 static bool find_text_position(const scene *s, const scene_label *label, int *x, int *y)
 {
     double pixel[2] = {label->at[0], label->at[1]};
@@ -47,7 +47,7 @@ static bool find_text_position(const scene *s, const scene_label *label, int *x,
 }
 
 /* Add the rectangles of a letter whose cell begins at (x, y), each enlarged by `rim` on all sides. `pixel` is the size
- * of a pixel of the face. All in subpixels. A character that the face lacks becomes a question mark. */
+ * of one pixel of the face. All lengths are in subpixels. A character without a glyph becomes a question mark. */
 static void add_letter(quad_list *list, quad *q, const glyph_set *set, char letter, int x, int y, int pixel, int rim)
 {
     const unsigned at = (unsigned char)letter - (unsigned)GLYPH_FIRST;
@@ -81,7 +81,7 @@ void add_label_letters(quad_list *list, const scene *s, const scene_label *label
     }
 }
 
-/* Find the box around a label's text. False: it is not visible. */
+/* Find the box around a label's text. False if the text is not visible. */
 static bool find_text_box(const scene *s, const scene_label *label, draw_box *box)
 {
     const lettering *letters = scene_label_lettering(s, label);

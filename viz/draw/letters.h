@@ -10,11 +10,11 @@ typedef struct draw_box {
     int x, y, width, height;
 } draw_box;
 
-/* Visit the boxes around a scene's labels and panels: all text is drawn inside them. Needs no renderer. */
+/* Visit the boxes around the text of a scene: the boxes of its labels and its panels. Needs no renderer. */
 void visit_text_boxes(const scene *s, void (*visit)(const draw_box *box, void *context), void *context);
 
-/* Add the letters of a label, at its pixel or beside its projected position. `s` is from project_scene_to_samples().
- * Private to this folder. */
+/* Add the letters of a label: at its pixel, or beside the projection of its world position. `s` is from
+ * project_scene_to_samples(). Private to this folder. */
 void add_label_letters(quad_list *list, const scene *s, const scene_label *label);
 
 #endif

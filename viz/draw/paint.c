@@ -40,7 +40,7 @@ static void paint_segment(painter *p, const scene *s, const double from[3], cons
     add_stroke(p, s, pieces, count, style, depth);
 }
 
-/* Paint the segments in world coordinates, or those in picture coordinates. */
+/* Paint the segments in picture coordinates if `in_picture` is set, else the segments in world coordinates. */
 static void paint_segments(painter *p, const scene *s, bool in_picture)
 {
     for (size_t i = 0; i < s->segments.count; i++) {
@@ -94,7 +94,7 @@ static bool is_point_marker(const scene_marker *marker)
     return marker->style.layer == LAYER_POINTS;
 }
 
-/* Reserve a zeroed byte for each sample, and a place for each marker. */
+/* Allocate p->nearest, zeroed, with one byte for each sample, and p->places, with one entry for each marker. */
 static bool reserve_points(painter *p, const scene *s)
 {
     const size_t samples = (size_t)s->view.width * (size_t)s->view.height;
@@ -105,7 +105,7 @@ static bool reserve_points(painter *p, const scene *s)
     return true;
 }
 
-/* Paint one quad for all points at a sample: that of the nearest band, which would cover the others. */
+/* Paint one quad at each sample that has points. It shows a point of the nearest band, which would cover all others. */
 static bool paint_points(painter *p, const scene *s)
 {
     if (!reserve_points(p, s))
@@ -127,12 +127,12 @@ static bool paint_points(painter *p, const scene *s)
         quads_begin_element(&p->quads, SCENE_MARKER, i);
         stroke_add_marker(&p->quads, &with, (scene_shape)marker->shape,
                           (const double[2]){at.pixel % width, (double)(at.pixel / width)}, at.band);
-        p->nearest[at.pixel] = UINT8_MAX; /* painted */
+        p->nearest[at.pixel] = UINT8_MAX; /* no further point is painted at this sample */
     }
     return true;
 }
 
-/* Clip a close-up to its part of the picture, and other scenes to clip_square_side(). */
+/* A close-up is clipped to its part of the picture, any other scene to the square of clip_square_side(). */
 static void set_clip_limits(quad_list *list, const scene *s)
 {
     const int square = clip_square_side(s->view.width, s->view.height);
@@ -176,7 +176,7 @@ bool painter_paint_scene(painter *p, const scene *picture)
         if (s->panels.items[i].style.role == ROLE_OWN)
             splats_fill_panel(&p->splats, s, &s->panels.items[i]);
     }
-    paint_segments(p, s, true); /* after panels, which they cover */
+    paint_segments(p, s, true); /* picture segments come after panels, because they cover panels */
     for (size_t i = 0; i < s->labels.count; i++) {
         quads_begin_element(&p->quads, SCENE_LABEL, i);
         add_label_letters(&p->quads, s, &s->labels.items[i]);

@@ -8,26 +8,28 @@
 #include "quads.h"
 #include "splats.h"
 
-/* Buffers that are reused from frame to frame. Zeroed: empty. */
+/* Buffers that are reused from frame to frame. A zeroed struct is empty. */
 typedef struct painter {
     quad_list quads;
-    edge_list tree;   /* edges of the world and the nodes, which often stay the same from tick to tick */
-    edge_list edges;  /* edges of boxes in other layers */
-    uint8_t *nearest; /* while points are painted, for each sample: 1 + the nearest band of its points; 0: none */
+    edge_list tree;  /* edges of the boxes of the world and of nodes, which often stay the same from tick to tick */
+    edge_list edges; /* edges of boxes in other layers */
+    uint8_t
+        *nearest; /* while points are painted, for each sample: 1 + the nearest depth band of its points; 0: no point */
     size_t nearest_room;
-    point_place *places; /* for each marker */
+    point_place *places; /* for each marker, the sample at which it is drawn */
     size_t place_room;
     splats splats;
-    size_t overflowed;       /* the number of segments of the last scene that are too far away for doubles */
-    struct painter *closeup; /* paints the scene's close-up; null until there is one */
+    size_t overflowed;       /* the number of segments of the last scene whose camera coordinates overflow a double */
+    struct painter *closeup; /* paints the scene's close-up; null until a scene has one */
 } painter;
 
 void painter_release(painter *p);
 
-/* Fill p->quads with the quads of a scene. False when out of memory. */
+/* Fill p->quads with the quads of a scene, in painter's order. False when out of memory. */
 bool painter_paint_scene(painter *p, const scene *picture);
 
-/* The merged edges of boxes. Quads of boxes have an index from 0 to painter_edge_count() - 1. */
+/* The merged edges of the scene's boxes. In quads of boxes, quad.index is the index of a merged edge, from 0 to
+ * painter_edge_count() - 1. */
 size_t painter_edge_count(const painter *p);
 const edge *painter_edge_at(const painter *p, size_t index);
 

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* pixel.c - finds the elements that are drawn at each sample, at one pixel, and by some layers.
  *
- * The idea is an old one, the "item buffer": the quads of the picture are drawn a second time, with the number of their
- * element in place of their colour. The same rasterizer draws the same quads in the same order, so each sample has the
- * same topmost element as in the picture; no second implementation of visibility could disagree with it. A framebuffer
- * has one byte per sample, so large numbers are drawn byte by byte, in up to four passes.
+ * The idea is known as "item buffer": the quads of the picture are drawn a second time, with the number of their
+ * element in place of their colour. The same rasterizer draws the same quads in the same order. So each sample has the
+ * same topmost element as in the picture, and no second implementation of visibility is needed that could disagree. A
+ * framebuffer has one byte per sample, so numbers are drawn byte by byte, in up to four passes.
  *
- * Numbers name strokes first: a merged edge is one stroke for all boxes that share it (edges.c), and edge_boxes.c then
- * finds the box that owns it at the sample. To list everything at one pixel, including what is hidden, the quads that
- * may reach the pixel are drawn one by one into a picture of that pixel alone. */
+ * Boxes need one more step. A merged edge is one stroke for all boxes that share it (edges.c). So the numbers that are
+ * drawn are numbers of strokes, and edge_boxes.c then finds the box that owns the stroke at the sample.
+ *
+ * To list everything at one pixel, including hidden elements, each quad that may reach the pixel is drawn alone into a
+ * picture of that pixel. */
 #include "pixel.h"
 #include "array.h"
 #include "edge_boxes.h"
@@ -23,21 +25,21 @@
 
 /* ---- The scene and its close-up ------------------------------------------------------------------------------ */
 
-/* A painted scene. Its strokes are its merged edges and all of its elements except boxes. They are numbered from 1, in
- * the order of elements; the strokes of a close-up follow those of the scene around it. */
+/* A painted scene. It has one stroke for each merged edge and for each element that is not a box. Strokes are numbered
+ * from 1 in the order of elements. The strokes of a close-up follow the strokes of the scene around it. */
 typedef struct source {
     const scene *scene;
     const painter *painter;
-    scene fine; /* from project_scene_to_samples() */
+    scene fine; /* a copy of `scene` from project_scene_to_samples() */
     edge_boxes boxes;
-    uint64_t strokes;         /* the number of strokes */
-    uint64_t strokes_before;  /* of a close-up: the number of strokes of the scene around it */
-    uint32_t elements_before; /* of a close-up: the number of elements of the scene around it */
-    int left, top;            /* its top left sample in the picture */
-    bool points_listed;       /* add_painted_points() is done */
+    uint64_t strokes;         /* the number of strokes of this scene */
+    uint64_t strokes_before;  /* if this is a close-up: the number of strokes of the scene around it */
+    uint32_t elements_before; /* if this is a close-up: the number of elements of the scene around it */
+    int left, top;            /* the scene's top left sample in the picture */
+    bool points_listed;       /* add_painted_points() has listed this scene's points */
 } source;
 
-/* The scene and its close-up; the second is empty if there is none. */
+/* A scene and its close-up; the second entry is empty if the scene has no close-up. */
 typedef source sources[2];
 
 static void release_sources(sources all)
@@ -46,7 +48,7 @@ static void release_sources(sources all)
         edge_boxes_release(&all[i].boxes);
 }
 
-/* False when out of memory. */
+/* Fill *from for a scene that p has painted. False when out of memory. */
 static bool open_source(source *from, const scene *s, const painter *p)
 {
     const int samples = view_samples_per_side(&s->view);
@@ -59,7 +61,7 @@ static bool open_source(source *from, const scene *s, const painter *p)
     return edge_boxes_find_all(&from->boxes, &from->fine);
 }
 
-/* Open zeroed sources, which must not be moved afterwards. False when out of memory. */
+/* Fill zeroed sources for a scene and its close-up. They must not be moved afterwards. False when out of memory. */
 static bool open_sources(sources all, const scene *s, const painter *p)
 {
     if (!open_source(&all[0], s, p) || (s->has_closeup && !open_source(&all[1], s->closeup, p->closeup)))
@@ -74,7 +76,8 @@ static source *find_quad_source(sources all, const quad *q)
     return &all[q->kind >= QUAD_IN_CLOSEUP];
 }
 
-/* The element of a quad. For boxes q->index is that of a merged edge, so the caller supplies the index of the box. */
+/* Returns the element of a quad. If the quad belongs to a box, q->index is a merged edge; the caller passes the box's
+ * index. */
 static scene_element make_quad_element(const quad *q, size_t index)
 {
     return (scene_element){(scene_kind)(q->kind % QUAD_IN_CLOSEUP), index, q->kind >= QUAD_IN_CLOSEUP};
@@ -93,7 +96,7 @@ static size_t count_samples(const scene *s)
     return (size_t)s->view.width * (size_t)s->view.height * side * side;
 }
 
-/* Fill all quads; one byte per sample. */
+/* Draw all quads of a painter into `samples`, one byte per sample. */
 static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_t *samples, octreel_error *error)
 {
     const int side = view_samples_per_side(&s->view);
@@ -101,7 +104,7 @@ static bool fill_all_quads(renderer *r, const scene *s, const painter *p, uint8_
     return renderer_fill_quads(r, p->quads.items, p->quads.count, all, samples, error);
 }
 
-/* The number of a quad's stroke: that of its element, with merged edges in place of boxes. */
+/* Returns the number of the stroke to which a quad belongs. */
 static uint64_t find_stroke_number(sources all, const quad *q)
 {
     const source *from = find_quad_source(all, q);
@@ -112,7 +115,7 @@ static uint64_t find_stroke_number(sources all, const quad *q)
            from->scene->boxes.count + painter_edge_count(from->painter);
 }
 
-/* Draw the number of the topmost stroke at each sample: one pass for each byte of the largest number. */
+/* Write to each sample the number of its topmost stroke. Draws one pass for each byte of the largest number. */
 static bool draw_stroke_numbers(renderer *r, const scene *s, painter *p, sources all, uint32_t *numbers,
                                 octreel_error *error)
 {
@@ -132,7 +135,7 @@ static bool draw_stroke_numbers(renderer *r, const scene *s, painter *p, sources
     return ok;
 }
 
-/* The number of the element to which a stroke belongs at a sample. */
+/* Returns the number of the element to which a stroke belongs at sample (x, y). */
 static uint32_t find_element_number(const source *from, uint32_t stroke, int x, int y)
 {
     const uint32_t edges = (uint32_t)painter_edge_count(from->painter);
@@ -142,7 +145,7 @@ static uint32_t find_element_number(const source *from, uint32_t stroke, int x, 
                                                y - from->top);
 }
 
-/* Replace the numbers of strokes by the numbers of elements. */
+/* Replace the number of a stroke by the number of its element, at each sample. */
 static void replace_stroke_numbers(const scene *s, const sources all, uint32_t *numbers)
 {
     const size_t width = (size_t)s->view.width * (size_t)view_samples_per_side(&s->view), size = count_samples(s);
@@ -158,7 +161,7 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
 {
     if (!renderer_fits_scene(r, s, error))
         return false;
-    painter p = {0}; /* not the renderer's own, which keeps the last frame */
+    painter p = {0}; /* not the renderer's own painter, which keeps the last frame */
     sources all = {0};
     const bool ok = ((painter_paint_scene(&p, s) && open_sources(all, s, &p)) || error_no_memory(error)) &&
                     draw_stroke_numbers(r, s, &p, all, numbers, error);
@@ -171,7 +174,7 @@ bool renderer_find_element_numbers(renderer *r, const scene *s, uint32_t *number
 
 /* ---- Layers -------------------------------------------------------------------------------------------------- */
 
-/* The layer of a quad as a bit, plus LAYER_CLOSEUP in a close-up. */
+/* Returns a bit for the layer of a quad, and the bit of LAYER_CLOSEUP if the quad is in a close-up. */
 static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q)
 {
     const scene_element element = make_quad_element(q, q->index);
@@ -181,7 +184,7 @@ static unsigned find_quad_layers(const scene *s, const painter *p, const quad *q
     return 1u << own | (element.in_closeup ? 1u << LAYER_CLOSEUP : 0);
 }
 
-/* A pixel is in the mask if any of its samples is. */
+/* Set a pixel of the mask if any of the pixel's samples is set. */
 static void shrink_mask(const view *v, const uint8_t *samples, uint8_t *mask)
 {
     const size_t side = (size_t)view_samples_per_side(v), width = (size_t)v->width;
@@ -210,7 +213,7 @@ bool renderer_find_layer_mask(renderer *r, const scene *s, unsigned layers, uint
 
 /* ---- All elements of one pixel ------------------------------------------------------------------------------- */
 
-#define MOST_SAMPLES 16 /* per pixel: 4 on each axis */
+#define MOST_SAMPLES 16 /* the most samples of a pixel: 4 on each axis */
 
 /* The state of listing the elements of one pixel. */
 typedef struct probe {
@@ -218,8 +221,8 @@ typedef struct probe {
     painter painter;
     sources sources;
     renderer_part part; /* the pixel's samples */
-    unsigned taken;     /* bits of samples whose topmost element is known */
-    const quad *quad;   /* the quad being added */
+    unsigned taken;     /* for each sample of the pixel, a bit: its topmost element is known */
+    const quad *quad;   /* the quad whose element is being listed */
     draw_covers *list;
     bool out_of_memory;
 } probe;
@@ -230,7 +233,7 @@ void draw_covers_release(draw_covers *list)
     *list = (draw_covers){0};
 }
 
-/* Append an element that has no entry yet. Null when out of memory. */
+/* Append an element to the list; the list must not hold it yet. Null when out of memory. */
 static draw_cover *append_cover(probe *p, uint32_t number)
 {
     draw_covers *list = p->list;
@@ -242,7 +245,7 @@ static draw_cover *append_cover(probe *p, uint32_t number)
     return &list->items[list->count++];
 }
 
-/* Find the entry of an element, or append one. Null when out of memory. */
+/* Find an element's entry in the list, or append one. Null when out of memory. */
 static draw_cover *find_or_append_cover(probe *p, scene_element element)
 {
     const uint32_t number = scene_element_number(p->picture, element);
@@ -252,7 +255,7 @@ static draw_cover *find_or_append_cover(probe *p, scene_element element)
     return append_cover(p, number);
 }
 
-/* Record that the quad's element, which has this index, covers a sample. Quads come from the topmost to the lowest. */
+/* Record that element `index` of the quad's kind covers a sample. Calls come from the topmost quad to the lowest. */
 static void add_covered_sample(probe *p, size_t index, int sample)
 {
     draw_cover *cover = find_or_append_cover(p, make_quad_element(p->quad, index));
@@ -266,21 +269,22 @@ static void add_covered_sample(probe *p, size_t index, int sample)
     cover->shown += shown;
 }
 
-/* Add a box that shares the edge of the quad. */
+/* Add a box that shares the edge which p->quad shows. */
 static void add_sharing_box(size_t box, void *context)
 {
     probe *p = context;
     find_or_append_cover(p, make_quad_element(p->quad, box));
 }
 
-/* Append a point without searching the list, since points may be many and none added here has an entry yet. */
+/* Append a point to the list. There is no search for an existing entry: points may be many, and the points passed to
+ * this function have none, except the point of p->quad. */
 static void append_point_cover(probe *p, size_t index)
 {
     if (index != p->quad->index)
         append_cover(p, scene_element_number(p->picture, make_quad_element(p->quad, index)));
 }
 
-/* Add the points that share the sample of a drawn point. */
+/* Add the points that are projected to the same sample as the point of p->quad. */
 static void add_sharing_points(probe *p, const source *from)
 {
     const point_place *places = from->painter->places;
@@ -289,7 +293,8 @@ static void add_sharing_points(probe *p, const source *from)
             append_point_cover(p, i);
 }
 
-/* Add the points of the pixel that view_paints_points() paints as discs, hidden ones included. */
+/* List, once per scene, the points that are painted as discs (view_paints_points()) and cover the pixel, including
+ * hidden ones. */
 static void add_painted_points(probe *p, source *from)
 {
     const splat_square samples = {p->part.x - from->left, p->part.y - from->top, p->part.width};
@@ -319,7 +324,8 @@ static bool can_reach_pixel(const quad *q, const renderer_part *part)
 {
     const int32_t left = part->x * QUAD_SUBPIXELS, right = (part->x + part->width) * QUAD_SUBPIXELS;
     const int32_t top = part->y * QUAD_SUBPIXELS, bottom = (part->y + part->height) * QUAD_SUBPIXELS;
-    int before = 0, after = 0, above = 0, below = 0; /* the number of corners on each side of the pixel */
+    int before = 0, after = 0, above = 0,
+        below = 0; /* the number of the quad's corners beyond each side of the pixel */
     for (int i = 0; i < 4; i++) {
         before += q->x[i] < left;
         after += q->x[i] > right;
@@ -329,7 +335,7 @@ static bool can_reach_pixel(const quad *q, const renderer_part *part)
     return before < 4 && after < 4 && above < 4 && below < 4;
 }
 
-/* Find the samples of the pixel that the quad covers, as bits. *ok: whether drawing succeeds. */
+/* Returns the samples of the pixel that the quad covers, as bits. *ok is set to false if drawing fails. */
 static unsigned find_covered_sample_bits(renderer *r, const probe *p, bool *ok, octreel_error *error)
 {
     uint8_t bytes[MOST_SAMPLES];
@@ -342,7 +348,8 @@ static unsigned find_covered_sample_bits(renderer *r, const probe *p, bool *ok, 
     return bits;
 }
 
-/* Add the boxes of a merged edge: its owners, which may differ from sample to sample, then the boxes that share it. */
+/* Add the boxes of a merged edge: first the box that owns the edge at each sample, then the boxes that share the
+ * edge. */
 static void add_edge_covers(probe *p, unsigned bits)
 {
     const source *from = find_quad_source(p->sources, p->quad);

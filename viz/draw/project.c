@@ -2,25 +2,26 @@
 /* project.c - projects points and segments of the world into the picture, in double precision.
  *
  * GL would transform in single precision: a scene at coordinates of 1e15 would collapse, and the last bits would depend
- * on the CPU. So positions are made relative to the camera first, where nothing cancels, and rasterizers get pixels.
+ * on the CPU. So positions are first made relative to the camera, where no digits cancel, and rasterizers receive
+ * pixels.
  *
- * A segment is clipped in camera space to the space in front of the eye, since a perspective division needs a positive
- * depth. Then it is cut at the planes between the eight bands of depth: a band has one shade and one place in painter's
- * order. Each piece is projected and clipped to the picture plus a margin, so that coordinates fit 32-bit integers.
- * Cuts are weighted means of both ends, never a + t * (b - a): with one end at 1e300 the difference would lose all
- * digits of the other end.
+ * A segment is clipped in camera space to the space in front of the eye, because a perspective division needs a
+ * positive depth. It is then cut at the planes between the eight bands of depth; a band has one shade and one place in
+ * painter's order. Each piece is projected and clipped to the picture plus a margin, so that its coordinates fit 32-bit
+ * integers. A cut is the weighted mean of both ends, never a + t * (b - a): with one end at 1e300, the difference would
+ * lose all digits of the other end.
  *
- * A scene may have many points, so project_points() handles RUN of them at once in loops without branches, which
+ * A scene may have many points. project_points() therefore handles RUN points at once, in loops without branches, which
  * compilers turn into vector instructions. */
 #include "project.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Clipped lines end this many pixels outside the picture, where their ends are not visible. */
+/* Segments are clipped at this distance in pixels outside the picture, so that their new ends are not visible. */
 #define CLIP_MARGIN 64.0
 
-/* Larger camera coordinates could overflow when they are projected. */
+/* Camera coordinates larger than this could overflow when they are projected. */
 #define FARTHEST 1e301
 
 scene project_scene_to_samples(const scene *s)
@@ -35,7 +36,8 @@ scene project_scene_to_samples(const scene *s)
     return fine;
 }
 
-/* The position of a view depth among the bands: 0 at the near side of the world, QUAD_BANDS at the far side. */
+/* Returns the position of a view depth among the bands, from 0 at the near side of the world to QUAD_BANDS at its far
+ * side. */
 static double find_band_position(const camera *c, double depth)
 {
     const double span = c->far_depth - c->near_depth;
@@ -49,8 +51,8 @@ static unsigned round_to_band(double position)
     return position < QUAD_BANDS ? (unsigned)position : QUAD_BANDS - 1;
 }
 
-/* Find the point of a segment at which a linear function is zero; at_a and at_b, of opposite sign, are its values at
- * the two ends. */
+/* Find the point of a segment at which a linear function is zero. at_a and at_b are the function's values at the two
+ * ends; they have opposite signs. */
 static void find_zero_crossing(const double a[3], const double b[3], double at_a, double at_b, double result[3])
 {
     const double whole = at_b / 2 - at_a / 2;
@@ -59,7 +61,8 @@ static void find_zero_crossing(const double a[3], const double b[3], double at_a
         result[i] = a[i] * of_a + b[i] * of_b;
 }
 
-/* Cut off the part of a segment below (side 1) or above (side -1) a bound on one axis. False when nothing is left. */
+/* Remove the part of a segment whose coordinate on `axis` is less (side 1) or greater (side -1) than the bound. False
+ * if nothing is left. */
 static bool clip_to_side(double a[3], double b[3], int axis, double side, double bound)
 {
     const double at_a = side * (a[axis] - bound), at_b = side * (b[axis] - bound);
@@ -68,7 +71,7 @@ static bool clip_to_side(double a[3], double b[3], int axis, double side, double
     if (at_a < 0 || at_b < 0) {
         double *outer = at_a < 0 ? a : b, crossing[3];
         find_zero_crossing(a, b, at_a, at_b, crossing);
-        crossing[axis] = bound; /* not the rounded zero */
+        crossing[axis] = bound; /* exactly the bound, without a rounding error */
         memcpy(outer, crossing, sizeof crossing);
     }
     return true;
@@ -80,7 +83,8 @@ static bool is_in_picture(const view *v, const double pixel[2])
            pixel[1] <= v->height + CLIP_MARGIN;
 }
 
-/* Clip a projected piece to the picture with its margin. False when nothing is left. Most pieces lie inside. */
+/* Clip a projected piece to the picture with its margin. False if nothing is left. Most pieces lie inside and stay
+ * unchanged. */
 static bool clip_to_picture(const view *v, piece *p)
 {
     if (is_in_picture(v, p->from) && is_in_picture(v, p->to))
@@ -90,14 +94,16 @@ static bool clip_to_picture(const view *v, piece *p)
     for (int axis = 0; axis < 2; axis++)
         if (!clip_to_side(a, b, axis, 1, -CLIP_MARGIN) || !clip_to_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
             return false;
-    for (int axis = 0; axis < 2; axis++) { /* rounding may move a mean of two numbers out of their interval */
+    for (int axis = 0; axis < 2;
+         axis++) { /* rounding may move a weighted mean of two numbers outside the interval between them */
         p->from[axis] = fmin(fmax(a[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
         p->to[axis] = fmin(fmax(b[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
     }
     return true;
 }
 
-/* Cut a segment in camera coordinates at the planes between bands, from the first end to the second. */
+/* Cut a segment in camera coordinates at the planes between bands. The pieces are ordered from end a to end b. Returns
+ * their number. */
 static unsigned cut_into_bands(const scene *s, const double a[3], const double b[3], piece pieces[QUAD_BANDS])
 {
     const double first = find_band_position(&s->camera, a[2]), last = find_band_position(&s->camera, b[2]);
@@ -127,7 +133,7 @@ static bool is_within_limits(double x, double y, double depth)
     return fabs(x) < FARTHEST && fabs(y) < FARTHEST && fabs(depth) < FARTHEST;
 }
 
-/* Transform a position to camera coordinates. False when they could overflow later. */
+/* Transform a position to camera coordinates. False if later computations with them could overflow. */
 static bool transform_to_camera(const scene *s, const double position[3], double seen[3])
 {
     camera_transform(&s->camera, position, seen);
@@ -183,13 +189,14 @@ bool find_pixel_and_depth(const scene *s, const double position[3], double pixel
            pixel[1] < s->view.height + CLIP_MARGIN;
 }
 
-/* Points that are projected at once. With 16, compilers unroll the loops below instead of vectorizing them. */
+/* The number of points that are projected at once. With 16, compilers unroll the loops below instead of vectorizing
+ * them. */
 #define RUN 64
 
 typedef struct point_run {
     double from_eye[3][RUN];
     double across[RUN], along[RUN], depth[RUN]; /* the three camera coordinates of camera_transform() */
-    double x[RUN], y[RUN], band[RUN];           /* pixels, and find_band_position() */
+    double x[RUN], y[RUN], band[RUN];           /* pixels, and the result of find_band_position() */
     double seen[RUN];                           /* 0: the point is not in the picture */
 } point_run;
 
@@ -201,7 +208,7 @@ static void measure_along_axis(const point_run *run, const double axis[3], doubl
     memcpy(seen, turned, sizeof turned);
 }
 
-/* The tests of is_within_limits() and is_at_visible_depth(), and whether the pixel is in the picture. */
+/* Set `seen` of each point: is_within_limits() and is_at_visible_depth() hold, and the pixel is in the picture. */
 static void find_visible_points(const scene *s, point_run *run)
 {
     const camera *c = &s->camera;
@@ -226,7 +233,7 @@ static void find_visible_points(const scene *s, point_run *run)
 
 static void project_run(const scene *s, point_run *run)
 {
-    const camera c = s->camera; /* a copy, so that the compiler knows that no write below changes it */
+    const camera c = s->camera; /* a copy: the compiler then knows that no write below changes the camera */
     for (int axis = 0; axis < 3; axis++)
         for (int i = 0; i < RUN; i++)
             run->from_eye[axis][i] = camera_to_unit_coordinate(&c, axis, run->from_eye[axis][i]) - c.eye[axis];
@@ -243,7 +250,7 @@ static void project_run(const scene *s, point_run *run)
     find_visible_points(s, run);
 }
 
-/* Fills up with the first marker where there are fewer than RUN. */
+/* Copy the positions of `count` markers. If there are fewer than RUN, the first marker fills the remaining entries. */
 static void gather_positions(const scene_marker *markers, size_t count, point_run *run)
 {
     for (size_t i = 0; i < RUN; i++) {

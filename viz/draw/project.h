@@ -5,44 +5,44 @@
 
 #include "quads.h"
 
-/* A copy of a scene whose pixels are samples: the size of the picture and the camera's zoom are multiplied by
- * view_samples_per_side(). It shares the elements of s. The functions below take such a scene. */
+/* Returns a copy of a scene whose pixels are samples: the size of the picture and the camera's zoom are multiplied by
+ * view_samples_per_side(). The copy shares the elements of `s`. The functions below take such a copy. */
 scene project_scene_to_samples(const scene *s);
 
-/* The piece of a segment in one band of depth, in pixels. */
+/* The part of a segment that lies in one band of depth, in pixels. */
 typedef struct piece {
     double from[2], to[2];
     unsigned band;
 } piece;
 
 /* Clip a segment to the space in front of the camera and to the picture with a margin, and cut it at the planes between
- * bands. Returns the number of pieces, 0 to QUAD_BANDS, ordered from the first end to the second. *overflowed: camera
- * coordinates would overflow a double; there are no pieces then. */
+ * bands. Returns the number of pieces, 0 to QUAD_BANDS; they are ordered from the first end to the second. If camera
+ * coordinates would overflow a double, there are no pieces and *overflowed is true. */
 unsigned project_segment(const scene *s, const double from[3], const double to[3], piece pieces[QUAD_BANDS],
                          bool *overflowed);
 
-/* Clip a segment in picture coordinates to the picture with the same margin; its band is 0, the nearest. False: it is
- * outside the picture. */
+/* Clip a segment in picture coordinates to the picture with the same margin. The piece is in band 0, the nearest. False
+ * if the segment is outside the picture. */
 bool clip_picture_segment(const scene *s, const double from[3], const double to[3], piece *p);
 
-/* Project a point to its pixel and view depth. False: it is behind the camera or outside the picture with the margin.
- */
+/* Project a point to its pixel and view depth. False if it is behind the camera, or outside the picture with its
+ * margin. */
 bool find_pixel_and_depth(const scene *s, const double position[3], double pixel[2], double *depth);
 
 /* The pixel at which a point is drawn. */
 typedef struct point_place {
-    uint32_t pixel; /* row by row */
+    uint32_t pixel; /* index of the pixel, counted row by row */
     uint8_t band;
-    bool seen; /* find_pixel_and_band() succeeds, and the pixel is in the picture */
+    bool seen; /* find_pixel_and_band() would succeed, and the pixel is in the picture */
 } point_place;
 
 /* Project many markers at once. */
 void project_points(const scene *s, const scene_marker *markers, size_t count, point_place *places);
 
-/* The band of a view depth. */
+/* Returns the band of a view depth, 0 for the nearest. */
 unsigned find_depth_band(const camera *c, double depth);
 
-/* Project a point to its pixel and band. False as for find_pixel_and_depth(). */
+/* Project a point to its pixel and band of depth. Returns false in the same cases as find_pixel_and_depth(). */
 bool find_pixel_and_band(const scene *s, const double position[3], double pixel[2], unsigned *band);
 
 #endif

@@ -38,7 +38,7 @@ static void append_quad(quad_list *list, const quad *q)
     added->index = list->index;
 }
 
-/* Negative coordinates become large unsigned numbers, so that one comparison tests both sides. */
+/* A negative coordinate becomes a large unsigned number, so that one comparison tests both limits. */
 static bool is_quad_within(const quad *q, const int32_t limits[2])
 {
     uint32_t x = 0, y = 0;

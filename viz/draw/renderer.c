@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* renderer.c - turns scenes into indices with the integer rasterizer or GL; gl_surface.c makes the GL calls. */
+/* renderer.c - draws scenes as indices of colours, with the integer rasterizer or with GL (gl_surface.c). */
 #include "renderer.h"
 #include "fill.h"
 #include "json_table.h"
@@ -109,7 +109,7 @@ bool renderer_draw_scene(renderer *r, const scene *s, uint8_t *indices, octreel_
     return true;
 }
 
-/* The canvas keeps the quads of the scene drawn last. */
+/* The scene drawn last is not needed again: the canvas keeps its quads. */
 bool renderer_redraw_with_gl(renderer *r, uint8_t *indices, draw_context *by, octreel_error *error)
 {
     const renderer_part all = {0, 0, r->width, r->height};

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* stroke.c - turns lines, markers and panels into quads.
  *
- * GL's own lines and points are not used: which pixels they cover differs between versions of Mesa. Here every shape is
- * a quad with corners on a grid of 1/256 sample, and for quads the rule is exact (fill.c).
+ * GL's own lines and points are not used, because versions of Mesa differ in the pixels that they cover. Here every
+ * shape is a quad with corners on a grid of 1/256 sample. For quads the rule is exact (fill.c).
  *
- * A line is a parallelogram: its two ends, widened by half its width along the axis on which it is shorter. So a line
- * that is one sample wide covers exactly one sample in each column (or row), as Bresenham's does, and the rasterizer
- * sees a strip of constant width, its fastest path for slanted shapes. Bands of depth cut a segment into pieces that
- * are shaded and ordered one by one; dashes continue from piece to piece. A segment shorter than a sample might cover
- * no sample's centre, so it becomes a square. */
+ * A line is drawn as a parallelogram: each end is widened by half the line's width, along the axis on which the line is
+ * shorter. A line of one sample's width thus covers exactly one sample in each column (or row), as with Bresenham's
+ * algorithm. The rasterizer sees a strip of constant width, its fastest kind of slanted shape.
+ *
+ * Bands of depth cut a segment into pieces, which are shaded and ordered separately; dashes continue from piece to
+ * piece. A segment shorter than a sample might cover no sample's centre, so it is drawn as a square. */
 #include "stroke.h"
 #include "layer.h"
 
@@ -26,7 +27,8 @@
 
 #define RING_CORNERS 40
 
-/* In pixels. Bold lines are at least 2 pixels wide, so that they look bold even in the smallest picture. */
+/* Returns the width of a line in pixels. Bold lines are at least 2 pixels wide, so that they look bold even in the
+ * smallest picture. */
 static int find_line_width(const scene *s, unsigned wanted)
 {
     const int width = (int)wanted * s->unit / 2, least = wanted > 1 ? 2 : 1;
@@ -43,7 +45,8 @@ pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth)
                     .depth = depth};
 }
 
-/* Layers that show the events of a tick fade only a third as much as the tree: the farthest shades would hide them. */
+/* Layers that show the events of a tick fade with distance only a third as much as the tree. In the farthest shades
+ * their elements would be hard to see. */
 static unsigned find_shade(const pencil *with, unsigned band)
 {
     if (with->style.role == ROLE_BACKGROUND)
@@ -105,7 +108,7 @@ static void add_solid_line(quad_list *list, const pencil *with, const piece *pie
         add_line(list, with, pieces[i].band, pieces[i].from, pieces[i].to);
 }
 
-/* Dashes continue from piece to piece: `phase` is the position within a dash and the gap after it. */
+/* Dashes continue from piece to piece: `phase` is the current position within the pattern of one dash and one gap. */
 static void add_dashed_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count)
 {
     const double half_unit = with->unit * with->samples / 2.0, dash = DASH * half_unit, period = dash + GAP * half_unit;
@@ -125,7 +128,7 @@ static void add_dashed_line(quad_list *list, const pencil *with, const piece *pi
     }
 }
 
-/* A head is at most half as long as its arrow. One that would be too small to see is left out. */
+/* An arrow's head is at most half as long as the arrow. A head that would be too small to see is left out. */
 static void add_arrow_head(quad_list *list, const pencil *with, const piece *first, const piece *last)
 {
     const double half_unit = with->unit * with->samples / 2.0;
@@ -179,7 +182,7 @@ static void add_diamond(quad_list *list, quad q, int left, int top, int side)
     quads_add_quad(list, &q);
 }
 
-/* The outline of a diamond. */
+/* Add the outline of a diamond as four lines. */
 static void add_diamond_outline(quad_list *list, const pencil *with, unsigned band, int left, int top, int side)
 {
     const double half = (side - with->samples) / 2.0, cx = left + side / 2.0, cy = top + side / 2.0;
@@ -195,7 +198,8 @@ static void add_cross(quad_list *list, const pencil *with, unsigned band, int x,
     add_line(list, with, band, (double[2]){left, bottom}, (double[2]){right, top});
 }
 
-/* Add the area between two regular polygons with a common centre; their first corner is above the centre, or below. */
+/* Add the area between two regular polygons with a common centre. Their first corner is above the centre if `up` is
+ * set, else below it. */
 static void add_ring(quad_list *list, quad q, const double center[2], int corners, bool up, const double radii[2])
 {
     double from[2] = {0, up ? -1 : 1}, to[2];

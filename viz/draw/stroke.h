@@ -5,13 +5,13 @@
 
 #include "project.h"
 
-/* How a line is drawn. */
+/* The style of a line or marker, and the sizes that follow from it. */
 typedef struct pencil {
     scene_style style;
-    int width;      /* of lines, in samples */
-    int unit;       /* scene.unit: the scale of marks, in pixels */
-    int samples;    /* per pixel, on each axis */
-    unsigned depth; /* of the node to which the line belongs */
+    int width;      /* the width of lines, in samples */
+    int unit;       /* scene.unit: the scale of markers and arrow heads, in pixels */
+    int samples;    /* samples per pixel, on each axis */
+    unsigned depth; /* the depth in the tree of the node to which the line belongs */
 } pencil;
 
 pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth);
@@ -19,7 +19,7 @@ pencil stroke_make_pencil(const scene *s, scene_style style, unsigned depth);
 /* Draw the pieces of one segment with its stroke. A visible segment gets at least one pixel, however short it is. */
 void stroke_add_line(quad_list *list, const pencil *with, const piece *pieces, unsigned count);
 
-/* The side of a marker in pixels. It grows with the unit, so that markers stay visible in large pictures. */
+/* Returns the side of a marker in pixels. It grows with `unit`, so that markers stay visible in large pictures. */
 static inline int stroke_marker_side(int width, int unit)
 {
     const int side = 2 * (width * unit / 2) + 1, least = unit / 2;
