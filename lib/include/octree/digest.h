@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* digest.h - a 64-bit digest for trees, scenes and pixels: the same on every machine, not for cryptography.
+/* digest.h - a 64-bit digest of trees, scenes and pixels. Equal data gives equal digests on every machine. The digest
+ * is not cryptographic.
  *
  * Start with OCTREE_DIGEST_START and add words or bytes; their order matters. Example:
  *
@@ -23,7 +24,7 @@ static inline uint64_t octree_digest_word(uint64_t digest, uint64_t word)
     return x ^ (x >> 31);
 }
 
-/* Add a double by its value: -0.0 and +0.0 give the same digest. */
+/* Add a double by its value: -0.0 and +0.0 give the same digest. Returns the new digest. */
 static inline uint64_t octree_digest_double(uint64_t digest, double value)
 {
     uint64_t bits; /* no arithmetic on doubles: it would depend on the compiler flags of the including program */
@@ -31,11 +32,12 @@ static inline uint64_t octree_digest_double(uint64_t digest, double value)
     return octree_digest_word(digest, bits << 1 ? bits : 0);
 }
 
-/* Add bytes, eight at a time as little-endian words; the last word is padded with zeros. */
+/* Add bytes, eight at a time as little-endian words; the last word is padded with zeros. Returns the new digest. */
 static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, size_t size)
 {
     const unsigned char *at = (const unsigned char *)bytes;
-    for (; size >= 8; at += 8, size -= 8) { /* compiles to one load on little-endian machines */
+    for (; size >= 8;
+         at += 8, size -= 8) { /* A compiler turns this into one load instruction on little-endian machines. */
         const uint64_t word = (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
                               (uint64_t)at[4] << 32 | (uint64_t)at[5] << 40 | (uint64_t)at[6] << 48 |
                               (uint64_t)at[7] << 56;
@@ -47,7 +49,7 @@ static inline uint64_t octree_digest_words(uint64_t digest, const void *bytes, s
     return size > 0 ? octree_digest_word(digest, rest) : digest;
 }
 
-/* Add bytes as octree_digest_words() does, then their count. */
+/* Add bytes as octree_digest_words() does, then add the number of bytes as one word. Returns the new digest. */
 static inline uint64_t octree_digest_bytes(uint64_t digest, const void *bytes, size_t size)
 {
     return octree_digest_word(octree_digest_words(digest, bytes, size), size);

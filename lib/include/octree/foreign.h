@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* foreign.h - the nodes of a foreign index: a user's own spatial index whose answers and nodes are checked.
  *
- * A kd-tree, an R-tree, a bounding volume hierarchy, an octree and a grid are all boxes with parents. A game shows
- * these nodes (octree_session.foreign, octree_input.foreign), shows which of them queries visited and pruned
+ * The nodes of a kd-tree, an R-tree, a bounding volume hierarchy, an octree or a grid are all boxes with parents. A
+ * game shows these nodes (octree_session.foreign, octree_input.foreign), shows which of them queries visited and pruned
  * (octree_query.visits), and lists what is provably wrong with them (octree_foreign_state).
  */
 #ifndef OCTREE_FOREIGN_H
@@ -14,76 +14,86 @@
 extern "C" {
 #endif
 
-/* The positions for which a foreign index promises to be right. DOUBLES: the positions of points and queries as they
- * are. FLOATS: all positions, bounds and radii rounded to the nearest float first; numbers beyond the range of floats
- * become the largest finite float. FLOATS is for an index that stores floats and computes exactly with them. An index
- * that also computes in floats errs by about 4e-7 of a distance; allow for it with octree_query.epsilon. */
+/* The positions for which a foreign index promises right answers.
+ *
+ * DOUBLES: the positions of points and queries as they are. FLOATS: all positions, bounds and radii are first rounded
+ * to the nearest float; a number beyond the range of floats becomes the largest finite float.
+ *
+ * FLOATS is for an index that stores floats and computes exactly with them. An index that also computes in floats has a
+ * relative error of about 4e-7 in its distances; octree_query.epsilon can allow this error. */
 typedef enum octree_precision { OCTREE_DOUBLES, OCTREE_FLOATS, OCTREE_PRECISIONS } octree_precision;
 
-/* "double", "float". Null for precision >= OCTREE_PRECISIONS. */
+/* The name of a precision: "double" or "float". Null for precision >= OCTREE_PRECISIONS. */
 const char *octree_precision_name(octree_precision precision);
 
-/* Borrowed ids. `ids` may be null if count is 0. */
+/* An array of ids that the caller owns. `ids` may be null if count is 0. */
 typedef struct octree_ids {
     const uint64_t *ids;
     size_t count;
 } octree_ids;
 
-/* Exclusive upper bound of node ids. JSON numbers hold such ids exactly, and pictures tell them from addresses. */
+/* Exclusive upper bound of the ids of foreign nodes: a JSON number (a double) holds every smaller integer exactly. */
 #define OCTREE_NODE_ID_LIMIT (UINT64_C(1) << 53)
 
 #define OCTREE_NODE_KIND 16
 
 /* A node of a foreign index. A node that is zero except for its id and box is a root without further data. */
 typedef struct octree_foreign_node {
-    uint64_t id;     /* unique among the nodes, below OCTREE_NODE_ID_LIMIT */
-    bool has_parent; /* false: a root. Any number of roots is allowed, as in a grid */
-    uint64_t parent; /* the id of a node anywhere in the same array */
-    octree_box box;  /* finite and closed. It may be flat, overlap others, and reach outside the world */
-    bool has_depth;  /* false: the depth is the parent's plus 1; 0 for a root */
-    int depth;       /* >= 0 */
-    bool has_points; /* the node lists the points that it holds itself; the list may be empty */
+    uint64_t id; /* unique among the nodes, below OCTREE_NODE_ID_LIMIT */
+    /* false: the node is a root. An index may have any number of roots; a grid has one for each cell */
+    bool has_parent;
+    uint64_t parent; /* the id of the parent node, which may be anywhere in the same array */
+    octree_box box;  /* finite and closed. The box may be flat, overlap other boxes, and reach outside the world */
+    bool has_depth;  /* false: the depth is the parent's depth plus 1, and 0 for a root */
+    int depth;       /* >= 0; read only if has_depth is true */
+    bool has_points; /* true: `points` lists the points in the node itself, without its descendants; the list may be
+                        empty */
     octree_ids points;
-    char kind[OCTREE_NODE_KIND]; /* a short word in printable ASCII, such as "leaf", with its final zero; may be "" */
-    octree_precision precision;  /* FLOATS: the box is compared with points and other boxes after rounding to floats */
+    char kind[OCTREE_NODE_KIND]; /* a word in printable ASCII with its final zero, such as "leaf"; may be "" */
+    /* FLOATS: points and boxes are rounded to floats before they are compared with this box */
+    octree_precision precision;
 } octree_foreign_node;
 
 /* All nodes of a foreign index. They are current from this tick until other nodes replace them. */
 typedef struct octree_foreign_tree {
     uint64_t tick;
-    const octree_foreign_node *nodes; /* in any order; null if node_count is 0: the foreign index is empty */
+    /* the nodes in any order; null if node_count is 0, which means that the foreign index is empty */
+    const octree_foreign_node *nodes;
     size_t node_count;
 } octree_foreign_tree;
 
-/* Check that nodes form a forest. The tick is not read. On failure *place, if it is not null, is the index of a wrong
- * node. Errors: NULL_ARGUMENT; BAD_SIZE (id or depth), NOT_FINITE and BAD_RANGE (box), BAD_TEXT (kind), BAD_OPTION
- * (precision), DUPLICATE (id), NOT_FOUND (parent), BAD_PARENT (the node is its own ancestor); NO_MEMORY. Cost:
- * O(n log n) time, and about 100 bytes for each node from malloc() during the call. */
+/* Check that nodes form a forest: one or more trees. tree->tick is not read. On failure *place, if `place` is not null,
+ * receives the index of a wrong node.
+ *
+ * Errors: NULL_ARGUMENT; BAD_SIZE (id or depth), NOT_FINITE and BAD_RANGE (box), BAD_TEXT (kind), BAD_OPTION
+ * (precision), DUPLICATE (id), NOT_FOUND (parent), BAD_PARENT (the node is its own ancestor); NO_MEMORY.
+ *
+ * Cost: O(n log n) time, and about 100 bytes for each node from malloc() during the call. */
 octree_status octree_foreign_check(const octree_foreign_tree *tree, size_t *place);
 
 /* What a query did with a foreign node. */
 typedef enum octree_node_visit {
-    OCTREE_NODE_VISITED, /* it examined the node */
-    OCTREE_NODE_PRUNED,  /* it skipped the node and all its descendants */
-    OCTREE_NODE_HIT,     /* it found a result in the node */
+    OCTREE_NODE_VISITED, /* the query examined the node */
+    OCTREE_NODE_PRUNED,  /* the query skipped the node and all its descendants */
+    OCTREE_NODE_HIT,     /* the query found a result in the node */
     OCTREE_NODE_VISITS
 } octree_node_visit;
 
-/* "visited", "pruned", "hit", as in session files. Null for visit >= OCTREE_NODE_VISITS. */
+/* The name of a visit in session files: "visited", "pruned" or "hit". Null for visit >= OCTREE_NODE_VISITS. */
 const char *octree_node_visit_name(octree_node_visit visit);
 
-/* What is provably wrong with a foreign node. A node holds the points that it lists. A leaf without a list, not even an
- * empty one, holds all points in its box. */
+/* How a foreign node is provably wrong. A node holds the points that it lists. A leaf for which has_points is false
+ * holds all points in its box. */
 typedef enum octree_wrong_node_kind {
-    OCTREE_NODE_OUTSIDE_PARENT, /* its box reaches outside its parent's box */
-    OCTREE_NODE_UNKNOWN_POINT,  /* it lists an id that no point has at this tick */
-    OCTREE_NODE_OUTSIDE_POINT,  /* it lists a point that is outside its box */
-    OCTREE_NODE_REPEATED_POINT, /* it lists a point more than once */
-    OCTREE_NODE_LOST_POINT,     /* no node holds a point. A player moved by keys need not be in any node */
+    OCTREE_NODE_OUTSIDE_PARENT, /* the node's box reaches outside its parent's box */
+    OCTREE_NODE_UNKNOWN_POINT,  /* the node lists an id that no point has at this tick */
+    OCTREE_NODE_OUTSIDE_POINT,  /* the node lists a point that is outside the node's box */
+    OCTREE_NODE_REPEATED_POINT, /* the node lists a point more than once */
+    OCTREE_NODE_LOST_POINT,     /* no node holds the point. The player's point is exempt if keys move it */
     OCTREE_NODE_UNKNOWN_NODE,   /* a query names a node id that does not exist */
-    OCTREE_NODE_PRUNED_POINT,   /* a query pruned it, although only it and its descendants hold a point that every right
-                                   answer contains. Between the node that holds the point and its root, the first node
-                                   that the query names counts: nothing is pruned below a node that was visited */
+    OCTREE_NODE_PRUNED_POINT, /* a query pruned the node and so lost a point: every right answer contains the point, and
+                                 no node outside the pruned ones holds it. A node counts as pruned if its nearest
+                                 ancestor, or itself, that the query names was pruned and not visited */
     OCTREE_WRONG_NODE_KINDS
 } octree_wrong_node_kind;
 
@@ -91,47 +101,50 @@ typedef enum octree_wrong_node_kind {
  * Null for kind >= OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_name(octree_wrong_node_kind kind);
 
-/* A few words, such as "its box leaves its parent's". Null for kind >= OCTREE_WRONG_NODE_KINDS. */
+/* A description of a few words, such as "its box leaves its parent's". Null for kind >= OCTREE_WRONG_NODE_KINDS. */
 const char *octree_wrong_node_words(octree_wrong_node_kind kind);
 
 typedef struct octree_wrong_node {
     octree_wrong_node_kind kind;
-    uint64_t node;  /* 0 and not meaningful for LOST_POINT */
-    uint64_t point; /* 0 and not meaningful for OUTSIDE_PARENT and UNKNOWN_NODE */
-    size_t answer;  /* UNKNOWN_NODE, PRUNED_POINT: the index of the query's answer in the tick; else 0 */
+    uint64_t node;  /* the id of the wrong node; 0 for LOST_POINT, which has no node */
+    uint64_t point; /* the id of the point; 0 for OUTSIDE_PARENT and UNKNOWN_NODE, which have no point */
+    size_t answer;  /* UNKNOWN_NODE, PRUNED_POINT: the index of the query's answer in octree_tick.answers; else 0 */
 } octree_wrong_node;
 
-/* A foreign node at a tick. */
+/* A foreign node at a tick, with its place in the forest of nodes. */
 typedef struct octree_foreign_place {
     const octree_foreign_node *node;
-    size_t parent;   /* the index of its parent; SIZE_MAX for a root */
-    unsigned depth;  /* as given, or the parent's plus 1 */
-    unsigned kind;   /* the index of its kind in octree_foreign_state.kinds */
-    bool leaf;       /* no node has it as parent */
-    size_t points;   /* the number of points listed by it and all its descendants */
-    unsigned visits; /* bits 1 << octree_node_visit: what the tick's queries did with it */
-    unsigned wrong;  /* bits 1 << octree_wrong_node_kind: what is wrong at this tick */
+    size_t parent;   /* the index of the node's parent in octree_foreign_state.nodes; SIZE_MAX for a root */
+    unsigned depth;  /* the given depth if has_depth is true; else the parent's depth plus 1, or 0 for a root */
+    unsigned kind;   /* the index of the node's kind in octree_foreign_state.kinds */
+    bool leaf;       /* true: the node has no children */
+    size_t points;   /* the number of points that the node and all its descendants list */
+    unsigned visits; /* bit mask, bit 1 << octree_node_visit: what the tick's queries did with the node */
+    unsigned wrong;  /* bit mask, bit 1 << octree_wrong_node_kind: how the node is wrong at this tick */
 } octree_foreign_place;
 
-/* The largest number of wrong nodes that a tick lists. All are counted. */
+/* The largest number of wrong nodes that a tick lists. Further wrong nodes are counted but not listed. */
 #define OCTREE_LISTED_WRONG_NODES 100
 
-/* The largest number of kinds of nodes. Further kinds count as the last one. */
+/* The largest number of different kinds of nodes. Nodes of any further kind count as nodes of the last kind. */
 #define OCTREE_NODE_KINDS 10
 
-/* The foreign index at a tick, and what is wrong with its nodes. */
+/* The nodes of the foreign index at a tick, and how they are wrong. */
 typedef struct octree_foreign_state {
-    bool given;                        /* nodes were given at this tick or before; if not, all members are 0 */
-    bool fresh;                        /* nodes were given at this tick */
+    bool given; /* true: the session gave nodes at this tick or earlier. If false, all members are 0 */
+    bool fresh; /* true: the session gave nodes at this tick */
     const octree_foreign_place *nodes; /* the current nodes, in the order in which they were given */
     size_t node_count, leaf_count;
-    unsigned depth;                        /* the largest */
-    uint64_t digest;                       /* of the nodes as they were given */
+    unsigned depth;                        /* the largest depth of a node */
+    uint64_t digest;                       /* the digest of the nodes as they were given */
     size_t visits[OCTREE_NODE_VISITS];     /* the number of nodes that the tick's queries visited, pruned and hit */
     size_t wrong[OCTREE_WRONG_NODE_KINDS]; /* the number of wrong nodes of each kind */
-    const octree_wrong_node *listed;  /* the first of them: sorted by node and point, then those of queries in order */
-    size_t listed_count, wrong_count; /* wrong_count: of all kinds together, listed or not */
-    const char (*kinds)[OCTREE_NODE_KIND]; /* of all nodes up to this tick, in the order in which they appeared */
+    /* the first wrong nodes, at most OCTREE_LISTED_WRONG_NODES. Faults of the nodes themselves come first, sorted by
+     * node and point; faults of queries follow, in the order of the queries */
+    const octree_wrong_node *listed;
+    size_t listed_count, wrong_count;      /* wrong_count is the number of all wrong nodes, listed or not */
+    const char (*kinds)[OCTREE_NODE_KIND]; /* the kinds of all nodes up to this tick, in the order in which they first
+                                              appeared */
     size_t kind_count;
 } octree_foreign_state;
 

@@ -40,7 +40,8 @@ const char *octree_status_text(octree_status status);
 /* The status as one word, such as "not_found", for files that programs read. Never null; static storage. */
 const char *octree_status_name(octree_status status);
 
-/* World [-1000, 1000]^3, capacity 64, depth 21, OCTREE_GROW, malloc, the calling thread. */
+/* The default definition: world [-1000, 1000]^3, capacity 64, depth 21, OCTREE_GROW, malloc and free, no other threads.
+ */
 octree_def octree_def_default(void);
 
 /* Create an empty tree in *tree. The definition is copied.
@@ -54,28 +55,33 @@ void octree_destroy(octree *tree);
 /* Remove every point and release the memory. Errors: NULL_ARGUMENT. Cost: O(memory blocks). */
 octree_status octree_clear(octree *tree);
 
-/* The definition in force, after clamping; under OCTREE_AUTO with the chosen capacity. For null: the default. */
+/* Return the tree's definition with clamped values. Under OCTREE_AUTO it contains the capacity that was chosen last.
+ * For null: the default definition. */
 octree_def octree_definition(const octree *tree);
 
-/* The expected use of a tree: the relative frequency of its operations. Only the ratios matter. */
+/* The relative frequencies of a tree's operations. Only their ratios matter. */
 typedef struct octree_mix {
-    double changes; /* insertions, removals and finds; a move counts as two */
-    double nearest; /* searches for the k nearest points */
+    double changes; /* the share of insertions, removals and finds; a move counts as two */
+    double nearest; /* the share of searches for the k nearest points */
     size_t k;
-    double ranges; /* boxes, balls, collisions */
-    size_t hits;   /* points that a range finds, on average */
+    double ranges; /* the share of searches in boxes and balls, and of collision tests */
+    size_t hits;   /* the average number of points that a range search finds */
 } octree_mix;
 
-/* Equal shares of changes, of searches for the nearest point, and of ranges with 10 hits. */
+/* The default mix: equal shares of changes, of searches for the nearest point, and of range searches with 10 hits. */
 octree_mix octree_mix_default(void);
 
-/* Choose the leaf capacity, a power of two from 4 to 256, for the points in the tree and a mix of operations (null: the
- * default mix), and rebuild the leaves. Each capacity is tried on a sample of whole cells with 128 operations of each
- * kind in the mix. The choice minimizes a weighted count of visited nodes and points; nothing is timed, so that it is
- * the same on every machine. A tree without points gets the capacity 64.
+/* Choose the leaf capacity, a power of two from 4 to 256, and rebuild the leaves. The choice is for the points in the
+ * tree and a mix of operations (null: the default mix).
+ *
+ * Each capacity is tried on a sample of whole cells, with 128 operations of each kind in the mix. The capacity with the
+ * least weighted count of visited nodes and points is chosen. Nothing is timed, so the choice is the same on every
+ * machine. A tree without points gets the capacity 64.
+ *
  * Errors: NULL_ARGUMENT, BAD_CAPACITY (the tree is under OCTREE_REFUSE), NOT_FINITE, BAD_SIZE (a negative share, or all
- * shares zero), NO_MEMORY; the tree is then unchanged. Cost: seven bulk builds of at most about 40,000 points, and one
- * of all points. */
+ * shares zero), NO_MEMORY; the tree is then unchanged.
+ *
+ * Cost: seven bulk builds of at most about 40,000 points, and one of all points. */
 octree_status octree_tune(octree *tree, const octree_mix *mix);
 
 /* ---- Change ------------------------------------------------------------------------------------------------- */
@@ -90,35 +96,46 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
  * unchanged. */
 octree_status octree_remove(octree *tree, const double position[3], uint64_t id);
 
-/* Move a point. The effect is that of a removal and an insertion, but on an error the point stays where it was. A move
- * within one leaf can fail with DUPLICATE only. Cost: O(D + M).
- * Errors: those of octree_insert for `to` and of octree_remove for `from`. */
+/* Move a point. The effect is that of a removal and an insertion. On an error the point stays where it was. A move
+ * within one leaf can fail with DUPLICATE only. Cost: O(D + M). Errors: those of octree_insert for `to` and of
+ * octree_remove for `from`. */
 octree_status octree_move(octree *tree, const double from[3], uint64_t id, const double to[3]);
 
 /* Insert many points at once; into an empty tree this is a bulk build. The result is that of octree_insert for each
- * point in the given order: a leaf that refuses keeps the first points. statuses[i] (may be null) receives the status
- * of points[i], and *inserted (may be null) the number of OKs.
+ * point in the given order: a full leaf that refuses points keeps the first ones. statuses[i] receives the status of
+ * points[i], and *inserted the number of points with the status OK. `statuses` and `inserted` may be null.
+ *
  * Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined.
- * Cost: for fewer points than a twentieth of those stored (an eighth where fewer than 300,000 are stored), that of
- * single insertions with several leaves loaded at once. For more, O(count + points of the changed leaves) and about
- * fifty bytes a point while it runs; half that time where points are spread evenly and their ids ascend. */
+ *
+ * Cost: for fewer points than a twentieth of the stored points (an eighth if fewer than 300,000 are stored), that of
+ * single insertions with several leaves loaded at once. For more, O(count + points of the changed leaves) time and
+ * about fifty bytes a point during the call. The time is half of that if points are spread evenly and their ids ascend.
+ */
 octree_status octree_insert_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *inserted);
 
-/* Remove many points at once, with the result of octree_remove for each point in the given order. statuses[i] (may be
- * null) receives the status of points[i], and *removed (may be null) the number of OKs. Errors: NULL_ARGUMENT,
- * TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined. Cost: as octree_insert_many. */
+/* Remove many points at once, with the result of octree_remove for each point in the given order. statuses[i] receives
+ * the status of points[i], and *removed the number of points with the status OK. `statuses` and `removed` may be null.
+ *
+ * Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined. Cost: as
+ * octree_insert_many. */
 octree_status octree_remove_many(octree *tree, const octree_point *points, size_t count, octree_status *statuses,
                                  size_t *removed);
 
 /* Move many points at once: points[i] to position to[i], with the result of octree_move for each point in the given
- * order. statuses[i] (may be null) receives the status of points[i], and *moved (may be null) the number of OKs.
+ * order. statuses[i] receives the status of points[i], and *moved the number of points with the status OK. `statuses`
+ * and `moved` may be null.
+ *
  * Errors: NULL_ARGUMENT, TOO_MANY, NO_MEMORY; the tree is then unchanged, and the statuses are undefined.
- * Cost: for fewer moves than a fifth of the stored points (three tenths where points are not spread evenly, or under
- * OCTREE_REFUSE with max_depth < 13) as octree_remove_many; a point that stays in its leaf is overwritten in place. For
- * more, one pass over all points and a bulk build, with 90 to 140 bytes a point while it runs. Moves are first
- * simulated one by one in a hash table, with about 250 bytes a move, where an id occurs twice in the batch or among the
- * stored points, where a pair would occur twice, and where a leaf may be full under OCTREE_REFUSE. */
+ *
+ * Cost: for fewer moves than a fifth of the stored points, as octree_remove_many; a point that stays in its leaf is
+ * overwritten in place. The limit is three tenths if points are not spread evenly, or under OCTREE_REFUSE with
+ * max_depth < 13. For more moves, one pass over all points and a bulk build, with 90 to 140 bytes a point during the
+ * call.
+ *
+ * Moves that depend on one another are first simulated one by one in a hash table, with about 250 bytes a move. They do
+ * if an id occurs twice in the batch or among the stored points, if a pair would occur twice, or if a leaf may be full
+ * under OCTREE_REFUSE. */
 octree_status octree_move_many(octree *tree, const octree_point *points, const double (*to)[3], size_t count,
                                octree_status *statuses, size_t *moved);
 
@@ -126,9 +143,9 @@ octree_status octree_move_many(octree *tree, const octree_point *points, const d
  * would be outside), FULL (a point would be refused), NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_reworld(octree *tree, const octree_box *world);
 
-/* Rebuild the tree as a bulk build does, and release unused memory. After many changes leaves are scattered in memory,
- * and freed blocks are kept for later insertions; this call makes queries faster or halves the memory. Nodes and
- * answers stay the same. Errors: NULL_ARGUMENT, NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
+/* Rebuild the tree as a bulk build does, and release unused memory. Many changes scatter the leaves in memory and leave
+ * freed blocks for later insertions. This call then makes queries faster or halves the memory. Nodes and answers stay
+ * the same. Errors: NULL_ARGUMENT, NO_MEMORY; the tree is then unchanged. Cost: a bulk build. */
 octree_status octree_compact(octree *tree);
 
 /* ---- Follow ------------------------------------------------------------------------------------------------- */
@@ -139,11 +156,12 @@ typedef enum octree_change_kind { OCTREE_INSERTED, OCTREE_REMOVED, OCTREE_MOVED 
 typedef struct octree_change {
     octree_change_kind kind;
     uint64_t id;
-    double from[3], to[3]; /* the bits as stored. Zero where unused: `from` of an insertion, `to` of a removal */
+    double from[3], to[3]; /* the positions before and after the change, bit for bit as stored. `from` of an insertion
+                              and `to` of a removal are 0 */
 } octree_change;
 
-/* Called with each change since a cursor, which is valid during the call. Changes of the tree inside the visitor return
- * OCTREE_BUSY. */
+/* Called with each change since a cursor. The change is valid during the call. Changes of the tree inside the visitor
+ * return OCTREE_BUSY. */
 typedef void (*octree_change_visitor)(const octree_change *change, void *context);
 
 /* Visit the changes since the cursor, in the order in which they were made (those of a batch in the given order), and
@@ -183,22 +201,26 @@ bool octree_contains(const octree *tree, const double position[3], uint64_t id);
  * Cost: O(nodes that meet the box + points in their leaves). */
 octree_status octree_range(const octree *tree, const octree_box *box, octree_point_visitor visit, void *context);
 
-/* octree_range with options. With epsilon > 0 no point in the box is missed, and no point is visited that is farther
- * than epsilon outside it on any axis. Proof: a node is taken whole only when its cell lies in the box whose faces are
- * moved out by epsilon and rounded inwards; every other point is compared with the box itself.
+/* octree_range with options. With epsilon > 0 every point in the box is visited. No point farther than epsilon outside
+ * the box on any axis is visited.
+ *
+ * Proof: all points of a node are visited without comparison only if the node's cell lies in the box whose faces are
+ * moved out by epsilon and rounded inwards. Every other point is compared with the box itself.
+ *
  * Errors: those of octree_range, and BAD_SIZE (epsilon < 0), NOT_FINITE, BAD_OPTION. */
 octree_status octree_range_search(const octree *tree, const octree_box *box, const octree_search *how,
                                   octree_point_visitor visit, void *context);
 
-/* Store the number of points in a closed box in *count, 0 on an error. Nodes inside the box are counted without being
- * entered. Errors and cost as octree_range. */
+/* Store the number of points in a closed box in *count; on an error store 0. Nodes inside the box are counted without
+ * visiting their children. Errors and cost as octree_range. */
 octree_status octree_range_count(const octree *tree, const octree_box *box, size_t *count);
 
 /* Visit every point at a distance of at most `radius` from a centre, in no stated order. The centre may be outside the
- * world. With epsilon > 0 no point within `radius` is missed and no point beyond radius + epsilon is visited. In FAST
- * mode both statements hold for distances with an error of at most a factor 1 + 2^-50 or 2^-490 of the world's extent.
- * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (radius or epsilon < 0), BAD_OPTION.
- * Cost: O(nodes that meet the ball + points in their leaves). */
+ * world. With epsilon > 0 every point within `radius` is visited, and no point beyond radius + epsilon is. In FAST mode
+ * a distance may have an error of a factor 1 + 2^-50, or of 2^-490 of the world's extent.
+ *
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (radius or epsilon < 0), BAD_OPTION. Cost: O(nodes that meet the ball +
+ * points in their leaves). */
 octree_status octree_radius(const octree *tree, const double center[3], double radius, const octree_search *how,
                             octree_point_visitor visit, void *context);
 
@@ -219,17 +241,19 @@ octree_status octree_range_collect_sorted(const octree *tree, const octree_box *
 octree_status octree_collide(const octree *tree, const double center[3], double box_size, const octree_point *self,
                              octree_point_visitor visit, void *context);
 
-/* octree_collide with options. With epsilon > 0 no point within box_size is missed, and no point is visited that is
- * farther than box_size + epsilon on any axis. Errors: those of octree_collide and of octree_range_search. */
+/* octree_collide with options. With epsilon > 0 every point within box_size is visited. No point farther than box_size
+ * + epsilon on any axis is visited. Errors: those of octree_collide and of octree_range_search. */
 octree_status octree_collide_search(const octree *tree, const double center[3], double box_size,
                                     const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                     void *context);
 
-/* Swept collision: visit every point that the box position +- box_size touches on its straight way between two
- * positions, both included, compared as real numbers. No point is missed, however long the step is. A test at the two
- * ends alone is certain to miss nothing only when the step is along one axis and at most 2 * box_size long. `self` as
- * in octree_collide. The answer is exact whatever the options say. Errors: as octree_collide_search.
- * Cost: O(nodes that the box touches on its way + points in their leaves). */
+/* Swept collision: visit every point that the box position +- box_size touches on its straight way from one position to
+ * another, both included. Coordinates are compared as real numbers. No point is missed, however long the step is.
+ *
+ * A test at the two ends alone misses nothing only if the step is along one axis and at most 2 * box_size long. `self`
+ * means the same as in octree_collide. The answer is exact whatever the options say.
+ *
+ * Errors: as octree_collide_search. Cost: O(nodes that the box touches on its way + points in their leaves). */
 octree_status octree_collide_swept(const octree *tree, const double from[3], const double to[3], double box_size,
                                    const octree_point *self, const octree_search *how, octree_point_visitor visit,
                                    void *context);
@@ -238,63 +262,73 @@ octree_status octree_collide_swept(const octree *tree, const double from[3], con
  * NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (box_size < 0); *box is then unchanged. Cost: O(1). */
 octree_status octree_collision_box(const double center[3], double box_size, octree_box *box);
 
-/* Algorithms 6 and 7. The nearest point to any finite target, inside the world or not: the true minimum of the real
- * distance (not of a rounded one); of equal distances the lowest id. `skip_id` is read under OCTREE_SKIP_ID only.
- * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_OPTION, NOT_FOUND (no point, or skipped points only).
- * Cost: O(D + M) on average for points of bounded density, O(n) at worst. */
+/* Algorithms 6 and 7. Find the point nearest to a finite target, inside the world or not. Distances are compared as
+ * real numbers, without rounding; of points at equal distances the one with the lowest id is nearest. `skip_id` is read
+ * under OCTREE_SKIP_ID only.
+ *
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_OPTION, NOT_FOUND (no point, or skipped points only). Cost: O(D + M) on
+ * average for points of bounded density, O(n) at worst. */
 octree_status octree_nearest(const octree *tree, const double target[3], octree_skip skip, uint64_t skip_id,
                              octree_neighbor *nearest);
 
-/* Store the k nearest points in neighbors[0 .. *count - 1], ordered by distance, then id, then position. *count is
- * min(k, number of points that count), 0 on an error. `neighbors` has room for that many; it may be null for k = 0.
- * In EXACT mode each is the true neighbour by real distance. In FAST mode the i-th distance is at most 1 + 2^-50 times
- * the true i-th, or longer by 2^-490 of the world's extent. With epsilon > 0 the i-th distance is at most (1 + epsilon)
- * times the true i-th. Proof: a node is pruned only when its box is farther than the k-th best distance so far divided
- * by 1 + epsilon; so is then every point in it, and the k-th best distance only decreases.
- * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (epsilon < 0), BAD_OPTION. k = 0 and an empty tree are no errors.
- * Cost: O(D + M + k log k) on average for points of bounded density, O(n log k) at worst. */
+/* Store the k nearest points in neighbors[0 .. *count - 1], ordered by distance, then id, then position. *count is the
+ * smaller of k and the number of points that are not skipped; 0 on an error. The array must have room for *count
+ * neighbours; it may be null for k = 0.
+ *
+ * In EXACT mode each neighbour is the true one by real distance. In FAST mode the i-th distance is at most 1 + 2^-50
+ * times the true i-th, or longer by 2^-490 of the world's extent.
+ *
+ * With epsilon > 0 the i-th distance is at most (1 + epsilon) times the true i-th. Proof: a node is pruned only if its
+ * box is farther than the k-th best distance so far divided by 1 + epsilon. Every point in the node is then that far
+ * too, and the k-th best distance only decreases.
+ *
+ * Errors: NULL_ARGUMENT, NOT_FINITE, BAD_SIZE (epsilon < 0), BAD_OPTION. k = 0 and an empty tree are no errors. Cost:
+ * O(D + M + k log k) on average for points of bounded density, O(n log k) at worst. */
 octree_status octree_nearest_k(const octree *tree, const double target[3], size_t k, const octree_search *how,
                                octree_neighbor *neighbors, size_t *count);
 
-/* Store the nearest point of each of `count` targets, rows of three doubles, in neighbors[i]. found[i] (`found` may be
- * null) is whether there is one; neighbors[i] is not written where there is none. The targets are processed in Morton
- * order, so that close targets share cached nodes. Errors: those of octree_nearest_k, TOO_MANY and NO_MEMORY. A target
- * that is not finite is reported as NOT_FINITE before anything is written.
- * Cost: `count` searches, and 32 bytes a target while it runs. */
+/* Find the nearest point of each of `count` targets. Each row of `targets` is a position. neighbors[i] receives the
+ * nearest point of target i. found[i] is false if target i has none; neighbors[i] is then not written. `found` may be
+ * null. The targets are processed in Morton order, so that close targets share cached nodes.
+ *
+ * Errors: those of octree_nearest_k, TOO_MANY and NO_MEMORY. A target that is not finite is reported as NOT_FINITE
+ * before anything is written. Cost: `count` searches, and 32 bytes a target during the call. */
 octree_status octree_nearest_batch(const octree *tree, const double (*targets)[3], size_t count,
                                    const octree_search *how, octree_neighbor *neighbors, bool *found);
 
-/* The nearest point at a distance of at most `radius`. The radius is compared as in octree_radius, epsilon means the
- * same as in octree_nearest_k. Errors: those of octree_nearest_k, BAD_SIZE (radius < 0), and NOT_FOUND. */
+/* Find the nearest point at a distance of at most `radius`. The radius is compared as in octree_radius. epsilon means
+ * the same as in octree_nearest_k. Errors: those of octree_nearest_k, BAD_SIZE (radius < 0), and NOT_FOUND. */
 octree_status octree_nearest_within(const octree *tree, const double target[3], double radius, const octree_search *how,
                                     octree_neighbor *nearest);
 
-/* A comparison for qsort: by id, then by position; the order of all "sorted" results. */
+/* A comparison function for qsort(): by id, then by position. All "sorted" results have this order. */
 int octree_compare_points(const void *a, const void *b);
 
-/* ---- Look --------------------------------------------------------------------------------------------------- */
+/* ---- Read the nodes ----------------------------------------------------------------------------------------- */
 
 typedef enum octree_walk_order {
-    OCTREE_WALK_ON,   /* continue, into this node's children first */
-    OCTREE_WALK_SKIP, /* continue without this node's children */
+    OCTREE_WALK_ON,   /* continue with this node's children */
+    OCTREE_WALK_SKIP, /* continue, but skip this node's descendants */
     OCTREE_WALK_STOP, /* end the walk */
 } octree_walk_order;
 
-/* Called with each node, which is valid during the call. Changes of the tree inside the visitor return OCTREE_BUSY. */
+/* Called with each node. The node is valid during the call. Changes of the tree inside the visitor return OCTREE_BUSY.
+ */
 typedef octree_walk_order (*octree_node_visitor)(const octree_node *node, void *context);
 
-/* Visit the nodes in pre-order, children by octant: ascending Morton order within a level. Only occupied octants
- * have nodes; an empty tree has its root. Errors: NULL_ARGUMENT. Cost: O(nodes). */
+/* Visit the nodes in pre-order: parents first, children in the order of their octants. Only occupied octants have
+ * nodes; an empty tree has a root. Errors: NULL_ARGUMENT. Cost: O(nodes). */
 octree_status octree_walk(const octree *tree, octree_node_visitor visit, void *context);
 
 /* Describe the node at an address in *node. Errors: NULL_ARGUMENT, NOT_FOUND. Cost: O(D). */
 octree_status octree_node_at(const octree *tree, octree_address address, octree_node *node);
 
-/* Describe the leaf whose cell contains a position, stored or not. Where the position's octant has no node, describe
- * the deepest node on the path to it. Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE. Cost: O(D). */
+/* Describe the leaf whose cell contains a position. No point needs to be stored there. If no node exists for the
+ * position's octant, describe the deepest node on the path to it. Errors: NULL_ARGUMENT, NOT_FINITE, OUTSIDE. Cost:
+ * O(D). */
 octree_status octree_locate(const octree *tree, const double position[3], octree_node *node);
 
-/* Count the nodes. Errors: NULL_ARGUMENT. Cost: O(nodes). */
+/* Count the tree's nodes, by kind, and its memory. Errors: NULL_ARGUMENT. Cost: O(nodes). */
 octree_status octree_statistics(const octree *tree, octree_stats *stats);
 
 /* The number of points, in O(1); 0 for null. */
@@ -303,15 +337,15 @@ size_t octree_count(const octree *tree);
 /* A number that changes with every change of the contents. Equal numbers mean that nothing changed. 0 for null. */
 uint64_t octree_version(const octree *tree);
 
-/* A digest of the world, the options, the nodes and the points: the same for the same contents and options, whatever
- * the order of changes, on every machine. Under OCTREE_AUTO it covers the capacity in force. 0 for null.
+/* A digest of the world, the options, the nodes and the points. Equal contents and options give equal digests on every
+ * machine, whatever the order of changes. Under OCTREE_AUTO the options include the capacity in force. 0 for null.
  * Cost: O(nodes + n). */
 uint64_t octree_digest(const octree *tree);
 
-/* Check every invariant: counts add up, points lie in their leaf's cell, no leaf that could split is over its capacity,
- * no inner node would fit a leaf, no pair is stored twice. Returns null when all hold, else a sentence that names the
- * first violation, in static storage; *where (may be null) receives the address of the node.
- * Cost: O(nodes + n * M). */
+/* Check the tree's invariants: counts add up, points lie in their leaf's cell, a leaf that can split is within its
+ * capacity, the points of an inner node do not fit one leaf, and each pair (position, id) is stored once. Returns null
+ * if all invariants hold. Else returns a sentence in static storage about the first violation, and *where (`where` may
+ * be null) receives the address of the node. Cost: O(nodes + n * M). */
 const char *octree_check(const octree *tree, octree_address *where);
 
 /* ---- Addresses and planes ----------------------------------------------------------------------------------- */
@@ -319,22 +353,22 @@ const char *octree_check(const octree *tree, octree_address *where);
 /* The depth of a valid address: the number of its octants. Cost: O(1). */
 unsigned octree_address_depth(octree_address address);
 
-/* The octant (0..7) of an address at a level 0 .. depth - 1: (x >= cx ? 4 : 0) + (y >= cy ? 2 : 0) + (z >= cz ? 1 : 0).
- */
+/* The octant (0..7) in an address at a level 0 .. depth - 1. For the center (cx, cy, cz) of the cell of that level, the
+ * octant of a point is (x >= cx ? 4 : 0) + (y >= cy ? 2 : 0) + (z >= cz ? 1 : 0). */
 unsigned octree_address_octant(octree_address address, unsigned level);
 
 /* The size of the longest address text, its final zero included. */
 #define OCTREE_ADDRESS_TEXT 48
 
-/* Write "root" for the root, else the octants from the root down, as in "0/3/7". Returns `text`. */
+/* Write "root" for the root; for another node write its octants from the root down, as in "0/3/7". Returns `text`. */
 char *octree_address_format(octree_address address, char text[OCTREE_ADDRESS_TEXT]);
 
 /* Parse "root", "/" or octants separated by slashes. False when the text has none of these forms. */
 bool octree_address_parse(const char *text, octree_address *address);
 
-/* The box of the cell at an address in a world, whether or not a node is there. The plane at k/2^d of an axis has a
- * closed form that is monotone in k and never overflows. Where all its steps are exact, as in [-1000, 1000], it equals
- * the paper's (min + max) / 2. Cost: O(D). */
+/* The box of the cell at an address, whether or not a node exists there. Plane k of 2^d on an axis is computed by a
+ * closed form that increases with k and never overflows. If all its steps are exact, as in [-1000, 1000], the plane
+ * equals the paper's (min + max) / 2. Cost: O(D). */
 octree_box octree_cell_box(const octree_box *world, octree_address address);
 
 #ifdef __cplusplus

@@ -15,17 +15,18 @@ extern "C" {
 
 /* ---- The tables --------------------------------------------------------------------------------------------- */
 
-/* The types of the members below. They decide how a member is checked, read, written, printed and rounded to floats. */
+/* The types of the members in the table below. The type decides how a member is checked, read, written, printed and
+ * rounded to floats. */
 typedef enum octree_member_type {
     OCTREE_MEMBER_BOX,      /* octree_box: six numbers, NaN is refused, infinities are allowed */
     OCTREE_MEMBER_POSITION, /* double[3]: finite */
-    OCTREE_MEMBER_COUNT,    /* size_t */
+    OCTREE_MEMBER_COUNT,    /* size_t: any number */
     OCTREE_MEMBER_LENGTH,   /* double: finite, >= 0 */
 } octree_member_type;
 
-/* The members of octree_query and octree_answer that only some kinds of query read, one row each: the member, its type,
- * its key in session files. Answers list their members in this order. A new member is a row here and a field of both
- * structs. */
+/* The members of octree_query and octree_answer that only some kinds of query read. Each row has the member, its type,
+ * and its key in session files. Answers list their members in this order. To add a member, add a row here and a field
+ * to both structs. */
 #define OCTREE_QUERY_MEMBER_MAP(X)                                                                                     \
     X(BOX, box, BOX, "box")                                                                                            \
     X(TARGET, target, POSITION, "at")                                                                                  \
@@ -39,7 +40,7 @@ enum {
         OCTREE_QUERY_MEMBERS
 };
 
-/* One bit for each member: the set of members that a kind reads. */
+/* One bit for each member of the table. An OR of such bits is the set of members that a kind of query reads. */
 typedef enum octree_query_member {
 #define OCTREE_QUERY_MEMBER_BIT(member, ...) OCTREE_QUERY_HAS_##member = 1 << OCTREE_QUERY_MEMBER_##member,
     OCTREE_QUERY_MEMBER_MAP(OCTREE_QUERY_MEMBER_BIT)
@@ -50,12 +51,12 @@ typedef enum octree_query_member {
 typedef struct octree_query_member_traits {
     octree_query_member bit;
     octree_member_type type;
-    const char *key;  /* in session files */
-    size_t in_query;  /* offset in octree_query */
-    size_t in_answer; /* offset in octree_answer */
+    const char *key;  /* the member's key in session files */
+    size_t in_query;  /* the member's offset in octree_query, in bytes */
+    size_t in_answer; /* the member's offset in octree_answer, in bytes */
 } octree_query_member_traits;
 
-/* Static storage. Null for index >= OCTREE_QUERY_MEMBERS. */
+/* Row `index` of OCTREE_QUERY_MEMBER_MAP, in static storage. Null for index >= OCTREE_QUERY_MEMBERS. */
 const octree_query_member_traits *octree_query_member_at(size_t index);
 
 /* The kinds of query, one row each: its name; the members that it reads; the member whose key in a session file is the
@@ -63,8 +64,8 @@ const octree_query_member_traits *octree_query_member_at(size_t index);
  * noun for the region that it searches.
  *
  * To add a kind: a row here; a file lib/src/query/kind_NAME.c, which defines ask_NAME() and, for POINTS,
- * contains_NAME() and bound_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a test. Without one
- * of them the program does not compile or link. */
+ * contains_NAME() and bound_NAME(); a row of viz/scene/query_looks.h; a layer_NAME in viz/layers; a test. If one of
+ * these is missing, the program does not compile or link. */
 #define OCTREE_QUERY_MAP(X)                                                                                            \
     X(RANGE, range, OCTREE_QUERY_HAS_BOX, OCTREE_QUERY_HAS_BOX, POINTS, "the points in a box", "box")                  \
     X(NEAREST, nearest, OCTREE_QUERY_HAS_TARGET, OCTREE_QUERY_HAS_TARGET, NEIGHBORS, "the point nearest to a place",   \
@@ -83,48 +84,50 @@ typedef enum octree_query_kind {
 
 /* A row of OCTREE_QUERY_MAP. */
 typedef struct octree_query_traits {
-    const char *name;             /* in session files and ticks.jsonl, such as "range" */
-    unsigned members;             /* bits of octree_query_member */
+    const char *name;             /* the kind's name in session files and ticks.jsonl, such as "range" */
+    unsigned members;             /* bit mask of octree_query_member: the members that the kind reads */
     octree_query_member named_by; /* the member whose key in a session file is the kind's name */
-    bool neighbors;               /* octree_answer.neighbors holds the result; false: octree_answer.points */
-    const char *words;            /* the meaning, such as "the points in a box" */
-    const char *region;           /* a noun for what is searched, such as "box" */
+    bool neighbors;               /* true: octree_answer.neighbors holds the result; false: octree_answer.points does */
+    const char *words;            /* the meaning of the kind, such as "the points in a box" */
+    const char *region;           /* a noun for the searched region, such as "box" */
 } octree_query_traits;
 
-/* Static storage. Null for kind >= OCTREE_QUERY_KINDS. */
+/* The table row of a kind, in static storage. Null for kind >= OCTREE_QUERY_KINDS. */
 const octree_query_traits *octree_query_about(octree_query_kind kind);
 
-/* The name in octree_query_about(kind). Null for kind >= OCTREE_QUERY_KINDS. */
+/* The name of a kind, such as "range". Null for kind >= OCTREE_QUERY_KINDS. */
 const char *octree_query_name(octree_query_kind kind);
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
 #define OCTREE_EVERY_TICK UINT64_MAX
 
-/* A query. A game asks it at the end of a tick, when all changes of the tick are made. A game's player is never its own
- * neighbour; the other kinds find the player like any other point. In a tick without a player, queries with at_player
- * are not asked. */
+/* A query. A game asks it at the end of a tick, after all changes of the tree. Queries for neighbours skip the game's
+ * player; other queries find the player like any other point. In a tick without a player, queries with at_player are
+ * not asked. */
 typedef struct octree_query {
-    uint64_t tick; /* or OCTREE_EVERY_TICK */
+    uint64_t tick; /* a tick number, or OCTREE_EVERY_TICK */
     octree_query_kind kind;
-    bool at_player;   /* the box is relative to the player, and the target is the player */
-    octree_box box;   /* closed */
-    double target[3]; /* where neighbours are sought, or the center of the ball. Not read with at_player */
+    bool at_player;   /* true: the box is relative to the player's position, and the target is this position */
+    octree_box box;   /* the closed box of a range query */
+    double target[3]; /* the position whose neighbours are sought, or the center of the ball. Not read if at_player is
+                         true */
     size_t k;         /* the number of neighbours; a tree with fewer points returns all of them */
-    double radius;    /* of the closed ball, >= 0 */
-    octree_skip skip; /* points that no answer may contain. NONE skips nothing but the player among neighbours.
-                         COINCIDENT skips points at the target; kinds without a target refuse it */
+    double radius;    /* the radius of the closed ball, >= 0 */
+    octree_skip skip; /* the points that no answer may contain. NONE skips only the player, and only among neighbours.
+                         COINCIDENT skips points at the target; a query without a target must not have it */
     uint64_t skip_id; /* read only with OCTREE_SKIP_ID */
-    double epsilon;   /* the error that the answer may have, as octree_search.epsilon: finite, >= 0, a ratio for
-                         neighbours   and a length for regions */
-    bool answered; /* the session holds the answer of a foreign index. The game judges it by the exact answer, for which
-                      it ignores epsilon */
-    octree_precision precision; /* answered: the precision that the foreign index promises */
-    const uint64_t
-        *answer; /* if answered: the ids that the foreign index returned, in any order; null if it returned none */
+    double epsilon; /* the permitted error of the answer, finite and >= 0: a ratio for neighbours, a length for regions;
+                       see octree_search.epsilon */
+    bool answered; /* true: the session holds the answer of a foreign index. The game compares it with the exact answer,
+                      for which the game ignores epsilon */
+    octree_precision precision; /* read if `answered` is true: the precision that the foreign index promises */
+    const uint64_t *answer; /* read if `answered` is true: the ids that the foreign index returned, in any order; null
+                               if answer_count is 0 */
     size_t answer_count;
-    octree_ids visits[OCTREE_NODE_VISITS]; /* the foreign nodes that the query visited, pruned and hit, by their ids.
-                                         Pruned nodes are judged by the exact answer, with precision and epsilon */
+    /* the ids of the foreign nodes that the query visited, pruned and hit. The exact answer, with precision and
+     * epsilon, shows whether pruning a node was wrong */
+    octree_ids visits[OCTREE_NODE_VISITS];
 } octree_query;
 
 /* Check whether a query can be asked; its tick is not read. Errors: NULL_ARGUMENT (also for an id array that is
@@ -135,16 +138,17 @@ octree_status octree_query_check(const octree_query *query);
 
 /* ---- Answers ------------------------------------------------------------------------------------------------ */
 
-/* How the answer of a foreign index is wrong. The values are ordered: where several apply, the lowest is reported. */
+/* How the answer of a foreign index is wrong. The values are ordered: if several apply, the lowest is reported. */
 typedef enum octree_wrong_kind {
     OCTREE_WRONG_NONE,
-    OCTREE_WRONG_UNKNOWN,   /* it contains an id that no point has at this tick, such as that of a removed point */
-    OCTREE_WRONG_DUPLICATE, /* it contains a point twice */
-    OCTREE_WRONG_SKIPPED,   /* it contains a point that the query skips */
-    OCTREE_WRONG_COUNT,     /* neighbours: it has more or fewer than k, or than the tree has points */
-    OCTREE_WRONG_FARTHER,   /* neighbours: a point is farther than the exact neighbour of its rank */
-    OCTREE_WRONG_MISSING,   /* regions: a point in the region is not in the answer */
-    OCTREE_WRONG_EXTRA,     /* regions: a point of the answer is outside the region */
+    OCTREE_WRONG_UNKNOWN,   /* the answer contains an id that no point has at this tick, such as a removed point's */
+    OCTREE_WRONG_DUPLICATE, /* the answer contains a point twice */
+    OCTREE_WRONG_SKIPPED,   /* the answer contains a point that the query skips */
+    OCTREE_WRONG_COUNT,     /* neighbours: the number of neighbours is neither k nor, in a smaller tree, the number of
+                               points */
+    OCTREE_WRONG_FARTHER, /* neighbours: the neighbour at some rank is farther than the exact neighbour at this rank */
+    OCTREE_WRONG_MISSING, /* regions: a point in the region is not in the answer */
+    OCTREE_WRONG_EXTRA,   /* regions: a point of the answer is outside the region */
     OCTREE_WRONG_KINDS
 } octree_wrong_kind;
 
@@ -155,56 +159,58 @@ const char *octree_wrong_name(octree_wrong_kind wrong);
 /* The answer of a foreign index, judged by the exact answer.
  *
  * Regions (a box, a ball) are compared as sets of points. Neighbours are sorted by distance, whatever their order in
- * the answer, and compared rank by rank; of several points at the same distance any one is right. Real numbers decide
- * all comparisons. An epsilon above 0 allows extra points that are within epsilon of the region, and neighbours up to
- * 1 + epsilon times as far as the exact ones; a ratio within 2^-46 of that limit counts as right. */
+ * the answer, and compared rank by rank; if several points have the same distance, each of them is right. Real numbers
+ * decide all comparisons. An epsilon above 0 allows extra points that are within epsilon of the region, and neighbours
+ * up to 1 + epsilon times as far as the exact ones; a ratio within 2^-46 of that limit counts as right. */
 typedef struct octree_judgement {
-    bool judged; /* false: there was no foreign answer, and the other members are 0 */
+    bool judged; /* false: the query has no foreign answer, and the other members are 0 */
     octree_wrong_kind wrong;
-    uint64_t wrong_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest such id */
+    uint64_t wrong_id;     /* UNKNOWN, DUPLICATE, SKIPPED: the lowest id that is wrong in this way */
     const uint64_t *given; /* the ids of the foreign answer, in its order */
     size_t given_count;
     size_t expected;             /* the number of points in the exact answer */
-    const octree_point *missing; /* points that every right answer contains and this one does not. Regions: by id;
-                                   neighbours: by distance */
-    size_t missing_count;        /* recall is 1 - missing_count / expected */
-    const octree_point *extra;   /* points that no right answer contains and this one does, by id or by distance. Points
-                                    of  UNKNOWN and SKIPPED are not among them */
+    const octree_point *missing; /* points that every right answer contains and the foreign answer does not. Sorted by
+                                    id for regions, by distance for neighbours */
+    size_t missing_count;        /* the recall of the answer is 1 - missing_count / expected */
+    const octree_point *extra;   /* points that the foreign answer contains and no right answer does, sorted like
+                                    `missing`. UNKNOWN and SKIPPED points are not listed here */
     size_t extra_count;
-    size_t rank;  /* neighbours: the first wrong rank; the nearest has rank 1; 0: no rank is wrong */
-    double ratio; /* neighbours: the largest quotient of the distance at a rank and the exact distance at this rank. 1
-                     for an exact answer; infinite where an exact distance is 0 or the answer is empty */
+    size_t rank;  /* neighbours: the first rank with a wrong neighbour; the nearest neighbour has rank 1; 0: no rank is
+                     wrong */
+    double ratio; /* neighbours: the largest quotient, over all ranks, of the foreign distance and the exact distance. 1
+                     for an exact answer; infinite if an exact distance is 0 or the answer is empty */
 } octree_judgement;
 
 typedef struct octree_answer {
     octree_query_kind kind;
-    bool by_key;    /* asked by the key n */
+    bool by_key;    /* true: the key n asked the query */
     octree_box box; /* the members that the kind reads, in world coordinates */
     double target[3];
-    size_t k; /* nearest: 1 */
+    size_t k; /* the number of neighbours that were asked for; 1 for nearest */
     double radius;
-    octree_skip skip; /* skip, skip_id and epsilon as in the query; NONE where only the player is skipped */
+    octree_skip skip; /* skip, skip_id and epsilon are those of the query; NONE if only the player is skipped */
     uint64_t skip_id;
     double epsilon;
     const octree_point *points;       /* kinds whose result is points: sorted by id */
     const octree_neighbor *neighbors; /* kinds whose result is neighbours: sorted by distance, then by id */
-    size_t count;                     /* of points or neighbours */
+    size_t count;                     /* the number of points or neighbours */
     octree_cost cost;
     octree_precision precision;
-    octree_judgement judgement; /* in a game, of a query with a foreign answer */
+    octree_judgement judgement; /* in a game: the judgement of the foreign answer, if the query has one */
 } octree_answer;
 
-/* Answer a query outside a game. `player` is the position that at_player refers to; it may be null without at_player.
- * `how` may be null; its skip and epsilon apply where the query has none. A foreign answer is not judged. answer->cost
- * holds the cost; how->cost is not used. Release the answer with octree_answer_release. Errors: those of
- * octree_query_check and octree_range_search, NULL_ARGUMENT, NO_MEMORY; the answer is then empty. The memory comes from
- * the tree's allocator, which must be safe to call from this thread. */
+/* Answer a query outside a game. `player` is the position for at_player; it may be null if at_player is false. `how`
+ * may be null; its skip and epsilon apply if the query has none. A foreign answer is not judged. The cost is stored in
+ * answer->cost; how->cost is not used. Release the answer with octree_answer_release.
+ *
+ * Errors: those of octree_query_check and octree_range_search, NULL_ARGUMENT, NO_MEMORY; the answer is then empty. The
+ * memory comes from the tree's allocator, which must be safe to call from this thread. */
 octree_status octree_query_answer(const octree *tree, const octree_query *query, const double player[3],
                                   const octree_search *how, octree_answer *answer);
 void octree_answer_release(const octree *tree, octree_answer *answer);
 
-/* Store a box that contains the region of an answer. False where the kind has neighbours: they may lie anywhere. The
- * box of a large ball may be infinite. */
+/* Store a box that contains the region of an answer. Returns false if the result is neighbours, which may lie anywhere.
+ * The box of a large ball may be infinite. */
 bool octree_answer_bound(const octree_answer *answer, octree_box *bound);
 
 #ifdef __cplusplus

@@ -14,11 +14,12 @@ extern "C" {
 #endif
 
 typedef enum octree_sample_kind {
-    OCTREE_SAMPLE_UNIFORM,   /* independent, uniform in the box */
-    OCTREE_SAMPLE_GAUSSIAN,  /* around the centre; a sum of twelve uniforms, sigma is a sixth of the extent */
+    OCTREE_SAMPLE_UNIFORM,   /* independent points, uniform in the box */
+    OCTREE_SAMPLE_GAUSSIAN,  /* points around the centre of the box. Each coordinate is a sum of twelve uniform numbers;
+                                its sigma is a sixth of the extent */
     OCTREE_SAMPLE_CLUSTERED, /* sixteen small gaussian clusters of different sizes around uniform centres */
-    OCTREE_SAMPLE_SURFACE,   /* on an ellipsoid nine tenths the size of the box */
-    OCTREE_SAMPLE_LATTICE,   /* a cubic grid of cell centres, x varies slowest; ignores the seed */
+    OCTREE_SAMPLE_SURFACE,   /* points on the surface of an ellipsoid whose axes are nine tenths of the box */
+    OCTREE_SAMPLE_LATTICE,   /* the cell centres of a cubic grid; x varies slowest, and the seed is ignored */
     OCTREE_SAMPLE_KINDS
 } octree_sample_kind;
 
@@ -33,10 +34,10 @@ bool octree_sample_parse(const char *name, octree_sample_kind *kind);
 octree_status octree_sample(octree_sample_kind kind, uint64_t seed, const octree_box *box, size_t count,
                             double (*positions)[3]);
 
-/* The next 64 random bits of a state, by splitmix64 (Steele, Lea and Flood 2014). */
+/* Advance a state and return its next 64 random bits, by splitmix64 (Steele, Lea and Flood 2014). */
 uint64_t octree_random(uint64_t *state);
 
-/* The next uniform double in [0, 1), with 53 random bits. */
+/* Advance a state and return its next uniform double in [0, 1), made of 53 random bits. */
 double octree_random_unit(uint64_t *state);
 
 #ifdef __cplusplus

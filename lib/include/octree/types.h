@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* types.h - the plain values that the tree, the game and the recorder exchange.
  *
- * This header declares types only. Include octree.h for the functions of the tree, game.h for those of the game.
+ * This header declares types only. octree.h declares the functions of the tree, game.h the functions of the game.
  */
 #ifndef OCTREE_TYPES_H
 #define OCTREE_TYPES_H
@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* One line per status: its name, the word that files use, and its sentence. */
+/* One row per status: its name, the word for it in files, and its sentence. */
 #define OCTREE_STATUS_MAP(X)                                                                                           \
     X(OK, "ok", "done")                                                                                                \
     X(NOT_FOUND, "not_found", "the tree has no such point or node")                                                    \
@@ -47,13 +47,14 @@ typedef struct octree_box {
     double max[3];
 } octree_box;
 
-/* A stored point. A pair (position, id) is unique in a tree; an id need not be. */
+/* A stored point. Each pair (position, id) occurs once in a tree. Points at different positions may share an id. */
 typedef struct octree_point {
     double position[3];
     uint64_t id;
 } octree_point;
 
-/* The greatest depth of a node. The root is at depth 0; 21 octants of three bits and a leading 1 fit 64 bits. */
+/* The greatest depth of a node; the root has depth 0. An address of 21 octants with three bits each and a leading 1 bit
+ * fits 64 bits. */
 #define OCTREE_MAX_DEPTH 21
 
 /* The address of a node: a leading 1 bit, then three bits per octant from the root down (Morton order). */
@@ -65,42 +66,45 @@ typedef struct octree_node {
     octree_address address;
     unsigned depth;
     bool leaf;
-    uint8_t octants;            /* bit i is set when octant i has a node; 0 for a leaf */
-    octree_box box;             /* its inner faces are the planes that insertion compares with */
-    size_t count;               /* points in and below this node */
-    const octree_point *points; /* of a leaf; owned by the tree, valid until the next change. Null for inner nodes and
-                                   for the root of an empty tree. Their order is unspecified: it depends on the history
-                                   of changes and can differ between trees with equal contents. Sort the points (by
-                                   octree_compare_points, for example) where the order matters */
+    uint8_t octants; /* bit i is set when octant i has a node; 0 for a leaf */
+    octree_box box;  /* the box of the node's cell. Faces inside the world are the planes with which insertion compares
+                        coordinates */
+    size_t count;    /* the number of points in and below this node */
+    const octree_point *points; /* the points of a leaf; the tree owns them, and they are valid until its next change.
+                                   Null for an inner node and for the root of an empty tree. Their order is unspecified:
+                                   trees with equal contents can have different orders. Sort the points, for example by
+                                   octree_compare_points, if their order matters */
 } octree_node;
 
 typedef struct octree_stats {
     size_t points;
     size_t nodes;
     size_t leaves;
-    unsigned depth;      /* of the deepest node */
-    size_t largest_leaf; /* points in the fullest leaf */
+    unsigned depth;      /* the depth of the deepest node */
+    size_t largest_leaf; /* the number of points in the fullest leaf */
     size_t nodes_at_depth[OCTREE_MAX_DEPTH + 1];
     size_t leaves_at_depth[OCTREE_MAX_DEPTH + 1];
-    size_t memory; /* bytes allocated and not yet released */
+    size_t memory; /* the number of bytes that the tree has allocated and not released yet */
 } octree_stats;
 
 /* ---- Definition of a tree ----------------------------------------------------------------------------------- */
 
 typedef struct octree octree;
 
-/* What happens to a point that meets a full leaf which cannot split: the tree refuses it with OCTREE_FULL, as the
- * paper does, or, by default, the leaf grows beyond its capacity. */
+/* The treatment of a point whose leaf is full and cannot split. Under REFUSE, as in the paper, the tree refuses the
+ * point with OCTREE_FULL. Under GROW, the default, the leaf grows beyond its capacity. */
 typedef enum octree_full_leaf {
     OCTREE_REFUSE,
     OCTREE_GROW,
 } octree_full_leaf;
 
-/* The memory functions of a tree. `allocate` returns memory with the alignment of malloc, or null. `release` receives
- * the size that was requested; its pointer is never null. Setting only one of the two is BAD_OPTION. The context must
- * outlive the tree. Changes of a tree call the allocator from one thread at a time. octree_nearest_batch and
- * octree_query_answer (game.h) also allocate: a program that runs them on several threads at once needs a thread-safe
- * allocator, such as malloc. */
+/* The memory functions of a tree. `allocate` returns memory with the alignment of malloc, or null. `release` receives a
+ * pointer that is not null and the size that was requested for it. Setting only one of the two functions is BAD_OPTION.
+ * The context must outlive the tree.
+ *
+ * Changes of a tree call the allocator from one thread at a time. octree_nearest_batch and octree_query_answer
+ * (query.h) also allocate: a program that runs them on several threads at once needs a thread-safe allocator, such as
+ * malloc. */
 typedef struct octree_allocator {
     void *(*allocate)(size_t size, void *context);
     void (*release)(void *memory, size_t size, void *context);
@@ -109,94 +113,101 @@ typedef struct octree_allocator {
 
 typedef void octree_task(size_t number, void *context);
 
-/* The caller's threads. `run` calls the task once for each number below `count` (at most 64), on any threads and in
- * any order, and returns when all calls have returned; it must not call the task later. A number that it leaves out
- * runs on the calling thread, a number that it repeats runs once, and numbers from `count` on are ignored. Inside
- * `run`, changes of the tree on the calling thread return OCTREE_BUSY. Bulk changes, octree_nearest_batch,
- * octree_digest and octree_check divide large work, of some thousand points or more, into tasks. Nodes, statuses,
- * answers and digests do not depend on the number of threads; memory use may differ slightly, because tasks compete for
- * free blocks. Tasks call the allocator one at a time. Null means the calling thread. The context must outlive the
- * tree. */
+/* The caller's threads. `run` calls the task once for each number below `count` (at most 64), on any threads and in any
+ * order. It returns when all calls have returned; it must not call the task later. A number for which `run` does not
+ * call the task runs on the calling thread. A repeated number runs once. A number >= count is ignored. Inside `run`,
+ * changes of the tree on the calling thread return OCTREE_BUSY.
+ *
+ * Bulk changes, octree_nearest_batch, octree_digest and octree_check divide large work, of some thousand points or
+ * more, into tasks. Nodes, statuses, answers and digests do not depend on the number of threads. Memory use may differ
+ * slightly, because tasks compete for free blocks. Tasks call the allocator one at a time.
+ *
+ * A null function means that all work runs on the calling thread. The context must outlive the tree. */
 typedef struct octree_executor {
     void (*run)(octree_task *task, size_t count, void *task_context, void *context);
     void *context;
 } octree_executor;
 
-/* A leaf capacity that octree_tune chooses, with the default mix or the one last given to it: first when the tree
- * reaches 1024 points, then each time the number of points has doubled. Requires OCTREE_GROW, because a point must not
- * be refused on account of a choice. The nodes are then a function of the contents and the capacity in force. */
+/* A leaf capacity that the tree chooses itself, as octree_tune does: first when the tree reaches 1024 points, then each
+ * time the number of points has doubled. The mix is the one last given to octree_tune, or the default mix. OCTREE_AUTO
+ * requires OCTREE_GROW, because a point must not be refused on account of a choice. The nodes then depend on the
+ * contents and the chosen capacity only. */
 #define OCTREE_AUTO (SIZE_MAX - 1)
 
-/* Everything that defines an empty tree. Start from octree_def_default() and change what you need. */
+/* Everything that defines an empty tree. Start from octree_def_default() and change some members. */
 typedef struct octree_def {
-    octree_box world;           /* min < max on every axis; any finite doubles, +-DBL_MAX included */
-    size_t leaf_capacity;       /* points in a leaf before it splits; at least 1, clamped to 2^32 - 1; or OCTREE_AUTO */
-    size_t max_depth;           /* clamped to OCTREE_MAX_DEPTH; 0 keeps the root a leaf */
-    octree_full_leaf full_leaf; /* what a full leaf at the maximum depth does */
+    octree_box world;     /* min < max on every axis; any finite doubles, +-DBL_MAX included */
+    size_t leaf_capacity; /* the number of points in a leaf before it splits; at least 1, clamped to 2^32 - 1; or
+                             OCTREE_AUTO */
+    size_t max_depth;     /* the greatest depth of a node, clamped to OCTREE_MAX_DEPTH; 0: the root never splits */
+    octree_full_leaf full_leaf; /* the treatment of points whose leaf is full and cannot split */
     octree_allocator allocator; /* null functions mean malloc and free */
-    octree_executor executor;   /* a null function means the calling thread */
+    octree_executor executor;   /* a null function means that all work runs on the calling thread */
 } octree_def;
 
 /* A cursor into a tree's change log. All zero means that nothing has been read yet. */
 typedef struct octree_cursor {
     size_t log;        /* the name of the log */
-    uint64_t position; /* the number of changes read */
+    uint64_t position; /* the number of the first change that the reader has not read */
 } octree_cursor;
 
 /* ---- Queries ------------------------------------------------------------------------------------------------ */
 
-/* Which points do not count as neighbours of a target. */
+/* The points that are skipped in a search for neighbours of a target. */
 typedef enum octree_skip {
-    OCTREE_SKIP_NONE,       /* every point counts */
-    OCTREE_SKIP_ID,         /* leave out points with the given id: "not the target itself" */
-    OCTREE_SKIP_COINCIDENT, /* leave out points at the target's coordinates: the paper's rule */
+    OCTREE_SKIP_NONE,       /* skip no point */
+    OCTREE_SKIP_ID,         /* skip points with the given id, such as the target's own point */
+    OCTREE_SKIP_COINCIDENT, /* skip points at the target's coordinates, as in the paper */
 } octree_skip;
 
-/* How distances are compared: as real numbers, or as doubles. FAST names the wrong one of two points whose distances
- * differ by less than a rounding error. It is 1.6 to 6 times as fast where many distances are equal, as on a lattice,
- * and about as fast as EXACT elsewhere. */
+/* How distances are compared: EXACT compares them as real numbers, FAST as doubles. If two distances differ by less
+ * than a rounding error, FAST may take the farther point for the nearer. FAST is 1.6 to 6 times as fast where many
+ * distances are equal, as on a lattice. Elsewhere it is about as fast as EXACT. */
 typedef enum octree_mode {
     OCTREE_EXACT,
     OCTREE_FAST,
 } octree_mode;
 
-/* The work of a query, in counts that are the same on every machine. A query adds to the counts, so that one report
- * can sum many queries. */
+/* The work of a query, as counts that are the same on every machine. A query adds to the counts, so that one struct can
+ * sum many queries. */
 typedef struct octree_cost {
-    uint64_t nodes;  /* visited, leaves included */
-    uint64_t leaves; /* visited */
-    uint64_t points; /* compared with the query one by one */
-    uint64_t pruned; /* nodes whose box is out of reach; the nodes below them are not counted */
-    uint64_t taken;  /* nodes whose box is inside the range, so that all their points match without comparison; these
-                        nodes and points are in no other count */
+    uint64_t nodes;  /* visited nodes, leaves included */
+    uint64_t leaves; /* visited leaves */
+    uint64_t points; /* points that were compared with the query one by one */
+    uint64_t pruned; /* nodes that were skipped because their box is out of reach; their descendants are not counted */
+    uint64_t taken; /* nodes whose box is inside the range, so that all their points match without comparison. The other
+                       counts do not include these nodes and points */
 } octree_cost;
 
 /* What a query did with a node. */
 typedef enum octree_trace_kind {
-    OCTREE_TRACE_VISITED, /* examined its children or its points one by one */
-    OCTREE_TRACE_PRUNED,  /* skipped it, and all nodes below it, because its box is out of reach */
-    OCTREE_TRACE_TAKEN,   /* accepted all points below it without comparison, because its box is inside the range */
+    OCTREE_TRACE_VISITED, /* the query examined the node's children, or its points one by one */
+    OCTREE_TRACE_PRUNED,  /* the query skipped the node and all nodes below it, because its box is out of reach */
+    OCTREE_TRACE_TAKEN,   /* the query accepted all points below the node without comparison, because its box is inside
+                             the range */
     OCTREE_TRACE_KINDS
 } octree_trace_kind;
 
-/* Called for each node that a query visits, prunes or takes. Changes of the tree inside it return OCTREE_BUSY. */
+/* Called for each node that a query visits, prunes or takes whole. Changes of the tree inside the tracer return
+ * OCTREE_BUSY. */
 typedef void (*octree_tracer)(octree_address node, octree_trace_kind kind, void *context);
 
-/* Options of a query. All zero, or a null pointer in its place, means exact and every point counts. */
+/* Options of a query. All zero, or a null pointer to the options, means an exact search that skips no point. */
 typedef struct octree_search {
-    octree_skip skip;    /* read by nearest-neighbour queries only */
-    uint64_t skip_id;    /* read under OCTREE_SKIP_ID only */
-    octree_mode mode;    /* of distances; boxes are exact in both modes */
-    double epsilon;      /* finite, >= 0; a ratio for neighbours, a length for ranges: see each function */
-    octree_cost *cost;   /* null: do not count */
-    octree_tracer trace; /* null: do not trace */
+    octree_skip skip;    /* read only by searches for neighbours */
+    uint64_t skip_id;    /* read only with OCTREE_SKIP_ID */
+    octree_mode mode;    /* how distances are compared; boxes are compared exactly in both modes */
+    double epsilon;      /* the permitted error, finite and >= 0: a ratio for neighbours, a length for ranges; see each
+                            function */
+    octree_cost *cost;   /* the counts to add to; null: do not count */
+    octree_tracer trace; /* the function to call for each node; null: do not trace */
     void *trace_context;
 } octree_search;
 
 typedef struct octree_neighbor {
     octree_point point;
-    double distance; /* Euclidean, within 4 ulp, without overflow or underflow on the way. Rounded: used as a radius it
-                        may miss the very point that it belongs to */
+    double distance; /* the Euclidean distance, within 4 ulp, computed without overflow or underflow. It is rounded: a
+                        search with this distance as its radius may miss the very point */
 } octree_neighbor;
 
 #endif
