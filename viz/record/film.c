@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The least number of frames that justifies another process: starting one costs about as much as filming ten small
+/* The minimum number of frames for each further process. Starting a process costs about as much as filming ten small
  * frames. */
 #define FRAMES_WORTH_A_JOB 16
 
@@ -31,8 +31,8 @@ static bool find_share(const octree_session *session, const film_options *option
                      total - 1);
 }
 
-/* The number of frames by which a share is divided among jobs. A frame before the first tick counts too, since the
- * ticks after it belong to the job of that frame. */
+/* Count the frames of a share, by which it is divided among jobs. The frame at or before share->first counts too: the
+ * job that owns this frame films the ticks that follow it. */
 static uint64_t count_frames(const film_share *share, uint64_t every)
 {
     return every == 0 ? 0 : (share->last - 1) / every - share->first / every + 1;
@@ -68,7 +68,8 @@ film_start film_count_start(const octree_session *session, const octree_tick *ti
     return start;
 }
 
-/* The two preparations of a recording run in parallel; for a large session they take about the same time. */
+/* The two preparations of a recording. They run in parallel because they take about the same time for a large session.
+ */
 enum { OPEN_PLAYBACK, MAKE_BYTES, PREPARATIONS };
 
 typedef struct preparation {
@@ -122,7 +123,8 @@ bool film_session(const octree_session *session, const film_options *options, fi
 
 /* ---- One tree ----------------------------------------------------------------------------------------------- */
 
-/* Check the picture that is to be written to a path. A picture for standard output is kept in the current folder. */
+/* Check the picture before it is written to `path`. If pixels differ, both versions are kept as PNG files beside
+ * `path`, or in the current folder if the picture goes to standard output. */
 static bool check_picture(picture *p, const scene *s, const char *path, frame_checks *checks, octreel_error *error)
 {
     const char *title = file_output_display_name(path);

@@ -14,10 +14,10 @@
 
 /* ---- Commands ----------------------------------------------------------------------------------------------- */
 
-/* Print how to watch the recording. ffmpeg runs inside the folder, so that the folder's name is not part of its
- * pattern;
- * "./" keeps cd from searching CDPATH. A glob pattern is used because a numbered sequence would end at the first gap.
- * yuv420p, which every player shows, needs even sides. */
+/* Print the commands that show the recording. The ffmpeg command changes into the folder first, because characters in
+ * the folder's name could be read as a pattern. "./" keeps cd from searching CDPATH. The command uses a glob pattern
+ * because ffmpeg ends a numbered sequence at the first gap. Most players need yuv420p, which needs an even width and
+ * height. */
 static void print_uses(FILE *out, const film_summary *summary, const char *folder)
 {
     if (summary->frames == 0) {
@@ -31,14 +31,14 @@ static void print_uses(FILE *out, const film_summary *summary, const char *folde
           out);
 }
 
-/* ---- Filmed ------------------------------------------------------------------------------------------------- */
+/* ---- The summary of film_session() ---------------------------------------------------------------------------- */
 
 static double find_rate(const film_summary *summary, double seconds)
 {
     return seconds > 0 ? (double)(summary->frames - summary->kept) / seconds : 0;
 }
 
-/* Write the members that both JSON summaries have. */
+/* Write the members that the JSON summaries of film_session() and join_chunks() share. */
 static void begin_json(json_writer *w, const film_summary *summary, const char *folder)
 {
     json_write_begin_object(w);
@@ -139,7 +139,8 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
     report_left_out(out, summary);
     fputs("ticks with each event: player", out);
     for (unsigned i = 0; i < OCTREE_EVENT_KINDS; i++)
-        if (1u << i != OCTREE_EVENT_WRONG || summary->events[i]) /* without answers, "wrong 0" would be confusing */
+        /* A session without answers cannot have wrong ones, so "wrong 0" would mislead. */
+        if (1u << i != OCTREE_EVENT_WRONG || summary->events[i])
             fprintf(out, "%s %s %" PRIu64, i ? "," : "", octree_event_name(1u << i), summary->events[i]);
     putc('\n', out);
     if (summary->refusals)
@@ -153,7 +154,7 @@ void film_report(FILE *out, const film_summary *summary, const film_options *opt
         print_uses(out, summary, options->folder);
 }
 
-/* Print a world that contains all points, as a member of a session. */
+/* Print a world that contains all points, as a JSON member "world" of a session. */
 static void print_world(FILE *out, const octree_session *session)
 {
     const octree_body *bodies = session->bodies;

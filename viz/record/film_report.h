@@ -7,28 +7,31 @@
 
 #include <stdio.h>
 
-/* "nodes, points and velocity arrows", for bits LEFT_OUT_* of scene.h. Returns `text`. */
+/* Write the names of the kinds in `left_out`, bits LEFT_OUT_* of scene.h, such as "nodes, points and velocity arrows".
+ * Returns `text`. */
 #define FILM_LEFT_OUT 48
 const char *film_left_out_text(unsigned left_out, char text[FILM_LEFT_OUT]);
 
-/* Print a few lines for people, with the ffmpeg command that makes a film, or one JSON object on one line. */
+/* Print the summary as a few lines of text, with the ffmpeg command that makes a film, or as one JSON object on one
+ * line. */
 void film_report(FILE *out, const film_summary *summary, const film_options *options, double seconds, bool json);
 
-/* A note where more than half of the session's points were refused at its start, with the member of the session that
- * keeps them. */
+/* If tick 0 refused more than half of the session's points, print a note that suggests the member of session.json that
+ * would keep them. */
 void film_report_start(FILE *out, const film_start *start, const octree_session *session);
 
-/* Notes where the view asks for values that no point and no tick has. */
+/* Print a note for each option of the view that shows nothing: a value that no point has, or foreign nodes that no tick
+ * has. */
 void film_report_empty(FILE *out, const film_summary *summary, const film_options *options);
 
-/* All of these notes, and one where frames could not be checked. */
+/* Print the notes of film_report_start() and film_report_empty(), and a note if frames could not be checked. */
 void film_report_notes(FILE *out, const film_summary *summary, const film_options *options,
                        const octree_session *session);
 
-/* Print the shorter summary of a recording that join_chunks() made. */
+/* Print the summary of a recording that join_chunks() completed. It is shorter than that of film_report(). */
 void film_report_joined(FILE *out, const film_summary *summary, const film_options *options, bool json);
 
-/* Print the number of recorded ticks and the command that continues. */
+/* Print the number of recorded ticks and the command that resumes the recording. */
 void film_report_stopped(FILE *out, const film_summary *summary, const film_options *options);
 
 #endif

@@ -8,11 +8,12 @@ typedef struct streaming {
     live_recording *live;
     const film_options *options;
     octreel_error *error;
-    uint64_t end;  /* the session's last tick, as far as it is known */
-    uint64_t last; /* the last recorded tick */
+    uint64_t end;  /* last tick of the session as far as the stream tells so far */
+    uint64_t last; /* last recorded tick */
 } streaming;
 
-/* Record the next tick, with this input or, if it is null, with its key alone. */
+/* Record the next tick. A null `input` has nothing but the player's key press for this tick, which the session holds.
+ */
 static film_stream_end film_next_tick(streaming *s, const octree_input *input)
 {
     static const octree_input nothing = {0};
@@ -24,7 +25,7 @@ static film_stream_end film_next_tick(streaming *s, const octree_input *input)
     return FILM_STREAM_WHOLE;
 }
 
-/* Record the ticks up to a tick, which have no object in the stream. */
+/* Record the ticks after s->last up to and including `tick`. None of them has a JSON object in the stream. */
 static film_stream_end film_ticks_up_to(streaming *s, uint64_t tick)
 {
     film_stream_end how = FILM_STREAM_WHOLE;
@@ -43,7 +44,8 @@ static film_stream_end film_stream_tick(streaming *s, const session_stream_tick 
     return live_add_unplayed(s->live, tick->number, &tick->input, s->error) ? how : FILM_STREAM_BROKEN;
 }
 
-/* At the end of the stream the number of ticks is known, and keys may be left that have no object. */
+/* Record the ticks after the last JSON object of the stream. Such ticks have only the player's key presses, or the
+ * header's number of ticks includes them. Their number is known only when the stream has ended. */
 static film_stream_end film_remaining_ticks(streaming *s)
 {
     octree_session session = *session_stream_first_session(s->from);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* folder_files.c - writes session.json, recording.json and renderer.json, and decides whether a recording may be
- * resumed in a folder. */
+/* folder_files.c - writes session.json, recording.json and renderer.json, and checks whether a partial recording in a
+ * folder may be resumed. */
 #include "folder_files.h"
 #include "frame_file.h"
 #include "png_write.h"
@@ -18,7 +18,8 @@
 
 /* ---- Shared ------------------------------------------------------------------------------------------------ */
 
-/* *same: whether a file has these bytes. False with an error where it cannot be read. */
+/* Set *same to true if the file contains exactly these bytes. Returns false with an error if the file cannot be read.
+ */
 static bool compare_file(const char *path, const char *bytes, size_t size, bool *same, octreel_error *error)
 {
     char *there;
@@ -30,8 +31,9 @@ static bool compare_file(const char *path, const char *bytes, size_t size, bool 
     return true;
 }
 
-/* Give a finished file its name unless another process was first: unlike rename(), link() does not replace a file. On
- * file systems without links the last writer wins; its file is whole, too. */
+/* Rename a finished file from `own` to `path` unless another process has created `path` first. link() is used because
+ * rename() would replace the other file. On file systems without links the last process to rename wins; its file is
+ * whole too. */
 static bool publish_file(const char *own, const char *path, octreel_error *error)
 {
     if (link(own, path) == 0 || errno == EEXIST) {
@@ -45,7 +47,7 @@ static bool publish_file(const char *own, const char *path, octreel_error *error
     return false;
 }
 
-/* Write a file under a name of this writer's own, then publish it. */
+/* Write a file under a temporary name that only this process uses, then publish it. */
 static bool write_once(const folder_place *place, const char *name, const char *path, const char *bytes, size_t size,
                        octreel_error *error)
 {
@@ -58,8 +60,8 @@ static bool write_once(const folder_place *place, const char *name, const char *
     return ok;
 }
 
-/* Write a file unless it exists. `unlike`: the error where it exists with other bytes; null: other bytes are accepted.
- */
+/* Write a file unless it exists. If it exists with other bytes, fail with the error `unlike`; if `unlike` is null,
+ * accept any bytes. */
 static bool write_shared(const folder_place *place, const char *name, const char *bytes, size_t size,
                          const char *unlike, octreel_error *error)
 {
@@ -82,7 +84,7 @@ static bool write_file(const folder_place *place, const char *name, const char *
                                            : folder_write_file(place->folder, name, bytes, size, error);
 }
 
-/* ---- Written ------------------------------------------------------------------------------------------------ */
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
 
 bool make_session_bytes(const octree_session *session, const point_values *values, session_bytes *made,
                         octreel_error *error)
@@ -103,7 +105,7 @@ bool write_session_file(const folder_place *place, const session_bytes *session,
                       "is another session, or was changed by hand", error);
 }
 
-/* End a text stream and write its text as a file. */
+/* End a text stream and write its text to a file. */
 static bool write_stream(const folder_place *place, const char *name, text_stream *s, const char *unlike,
                          octreel_error *error)
 {
@@ -151,11 +153,11 @@ bool write_renderer_file(const folder_place *place, const renderer_info *info, o
     return write_stream(place, "renderer.json", &s, NULL, error);
 }
 
-/* ---- Read --------------------------------------------------------------------------------------------------- */
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
 char *describe_renderer(const renderer_info *info, char *text, size_t size)
 {
-    enum { LONGEST = 100 }; /* characters of each string */
+    enum { LONGEST = 100 }; /* maximum number of characters of each string */
     const bool by_gl = !info->fill || strcmp(info->fill, draw_fill_name(DRAW_FILL_GL)) == 0;
     const char *const words[] = {by_gl ? NULL : "the integer rasterizer", info->context, info->renderer, info->version};
     size_t length = 0;
@@ -173,7 +175,7 @@ static const char *text_of(const json_t *object, const char *key)
 
 char *describe_recorded_renderer(const char *folder, char *text, size_t size)
 {
-    enum { LARGEST = 1 << 16 }; /* bytes; 100 times the size that octreel writes */
+    enum { LARGEST = 1 << 16 }; /* maximum file size in bytes: 100 times the size that octreel writes */
     char reason[FILE_REASON], *path = path_join(folder, "renderer.json");
     uint64_t bytes = 0;
     FILE *file = path ? file_open(path, &bytes, reason) : NULL;
@@ -201,7 +203,7 @@ static bool is_empty(const char *folder, const char *name)
     return empty;
 }
 
-/* Whether a file shows that a recording got past its start: one that is killed at its start leaves at most
+/* True if this file proves that a recording reached its first tick. A recording killed before that leaves at most
  * recording.json, session.json and an empty ticks.jsonl. */
 static bool is_past_start(const char *folder, const char *name)
 {
@@ -209,7 +211,7 @@ static bool is_past_start(const char *folder, const char *name)
            strcmp(name, "session.json") != 0 && !(strcmp(name, "ticks.jsonl") == 0 && is_empty(folder, name));
 }
 
-/* Check that session.json.live, left by a program that died, is this session. */
+/* Check that session.json.live, which a killed program left, contains the session with this digest. */
 static bool check_live_session(const char *folder, uint64_t session_digest, octreel_error *error)
 {
     session_file file;
@@ -223,8 +225,8 @@ static bool check_live_session(const char *folder, uint64_t session_digest, octr
     return ok;
 }
 
-/* Check that the folder has recording.json and session.json. This comes after the folder was listed: a recording writes
- * these two first, so a recording that another process has just begun is not refused. */
+/* Check that the folder contains recording.json and session.json. The caller has listed the folder before this check. A
+ * recording writes these two files before all others, so a recording that another process has just begun passes. */
 static bool check_known(const char *folder, const char *past, uint64_t session_digest, octreel_error *error)
 {
     const bool view = folder_contains(folder, "recording.json"), session = folder_contains(folder, "session.json");
@@ -235,9 +237,9 @@ static bool check_known(const char *folder, const char *past, uint64_t session_d
                      view ? "session.json" : "recording.json");
 }
 
-/* Check the session digest in the first frame, which stands for all frames. Accepted are frames without a digest, such
- * as torn frames and frames saved by another program, and digest 0: a program that was killed while it recorded itself
- * did not know its session yet. */
+/* Check the session digest in the folder's first frame; the other frames are not read. A frame without a digest is
+ * accepted, because it is torn or another program saved it. Digest 0 is accepted too: a program that records itself
+ * writes 0 until its session is complete, and it may have been killed before. */
 static bool check_session(const char *folder, const char *frame, uint64_t session_digest, octreel_error *error)
 {
     uint64_t tick, session;
@@ -251,7 +253,7 @@ static bool check_session(const char *folder, const char *frame, uint64_t sessio
 
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error)
 {
-    const char *past = NULL, *frame = ""; /* the first names of files past the start, and of frames */
+    const char *past = NULL, *frame = ""; /* first file name that is_past_start() accepts; first name of a frame */
     char **names = folder_names(folder, error);
     bool ok = names;
     for (size_t i = 0; ok && names[i]; i++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* folder_files.h - writes session.json, recording.json and renderer.json, and decides whether a recording may be
- * resumed in a folder. */
+/* folder_files.h - writes session.json, recording.json and renderer.json, and checks whether a partial recording in a
+ * folder may be resumed. */
 #ifndef RECORD_FOLDER_FILES_H
 #define RECORD_FOLDER_FILES_H
 
@@ -10,15 +10,16 @@
 #include "session_file.h"
 #include "view.h"
 
-/* ---- Written ------------------------------------------------------------------------------------------------ */
+/* ---- Writing ------------------------------------------------------------------------------------------------ */
 
-/* How a file is written into a folder. */
+/* The folder into which files are written, and the way in which they are written. */
 typedef struct folder_place {
     const char *folder;
-    /* A name that is unique among processes that may write the same file with the same bytes at the same time. A file
-     * that exists stays and must have these bytes. Null: only this process writes, into a new folder. */
+    /* A name that is unique to this process. Several processes may write the same file with the same bytes at the same
+     * time; each writes to a temporary file with its own name. A file that already exists is kept and must have these
+     * bytes. Null: only this process writes, and the folder is new. */
     const char *writer;
-    bool dry_run; /* write nothing; a file that exists must have these bytes */
+    bool dry_run; /* write nothing; only check that files that exist have the expected bytes */
 } folder_place;
 
 /* The bytes of session.json, and their digest. The caller frees the bytes. */
@@ -28,30 +29,34 @@ typedef struct session_bytes {
     uint64_t digest;
 } session_bytes;
 
-/* Make the bytes of session.json; `values`, the values of its points, may be null. */
+/* Make the bytes of session.json. `values` are the values of the session's points; may be null. */
 bool make_session_bytes(const octree_session *session, const point_values *values, session_bytes *made,
                         octreel_error *error);
 bool write_session_file(const folder_place *place, const session_bytes *session, octreel_error *error);
 
-/* Write recording.json: the format version and the view. */
+/* Write recording.json, which contains the format version, the view and `every`. */
 bool write_recording_file(const folder_place *place, const view *v, uint64_t every, octreel_error *error);
 
-/* Write renderer.json, the only file that may differ between machines. The file of the first process stays. */
+/* Write renderer.json, the only file that may differ between machines. If several processes write it, the first file
+ * stays. */
 bool write_renderer_file(const folder_place *place, const renderer_info *info, octreel_error *error);
 
-/* ---- Read --------------------------------------------------------------------------------------------------- */
+/* ---- Reading ------------------------------------------------------------------------------------------------ */
 
-/* Describe a renderer: context, renderer and version, or "the integer rasterizer". Returns `text`. */
+/* Describe a renderer: its context, name and version, or "the integer rasterizer". Returns `text`. */
 char *describe_renderer(const renderer_info *info, char *text, size_t size);
 
-/* Describe the renderer in a folder's renderer.json; "an unknown renderer" where it names none. Returns `text`. */
+/* Describe the renderer in a folder's renderer.json. The text is "an unknown renderer" if the file is missing or
+ * invalid. Returns `text`. */
 char *describe_recorded_renderer(const char *folder, char *text, size_t size);
 
-/* Whether a recording with this session, number of ticks and `every` may be resumed in a folder. The caller has
- * compared recording.json and session.json, if they exist. A folder without a recording is accepted. Refused are:
- * frames, lines or a page without both of these files, since nothing shows to which recording they belong; frames of
- * other ticks; and a first frame of another session. session.json.live, which a program that died leaves, stands for
- * session.json. */
+/* Check whether a recording of this session may be resumed in a folder. The caller has already compared recording.json
+ * and session.json if they exist. A folder without a recording is accepted.
+ *
+ * Refused with an error: a folder that has frames, a ticks.jsonl with lines, or a page, but lacks recording.json or
+ * session.json, because nothing then shows to which recording these files belong; a folder with a frame that this
+ * recording does not have; and a folder whose first frame has another session digest. If a program was killed while it
+ * recorded itself, session.json.live is used in place of session.json. */
 bool check_resumable(const char *folder, uint64_t session_digest, uint64_t ticks, uint64_t every, octreel_error *error);
 
 #endif

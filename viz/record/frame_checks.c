@@ -25,7 +25,7 @@ static uint64_t count_different(const image *drawn, const uint8_t *by_gl)
     return count;
 }
 
-/* Writes p->frame; ".png" is added to the path. */
+/* Write p->frame to the PNG file PREFIX.RASTERIZER.png. */
 static bool keep_picture(const picture *p, const char *prefix, const char *rasterizer, octreel_error *error)
 {
     const size_t size = strlen(prefix) + sizeof ".integers.png";

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* jobs.c - records a session with several processes.
  *
- * Drawing and compressing frames takes most of the time, and frames do not depend on each other. Ticks do: each is made
- * from the one before. So every job plays the whole session, which is cheap, and draws only its share of the frames:
- * frame i belongs to job i modulo the number of jobs (see share_find_job()). Processes are used rather than threads
- * since GL contexts in threads of one process do not scale. A job sends the lines of its ticks through a socket, and
- * the process that started the jobs writes them to ticks.jsonl in the order of ticks. So the files are those of a
- * single process, and after a stop or a failure a prefix of the ticks is complete, with a few frames beyond it.
+ * The problem: drawing and compressing frames takes most of the time of a recording. Frames do not depend on each
+ * other, but each tick depends on the tick before it.
  *
- * Jobs start to draw at once, while their starter still writes session.json; its digest, which each frame contains, is
- * sent to them when it is known. A job ends when its socket closes: nothing is left running when the starter is killed.
- */
+ * The idea: every job plays the whole session, which is cheap, and draws only its share of the frames. Job i draws the
+ * frames whose number modulo the number of jobs is i (see share_find_job()). Jobs are processes because GL contexts in
+ * threads of one process do not scale. Each job sends the lines of its ticks through a socket. The starter, the process
+ * that started the jobs, writes the lines to ticks.jsonl in the order of the ticks. The files are therefore the same as
+ * those of a single process. After a stop or a failure all ticks up to some tick are complete, and a few later frames
+ * exist.
+ *
+ * Jobs begin to draw while the starter still writes session.json. Each frame contains the digest of session.json, so
+ * the starter sends the digest to the jobs as soon as it is known. A job ends when its socket closes, so no job
+ * outlives the starter. */
 #include "jobs.h"
 
 #include <errno.h>
@@ -25,7 +28,7 @@
 
 /* ---- Pipes -------------------------------------------------------------------------------------------------- */
 
-/* MSG_NOSIGNAL: no SIGPIPE where the other end is closed, since the other process may have died. */
+/* Write all bytes to a socket. MSG_NOSIGNAL prevents SIGPIPE if the other process has closed its end or died. */
 static bool pipe_write(int pipe, const void *bytes, size_t size)
 {
     for (const char *at = bytes; size > 0;) {
@@ -51,24 +54,24 @@ static bool pipe_read(int pipe, void *bytes, size_t size)
     return true;
 }
 
-/* Wait up to this many milliseconds. True: there are bytes to read, or the other end is closed. */
+/* Wait up to `milliseconds`. Returns true if there are bytes to read or the other end is closed. */
 static bool pipe_poll(int pipe, int milliseconds)
 {
     struct pollfd asked = {.fd = pipe, .events = POLLIN};
     return poll(&asked, 1, milliseconds) > 0;
 }
 
-/* A message of a job, and the bytes that follow it. */
+/* The kind of a message from a job. Each message is followed by bytes, whose meaning depends on the kind. */
 typedef enum message_kind {
-    MESSAGE_STEP,   /* a tick was filmed; the bytes are its line */
+    MESSAGE_STEP,   /* a tick was filmed; the bytes are its line of ticks.jsonl */
     MESSAGE_FAILED, /* the job failed; the bytes are an octreel_error */
     MESSAGE_ENDED,  /* job 0 filmed its last tick or was stopped; the bytes are its frame_checks */
 } message_kind;
 
 typedef struct message {
     message_kind kind;
-    film_step step; /* of MESSAGE_STEP */
-    size_t size;    /* of the bytes */
+    film_step step; /* set if kind is MESSAGE_STEP */
+    size_t size;    /* number of bytes that follow the message */
 } message;
 
 static bool write_message(int pipe, message m, const void *bytes, size_t size)
@@ -81,13 +84,13 @@ static bool write_message(int pipe, message m, const void *bytes, size_t size)
 
 typedef struct job {
     pid_t pid;
-    int pipe; /* a socket: the job's own end in the job, the other end in the process that started it */
+    int pipe; /* a socket between the starter and the job; each process holds its own end */
     const film_options *options;
-    uint64_t session; /* the digest of session.json, once has_session is true */
+    uint64_t session; /* digest of session.json, valid if has_session is true */
     bool has_session;
 } job;
 
-/* Wait for the digest of session.json. The job exits if it is stopped before. */
+/* Wait until the starter sends the digest of session.json. If the starter stops the job before, the process exits. */
 static void wait_for_session(job *self)
 {
     if (!self->has_session && !pipe_read(self->pipe, &self->session, sizeof self->session))
@@ -102,15 +105,15 @@ static void learn_session(uint64_t *digest, void *context)
     *digest = self->session;
 }
 
-/* False: the caller of the recording stops it, or the starter of the job stops it or dies. */
+/* Returns false if the caller of the recording or the starter stops this job, or if the starter has died. */
 static bool job_keeps_going(void *context)
 {
     const job *self = context;
     return watcher_continues(&self->options->watch) && !(self->has_session && pipe_poll(self->pipe, 0));
 }
 
-/* A thread that sleeps until the starter has died and then ends the job, since nobody needs its current frame. A
- * starter that only stops the job keeps its end open. */
+/* The thread of a job that waits until the starter dies and then ends the job, because nobody needs its current frame.
+ * If the starter only stops the job, its end of the socket stays open and the job finishes its frame. */
 static void *watch_starter(void *context)
 {
     const job *self = context;
@@ -120,7 +123,8 @@ static void *watch_starter(void *context)
     _exit(EXIT_FAILURE);
 }
 
-/* Start that thread with all signals blocked. Without it the job notices only after its current frame. */
+/* Start the thread watch_starter() with all signals blocked. If the thread cannot be started, the job notices the
+ * starter's death only after its current frame. */
 static void begin_watch(job *self)
 {
     sigset_t all, before;
@@ -135,20 +139,21 @@ static void begin_watch(job *self)
 static bool write_step(void *context, const film_step *step, octreel_error *error)
 {
     job *self = context;
-    wait_for_session(self); /* the starter reads nothing before */
+    wait_for_session(self); /* the starter reads no message before it has sent the digest */
     return write_message(self->pipe, (message){.step = *step}, step->line, step->size) ||
            error_set(error, "the process that collects the ticks has ended");
 }
 
-/* The whole run of a job. It ends with _exit(), since buffers of stdio belong to the process that was forked. */
+/* Run a job. It ends with _exit() because the buffers of stdio are copies of the starter's and must not be flushed
+ * twice. */
 static _Noreturn void run_job(job *self, const recording *r, playback *p, const film_share *share)
 {
     octreel_error error;
     const watcher watch = {.keep_going = job_keeps_going, .context = self};
-    setenv("LP_NUM_THREADS", "0", 0); /* other cores are busy with other jobs */
-    draw_context_set_report(NULL);    /* the starter reports the GL context */
+    setenv("LP_NUM_THREADS", "0", 0); /* no threads in llvmpipe: other jobs use the other cores */
+    draw_context_set_report(NULL);    /* the starter, not the job, reports the GL context */
     begin_watch(self);
-    p->learn_session = learn_session; /* the first frame is drawn meanwhile */
+    p->learn_session = learn_session; /* wait for the digest only after the first frame is drawn */
     p->learn_context = self;
     const bool ok = recording_open_picture(r, p, &error) && playback_run(p, share, write_step, self, &watch, &error);
     if (ok && share->index == 0)
@@ -163,9 +168,9 @@ static _Noreturn void run_job(job *self, const recording *r, playback *p, const 
 typedef struct job_pool {
     recording *recording;
     job *jobs;
-    unsigned wanted, count; /* the number of jobs to start, and already started */
-    bool stopped;           /* no job begins another frame */
-    char *bytes;            /* the bytes of the last message */
+    unsigned wanted, count; /* number of jobs to start; number already started */
+    bool stopped;           /* true: no job begins another frame */
+    char *bytes;            /* bytes of the last message */
 } job_pool;
 
 static bool start_job(job_pool *pool, playback *p, octreel_error *error)
@@ -179,7 +184,7 @@ static bool start_job(job_pool *pool, playback *p, octreel_error *error)
     if (pid == 0) {
         close(ends[0]);
         for (unsigned i = 0; i < pool->count; i++)
-            close(pool->jobs[i].pipe); /* a socket closes when all copies of its other end are closed */
+            close(pool->jobs[i].pipe); /* a socket closes only when all copies of its other end are closed */
         share.index = pool->count;
         share.count = pool->wanted;
         run_job(&(job){.pipe = ends[1], .options = r->options}, r, p, &share);
@@ -202,10 +207,10 @@ static void stop_jobs(job_pool *pool)
     pool->stopped = true;
 }
 
-/* Read the next message of a job. Stops all jobs if the caller wants to stop meanwhile. */
+/* Read the next message of a job. If the caller's watcher asks to stop while this waits, stop all jobs. */
 static bool read_message(job_pool *pool, const job *j, message *m)
 {
-    enum { PATIENCE = 50 }; /* milliseconds */
+    enum { PATIENCE = 50 }; /* milliseconds between two calls of the watcher */
     while (!pool->stopped) {
         if (!watcher_continues(&pool->recording->options->watch))
             stop_jobs(pool);
@@ -218,7 +223,7 @@ static bool read_message(job_pool *pool, const job *j, message *m)
            pipe_read(j->pipe, pool->bytes, m->size);
 }
 
-/* Find out why a job ended early. True: because it was stopped. */
+/* Called if a job ended before its last tick. Returns true if the job was stopped, false with an error if it failed. */
 static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
 {
     int status = 0;
@@ -235,7 +240,7 @@ static bool explain_end(job_pool *pool, unsigned i, octreel_error *error)
                      pool->count, WEXITSTATUS(status));
 }
 
-/* Read each tick from the job that films it, until all are there or the recording is stopped. */
+/* Read each tick from the job that films it, until all ticks are read or the recording is stopped. */
 static bool collect_ticks(job_pool *pool, octreel_error *error)
 {
     recording *r = pool->recording;
@@ -251,7 +256,7 @@ static bool collect_ticks(job_pool *pool, octreel_error *error)
             memcpy(error, pool->bytes, sizeof *error);
             return false;
         }
-        if (m.kind == MESSAGE_ENDED) { /* stopped before this tick */
+        if (m.kind == MESSAGE_ENDED) { /* the job was stopped before this tick */
             memcpy(&r->summary->checks, pool->bytes, sizeof r->summary->checks);
             return true;
         }
@@ -265,7 +270,8 @@ static bool collect_ticks(job_pool *pool, octreel_error *error)
     return true;
 }
 
-/* Stop the jobs and wait for their end. Their messages are read, since a job would wait for space in its socket. */
+/* Stop the jobs and wait until they have ended. Their messages are read and dropped, because a job with a full socket
+ * would wait forever. */
 static void end_jobs(job_pool *pool)
 {
     char ignored;
@@ -281,20 +287,20 @@ static void end_jobs(job_pool *pool)
     free(pool->jobs);
 }
 
-/* Start the jobs, and write the first files of the recording while they begin to draw. */
+/* Start the jobs. Then write the first files of the recording while the jobs begin to draw. */
 static bool start_all_jobs(job_pool *pool, playback *p, octreel_error *error)
 {
     while (pool->count < pool->wanted)
         if (!start_job(pool, p, error))
             return false;
-    octree_game_destroy(p->game); /* each job has a copy, and this process plays nothing */
+    octree_game_destroy(p->game); /* each job has a copy of the game, and the starter plays nothing */
     p->game = NULL;
     const bool begun = recording_open_picture(pool->recording, p, error) && recording_begin(pool->recording, p, error);
     picture_close(&p->picture);
     return begun;
 }
 
-/* Send the digest of session.json to all jobs. A job that has died is noticed when its messages are read. */
+/* Send the digest of session.json to all jobs. If a job has died, this is noticed later, when its messages are read. */
 static bool send_session(const job_pool *pool, uint64_t session, octreel_error *error)
 {
     for (unsigned i = 0; i < pool->count; i++)

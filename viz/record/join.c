@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* join.c - completes a recording that was made in chunks (octreel record --ticks A:B), perhaps on several machines.
  *
- * Each chunk left a file of lines, ticks_A_B.jsonl, and frames. The chunks are sorted by their first tick and copied
- * one after the other into ticks.jsonl; ticks that an earlier chunk had are skipped. Each line must be that of the next
- * tick, and its frame must be whole and show this tick, this scene and the session of the folder. So chunks of another
- * session, view or version are found, and so are gaps between chunks. ticks.jsonl is written under another name and
- * renamed when everything is checked: until then a failure changes nothing. Then index.html is written and the chunk
- * files are removed, and the folder has the same bytes as a recording by one process. Nothing is played or drawn:
- * whether lines and pixels follow from the session is checked by octreel verify. */
+ * Each chunk left frames and one file of lines, ticks_A_B.jsonl. The chunks are sorted by their first tick and their
+ * lines are copied into ticks.jsonl. A tick that two chunks contain is copied once. Each line must belong to the next
+ * tick. Its frame must be whole and must contain the digests of this tick's scene and of the folder's session. These
+ * checks find chunks of another session, view or version, and gaps between chunks.
+ *
+ * ticks.jsonl is written under a temporary name and renamed after the last check, so a failure changes no file. Then
+ * index.html is written and the chunk files are removed. The folder now has the same bytes as a recording by one
+ * process. Nothing is played or drawn here; octreel verify checks that lines and pixels follow from the session. */
 #include "join.h"
 #include "hint.h"
 #include "folder_files.h"
@@ -21,18 +22,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A file with the lines of the ticks [first, last); the last ones may be missing. */
+/* A chunk's file, ticks_A_B.jsonl. It has a line for each tick from first to last - 1; lines at the end may be missing.
+ */
 typedef struct chunk {
     uint64_t first, last;
     char name[CHUNK_NAME];
 } chunk;
 
-/* A join in progress. */
+/* The state of a join. */
 typedef struct joining {
     const film_options *options;
     const octree_session *session;
-    film_summary *summary;   /* ticks: the number joined so far */
-    uint64_t session_digest; /* of session.json */
+    film_summary *summary;   /* summary->ticks is the number of ticks joined so far */
+    uint64_t session_digest; /* digest of session.json */
     chunk *chunks;           /* sorted by their first tick */
     size_t count;
     file_writer ticks; /* the new ticks.jsonl */
@@ -55,7 +57,7 @@ static bool add_chunk(joining *j, chunk c, octreel_error *error)
     return true;
 }
 
-/* An existing ticks.jsonl counts as a chunk of all ticks. */
+/* Add a file of the folder to the chunks if it is a chunk's file. An existing ticks.jsonl is a chunk of all ticks. */
 static bool add_entry(joining *j, const char *name, octreel_error *error)
 {
     uint64_t tick;
@@ -121,7 +123,7 @@ static bool join_line(joining *j, const chunk *c, size_t size, octreel_error *er
     return true;
 }
 
-/* Join the lines of a chunk, except ticks that earlier chunks had. A last line without a newline is ignored. */
+/* Join the lines of a chunk, without ticks that earlier chunks contain. A last line without a newline is ignored. */
 static bool join_lines(joining *j, const chunk *c, FILE *stream, bool *stopped, octreel_error *error)
 {
     ssize_t size;
@@ -153,7 +155,7 @@ static bool join_chunk(joining *j, const chunk *c, bool *stopped, octreel_error 
     return ok;
 }
 
-/* Join chunk after chunk, up to the first gap between them. */
+/* Join the chunks in order, up to the first gap between two chunks. */
 static bool join_all(joining *j, bool *stopped, octreel_error *error)
 {
     for (size_t i = 0; i < j->count && !*stopped && j->chunks[i].first <= j->summary->ticks; i++)

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* live.c - records a session whose ticks are not known in advance.
  *
- * session.json comes first in other recordings, since its digest is written into every frame. Here the session grows
- * with each tick, so the order is reversed. Each tick is appended to session.json.live and flushed before it is played:
- * if the process dies, only the current tick is lost, and octreel record --resume makes a recording of the rest. Frames
- * get the session digest 0 meanwhile. When the recording is closed, session.json is written: a header that knows the
- * number of ticks, followed by the ticks copied from session.json.live. Then the digest is patched into every frame, in
- * place, and session.json.live is removed. The result has the same bytes as film_session() makes from that session. */
+ * Other recordings write session.json first, because every frame contains its digest. Here the session grows with each
+ * tick, so session.json is written last.
+ *
+ * Each tick is appended to session.json.live and flushed before it is played. If the process dies, only the current
+ * tick is lost, and octreel record --resume completes the recording. Until the end, frames contain the session digest
+ * 0.
+ *
+ * When the recording is closed, session.json is written: a header with the number of ticks, and then the ticks copied
+ * from session.json.live. Then the digest is written into every frame in place, and session.json.live is removed. The
+ * files have the same bytes as film_session() writes for this session. */
 #include "live.h"
 #include "array.h"
 #include "film.h"
@@ -28,15 +32,15 @@ struct live_recording {
     playback playback;
     film_summary summary;
     recording recording;
-    size_t key_count;  /* keys of start.session */
-    uint64_t ticks;    /* recorded ticks, without tick 0 */
-    FILE *stream;      /* session.json.live; null: it does not exist */
-    char *path;        /* of session.json.live */
-    off_t head, whole; /* offsets: where its ticks begin, and where its last complete tick ends */
-    uint64_t *gaps;    /* ticks that are due a frame and have none, since they are gaps */
+    size_t key_count;  /* length of start.session.keys, the player's key presses */
+    uint64_t ticks;    /* number of recorded ticks, without tick 0 */
+    FILE *stream;      /* the open session.json.live; null if it does not exist */
+    char *path;        /* path of session.json.live */
+    off_t head, whole; /* offsets in session.json.live: the start of its ticks, and the end of its last complete tick */
+    uint64_t *gaps;    /* numbers of the ticks that should have a frame but have none, because they are gaps */
     size_t gap_count, gap_room;
-    bool begun;  /* tick 0 was filmed */
-    bool broken; /* a tick failed */
+    bool begun;  /* tick 0 is filmed */
+    bool broken; /* a tick failed: no more ticks are recorded */
 };
 
 /* ---- session.json.live -------------------------------------------------------------------------------------- */
@@ -46,7 +50,7 @@ static bool fail_to_write(const live_recording *live, octreel_error *error)
     return error_set(error, "%s: cannot be written: %s", live->path, strerror(errno));
 }
 
-/* Flushed bytes survive the death of the process. */
+/* Flush session.json.live. Flushed bytes are kept even if the process is killed. */
 static bool flush_session(live_recording *live, octreel_error *error)
 {
     if (fflush(live->stream) != 0 || ferror(live->stream))
@@ -55,7 +59,8 @@ static bool flush_session(live_recording *live, octreel_error *error)
     return true;
 }
 
-/* The input of tick 0. Queries and shapes of every tick are in the header instead. */
+/* Returns the input of tick 0. Queries and shapes that belong to every tick are not part of it; the session's header
+ * has them. */
 static octree_input make_first_input(const octree_session *session)
 {
     octree_input input = {
@@ -74,7 +79,7 @@ static bool open_session(live_recording *live, octreel_error *error)
     live->path = path_join(live->folder, "session.json.live");
     if (!live->path)
         return error_no_memory(error);
-    unlink(live->path); /* it may be a pipe or a link */
+    unlink(live->path); /* the path may be an old pipe or a link */
     live->stream = fopen(live->path, "w+bx");
     return live->stream || fail_to_write(live, error);
 }
@@ -110,7 +115,7 @@ static void remove_live_file(live_recording *live)
 
 /* ---- session.json ------------------------------------------------------------------------------------------- */
 
-/* Copy the ticks of session.json.live. */
+/* Copy the ticks in session.json.live to the end of session.json. */
 static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
 {
     char buffer[1 << 16];
@@ -128,8 +133,8 @@ static bool copy_ticks(live_recording *live, FILE *out, octreel_error *error)
     return true;
 }
 
-/* The header of the finished session. One that was meant to be longer ends with the last recorded tick. Keys that were
- * not played stay, since frames show them. */
+/* Returns the header of the finished session. If fewer ticks were recorded than planned, the session ends with the last
+ * recorded tick. The player's key presses after that tick are kept, because frames show them. */
 static octree_session make_final_header(live_recording *live, uint64_t ticks)
 {
     octree_session header = live->start.session;
@@ -152,7 +157,7 @@ static bool write_session(live_recording *live, uint64_t ticks, const char *path
     return copy_ticks(live, file.stream, error) ? file_writer_close(&file, error) : file_writer_discard(&file);
 }
 
-/* Like octree_digest_bytes() for the bytes of a file, which is read in pieces since a session may be large. */
+/* Compute octree_digest_bytes() of a file. The file is read in pieces because a session may be large. */
 static bool digest_file(const char *path, uint64_t *digest, octreel_error *error)
 {
     unsigned char bytes[1 << 13];
@@ -169,7 +174,7 @@ static bool digest_file(const char *path, uint64_t *digest, octreel_error *error
     return ok || error_set(error, "%s: cannot be read", path);
 }
 
-/* Write the digest of session.json, which is only known now, into every frame. */
+/* Write the digest of session.json into every frame. It is known only after session.json is complete. */
 static bool write_digest_into_frames(const live_recording *live, uint64_t digest, octreel_error *error)
 {
     size_t gap = 0;

@@ -15,19 +15,19 @@
 
 /* ---- Long lists --------------------------------------------------------------------------------------------- */
 
-#define DEPTH 64 /* the deepest nesting of lists and objects */
+#define DEPTH 64 /* maximum nesting depth of lists and objects */
 
-/* The state of a copy of JSON text that drops entries from long lists. */
+/* The state of copying JSON text while entries of long lists are dropped. */
 typedef struct cutter {
     FILE *out;
     unsigned depth;
-    unsigned cut;         /* the depth of the list whose entries are being dropped; 0: none */
-    bool lists[DEPTH];    /* for each depth: a list, not an object, is open */
-    size_t commas[DEPTH]; /* the number of commas in it so far */
+    unsigned cut;         /* depth of the list whose entries are being dropped; 0: no list */
+    bool lists[DEPTH];    /* lists[d]: the value open at depth d is a list, not an object */
+    size_t commas[DEPTH]; /* commas[d]: number of commas so far in the value open at depth d */
     bool quoted, escaped;
 } cutter;
 
-/* Whether the character belongs to a string, including its quotes. */
+/* Returns true if the character is inside a string or is one of the string's quotes. */
 static bool advance_string(cutter *c, char at)
 {
     const bool was = c->quoted;
@@ -58,15 +58,16 @@ static bool advance_nesting(cutter *c, char at)
     return true;
 }
 
-/* Copy JSON text with at most PAGE_LIST entries of each list, before it is parsed: a tick may have refused a million
- * points. The caller frees the copy. Null: out of memory, or brackets do not match. */
+/* Copy JSON text, but keep only the first PAGE_LIST entries of each list. A tick may list a million refused points, so
+ * lists are shortened before the text is parsed. The caller frees the copy. Returns null if memory runs out or brackets
+ * do not match. */
 static char *shorten_lists(const char *text, size_t size, size_t *left)
 {
     char *copy;
     text_stream s;
     bool ok = text_stream_begin(&s);
     cutter c = {.out = s.stream};
-    size_t from = 0; /* where the text begins that is not written yet */
+    size_t from = 0; /* offset of the first character that is not yet written */
     for (size_t i = 0; ok && i < size; i++) {
         const bool cut = c.cut;
         ok = advance_string(&c, text[i]) || advance_nesting(&c, text[i]);
@@ -86,7 +87,8 @@ static char *shorten_lists(const char *text, size_t size, size_t *left)
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Escape '<', which could end the script element; in JSON it occurs in strings only. */
+/* Write JSON text with '<' escaped, because "</script>" would end the script element. In JSON '<' occurs only in
+ * strings. */
 static void write_escaped_json(FILE *page, const char *text, size_t size)
 {
     const char *end = text + size, *found;
@@ -97,7 +99,7 @@ static void write_escaped_json(FILE *page, const char *text, size_t size)
     fwrite(text, 1, (size_t)(end - text), page);
 }
 
-/* Write an object as one line of ASCII. */
+/* Write an object as one line of ASCII. Returns false if memory runs out. */
 static bool write_object(const json_t *object, FILE *page)
 {
     char *text = json_dumps(object, JSON_COMPACT | JSON_ENSURE_ASCII);
@@ -108,7 +110,7 @@ static bool write_object(const json_t *object, FILE *page)
     return text != NULL;
 }
 
-/* Write a JSON object. `path` and `line` name its source in errors. */
+/* Write a JSON object into the page. `path` and `line` are the source of the text in error messages. */
 static bool write_json_text(const char *text, size_t size, FILE *page, const char *path, uintmax_t line,
                             octreel_error *error)
 {
@@ -171,7 +173,8 @@ static bool begin_folder_page(FILE *page, const char *path, octreel_error *error
     return ok;
 }
 
-/* A last line without a newline was interrupted and is not a tick. */
+/* Add each line of ticks.jsonl to the page. A last line without a newline is ignored, because its writer was
+ * interrupted. */
 static bool add_ticks(FILE *page, const char *path, octreel_error *error)
 {
     char *line = NULL;
@@ -191,7 +194,7 @@ static bool add_ticks(FILE *page, const char *path, octreel_error *error)
     return ok;
 }
 
-/* In pieces, since the session of a long recording is large. */
+/* Copy session.json in pieces, because the session of a long recording is large. */
 static bool copy_session(FILE *page, const char *path, octreel_error *error)
 {
     char piece[1 << 14];

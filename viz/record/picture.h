@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* picture.h - draws scenes into an image: a renderer, the pixels of the frame and the palette of the theme. */
+/* picture.h - draws scenes into an image. A picture owns a renderer, the pixels of the frame and the palette of the
+ * theme. */
 #ifndef RECORD_PICTURE_H
 #define RECORD_PICTURE_H
 
@@ -10,22 +11,24 @@
 
 typedef struct picture {
     renderer *renderer;
-    image frame;   /* the last scene: indices of the theme's table, or RGB where view_is_rgb() */
-    image samples; /* for RGB: the indices from which the frame is made; else empty */
+    image frame;   /* pixels of the last scene: indices into the palette of the theme, or RGB if view_is_rgb() */
+    image samples; /* only if the frame is RGB: the palette indices from which the frame is made; else empty */
 } picture;
 
-/* Fit a view to the first tree that it shows. False with an error where the filter can show nothing of it. */
+/* Fit a view's camera and scales to the first tree that it shows. Returns false with an error if the view's filter
+ * excludes the whole tree. */
 bool picture_fit(view *v, const octree *tree, const point_values *values, octreel_error *error);
 
-/* Open a picture for scenes with this view's size and anti-aliasing. Too large a size is refused before memory is used.
- */
+/* Open a picture for scenes with this view's size and anti-aliasing. Too large a size is an error before memory is
+ * allocated. */
 bool picture_open(picture *p, const view *v, const renderer_choice *choice, octreel_error *error);
 void picture_close(picture *p);
 
 /* Draw a scene into p->frame. */
 bool picture_draw(picture *p, const scene *s, octreel_error *error);
 
-/* What the renderer draws into: one index for each sample. picture_finish() makes p->frame of it. */
+/* Returns the image into which the renderer draws: one palette index per sample. picture_finish() then makes p->frame
+ * from these samples. */
 image *picture_samples(picture *p);
 bool picture_finish(picture *p, const scene *s, octreel_error *error);
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /* playback.c - plays a session and makes a scene, a frame and a line of ticks.jsonl from each tick.
  *
- * A tick goes through four steps: the game plays it; tick_scene_build() makes a draw list from the game and the history
- * of earlier ticks; picture_draw() turns the list into pixels; frame_write() writes them with the digests that trace
- * the frame to its session and scene. The line of ticks.jsonl is made last, in memory: it names the frame and the
- * digest of the scene, and jobs send it through a pipe before anyone writes it.
+ * A tick goes through five steps. The game plays it. tick_scene_build() makes a draw list from the game and the history
+ * of earlier ticks. picture_draw() turns the draw list into pixels. frame_write() writes the pixels as a PNG file, with
+ * the digests of the session and the scene. Last, the line of ticks.jsonl is made in memory; it contains the name of
+ * the frame and the digest of the scene.
  *
- * All ticks are played and enter the history, even those without a frame, since trails, heat and events depend on
- * earlier ticks. So a chunk, a job and a resumed recording, which film only some ticks, make the same frames as a
+ * All ticks are played and enter the history, even ticks without a frame, because trails, heat and events depend on
+ * earlier ticks. So a chunk, a job or a resumed recording, which films only some ticks, makes the same frames as a
  * recording of all ticks. */
 #include "playback.h"
 #include "frame_file.h"
@@ -84,7 +84,7 @@ static uint64_t find_session_digest(playback *p)
     return p->session_digest;
 }
 
-/* Whether a frame is checked: the first, every CHECK_EVERY-th and the last of a share. */
+/* Returns true if a frame is to be checked: the first and the last frame of a share, and every CHECK_EVERY-th frame. */
 static bool is_checked(const film_share *share, uint64_t frame, uint64_t every)
 {
     return frame % CHECK_EVERY == 0 || frame == (share->first + every - 1) / every ||
@@ -111,7 +111,7 @@ bool playback_check_last(playback *p, octreel_error *error)
     return same;
 }
 
-/* Check the frame that was drawn, where it is due. A process that has checked none yet checks its first. */
+/* Check the last drawn frame if is_checked() says so. The first frame that a process draws is always checked. */
 static bool check_frame(playback *p, uint64_t tick, octreel_error *error)
 {
     const film_share *share = &p->share;
@@ -153,7 +153,8 @@ static bool film_frame(playback *p, film_step *step, octreel_error *error)
     return done;
 }
 
-/* Make the line in memory, since callers write it in one piece, send it or compare it. */
+/* Make the line of ticks.jsonl in memory, because callers write it in one piece, send it to another process or compare
+ * it. */
 static bool make_line(playback *p, film_step *step, octreel_error *error)
 {
     text_stream s;

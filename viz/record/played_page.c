@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A page in progress. */
+/* The state of writing a page. */
 typedef struct playing {
     const film_options *options;
     film_summary *summary;
@@ -28,7 +28,7 @@ static bool add_tick(void *context, const film_step *step, octreel_error *error)
     return true;
 }
 
-/* Begin with the recording.json of a recording without frames. */
+/* Begin the page with the text of recording.json for a recording without frames. */
 static bool begin_page(FILE *page, const view *v, octreel_error *error)
 {
     text_stream s;
@@ -65,7 +65,8 @@ static bool check_size(size_t size, octreel_error *error)
                PAGE_MOST_SESSION / 1000000);
 }
 
-/* A lower bound of the size of session.json, so that a far too large session is refused before it is written. */
+/* Returns a lower bound of the size of session.json in bytes. A far too large session is thus found before it is
+ * written. */
 static size_t find_least_size(const octree_session *session)
 {
     return (session->keys ? strlen(session->keys) : 0) + session->body_count * strlen("[0,0,0],");

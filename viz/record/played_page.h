@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* played_page.h - writes a page that plays a session in a browser. Ticks are played; nothing is drawn. */
+/* played_page.h - writes a page that plays a session in a browser. The ticks are played once for the page; no frame is
+ * drawn. */
 #ifndef RECORD_PLAYED_PAGE_H
 #define RECORD_PLAYED_PAGE_H
 
@@ -7,10 +8,10 @@
 
 #include <stdio.h>
 
-/* Play a session and write its page. Of the options only view, values and watch are read; of the summary only start,
- * ticks and total are set. If the watcher stops it, ticks is below total and the page is
- * incomplete. False with an error, before anything is written, where this build has no WebAssembly or the session is
- * too large for a page. Write errors stay with the stream. */
+/* Play a session and write its page. Only view, values and watch of the options are used. Only start, ticks and total
+ * of the summary are set. If the watcher stops it, summary->ticks is less than summary->total and the page is
+ * incomplete. If this build has no WebAssembly or the session is too large for a page, returns false with an error and
+ * writes nothing. Write errors are left to the caller, who checks the stream. */
 bool write_played_page(const octree_session *session, const film_options *options, FILE *page, film_summary *summary,
                        octreel_error *error);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* recording.c - writes the files of a recording other than frames. */
+/* recording.c - writes all files of a recording except the frames. */
 #include "recording.h"
 #include "page.h"
 
@@ -24,10 +24,10 @@ bool recording_open_picture(const recording *r, playback *p, octreel_error *erro
     return playback_open_picture(p, &target, error);
 }
 
-/* The facts of a recording that are known before its first tick. */
+/* What is known of a recording before its first tick. */
 typedef struct beginning {
     const view *view;
-    renderer_info info; /* set if there are frames */
+    renderer_info info; /* the renderer; set only if there are frames */
 } beginning;
 
 static bool write_files(const recording *r, const folder_place *place, const beginning *b, octreel_error *error)
@@ -45,8 +45,8 @@ static bool open_log(recording *r, octreel_error *error)
     return tick_log_open(&r->log, r->options->folder, name, r->options->resume, error);
 }
 
-/* Begin in a folder without a recording, or replace one. ticks.jsonl comes first, since its lock protects the folder.
- */
+/* Begin a recording in a folder without a recording, or replace the recording in it. ticks.jsonl is created first,
+ * because its lock keeps other processes away from the folder. */
 static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
 {
     const char *folder = r->options->folder;
@@ -67,7 +67,7 @@ static bool begin_alone(recording *r, const beginning *b, octreel_error *error)
     return false;
 }
 
-/* Refuse a chunk whose file exists, unless it is resumed. */
+/* Return an error if the chunk's file exists and the chunk is not being resumed. */
 static bool check_new_chunk(const recording *r, octreel_error *error)
 {
     char name[CHUNK_NAME];
@@ -75,8 +75,8 @@ static bool check_new_chunk(const recording *r, octreel_error *error)
            error_set(error, "%s: already holds this chunk (%s); use --resume to complete it", r->options->folder, name);
 }
 
-/* Begin in a folder that may hold part of this recording, and into which other processes may be recording. The dry run
- * and the checks come first, so that a folder with another recording is not changed. */
+/* Begin a recording in a folder that may already contain a part of it, and into which other processes may be recording
+ * other chunks. A dry run and the checks come first, so that a folder with another recording stays unchanged. */
 static bool begin_shared(recording *r, const beginning *b, octreel_error *error)
 {
     char writer[CHUNK_NAME];

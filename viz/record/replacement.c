@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* replacement.c - replaces the recording in a folder by a new one (octreel record --replace).
  *
- * The problem: the old recording must survive if the new one fails at its first tick, or if the process is killed at
- * any moment. A recording is thousands of files, and no system call renames or removes them all at once.
+ * The problem: if the new recording fails at its first tick, or the process is killed at any moment, the old recording
+ * must survive. A recording has thousands of files, and no system call renames or removes them all at once.
  *
- * The idea: one file, recording.json, is the mark that decides. The old files are moved into a folder inside the folder
- * (FOLDER_ASIDE), and the mark is the first to move. When a tick of the new recording is filmed, the old files are
- * removed, the mark first. If the new recording fails, they are moved back, the mark last. So after a crash the folder
- * aside tells what was going on: if it has a mark, its files are a complete promise and are moved back; if it has none,
- * they were being removed, or moved back completely, and the rest is removed. The next replacement begins with this
- * recovery. A lock on the folder aside keeps two processes from replacing at the same time. */
+ * The idea: one file, recording.json, decides whether a folder has a recording; it is called the mark here. The old
+ * files are moved into a folder inside the folder (FOLDER_ASIDE), and the mark is moved first. When tick 0 of the new
+ * recording is filmed, the old files are removed, and the mark is removed first. If the new recording fails instead,
+ * the old files are moved back, and the mark is moved last.
+ *
+ * The recovery after a crash therefore needs to look only for a mark in the folder aside. If there is a mark, all old
+ * files exist, and those in the folder aside are moved back. If there is no mark, the old files were being removed or
+ * have all been moved back, and the leftover files are removed. The next replacement begins with this recovery. A lock
+ * on the folder aside prevents two processes from replacing at the same time. */
 #include "replacement.h"
 #include "frame_file.h"
 #include "tick_log.h"
@@ -45,7 +48,7 @@ static bool is_frame(const char *name)
     return frame_parse_name(whole, &tick);
 }
 
-/* Whether a recording uses a file name; FOLDER_ASIDE does not count. */
+/* Returns true if a recording uses this file name. FOLDER_ASIDE is not a file and returns false. */
 static bool is_recording_file(const char *name)
 {
     if (strncmp(name, "frame_", 6) == 0)
@@ -76,8 +79,8 @@ static bool has_recording_aside(const char *folder)
     return has;
 }
 
-/* Check one entry of a folder. *past: set if the entry is more than an empty ticks.jsonl, which a recording that was
- * killed at its start leaves. */
+/* Check one entry of a folder. *past is set to true if the entry is a file that a recording writes after its start. A
+ * recording that was killed at its start leaves at most an empty ticks.jsonl. */
 static bool check_entry(const char *folder, const char *name, bool *past, octreel_error *error)
 {
     struct stat status;
@@ -128,7 +131,7 @@ static bool move_file(const char *from, const char *to, const char *name)
     return moved;
 }
 
-/* Move a file; if `to` is null, remove it. A missing file is fine. */
+/* Move a file from one folder to another; if `to` is null, remove the file. A missing file is not an error. */
 static bool move_or_remove(const char *from, const char *to, const char *name)
 {
     if (to)
@@ -139,7 +142,7 @@ static bool move_or_remove(const char *from, const char *to, const char *name)
     return removed;
 }
 
-/* Move or remove all files of a recording except its mark. */
+/* Move or remove all files of a recording except recording.json. */
 static bool move_or_remove_rest(const char *from, const char *to)
 {
     octreel_error ignored;
@@ -162,8 +165,9 @@ static bool remove_recording(const char *folder)
     return move_or_remove(folder, NULL, mark) && move_or_remove_rest(folder, NULL);
 }
 
-/* Complete what a killed process left unfinished, so that the folder aside is empty. If the new recording has its mark,
- * it was in its first tick; otherwise it has at most an empty ticks.jsonl and an unfinished mark. */
+/* Empty the folder aside if a killed process left files in it. If the folder itself has a recording.json, the new
+ * recording was in its first tick and is removed. If not, the new recording has at most an empty ticks.jsonl and an
+ * unfinished recording.json. */
 static bool recover_from_crash(const replacement *r, octreel_error *error)
 {
     bool ok = true;
@@ -189,7 +193,8 @@ static void release(replacement *r)
     *r = (replacement){0};
 }
 
-/* Whether the open folder aside still exists: the process that had it before may have removed it. */
+/* Returns true if the open folder aside still exists under its name. The process that held its lock before may have
+ * removed it. */
 static bool still_exists(const replacement *r)
 {
     struct stat open, named;
@@ -225,7 +230,8 @@ bool replacement_begin(replacement *r, const char *folder, octreel_error *error)
     *r = (replacement){.folder = strdup(folder), .aside = path_join(folder, FOLDER_ASIDE), .lock = -1};
     bool ok = (r->folder && r->aside) || error_no_memory(error);
     ok = ok && folder_create(folder, error) && replacement_check(folder, error);
-    ok = ok && make_aside(r, error) && replacement_check(folder, error); /* another process may have been faster */
+    /* Check again, because another process may have changed the folder before the lock was taken. */
+    ok = ok && make_aside(r, error) && replacement_check(folder, error);
     ok = ok && recover_from_crash(r, error) && set_aside(r, error);
     if (!ok)
         release(r);

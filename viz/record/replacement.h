@@ -1,31 +1,32 @@
 /* SPDX-License-Identifier: MIT */
-/* replacement.h - replaces the recording in a folder by a new one; other files in the folder stay. Private to this
- * folder, except replacement_check(). */
+/* replacement.h - replaces the recording in a folder by a new one; other files in the folder stay. Only
+ * replacement_check() may be used outside viz/record. */
 #ifndef RECORD_REPLACEMENT_H
 #define RECORD_REPLACEMENT_H
 
 #include "folder.h"
 
-/* Whether a folder may be replaced: all files whose names a recording uses are regular files, there is a
- * recording.json, and no process is recording into it. A folder without a recording, or no folder, is accepted as well.
- */
+/* Returns true if --replace may be used on a folder: it has a recording.json, all files whose names a recording uses
+ * are regular files, and no process is recording into it. A folder without a recording or a missing folder is accepted
+ * too. */
 bool replacement_check(const char *folder, octreel_error *error);
 
 typedef struct replacement {
-    char *folder, *aside; /* `aside` is a folder inside `folder`; null: nothing is set aside */
-    int lock;             /* an open and locked descriptor of `aside`; -1: none */
+    char *folder, *aside; /* `aside` is a folder inside `folder`, for the old files; null: no old recording */
+    int lock;             /* descriptor of `aside`, open and locked; -1: none */
 } replacement;
 
-/* Check the folder again and move its recording aside. Does nothing where there is none. A failure changes nothing. */
+/* Check the folder again and move its recording into the folder aside. Does nothing if there is no recording. If this
+ * fails, the folder stays as it was. */
 bool replacement_begin(replacement *r, const char *folder, octreel_error *error);
 
-/* Remove the files that are set aside, if there are any. */
+/* Remove the files in the folder aside, if there are any. */
 void replacement_end(replacement *r);
 
-/* Remove the new recording and restore the old one. False: nothing was set aside. */
+/* Remove the new recording and move the old one back. Returns false if there is no old recording. */
 bool replacement_undo(replacement *r);
 
-/* Remove files that a killed process has set aside, once the new recording is complete. */
+/* Remove old files that a killed process left in the folder aside. Call this once the new recording is complete. */
 void replacement_sweep(const char *folder);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tick_log.c - appends to ticks.jsonl so that it has whole lines only. */
+/* tick_log.c - appends lines to ticks.jsonl. The file never ends with an incomplete line. */
 #include "tick_log.h"
 
 #include <errno.h>
@@ -14,7 +14,7 @@ static bool fail_to_write(tick_log *log, octreel_error *error, const char *more)
     return error_set(error, "%s: cannot be written: %s%s", log->path, strerror(errno), more);
 }
 
-/* Empties the file only after locking it, so that the lines of another process stay. */
+/* Lock the file, then truncate it unless `keep` is set. Truncating first would remove the lines of another process. */
 static bool lock_and_open(tick_log *log, int file, bool keep, octreel_error *error)
 {
     if (!file_lock(file))
@@ -50,7 +50,7 @@ static bool cut_and_close(tick_log *log, octreel_error *error)
     return fail_to_write(log, error, cut ? "" : "; its last line is torn");
 }
 
-/* Whether a line equals the next line of the earlier log. */
+/* Returns true if the line equals the next line of the earlier log, which can then stay in the file. */
 static bool is_kept(const tick_log *log, const char *line, size_t size)
 {
     if (log->kept - log->whole < (off_t)size)
@@ -61,7 +61,7 @@ static bool is_kept(const tick_log *log, const char *line, size_t size)
     return true;
 }
 
-/* Remove the rest of the earlier log, which differs from here on. */
+/* Truncate the earlier log here, because its next line differs from the new line. */
 static bool remove_old_lines(tick_log *log)
 {
     log->kept = 0;
@@ -86,7 +86,8 @@ bool tick_log_close(tick_log *log, bool whole, octreel_error *error)
 {
     const bool cut = !log->stream || !whole || log->kept == 0 || remove_old_lines(log) || fail_to_write(log, error, "");
     if (log->stream)
-        flock(fileno(log->stream), LOCK_UN); /* a child of the program may have the file open, too */
+        /* Unlock explicitly: a child of this program may have the file open too, which would keep the lock. */
+        flock(fileno(log->stream), LOCK_UN);
     const bool ok = (!log->stream || fclose(log->stream) == 0 || fail_to_write(log, error, "")) && cut;
     free(log->path);
     *log = (tick_log){0};

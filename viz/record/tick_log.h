@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* tick_log.h - appends to ticks.jsonl so that it has whole lines only, whatever happens. */
+/* tick_log.h - appends lines to ticks.jsonl. The file never ends with an incomplete line, even if a write fails. */
 #ifndef RECORD_TICK_LOG_H
 #define RECORD_TICK_LOG_H
 
@@ -8,21 +8,23 @@
 #include <sys/types.h>
 
 typedef struct tick_log {
-    FILE *stream; /* null: not open */
+    FILE *stream; /* null: the log is not open */
     char *path;
-    off_t whole; /* the offset of the end of the last whole line */
-    off_t kept;  /* the size of an earlier log, whose lines may be the next ones; 0: none */
+    off_t whole; /* offset of the end of the last complete line */
+    off_t kept;  /* size in bytes of the earlier log, which may contain the next lines already; 0: no earlier log */
 } tick_log;
 
-/* Open a file of a folder and lock it. It is emptied; with `keep`, old lines stay as long as the added lines are equal
- * to them, so that stopping early loses nothing. False also where another process or recorder has it open. */
+/* Open a file in a folder and lock it. Without `keep` the file is truncated. With `keep` an old line stays as long as
+ * the added lines are equal to the old ones, so a recording that is resumed and stopped early loses nothing. Also
+ * returns false if another process or recorder has the file open. */
 bool tick_log_open(tick_log *log, const char *folder, const char *name, bool keep, octreel_error *error);
 
-/* Append a line with its newline. If it cannot be written whole, it is cut off, and the log is closed. */
+/* Append a line with its newline. If the line cannot be written completely, the written part is removed and the log is
+ * closed. */
 bool tick_log_add(tick_log *log, const char *line, size_t size, octreel_error *error);
 
-/* Close a log, which may not be open. `whole`: the log is complete, so old lines after the last added one are removed.
- */
+/* Close a log; it may already be closed. If `whole` is true, the log is complete, and old lines after the last added
+ * line are removed. */
 bool tick_log_close(tick_log *log, bool whole, octreel_error *error);
 
 #endif
