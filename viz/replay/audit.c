@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* audit.c - measures how wrong the answers of a foreign index are.
  *
- * The game judges each foreign answer against the exact one; this file adds the judgements up. Two numbers describe an
- * approximate index. Recall is the share of the true points that were named, over all answers of a kind: a sum, so
- * large answers weigh more. Ratio compares a named neighbour's distance with that of the true neighbour of the same
- * rank, and is kept for every answer, because its percentiles (the worst of 99 of 100 answers) need all of them,
- * sorted; an average would hide a few terrible answers. Both are the usual measures of approximate nearest-neighbour
- * benchmarks (Aumueller, Bernhardsson and Faithfull 2018, "ANN-Benchmarks"). Only approximation is excused by the
- * limits; an answer that no honest approximation gives, such as an unknown id, always counts as wrong. Of each kind of
- * query the three worst answers are kept in full, sorted by insertion, so that memory does not grow with the number of
- * wrong answers. */
+ * The game compares each foreign answer with the exact answer. This file adds up the results. Two numbers describe an
+ * approximate index.
+ *
+ * Recall is the share of the true points that the answers name. It is computed over all answers of a query kind
+ * together, so large answers weigh more. Ratio is the distance of a named neighbour divided by the distance of the true
+ * neighbour of the same rank. The ratio of every answer is stored, because a percentile (the worst of 99 of 100
+ * answers) needs all ratios, sorted; an average would hide a few very bad answers. Benchmarks of approximate
+ * nearest-neighbour search use both numbers (Aumueller, Bernhardsson and Faithfull 2018, "ANN-Benchmarks").
+ *
+ * The limits excuse only approximation. An error that no honest approximation makes, such as an unknown id, always
+ * counts as wrong. For each query kind the three worst answers are kept in full, sorted by insertion, so memory does
+ * not grow with the number of wrong answers. */
 #include "audit.h"
 #include "array.h"
 #include "file.h"
@@ -44,8 +47,8 @@ static void copy_points(octree_point to[AUDIT_POINTS], const octree_point *from,
         memcpy(to, from, (count < AUDIT_POINTS ? count : AUDIT_POINTS) * sizeof *to);
 }
 
-/* True if an approximate search could give this wrong answer: farther neighbours, fewer neighbours, or fewer points. No
- * limit excuses any other kind of wrong answer. */
+/* True if an approximate search could make this error: farther neighbours, fewer neighbours, or fewer points. The
+ * limits excuse no other kind of error. */
 static bool is_inexact(const octree_judgement *made)
 {
     return made->wrong == OCTREE_WRONG_FARTHER ||
@@ -53,7 +56,8 @@ static bool is_inexact(const octree_judgement *made)
            (made->wrong == OCTREE_WRONG_MISSING && made->extra_count == 0);
 }
 
-/* True if the limits excuse this wrong answer by itself. Many of them may still violate the recall. */
+/* True if the limits allow this wrong answer when it is judged alone. Many allowed answers together may still violate
+ * the recall. */
 static bool is_allowed(const octree_judgement *made, const audit_limits *limits)
 {
     if (limits->by_ratio && made->ratio > limits->ratio)
@@ -70,7 +74,7 @@ static bool is_worse(const audit_case *c, const audit_case *than)
     return judgement_is_worse(&c->made, &than->made);
 }
 
-/* Keep a wrong answer if it is among the worst. False: out of memory. */
+/* Keep a wrong answer if it is among the AUDIT_WORST worst ones. Returns false if memory runs out. */
 static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     size_t at = kind->worst_count;
@@ -92,7 +96,7 @@ static bool keep_worst(audit_kind *kind, audit_case c, const octree_answer *answ
     return true;
 }
 
-/* Returns the row of the current tick, and appends it if it is missing. Null: out of memory. */
+/* Returns the entry of the current tick; appends it if it is missing. Returns null if memory runs out. */
 static audit_tick *find_or_add_tick(audit_kind *kind, uint64_t tick)
 {
     if (kind->tick_count && kind->ticks[kind->tick_count - 1].tick == tick)
@@ -111,7 +115,7 @@ static bool keep_ratio(audit_kind *kind, double ratio)
     return true;
 }
 
-/* False: out of memory. */
+/* Count one answer in the entry of its tick. Returns false if memory runs out. */
 static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgement *made)
 {
     audit_tick *row = find_or_add_tick(kind, tick);
@@ -125,7 +129,7 @@ static bool count_in_tick(audit_kind *kind, uint64_t tick, const octree_judgemen
     return true;
 }
 
-/* False: out of memory. */
+/* Count one wrong answer. Returns false if memory runs out. */
 static bool count_wrong(audit_kind *kind, audit_case c, const octree_answer *answer)
 {
     if (kind->wrong++ == 0)
@@ -178,7 +182,7 @@ static void count_nodes(audit_nodes *nodes, const octree_tick *tick)
     keep_first_wrong_nodes(nodes, tick);
 }
 
-/* A gap has no answers. False: out of memory. */
+/* Count all answers of a tick. A gap has no answers. Returns false if memory runs out. */
 static bool count_tick(audit_report *report, const octree_tick *tick)
 {
     report->ticks++;
@@ -274,8 +278,8 @@ double audit_tick_recall(const audit_tick *tick)
 
 /* ---- Limits ------------------------------------------------------------------------------------------------ */
 
-/* Parses "NAME=NUMBER" at *at, and moves *at after it and a comma. False: another name, a second time, or no such
- * number. */
+/* Parse "NAME=NUMBER" at *at, and move *at behind it and behind a comma. Returns false if the name differs, if this
+ * limit was already given, or if the number is invalid or not between `least` and `most`. */
 static bool parse_limit(const char **at, const char *name, double least, double most, bool *given, double *value)
 {
     const size_t length = strlen(name);

@@ -13,7 +13,8 @@
 
 /* ---- Statistics ----------------------------------------------------------------------------------------- */
 
-/* The number of leaves with `from` to `to` points, or at depths `from` to `to`. */
+/* One row of a histogram: the number of leaves that hold `from` to `to` points, or that lie at depths `from` to `to`.
+ */
 typedef struct histogram_row {
     size_t from, to, leaves;
 } histogram_row;
@@ -31,7 +32,7 @@ static octree_walk_order count_leaf(const octree_node *node, void *context)
     return OCTREE_WALK_ON;
 }
 
-/* Fill `rows` with the rows that have leaves, and return their number. */
+/* Fill `rows` with the rows that count at least one leaf. Returns the number of rows. */
 static size_t count_occupancy(const octree *tree, histogram_row rows[OCCUPANCY_ROWS])
 {
     size_t used = 0;

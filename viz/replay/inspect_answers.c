@@ -15,13 +15,14 @@
 
 /* ---- Asking ------------------------------------------------------------------------------------------------- */
 
-/* A target and a radius alone are a ball. */
+/* Returns true if the query is a ball: it has a target and a radius and nothing else. */
 static bool is_ball(octree_query_kind kind)
 {
     return octree_query_about(kind)->members == (OCTREE_QUERY_HAS_TARGET | OCTREE_QUERY_HAS_RADIUS);
 }
 
-/* Find the distances of the points of a ball: they are the nearest points to its center, as many as it contains. */
+/* Find the distances of the `count` points in a ball. A radius query returns no distances, so the `count` nearest
+ * neighbours of the ball's center are found: they are the same points. */
 static octree_status find_distances(const octree *tree, const octree_query *query, size_t count, octree_answer *nearest)
 {
     octree_query by_distance = *query;
@@ -33,7 +34,7 @@ static octree_status find_distances(const octree *tree, const octree_query *quer
 static octree_status answer_query(const octree *tree, const octree_query *query, inspect_answers *result)
 {
     octree_answer *answer = &result->answers[result->count], *nearest = &result->nearest[result->count];
-    result->count++; /* released with the result from here on */
+    result->count++; /* count it now: from here on inspect_answers_release() frees it */
     octree_status status = octree_query_answer(tree, query, NULL, NULL, answer);
     if (status == OCTREE_OK && is_ball(query->kind))
         status = find_distances(tree, query, answer->count, nearest);
@@ -69,11 +70,11 @@ void inspect_answers_release(inspect_answers *answers)
 
 /* ---- Printing ----------------------------------------------------------------------------------------------- */
 
-/* An answer and the facts needed to print it. */
+/* An answer, and the facts that printing it needs. */
 typedef struct shown_answer {
     const octree_answer *answer;
     const octree_query_traits *about;
-    const octree_neighbor *neighbors; /* null if the query has no distances */
+    const octree_neighbor *neighbors; /* the points with their distances; null if the query has no distances */
     octree_box world;
 } shown_answer;
 
@@ -85,7 +86,7 @@ static shown_answer make_shown_answer(const inspect_answers *answers, size_t i)
                           octree_definition(answers->tree).world};
 }
 
-/* Points are sorted by distance, or by id if the query has no distances. */
+/* Returns the i-th point of an answer. Points are sorted by distance, or by id if the query has no distances. */
 static const octree_point *point_at(const shown_answer *shown, size_t i)
 {
     return shown->neighbors ? &shown->neighbors[i].point : &shown->answer->points[i];
@@ -96,7 +97,7 @@ static const double *distance_at(const shown_answer *shown, size_t i)
     return shown->neighbors ? &shown->neighbors[i].distance : NULL;
 }
 
-/* Whether a box and the world have no point in common. */
+/* Returns true if a box and the world have no point in common. */
 static bool is_outside(const octree_box *world, const octree_box *box)
 {
     for (int i = 0; i < 3; i++)
@@ -105,7 +106,8 @@ static bool is_outside(const octree_box *world, const octree_box *box)
     return false;
 }
 
-/* Store why fewer points may be found than expected. False where there is no reason. */
+/* Write the reason why an answer has fewer points than the user may expect. Returns false if there is no such reason.
+ */
 static bool find_note(const shown_answer *shown, char note[NOTE_TEXT])
 {
     const octree_answer *answer = shown->answer;
@@ -143,13 +145,13 @@ static void print_member(const shown_answer *shown, const octree_query_member_tr
     case OCTREE_MEMBER_LENGTH:
         inspect_print_numbers((const double *)value, 1, out);
         break;
-    case OCTREE_MEMBER_COUNT: /* stands before the name */
+    case OCTREE_MEMBER_COUNT: /* the count was printed before the name */
         break;
     }
 }
 
-/* "range MIN to MAX", "radius R about PLACE", "nearest to PLACE", "8 nearest to PLACE": the member that bears the
- * kind's name comes first. */
+/* Print a query: "range MIN to MAX", "radius R about PLACE", "nearest to PLACE" or "8 nearest to PLACE". The member
+ * that gives the query kind its name comes first. */
 static void print_question(const shown_answer *shown, FILE *out)
 {
     const octree_query_traits *about = shown->about;

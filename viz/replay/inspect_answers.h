@@ -11,19 +11,20 @@
 /* The answers to a list of queries, in the same order. */
 typedef struct inspect_answers {
     const octree *tree;
-    octree_answer *answers; /* as in a tick of a game */
-    octree_answer *nearest; /* for a radius query, the same points sorted by distance; else empty */
+    octree_answer *answers; /* the answers, in the same form as in a tick of a game */
+    /* Nearest[i], if answer i is that of a radius query: its points sorted by distance; else empty. */
+    octree_answer *nearest;
     size_t count;
 } inspect_answers;
 
-/* Answer queries. Queries may reach beyond the world. False, with an error, if a query is invalid or memory runs out;
- * there is then nothing to release. */
+/* Answer a list of queries. A query may reach beyond the world. Returns false with an error if a query is invalid or
+ * memory runs out; there is then nothing to release. */
 bool inspect_ask(const octree *tree, const octree_query *queries, size_t count, inspect_answers *result,
                  octreel_error *error);
 void inspect_answers_release(inspect_answers *answers);
 
-/* Print the answers as text, with the first LIST_LINES points of each, or as one JSON object on one line. `name` is the
- * name of the cloud in the output. */
+/* Print the answers as text, with the first LIST_LINES points of each answer, or as one JSON object on one line. `name`
+ * is printed as the name of the cloud. */
 void inspect_print_answers(const inspect_answers *answers, const char *name, bool json, FILE *out);
 
 #endif

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* inspect_build.c - builds the tree of a point cloud in up to 16 portions.
  *
- * Inserting all points in one call would be simplest, but the points and the tree would then be in memory together, and
- * progress could not be shown. Inserting them one by one would be slow. So the points are sorted into portions, each
- * portion is inserted in bulk, and its memory is freed before the next one. A portion must be compact in space: then it
- * fills subtrees of its own, and the tree does not rework the same nodes 16 times. The world is therefore divided into
- * 32 x 32 x 32 cells, and a portion is a run of cells in Morton order, which interleaves the bits of the three cell
- * coordinates and so visits all cells of an octant before the next octant. A counting sort by cell takes two passes and
- * keeps the file order within a portion. The nodes of the tree depend only on its contents, so the result is the same
- * as that of one call. Under OCTREE_REFUSE the contents depend on the order, and all points form one portion. Cost:
- * O(n). */
+ * The problem: inserting all points in one call needs memory for all points and the whole tree at once, and cannot
+ * report progress. Inserting the points one by one is slow.
+ *
+ * The idea: the points are sorted into portions. Each portion is inserted in bulk, and its memory is freed before the
+ * next one. The points of a portion must lie close together, so that a portion fills subtrees that no other portion
+ * touches; otherwise the tree would rework the same nodes 16 times. The world is divided into 32 x 32 x 32 cells, and a
+ * portion is a run of cells in Morton order. Morton order interleaves the bits of the three cell coordinates, and so
+ * visits all cells of an octant before the next octant. A counting sort by cell takes two passes and keeps the file
+ * order within a portion.
+ *
+ * The nodes of a tree depend only on its points, so the result is the same as that of one call. Under OCTREE_REFUSE the
+ * order decides which points are refused, so all points form one portion. Cost: O(n). */
 #include "inspect.h"
 #include "octree/octree.h"
 #include "parallel.h"
@@ -19,25 +22,29 @@
 
 enum {
     MOST_PORTIONS =
-        16, /* each at least a sixteenth of the points: octree_insert_many() inserts less than a twentieth one by one */
+        /* So each has at least a sixteenth of the points; octree_insert_many() inserts less than a twentieth of a
+         * tree one by one. */
+    16,
     LEAST_PORTION = 1 << 16,
-    LEVELS = 5, /* subdivisions of the world down to a cell */
+    LEVELS = 5, /* how many times the world is halved along each axis */
     SIDE = 1 << LEVELS,
     CELLS = 1 << 3 * LEVELS
 };
 
-/* The cells of the world and the portions that they belong to. */
+/* The cells of the world, and the portion to which each cell belongs. */
 typedef struct portions {
     double min[3], scale[3];
-    unsigned spread[SIDE];                /* the bits of a cell coordinate, spread for interleaving */
+    /* Spread[k]: the bits of cell coordinate k, with two zero bits between neighbouring bits. */
+    unsigned spread[SIDE];
     size_t points[CELLS];                 /* number of points in each cell */
-    unsigned char portion_of_cell[CELLS]; /* the portion of each cell */
-    size_t ends[MOST_PORTIONS];           /* index of the point after each portion */
+    unsigned char portion_of_cell[CELLS]; /* index of the portion of each cell */
+    size_t ends[MOST_PORTIONS];           /* ends[i]: index of the first point after portion i */
     unsigned count;
 } portions;
 
-/* Returns the Morton number of a position's cell. Positions outside the world get the nearest cell. If the extent of
- * the world overflows a double, the scale is 0 and every position gets the first cell. */
+/* Returns the Morton number of the cell that contains a position. For a position outside the world it is the number of
+ * the nearest cell. If the extent of the world overflows a double, the scale is 0 and every position is in the first
+ * cell. */
 static uint16_t find_cell(const portions *p, const double position[3])
 {
     unsigned cell = 0;
@@ -61,7 +68,8 @@ static void begin_portions(portions *p, const octree_box *world)
             p->spread[k] |= (k >> bit & 1) << 3 * bit;
 }
 
-/* Assigns cells to portions. A remainder too small for a portion joins the last one. */
+/* Assign each cell to a portion. If the last points are too few for a portion of their own, they join the portion
+ * before. */
 static void assign_cells(portions *p, size_t count)
 {
     const size_t share = count / MOST_PORTIONS, least = share > LEAST_PORTION ? share : LEAST_PORTION;
@@ -77,7 +85,8 @@ static void assign_cells(portions *p, size_t count)
     p->ends[p->count++] = count;
 }
 
-/* Sorts the points by portion and keeps their order within each. `cells` has room for one number per point. */
+/* Sort the points by portion, and keep the file order within each portion. `cells` is scratch memory with room for one
+ * number per point. */
 static void divide_points(const cloud *c, const octree_def *def, portions *p, uint16_t *cells, octree_point *points)
 {
     size_t next[MOST_PORTIONS] = {0};
@@ -108,7 +117,8 @@ static octree_status insert_portion(const octree_point *points, size_t count, in
     return status;
 }
 
-/* Inserts the last portion first, so that realloc() can free its memory at the end of the array. */
+/* Insert the portions from last to first. The memory of an inserted portion is then at the end of the array, where
+ * realloc() can free it. */
 static octree_status insert_portions(octree_point **points, const portions *p, const watcher *watch, inspection *result)
 {
     octree_status status = OCTREE_OK;
@@ -131,7 +141,7 @@ static octree_status insert_all(cloud *c, const octree_def *def, const watcher *
     if (divided)
         divide_points(c, def, p, cells, points);
     free(cells);
-    free(c->positions); /* before the tree needs the same amount of memory */
+    free(c->positions); /* free this first, because the tree needs the same amount of memory */
     c->positions = NULL;
     const octree_status status = divided ? insert_portions(&points, p, watch, result) : OCTREE_NO_MEMORY;
     free(points);

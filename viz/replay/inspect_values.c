@@ -11,7 +11,7 @@ enum { CLASSES = UINT16_MAX + 1, CLASSES_LISTED = 16 };
 
 /* The summary of the values of all points. */
 typedef struct value_summary {
-    size_t counts[POINT_VALUE_KINDS]; /* number of points that have such a value */
+    size_t counts[POINT_VALUE_KINDS]; /* counts[k]: number of points that have a value of kind k */
     float least, most;                /* smallest and largest intensity */
 } value_summary;
 
@@ -108,7 +108,7 @@ static void write_classes(const size_t *classes, json_writer *w)
     json_write_end_array(w);
 }
 
-/* "values": {"color": {"points": 3, "full": 255}, "intensity": {...}, "class": {...}} */
+/* Write a JSON member such as "values": {"color": {"points": 3, "full": 255}, "intensity": {...}, "class": {...}}. */
 void inspect_write_values(const inspection *i, json_writer *w)
 {
     const value_summary s = summarize_values(&i->values);

@@ -23,10 +23,10 @@ static camera_window find_space_window(const inspection *made, const view *v)
     return layout_camera_area(&empty, &world);
 }
 
-#define LEAF_PIXELS 32 /* pixels per leaf; with fewer, colours by leaf look like noise */
+#define LEAF_PIXELS 32 /* minimum number of pixels per leaf; with fewer pixels, colours by leaf look like noise */
 
-/* True if points should be coloured by leaf: they hide the boxes of the nodes, and leaves are large enough. *said
- * becomes the reason for or against. */
+/* Returns true if points should be coloured by leaf: the points hide the boxes of the nodes, and the leaves are large
+ * enough on screen. *said becomes the reason for or against it. */
 static bool prefers_leaf_colors(const inspection *made, const view *v, const char **said)
 {
     const camera_window w = find_space_window(made, v);
@@ -41,7 +41,8 @@ static bool prefers_leaf_colors(const inspection *made, const view *v, const cha
     return seen;
 }
 
-/* True if neighbouring points, seen from the camera of tick 0, touch and so form surfaces. */
+/* Returns true if neighbouring points touch each other on the screen and so form surfaces. The camera is that of tick
+ * 0. */
 static bool points_form_surfaces(const inspection *made, const view *v)
 {
     const octree_box world = octree_definition(made->tree).world;
@@ -54,7 +55,7 @@ static bool points_form_surfaces(const inspection *made, const view *v)
 
 #define COLORS_TEXT 80
 
-/* "points by height (--color-points)". Returns `text`. */
+/* Write how points are coloured, such as "points by height (--color-points)". Returns `text`. */
 static const char *describe_colors(const inspection *made, const view *v, char text[COLORS_TEXT])
 {
     const char *lacks = point_scale_missing_value(v, &made->values), *option = "(--color-points)";
@@ -83,7 +84,7 @@ bool inspect_choose_view(const inspection *made, bool color_given, bool shade_gi
     camera_fit_points(&fitted, made->tree);
     if (!point_scale_compute(&fitted, made->tree, &made->values))
         return error_no_memory(error);
-    v->point_scale = fitted.point_scale; /* kept, because it costs a walk over all points */
+    v->point_scale = fitted.point_scale; /* keep the fitted scale, because fitting it costs a walk over all points */
     if (!shade_given && points_form_surfaces(made, &fitted)) {
         v->shade = SHADE_EDL;
         lit = ", lit by eye-dome lighting (--shade)";

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* pick.c - finds what is drawn at a pixel of a frame, and prints it as text or JSON.
  *
- * A PNG holds only colours, and many elements share a colour, so a pixel cannot be read back. Instead the recording is
- * replayed to the frame's tick and the scene is composed again; its digest in the PNG proves that it is the scene of
- * the frame. The renderer then draws the scene once more and reports every element that covers a sample of the pixel,
- * in painter's order: the last one is on top, the others lie below it. If nothing covers the pixel, the whole picture
- * is drawn with element numbers in place of colours, and the nearest pixel with a number is taken. That needs four
- * bytes per sample of the picture, so it happens only then. Cost: one replay to the tick and one or two drawings. */
+ * The problem: a PNG contains only colours, and many elements have the same colour, so a pixel does not identify its
+ * element.
+ *
+ * The idea: the recording is replayed to the frame's tick, and the scene is composed again. The digest in the PNG
+ * proves that this is the scene of the frame. The renderer draws the scene once more and reports every element that
+ * covers a sample of the pixel. Elements are drawn from back to front, so the last reported element is on top. If no
+ * element covers the pixel, the whole picture is drawn with element numbers in place of colours, and the nearest pixel
+ * with a number is chosen. That needs four bytes for each sample of the picture, so it is done only in this case. Cost:
+ * one replay to the tick and one or two drawings. */
 #include "pick.h"
 #include "frame_file.h"
 #include "layer.h"
@@ -44,7 +47,7 @@ static bool check_beside(const pick *p, const char *folder, octreel_error *error
     return true;
 }
 
-/* Replay to the frame's tick, compose its scene, and check that it is the scene of the frame. */
+/* Replay to the frame's tick, compose its scene, and check that its digest is that of the frame. */
 static bool compose_scene_again(pick *p, replay *r, const char *folder, octreel_error *error)
 {
     if (!replay_open(r, folder, error))
@@ -75,7 +78,8 @@ static int clamp(int value, int low, int high)
     return value < low ? low : value > high ? high : value;
 }
 
-/* Find the nearest drawn pixel; among equally near ones, the first row by row. */
+/* Find the drawn pixel that is nearest to the requested pixel. Of several at the same distance, take the first one in
+ * row order. */
 static void find_nearest(pick *p, const uint32_t *numbers, size_t samples)
 {
     const int left = clamp(p->asked[0] - p->radius, 0, p->width), top = clamp(p->asked[1] - p->radius, 0, p->height);
@@ -195,7 +199,8 @@ static double distance(const pick *p)
     return sqrt(dx * dx + dy * dy);
 }
 
-/* True if the pixel lies between two dashes of a dashed line. The renderer counts gaps as painted, without a colour. */
+/* True if the pixel lies between two dashes of a dashed line. The renderer reports such a pixel as painted, but without
+ * a colour. */
 static bool is_gap(const pick_element *e)
 {
     return e->touch.painted > 0 && e->touch.color == 0 && e->kind != SCENE_PANEL;
@@ -223,7 +228,8 @@ static const char *in_closeup(const pick_element *e)
     return e->in_closeup ? " (in the close-up)" : "";
 }
 
-/* Prints how an element relates to the pixel: visible, covered, or with the same edge or place. */
+/* Print one element: whether it is visible, covered by another element, or shares the edge or the pixel of the element
+ * before. */
 static void print_element(FILE *out, const pick *p, const pick_element *e)
 {
     if (e->touch.painted == 0) {

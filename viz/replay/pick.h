@@ -14,44 +14,45 @@
 
 typedef struct pick_options {
     int x, y;
-    int radius; /* if nothing is drawn at (x, y), the nearest drawn pixel within this distance is described */
+    int radius; /* if nothing is drawn at (x, y), describe the nearest drawn pixel up to `radius` pixels away */
     renderer_choice renderer;
 } pick_options;
 
-/* An element at a pixel; see draw_cover. */
+/* An element at a pixel. `touch` says which samples of the pixel it covers. */
 typedef struct pick_element {
     draw_cover touch;
     scene_kind kind;
     const char *layer;
     bool in_closeup;
     element_subject subject;
-    octree_foreign_place place; /* copies of what subject.foreign points to, because the game may end before the pick */
+    /* Copies of the data at subject.foreign, because the game may end before the pick is released. */
+    octree_foreign_place place;
     octree_foreign_node node;
 } pick_element;
 
 typedef struct pick {
-    const char *path; /* the frame; owned by the caller */
+    const char *path; /* path of the frame; the caller owns it */
     uint64_t tick;
     int width, height;
     int samples; /* samples per pixel */
     int asked[2];
-    int pixel[2]; /* the described pixel: `asked`, or the nearest drawn pixel */
+    int pixel[2]; /* the described pixel: equal to `asked`, or the nearest drawn pixel */
     int radius;
     image_color color;      /* the colour of the frame at `pixel` */
     pick_element *elements; /* topmost first */
     size_t count;           /* 0: nothing is drawn within the radius */
 } pick;
 
-/* Fills in *found. False, with an error, if `path` is no frame of the recording in its folder, or the pixel is outside.
- */
+/* Fill in *found. Returns false with an error if `path` is not a frame of the recording in its folder, or if the pixel
+ * lies outside the frame. */
 bool pick_frame(const char *path, const pick_options *options, pick *found, octreel_error *error);
 void pick_release(pick *p);
 
-/* Find what is drawn at a pixel of a playback's current scene. The renderer has the size of the scene. The caller sets
- * asked, pixel, width, height and radius; this fills in samples, pixel, elements and count. */
+/* Find what is drawn at a pixel of the playback's current scene. The renderer must have the size of the scene. The
+ * caller sets asked, pixel, width, height and radius; this function fills in samples, pixel, elements and count. */
 bool pick_scene(pick *p, const playback *from, renderer *r, octreel_error *error);
 
-/* Print text, or one JSON object on one line. */
+/* Print the pick as text, or as one JSON object on one line. */
 void pick_print(FILE *out, const pick *p, bool json);
 
 #endif

@@ -21,7 +21,7 @@ bool replay_read(replay *r, const char *folder, octreel_error *error)
     return true;
 }
 
-/* Opens no renderer, because many callers need no pixels. */
+/* Start the playback without a renderer, because many callers need no pixels. */
 static bool start_playback(replay *r, octreel_error *error)
 {
     return playback_open(&r->playback, &r->session.session, &r->session.values, &r->film.view, error);
@@ -45,7 +45,7 @@ static uint64_t current_tick(const replay *r)
 
 static bool restart_playback(replay *r, octreel_error *error)
 {
-    picture drawing = r->playback.picture; /* keep the renderer: the view does not change */
+    picture drawing = r->playback.picture; /* keep the renderer over the restart: the view does not change */
     r->playback.picture = (picture){0};
     playback_close(&r->playback);
     const bool ok = start_playback(r, error);

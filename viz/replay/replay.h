@@ -15,25 +15,26 @@
 
 typedef struct replay {
     session_file session;
-    uint64_t session_digest; /* of the bytes of session.json */
+    uint64_t session_digest; /* digest of the bytes of session.json */
     uint64_t ticks;          /* number of ticks of the session, including tick 0 */
-    film_options film;       /* the folder, and `view` and `every` from recording.json */
-    playback playback;       /* game and scene after replay_open(), and the renderer after replay_renderer() */
+    film_options film;       /* the folder, and the members `view` and `every` of recording.json */
+    playback playback;       /* has a game and a scene after replay_open(), and a renderer after replay_renderer() */
 } replay;
 
-/* Read session.json and recording.json of a folder without playing. Close `r` in any case. */
+/* Read session.json and recording.json of a folder without playing the session. Call replay_close() after a failure
+ * too. */
 bool replay_read(replay *r, const char *folder, octreel_error *error);
 
-/* The same, and play tick 0. `r` must not move in memory until it is closed. */
+/* Call replay_read() and play tick 0. `r` must not move in memory until it is closed. */
 bool replay_open(replay *r, const char *folder, octreel_error *error);
 void replay_close(replay *r);
 
-/* Play to a tick. A tick before the current one is reached by playing from the start again. False, with an error, also
- * if the session has no such tick. */
+/* Play to a tick. To reach a tick before the current one, the session is played from the start again. Returns false
+ * with an error on failure, and also if the session has no such tick. */
 bool replay_to(replay *r, uint64_t tick, octreel_error *error);
 
-/* Returns a renderer for the scenes, which the first call opens and replay_close() closes. Null, with an error, on
- * failure. */
+/* Returns a renderer for the scenes of the recording. The first call opens it; replay_close() closes it. Returns null
+ * with an error on failure. */
 renderer *replay_renderer(replay *r, const renderer_choice *choice, octreel_error *error);
 
 #endif

@@ -24,13 +24,13 @@ typedef struct verifying {
     const char *folder;
     const verify_options *options;
     replay replay;
-    uint64_t filmed_session; /* the session digest in the first frame */
+    uint64_t filmed_session; /* the session digest in the recording's first frame */
     line_reader lines;
-    bool stopped; /* at the first tick that differs */
+    bool stopped; /* true: verification has stopped at the first tick that differs */
     verify_report *report;
 } verifying;
 
-/* Add a finding about a tick. */
+/* Append a finding about a tick to the report. */
 static verify_finding *add_finding(verifying *v, verify_kind kind, uint64_t tick, const char *format, ...)
 {
     verify_finding *finding = &v->report->findings[v->report->count++];
@@ -76,8 +76,8 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* Check the session and the size in the first frame, before a renderer of the size in recording.json is opened. Other
- * errors of this frame are found at its tick. */
+/* Check the session digest and the size in the first frame. This comes first, because the renderer is opened with the
+ * size in recording.json. Other differences in this frame are found when its tick is checked. */
 static bool check_first_frame(verifying *v, octreel_error *error)
 {
     char name[FRAME_NAME], *path = path_join(v->folder, frame_print_name(0, name));
@@ -94,7 +94,7 @@ static bool check_first_frame(verifying *v, octreel_error *error)
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Appended where the end of a recording is missing, because recording was interrupted. */
+/* Appended to a finding if the end of the recording is missing, which means that recording was interrupted. */
 #define COMPLETED "; octreel record --resume completes an interrupted recording"
 
 static bool check_line(verifying *v, const film_step *step, octreel_error *error)
@@ -141,7 +141,7 @@ static void report_pixels(verifying *v, const char *path, uint64_t tick)
                 r->drawn_by, same ? "the same: was recording.json changed, or octreel?" : r->drawn_now);
 }
 
-/* `drawn`: the frame is wrong but has the pixels that are drawn now. */
+/* Report a wrong frame. `drawn` is true if the frame has the pixels that are drawn now, but is wrong in another way. */
 static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool drawn)
 {
     const size_t length = strlen(v->folder);
@@ -150,7 +150,8 @@ static void report_frame(verifying *v, const char *sentence, uint64_t tick, bool
                 drawn ? "; its pixels are correct" : "");
 }
 
-/* A file that cannot be read because of permissions or the disk is an error, not a difference. */
+/* Returns false with an error if the file exists but cannot be read because of permissions or the disk. That is an
+ * error of the machine, not a difference of the recording. */
 static bool check_readable(const char *path, octreel_error *error)
 {
     char reason[FILE_REASON];
@@ -161,7 +162,7 @@ static bool check_readable(const char *path, octreel_error *error)
     return true;
 }
 
-/* Whether the digest of a frame is that of the pixels drawn now. */
+/* Returns true if the pixel digest in a frame is the digest of the pixels drawn now. */
 static bool is_drawn(const verifying *v, const frame_origin *origin)
 {
     return origin->pixels == image_digest_with(origin->kind, &v->replay.playback.picture.frame);
@@ -193,7 +194,7 @@ static bool check_frame(verifying *v, const film_step *step, octreel_error *erro
     return ok;
 }
 
-/* A film_sink. Returns false at the first tick that differs, too. */
+/* Check one tick. This is a film_sink. It returns false on an error, and also at the first tick that differs. */
 static bool check_tick(void *context, const film_step *step, octreel_error *error)
 {
     verifying *v = context;
@@ -224,7 +225,7 @@ static void check_end_of_lines(verifying *v)
                 plural_ending(v->replay.ticks));
 }
 
-/* Whether a file is named like a frame, but this recording has no such frame. */
+/* Returns true if a file has a name like a frame, but the recording has no frame of this name. */
 static bool is_extra_frame(const verifying *v, const char *name)
 {
     uint64_t tick;
@@ -233,7 +234,7 @@ static bool is_extra_frame(const verifying *v, const char *name)
             (frame_parse_name(name, &tick) && octree_session_gap(&v->replay.session.session, tick)));
 }
 
-/* Report the first extra frame by name. */
+/* If the folder has frames that the recording does not have, report the one whose name comes first. */
 static bool check_extra_frames(verifying *v, octreel_error *error)
 {
     char **names = folder_names(v->folder, error), *first = NULL;
@@ -262,7 +263,8 @@ static void report_renderer(verifying *v)
     v->report->fill = info.fill;
 }
 
-/* GL is the authority on pixels. Where none can be loaded and none was named, the integer rasterizer draws. */
+/* Open the renderer. GL draws, because GL defines which pixels are correct. If no GL can be loaded and the user did not
+ * name one, the integer rasterizer draws. */
 static bool open_renderer(verifying *v, octreel_error *error)
 {
     playback *p = &v->replay.playback;
@@ -318,7 +320,7 @@ bool verify_recording(const char *folder, const verify_options *options, verify_
 /* ---- Printing ----------------------------------------------------------------------------------------------- */
 
 static const struct {
-    const char *name; /* in JSON */
+    const char *name; /* the name of the kind in JSON */
     const char *words;
 } kinds[VERIFY_KINDS] = {
 #define VERIFY_ROW(name, word, words) [VERIFY_##name] = {word, words},

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* verify_line.c - reads ticks.jsonl line by line and finds the first difference of a line. */
+/* verify_line.c - reads ticks.jsonl line by line, and finds the first difference between a line and the expected line.
+ */
 #include "verify_line.h"
 #include "array.h"
 #include "file.h"
@@ -58,7 +59,7 @@ line_state lines_next(line_reader *reader, size_t limit)
 
 #define VALUE_TEXT 96
 
-/* A value as JSON in ASCII, shortened if it is long. */
+/* Format a value as JSON in ASCII. A long value is shortened. */
 static const char *format_value(const json_t *value, char text[VALUE_TEXT])
 {
     char *whole = value ? json_dumps(value, JSON_COMPACT | JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
@@ -70,7 +71,7 @@ static const char *format_value(const json_t *value, char text[VALUE_TEXT])
     return text;
 }
 
-/* Report the first two values that differ. */
+/* Report the two values `found` and `expected`, which differ. */
 static void report_values(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     char place[128], texts[2][VALUE_TEXT];
@@ -94,12 +95,13 @@ static bool compare_arrays(const json_place *at, const json_t *found, const json
     return false;
 }
 
-/* Compare the expected members in their order, then members that only the found object has. */
+/* Compare two objects: first the members of the expected object in their order, then the members that only the found
+ * object has. */
 static bool compare_objects(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     const json_t *const both[] = {expected, found};
     for (int i = 0; i < 2; i++) {
-        /* jansson's iterators take no const object, but change nothing */
+        /* the casts are safe: jansson's iterators take no const object, but do not change it */
         for (void *member = json_object_iter((json_t *)both[i]); member;
              member = json_object_iter_next((json_t *)both[i], member)) {
             const char *key = json_object_iter_key(member);
@@ -114,7 +116,7 @@ static bool compare_objects(const json_place *at, const json_t *found, const jso
     return false;
 }
 
-/* Report the first difference of two values. False: they are equal. */
+/* Report the first difference between two values. Returns false if they are equal. */
 static bool find_difference(const json_place *at, const json_t *found, const json_t *expected, verify_finding *finding)
 {
     if (json_equal(found, expected))
@@ -135,7 +137,8 @@ static void report_line(verify_finding *finding, const char *what)
     snprintf(finding->text, sizeof finding->text, "%s", what);
 }
 
-/* Report a line of another tick: lines were lost, repeated or exchanged. False: it is the line of this tick. */
+/* If the line belongs to another tick, report that lines were lost, repeated or exchanged. Returns false if it is the
+ * line of this tick. */
 static bool report_other_tick(const json_t *found, uint64_t tick, verify_finding *finding)
 {
     const json_t *number = json_object_get(found, "tick");
@@ -168,7 +171,7 @@ static bool is_line(const line_reader *found, const char *text, size_t size)
     return found->size == size && memcmp(found->line, text, size) == 0;
 }
 
-/* A line is read up to LINE_FACTOR times the expected size plus LINE_SLACK bytes. */
+/* At most LINE_FACTOR times the expected size plus LINE_SLACK bytes of a line are read. */
 #define LINE_FACTOR 16
 #define LINE_SLACK 65536
 
@@ -178,7 +181,8 @@ size_t line_limit(const expected_line *expected)
     return LINE_FACTOR * expected->size + LINE_SLACK + (tick->split_count + tick->merge_count) * OCTREE_ADDRESS_TEXT;
 }
 
-/* Whether a line lists all nodes that split or merged, as earlier versions wrote it, and is otherwise as expected. */
+/* Returns true if the line is the one that earlier versions of octreel wrote for this tick. Those versions listed all
+ * nodes that split or merged. */
 static bool is_earlier_line(const line_reader *found, const expected_line *expected)
 {
     tick_extras extras = *expected->extras;
