@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause.c - plays two sessions together and compares them tick by tick. */
+/* cause.c - plays two sessions side by side and compares them tick by tick. */
 #include "cause.h"
 #include "array.h"
 #include "judgement.h"
@@ -10,14 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Two games that are played together. */
+/* The games of two sessions that are played side by side, and the state of their comparison. */
 typedef struct playing {
     octree_game *games[2];
-    bool same_session;    /* all ticks are equal, too */
-    bool same_rules;      /* both trees have the same options: equal contents have equal digests */
-    uint64_t versions[2]; /* octree_version() of both trees when they were compared last */
-    bool unlike;          /* whether the trees differed then */
-    bool other_heat;      /* an earlier tick differed and the view shows heat */
+    bool same_session;    /* the sessions are equal, so all their ticks are equal */
+    bool same_rules;      /* both trees have the same options, so equal contents have equal digests */
+    uint64_t versions[2]; /* octree_version() of each tree when the trees were last compared */
+    bool unlike;          /* the result of that comparison: true if the trees differed */
+    bool other_heat;      /* the view shows heat, and an earlier tick differed */
     bool shows_heat;
     const cause_watcher *watcher;
     cause *found;
@@ -54,7 +54,7 @@ static bool trees_differ(playing *p)
     return p->unlike;
 }
 
-/* Append the details of a tick; the facts move into it. */
+/* Append the details of a tick. The new element takes over the memory of *facts. */
 static bool append_tick(cause *c, uint64_t tick, cause_facts *facts)
 {
     if (!array_grow(&c->ticks, c->count + 1, &c->room, sizeof *c->ticks))
@@ -96,7 +96,7 @@ static void count_wrong_answers(cause_span wrong[WRONG_CHANGES], const octree_ti
         extend_span(&wrong[WRONG_OTHER], 1, a->number);
 }
 
-/* Whether the games are in different states, so that later ticks may differ, too. */
+/* Return whether the states of the games differ, so that later ticks may differ, too. */
 static bool games_differ(const playing *p, bool trees)
 {
     const octree_tick *a = octree_game_tick(p->games[0]), *b = octree_game_tick(p->games[1]);
@@ -104,8 +104,8 @@ static bool games_differ(const playing *p, bool trees)
            a->foreign.digest != b->foreign.digest;
 }
 
-/* Compare one tick. The trees are compared node by node only in ticks that are reported in detail; in other ticks their
- * digests decide. */
+/* Compare one tick. The trees are compared node by node only in ticks that are reported in detail. In other ticks it
+ * is only known whether the trees differ. */
 static bool compare_tick(playing *p, octreel_error *error)
 {
     const octree_game *const games[2] = {p->games[0], p->games[1]};
@@ -157,8 +157,8 @@ static bool same_rules(const octree *a, const octree *b)
            x.max_depth == y.max_depth && x.full_leaf == y.full_leaf;
 }
 
-/* Ignore layers that neither session can fill: they draw nothing, so it does not matter whether a view has them. This
- * keeps a recording made before such a layer existed equal to a new one. */
+/* Compare the views. A layer that is empty in both sessions draws nothing, so it is ignored in both views. A
+ * recording made before such a layer existed therefore stays equal to a new recording. */
 static void compare_views(const octree_session *a, const octree_session *b, const cause_view views[2],
                           bool same_session, cause_facts *facts)
 {

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_compare.c - compares two JSON objects member by member and reports each difference once, in the user's terms.
  *
- * The problem: two sessions or ticks differ in their JSON, and the user should read "edit 17 was added", not "element 3
- * of the list differs, and so do all that follow". A textual diff reports the latter: one inserted element shifts the
- * rest of its list.
+ * The problem: two sessions or ticks differ in their JSON. The user should read "edit 17 was added". A textual diff
+ * instead reports that element 3 of a list and all following elements differ, because one inserted element shifts the
+ * rest of the list.
  *
- * The idea: objects are compared member by member, and lists as sets of elements that have an identity. Elements with a
- * key (points by id, edits by action and id, events by word) are sorted by key and merged, in O(n log n); the n-th
- * element of a key is compared with the n-th of the same key. Queries, shapes and answers have no key, so cause_pairs.h
- * pairs those that are most alike. Elements without a partner are reported as additional or missing. If all elements
- * are equal but their order differs, that is one fact. A value that is no object, such as a box or a position, is one
- * fact.
+ * The idea: objects are compared member by member. Lists are compared as sets of elements that have an identity.
+ * Elements with a key (points by id, edits by action and id, events by word) are sorted by key and merged, in O(n log
+ * n); if a key occurs several times, its n-th element in one list is compared with its n-th element in the other.
+ * Queries, shapes and answers have no key, so cause_pairs.h pairs the most similar elements. Elements without a partner
+ * are reported as additional or missing.
+ *
+ * If all elements are equal but their order differs, the other order is one fact. A difference of values that are
+ * compared as a whole, such as a box or a position, is one fact, too.
  */
 #include "cause_compare.h"
 #include "cause_pairs.h"
@@ -21,7 +23,7 @@
 
 static void compare_values(const cause_place *place, json_t *a, json_t *b);
 
-/* Add a fact about two values, or one value, or none. */
+/* Add a fact. It has two values, one value or none; a null value means that there is none. */
 static void add_fact(const cause_place *place, cause_change change, uint64_t id, json_t *a, json_t *b)
 {
     cause_add(place->facts, place->where, place->query, change,
@@ -48,8 +50,8 @@ static bool is_same(const cause_place *place, const json_t *a, const json_t *b)
 /* ---- Lists whose elements have a key ------------------------------------------------------------------------- */
 
 typedef struct keyed {
-    const char *word; /* the element itself if it is a text, or the name of its only member, as "insert"; else "" */
-    uint64_t id;      /* CAUSE_NO_ID if the element has none */
+    const char *word; /* the element itself if it is a text; the name of its only member, such as "insert"; else "" */
+    uint64_t id;      /* CAUSE_NO_ID if the element has no id */
     size_t place;     /* the index in the list */
     json_t *element;
 } keyed;
@@ -124,7 +126,7 @@ static void compare_keyed(const cause_place *place, json_t *a, json_t *b)
 
 /* ---- Lists whose elements are paired by similarity ------------------------------------------------------------ */
 
-/* Whether a member of an answer is a result, not a parameter of the query. */
+/* Return whether a member of an answer is a result and not a parameter of the query. */
 static bool is_result(const char *key)
 {
     static const char *const names[] = {"ids", "id", "position", "distance", "neighbors", "cost"};
@@ -134,7 +136,7 @@ static bool is_result(const char *key)
     return false;
 }
 
-/* The query of an answer: its kind and its parameters. The caller releases it. */
+/* Return the query of an answer: an object with its kind and its parameters. The caller releases it. */
 static json_t *query_of(json_t *answer)
 {
     const char *kind = cause_kind_of(answer), *key;
@@ -144,7 +146,7 @@ static json_t *query_of(json_t *answer)
     return json_pack("{so}", kind, asked);
 }
 
-/* A session's query without the answer and the visited nodes of the foreign index. The caller releases it. */
+/* Return a session's query without the foreign index's answer and visited nodes. The caller releases it. */
 static json_t *query_without_answer(json_t *query)
 {
     json_t *asked = json_copy(query);
@@ -154,7 +156,8 @@ static json_t *query_without_answer(json_t *query)
     return asked;
 }
 
-/* The list by which the elements of a list are paired: for answers their queries, for queries their parameters. */
+/* Return the list by which the elements of another list are paired. For answers it holds their queries; for queries,
+ * the queries without the foreign index's answers. */
 static json_t *list_pairing_keys(cause_rule rule, json_t *list)
 {
     json_t *keys = json_array(), *element;
@@ -169,7 +172,8 @@ static json_t *list_pairing_keys(cause_rule rule, json_t *list)
     return keys;
 }
 
-/* Compare the answers of the foreign index. Of visited nodes only the counts are reported, and only if they differ. */
+/* Compare the answers of the foreign index. For its visited nodes only the counts are reported, and only if the
+ * counts differ. */
 static void compare_foreign_answers(cause_place place, json_t *a, json_t *b)
 {
     json_t *counts[2] = {json_object(), json_object()};
@@ -218,8 +222,8 @@ static void compare_pair(const cause_place *place, cause_rule rule, json_t *a, j
         add_fact(place, CAUSE_OTHER, CAUSE_NO_ID, a, b);
 }
 
-/* Write "the range query" or, if the list has several of that kind, "query 3 (range)", counted from 1. Only answers
- * name their query. */
+/* Write the name of the query of an answer: "the range query" or, if the list has several range queries, "query 3
+ * (range)", where 3 is the position in the list, counted from 1. If the elements are not answers, write nothing. */
 static void name_query(cause_rule rule, json_t *list, size_t i, bool of_reference, char text[CAUSE_QUERY])
 {
     if (rule != CAUSE_ANSWERS)
@@ -247,8 +251,8 @@ static bool in_order(const size_t *mates, size_t count)
     return true;
 }
 
-/* Report the differences within pairs, then the elements of only one list. has_partner[i] is set for each element of
- * `a` that has a partner; it must be false for all before. */
+/* Report the differences within pairs, then the elements that only one list has. has_partner[i] is set to true for
+ * each element of `a` that has a partner. The caller sets all of has_partner to false first. */
 static void compare_paired(cause_place place, cause_rule rule, json_t *a, json_t *b, const size_t *mates,
                            bool *has_partner)
 {
@@ -309,8 +313,8 @@ static void compare_lists(const cause_place *place, cause_rule rule, json_t *a, 
         compare_by_similarity(place, rule, a, b);
 }
 
-/* Compare two values of any type. The path of an answer's member leaves out the kind of the query, since the name of
- * the query says it. */
+/* Compare two values of any type. The path of an answer's member does not contain the kind of the query, because the
+ * name of the query contains it. */
 static void compare_values(const cause_place *place, json_t *a, json_t *b)
 {
     if (is_same(place, a, b))

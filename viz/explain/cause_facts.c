@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_facts.c - collects facts in groups of the same place and change. */
+/* cause_facts.c - collects facts in groups: the facts of a group have the same place, query and change. */
 #include "cause_facts.h"
 #include "array.h"
 #include "cause_pairs.h"
@@ -67,7 +67,7 @@ static bool is_before(const cause_group *a, const cause_group *b)
     return !is_about_all(b) && (is_about_all(a) || a->listed[0].tick < b->listed[0].tick);
 }
 
-/* An insertion sort, which is stable: groups of the same tick keep their order. */
+/* Sort with an insertion sort, which is stable: groups that begin at the same tick keep their order. */
 void cause_facts_sort(cause_facts *facts)
 {
     for (size_t i = 1; i < facts->count; i++)
@@ -79,7 +79,7 @@ void cause_facts_sort(cause_facts *facts)
     cause_origins_sort(&facts->origins);
 }
 
-/* The facts of a group that the frame of a tick can show. */
+/* Return a group with only those facts that the frame of a tick can show. */
 static cause_group group_at_tick(const cause_group *group, uint64_t tick)
 {
     cause_group shown = *group;

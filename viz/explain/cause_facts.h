@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_facts.h - the differences between two recordings as a list of facts. Of two values, the first is the
- * reference's.
+/* cause_facts.h - the differences between two recordings as a list of facts. The first value of a fact is from the
+ * reference, the second from the compared recording ("the frames").
  *
- * A fact has a place. Most places are paths of members in a session file, in recording.json or in a line of
- * ticks.jsonl, such as "tree.capacity" or "edits". These places are in no file:
- *   nodes.split, nodes.merged   nodes that are inner nodes only in the frames, or only in the reference
- *   nodes.born, nodes.gone      nodes that exist only in the frames, or only in the reference
- *   tree.points                 points of the tree
- *   queries.visits              the numbers of foreign nodes that a query visited
- *   hit_from, visited, heat     values that are only drawn
- * Values are JSON, as in the files. cause_words.h prints facts as sentences and cause_json.h as JSON.
+ * Each fact has a place. Most places are paths of members in a session file, in recording.json or in a line of
+ * ticks.jsonl, such as "tree.capacity" or "edits". The following places are in no file:
+ *
+ *     nodes.split, nodes.merged   nodes that are inner nodes only in the frames, or only in the reference
+ *     nodes.born, nodes.gone      nodes that exist only in the frames, or only in the reference
+ *     tree.points                 points of the tree
+ *     queries.visits              the numbers of foreign nodes that a query visited
+ *     hit_from, visited, heat     values that are only drawn
+ *
+ * Values are JSON, as in the files. cause_words.h prints facts as sentences; cause_json.h writes them as JSON.
  */
 #ifndef EXPLAIN_CAUSE_FACTS_H
 #define EXPLAIN_CAUSE_FACTS_H
@@ -21,24 +23,25 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What the second side has: another value, an additional value, one value less, or the same values in another order. */
+/* How the frames differ from the reference: another value, an additional value, a missing value, or the same values
+ * in another order. */
 typedef enum cause_change { CAUSE_OTHER, CAUSE_MORE, CAUSE_LESS, CAUSE_ORDER, CAUSE_CHANGES } cause_change;
 
 #define CAUSE_NO_TICK UINT64_MAX
 #define CAUSE_NO_ID UINT64_MAX
 
 typedef struct cause_fact {
-    uint64_t tick; /* the tick to which the session assigns it; CAUSE_NO_TICK: it holds for all ticks */
-    uint64_t id;   /* the id of a point; CAUSE_NO_ID: it is not about a point */
-    json_t *a, *b; /* the values, or null; counted references */
+    uint64_t tick; /* the tick of the fact in the session; CAUSE_NO_TICK: the fact holds for all ticks */
+    uint64_t id;   /* the id of the point that the fact is about; CAUSE_NO_ID: no point */
+    json_t *a, *b; /* the values of reference and frames, or null; each owns a reference to its value */
 } cause_fact;
 
-/* The first facts of a group are stored; the others are only counted. */
+/* The number of facts of a group that are stored. Further facts are only counted. */
 #define CAUSE_LISTED 8
 
 #define CAUSE_QUERY 48
 
-/* All facts with the same place, query and change. Either all of them have a tick, or none has. */
+/* All facts with the same place, query and change. Either all facts of a group have a tick or none has. */
 typedef struct cause_group {
     char where[40];
     char query[CAUSE_QUERY]; /* for facts about an answer: "the range query"; else "" */
@@ -52,13 +55,14 @@ typedef struct cause_facts {
     cause_group *groups; /* in the order in which they were found */
     size_t count, room;
     bool out_of_memory;    /* memory ran out, so the list is incomplete */
-    cause_origins origins; /* the ticks of all facts that have one */
+    cause_origins origins; /* the differences of all facts that have a tick */
 } cause_facts;
 
-/* Add a fact, which takes over the references to its values. */
+/* Add a fact. `facts` takes over the references to its values. */
 void cause_add(cause_facts *facts, const char *where, const char *query, cause_change change, cause_fact fact);
 
-/* The same for a fact that holds for all ticks and is about neither a point nor a query. */
+/* Add a fact that holds for all ticks and is about neither a point nor a query. `facts` takes over the references to
+ * `a` and `b`. */
 static inline void cause_add_whole(cause_facts *facts, const char *where, cause_change change, json_t *a, json_t *b)
 {
     cause_add(facts, where, "", change, (cause_fact){CAUSE_NO_TICK, CAUSE_NO_ID, a, b});
@@ -66,20 +70,21 @@ static inline void cause_add_whole(cause_facts *facts, const char *where, cause_
 
 void cause_facts_release(cause_facts *facts);
 
-/* Sort the groups: first those without a tick, then the others by their first tick. */
+/* Sort the groups: first the groups without a tick, then the others by their first tick. */
 void cause_facts_sort(cause_facts *facts);
 
-/* The stored facts that the frame of a tick can show: those of this tick and those without a tick, except for the
- * interval of frames and the last tick. The result borrows from `facts`; free only its groups. */
+/* Return the stored facts that the frame of a tick can show: the facts of this tick and the facts without a tick.
+ * The interval of frames and the last tick are left out. The result borrows from `facts`; the caller frees only its
+ * array `groups`. */
 cause_facts cause_facts_shown(const cause_facts *facts, uint64_t tick);
 
-/* Whether cause_facts_shown() would return any fact. */
+/* Return whether cause_facts_shown() would return any fact. */
 bool cause_facts_show(const cause_facts *facts, uint64_t tick);
 
-/* The group with this place and change and without a query, or null. */
+/* Return the group with this place and change that is not about a query, or null. */
 const cause_group *cause_group_of(const cause_facts *facts, const char *where, cause_change change);
 
-/* The number of facts that are stored in a group. */
+/* Return the number of facts that are stored in a group. */
 static inline size_t cause_count_listed(const cause_group *group)
 {
     return group->found < CAUSE_LISTED ? (size_t)group->found : CAUSE_LISTED;

@@ -31,13 +31,14 @@ static size_t find_kind(cause_origins *o, const char *name)
     return o->kind_count++;
 }
 
-/* Whether a difference has no effect on the next tick, except on heat. */
+/* Return whether a difference at this place affects only its own tick, apart from heat. */
 static bool is_momentary(const char *where)
 {
     return strncmp(where, "queries", 7) == 0 || strncmp(where, "shapes", 6) == 0;
 }
 
-/* All lasting differences at one path are of one kind, because their effects on later ticks cannot be separated. */
+/* The effects of lasting differences at one path cannot be separated in later ticks. All such differences therefore
+ * have the same kind. */
 bool cause_origins_add(cause_origins *o, uint64_t tick, const char *where, const char *kind)
 {
     char name[CAUSE_KIND];
@@ -116,7 +117,8 @@ bool cause_origins_advance(cause_origins *o, uint64_t tick, bool games_differ, b
     return !changed || add_stretch(o, tick);
 }
 
-/* The number of items whose tick, their first member, is before `end`. The items are in ascending order. */
+/* Return the number of items whose tick is before `end`. The tick is the first member of an item. The items are in
+ * ascending order of ticks. */
 static size_t count_before(const void *items, size_t count, size_t item_size, uint64_t end)
 {
     size_t low = 0, high = count;
@@ -136,7 +138,8 @@ static const char *causes_at(const cause_origins *o, uint64_t tick)
     return count && o->stretches[count - 1].causes ? o->stretches[count - 1].causes : "";
 }
 
-/* If nothing is in effect, search the keys that the frame shows: first the later ones, then the earlier ones. */
+/* Frames also list keys of neighbouring ticks. If no difference is in effect at this tick, search the differences in
+ * these keys: first at this and later ticks, then at earlier ticks. */
 const char *cause_origins_at(const cause_origins *o, uint64_t tick)
 {
     const char *causes = causes_at(o, tick);

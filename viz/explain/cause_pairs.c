@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* cause_pairs.c - pairs the elements of two lists that have no keys, most similar first.
  *
- * Equal elements are paired first, by sorting both lists by their texts. For the rest, the similarity of two elements
- * is the number of values that they share at the same place; pairs are made in descending order of it. Comparing every
- * element with every other would cost O(n^2), and one list may hold thousands of queries, so each element is compared
- * only with PAIR_CANDIDATES elements around its own index in the other list.
+ * Equal elements are paired first: both lists are sorted by the JSON text of their elements. The remaining elements are
+ * paired in descending order of similarity. The similarity of two elements is the number of values that they share at
+ * the same path. Comparing every element with every other would cost O(n^2), and a list may hold thousands of queries.
+ * Each element is therefore compared with only PAIR_CANDIDATES elements of the other list, around its own index.
  */
 #include "cause_pairs.h"
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number of elements of the other list, around the same index, with which an element is compared. */
+/* The number of elements of the other list with which an element is compared. They lie around its own index. */
 #define PAIR_CANDIDATES ((size_t)16)
 
 typedef struct entry {
@@ -24,7 +24,7 @@ typedef struct entry {
 
 typedef struct entries {
     entry *all;   /* in the order of the list */
-    entry **left; /* all entries, sorted by text, while equal ones are paired; then those that are not paired */
+    entry **left; /* all entries, sorted by text; after equal elements are paired: the entries without a partner */
     size_t count, left_count;
 } entries;
 
@@ -103,7 +103,7 @@ static void pair_equal(entries *a, entries *b, size_t *mates)
 
 /* ---- Similar elements ---------------------------------------------------------------------------------------- */
 
-/* The number of numbers, texts and booleans that are equal at the same place. */
+/* Return how many numbers, texts and booleans of two elements are equal at the same path. */
 static unsigned count_common(json_t *a, json_t *b)
 {
     unsigned common = 0;
@@ -119,14 +119,14 @@ static unsigned count_common(json_t *a, json_t *b)
     return common;
 }
 
-/* The index of the first candidate for the j-th remaining element. */
+/* Return the index of the first candidate for the j-th remaining element. */
 static size_t first_candidate(size_t j)
 {
     return j < PAIR_CANDIDATES / 2 ? 0 : j - PAIR_CANDIDATES / 2;
 }
 
-/* The similarity of two remaining elements; 0 for different kinds. Among equal counts of shared values, the pair with
- * the same distance from the beginning or the end of its list wins. */
+/* Return the similarity of two remaining elements, or 0 if their kinds differ. Among pairs that share equally many
+ * values, a pair wins whose elements have the same distance from the beginning or from the end of their lists. */
 static uint8_t similarity_of(const entries *a, size_t i, const entries *b, size_t j)
 {
     json_t *x = a->left[i]->element, *y = b->left[j]->element;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_places.c - the table of places: how they are compared, and with which nouns and verbs they are printed. */
+/* cause_places.c - the table of places. It says how the values at a place are compared and with which nouns and
+ * verbs they are printed. */
 #include "cause_places.h"
 #include "view_options.h"
 
@@ -17,7 +18,7 @@
 
 /* A place without a row is compared by type and printed as its path. */
 static const cause_row rows[] = {
-    /* Sessions. */
+    /* Places in sessions. */
     {"world", "world", OPTION},
     {"tree.capacity", "leaf capacity", OPTION},
     {"tree.depth", "depth", OPTION},
@@ -48,17 +49,18 @@ static const cause_row rows[] = {
     {"queries.answer", "foreign answer", .plural = "foreign answers", VERB_OTHER = "changed"},
     {"shapes", "shape shown", .plural = "shapes shown", EVERY},
     {"foreign_nodes", "foreign node", PLAIN},
-    /* Views. The nouns of view options are in view_options.c. */
+    /* Places in views. The nouns of view options are in view_options.c. */
     {"every", "interval of frames", PLAIN},
     {"focus", "box around the points", PLAIN},
     {"point_scale", "scale of points", PLAIN},
-    /* Trees. "divided": an inner node; two trees are compared, so nothing split or merged at this tick. */
+    /* Places in trees. The verb is "divided": one tree has an inner node where the other has a leaf. "Split" would
+     * mean that the node split at this very tick. */
     {"nodes.split", "node", VERB_MORE = "divided only in the frames"},
     {"nodes.merged", "node", VERB_MORE = "divided only in the reference"},
     {"nodes.born", "node", VERB_MORE = "only in the frames"},
     {"nodes.gone", "node", VERB_MORE = "only in the reference"},
     {"tree.points", "point", VERB_OTHER = "moved", VERB_MORE = "added", VERB_LESS = "removed"},
-    /* Ticks. */
+    /* Places in ticks. */
     {"player", "place of the player", PLAIN},
     {"key", "key", MINOR},
     {"from", "start of the player's step", MINOR},
@@ -112,7 +114,8 @@ cause_rule cause_rule_of(const char *where)
     return row ? row->rule : CAUSE_BY_TYPE;
 }
 
-/* Without a row, members of answers (positions, distances) and counts of wrong foreign nodes are minor. */
+/* Members of answers (positions, distances) and counts of wrong foreign nodes are minor if they have no row of their
+ * own. */
 cause_row cause_row_of(const cause_group *group)
 {
     const cause_row *row = find_row(group->where);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_sessions.c - compares sessions and views in their written form; see cause_compare.h. */
+/* cause_sessions.c - compares sessions and views by their JSON; see cause_compare.h. */
 #include "cause_compare.h"
 #include "json_read.h"
 #include "text.h"
@@ -49,7 +49,8 @@ static int by_id(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The bodies as points in ascending order of id, with their positions, or with their velocities in place of these. */
+/* Return the bodies of a session as points, in ascending order of id. The coordinates of a point are the body's
+ * position or, with `velocities`, its velocity. */
 static cause_points sort_bodies(const octree_session *session, bool velocities)
 {
     cause_points sorted = {malloc((session->body_count + 1) * sizeof *sorted.points), session->body_count};
@@ -79,13 +80,14 @@ static bool same_bodies(const octree_session *a, const octree_session *b)
            (a->body_count == 0 || memcmp(a->bodies, b->bodies, a->body_count * sizeof *a->bodies) == 0);
 }
 
-/* Whether the bodies differ and both sessions generated theirs from a seed: then the generators are compared. */
+/* Return whether the bodies differ and both sessions generated their bodies from a seed. The generators are then
+ * compared in place of the bodies. */
 static bool both_sampled(const octree_session *a, const octree_session *b)
 {
     return a->sampled.known && b->sampled.known && !same_bodies(a, b);
 }
 
-/* Whether a difference of the generators has been found, which explains different bodies. */
+/* Return whether a difference between the generators was found. It explains why the bodies differ. */
 static bool sample_differs(const cause_facts *facts)
 {
     for (size_t i = 0; i < facts->count; i++)
@@ -102,8 +104,8 @@ static bool same_ids(const octree_session *a, const octree_session *b)
     return true;
 }
 
-/* Compare the bodies at the start, without JSON, since there may be a million. Their order matters: a full leaf refuses
- * the later ones. */
+/* Compare the bodies at the start. They are compared without JSON, because there may be a million of them. Their
+ * order matters, because a full leaf refuses later bodies. */
 static void compare_bodies(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     if (same_bodies(a, b) || sample_differs(facts))
@@ -116,14 +118,14 @@ static void compare_bodies(const octree_session *a, const octree_session *b, cau
         cause_add_whole(facts, "points", CAUSE_ORDER, NULL, NULL);
 }
 
-/* ---- Keys ---------------------------------------------------------------------------------------------------- */
+/* ---- Keys of the player ---------------------------------------------------------------------------------------- */
 
 static char key_at(const octree_session *session, size_t length, uint64_t i)
 {
     return i < length ? session->keys[i] : '.';
 }
 
-/* Compare the keys of the ticks that both sessions have. A missing key is a wait. */
+/* Compare the players' keys in the ticks that both sessions have. A missing key stands for "wait". */
 static void compare_key_presses(const octree_session *a, const octree_session *b, cause_facts *facts)
 {
     const uint64_t lengths[2] = {octree_session_length(a), octree_session_length(b)};
@@ -139,7 +141,8 @@ static void compare_key_presses(const octree_session *a, const octree_session *b
 
 /* ---- Everything else, in its written form --------------------------------------------------------------------- */
 
-/* A session file without points and keys, which are compared separately, and with "ticks" always written. */
+/* Write a session as JSON lines. Points and keys are left out, because they are compared separately. "ticks" is
+ * always written. */
 static char *write_session(const octree_session *session, bool sampled)
 {
     octree_session rest = *session;
@@ -156,7 +159,7 @@ static char *write_session(const octree_session *session, bool sampled)
     return text_stream_end(&s, &text) ? text : NULL;
 }
 
-/* Parse the next object of a text and move *at behind it; null at the end. */
+/* Parse the next object of a text and move *at behind it. Return null at the end of the text. */
 static json_t *parse_next_object(const char **at)
 {
     json_error_t error;
@@ -167,7 +170,8 @@ static json_t *parse_next_object(const char **at)
     return object;
 }
 
-/* Give the player of a session the members "kind" and "sweep", even if there is no player or no "sweep". */
+/* Add the members "kind" and "sweep" to the player in a session's header, even if the session has no player or no
+ * "sweep". */
 static json_t *normalize_player(json_t *header)
 {
     json_t *player = json_object_get(header, "player");
@@ -181,7 +185,7 @@ static json_t *normalize_player(json_t *header)
     return named;
 }
 
-/* Remove the members that the other object lacks. */
+/* Remove from an object the members that `other` lacks. */
 static void remove_missing(json_t *from, const json_t *other)
 {
     const char *key;
@@ -190,9 +194,9 @@ static void remove_missing(json_t *from, const json_t *other)
     json_object_foreach_safe(from, next, key, value) if (!json_object_get(other, key)) json_object_del(from, key);
 }
 
-/* A line of a session file for a tick that has edits, queries or shapes. */
+/* A line of a session's JSON, which describes a tick with edits, queries or shapes. */
 typedef struct tick_line {
-    uint64_t tick; /* UINT64_MAX: no line is left */
+    uint64_t tick; /* UINT64_MAX: all lines have been read */
     size_t size;
 } tick_line;
 
@@ -204,7 +208,8 @@ static tick_line find_tick_line(const char *at)
     return (tick_line){strtoull(at + sizeof start - 1, NULL, 10), strcspn(at, "\n")};
 }
 
-/* Merge the lines of two sessions by tick. Equal lines are not parsed, because a session may have many. */
+/* Compare the lines of two sessions, merged by tick. Equal lines are not parsed, because a session may have many
+ * lines. */
 static void compare_lines(cause_place place, const char *x, const char *y)
 {
     for (tick_line a = find_tick_line(x), b = find_tick_line(y); a.tick != UINT64_MAX || b.tick != UINT64_MAX;
@@ -225,7 +230,7 @@ static void compare_lines(cause_place place, const char *x, const char *y)
     }
 }
 
-/* Compare two session files. Members that only one of the two kinds of players has are left out. */
+/* Compare the JSON lines of two sessions. A member that only one of the sessions' kinds of players has is left out. */
 static void compare_texts(const cause_place *place, const char *x, const char *y)
 {
     json_t *a = parse_next_object(&x), *b = parse_next_object(&y);
@@ -266,7 +271,7 @@ void cause_compare_sessions(const session_file *a, const session_file *b, cause_
 
 /* ---- Views --------------------------------------------------------------------------------------------------- */
 
-/* The object of recording.json. It holds every option. */
+/* Return the JSON object of recording.json for a view. It holds every option. */
 static json_t *view_object(const cause_view *v)
 {
     text_stream s;
@@ -279,7 +284,8 @@ static json_t *view_object(const cause_view *v)
     return object;
 }
 
-/* Compare two options as a whole, so that each is one cause. Lists of layers are compared element by element. */
+/* Compare an option of two views. Each option is compared as one value, so that it is one cause. Only lists of
+ * layers are compared element by element. */
 static void compare_option(const cause_place *place, const view_option *option, json_t *a, json_t *b)
 {
     const char *name = option->member.name;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_ticks.c - compares two ticks of the same number: their lines of ticks.jsonl, and their trees node by node. See
- * cause_compare.h. */
+/* cause_ticks.c - compares a tick of one session with the tick of the same number in another session: their lines of
+ * ticks.jsonl, and their trees node by node. See cause_compare.h. */
 #include "cause_compare.h"
 #include "json_read.h"
 #include "octree/octree.h"
@@ -13,10 +13,10 @@
 
 /* ---- Nodes --------------------------------------------------------------------------------------------------- */
 
-/* A walk over the nodes of one tree that looks up each node in the other tree. */
+/* The state of a walk over the nodes of one tree. Each node is looked up in the other tree. */
 typedef struct walking {
     const octree *other;
-    bool is_a; /* the tree of the reference is walked */
+    bool is_a; /* true: the walked tree is the reference's */
     cause_facts *facts;
 } walking;
 
@@ -26,7 +26,7 @@ static void add_node_fact(const walking *w, const char *where, octree_address no
     cause_add_whole(w->facts, where, CAUSE_MORE, NULL, json_string(octree_address_format(node, text)));
 }
 
-/* Report a node that the other tree lacks or has as a leaf, and skip the nodes below it. */
+/* Report a node that the other tree lacks, or that is a leaf in the other tree only. Then skip the nodes below it. */
 static octree_walk_order compare_node(const octree_node *node, void *context)
 {
     const walking *w = context;
@@ -42,7 +42,8 @@ static octree_walk_order compare_node(const octree_node *node, void *context)
 
 /* ---- Points -------------------------------------------------------------------------------------------------- */
 
-/* All points of a tree in ascending order of id, except the point with the id *excluded; null excludes none. */
+/* Return all points of a tree in ascending order of id. The point with the id *excluded is left out, unless
+ * `excluded` is null. */
 static cause_points sort_points(const octree *tree, const uint64_t *excluded)
 {
     static const octree_box all = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -59,7 +60,7 @@ static cause_points sort_points(const octree *tree, const uint64_t *excluded)
     return sorted;
 }
 
-/* The player's id if both games have a player with the same id; else null. */
+/* Return the id of the player if both games have a player with the same id, else null. */
 static const uint64_t *player_of_both(const octree_game *a, const octree_game *b)
 {
     const uint64_t *ids[2] = {&octree_game_session(a)->player.id, &octree_game_session(b)->player.id};
@@ -67,7 +68,7 @@ static const uint64_t *player_of_both(const octree_game *a, const octree_game *b
     return both && *ids[0] == *ids[1] ? ids[0] : NULL;
 }
 
-/* Compare the points of both trees by id, which is unique in a game. */
+/* Compare the points of both trees, matched by id. An id is unique in a game. */
 static void compare_points(const octree_game *a, const octree_game *b, cause_facts *facts)
 {
     const uint64_t *player = player_of_both(a, b);
@@ -79,7 +80,7 @@ static void compare_points(const octree_game *a, const octree_game *b, cause_fac
     free(bs.points);
 }
 
-/* Whether both trees have the same world, so that their nodes can be compared. */
+/* Return whether both trees have the same world. Only then can their nodes be compared. */
 static bool same_world(const octree *a, const octree *b)
 {
     const octree_box x = octree_definition(a).world, y = octree_definition(b).world;
@@ -101,7 +102,8 @@ void cause_compare_trees(const octree_game *a, const octree_game *b, cause_facts
 
 /* ---- Lines --------------------------------------------------------------------------------------------------- */
 
-/* The line of ticks.jsonl without the digest of the tree, which also depends on the tree's options. */
+/* Write the game's line of ticks.jsonl. The digest of the tree is left out, because it also depends on the tree's
+ * options. */
 static char *write_line(const octree_game *game)
 {
     octree_tick tick = *octree_game_tick(game);
@@ -120,7 +122,8 @@ static bool is_inner(const octree_game *game, octree_address address)
     return octree_node_at(octree_game_tree(game), address, &node) == OCTREE_OK && !node.leaf;
 }
 
-/* Remove the nodes in which the trees differ: cause_compare_trees() reports them. */
+/* Remove from a tick's `nodes` the nodes in which the trees differ, because cause_compare_trees() reports these
+ * nodes. */
 static void drop_reported_nodes(const octree_game *a, const octree_game *b, json_t *nodes)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
@@ -135,7 +138,7 @@ static json_t *read_line(const octree_game *a, const octree_game *b, const char 
 {
     json_error_t error;
     json_t *line = json_parse(text, strlen(text), JSON_DECODE_INT_AS_REAL, &error);
-    json_object_del(line, "tree"); /* counts of what the trees report one by one */
+    json_object_del(line, "tree"); /* its counts follow from the nodes and points that are compared one by one */
     drop_reported_nodes(a, b, json_object_get(line, "splits"));
     drop_reported_nodes(a, b, json_object_get(line, "merges"));
     return line;
@@ -173,7 +176,7 @@ static bool same_visits(const octree_tick *a, const octree_tick *b)
     return true;
 }
 
-/* Whether the points that a swept test hit came from the same positions. */
+/* Return whether the points that a swept collision test hit came from the same positions in both ticks. */
 static bool same_hit_ways(const octree_tick *a, const octree_tick *b)
 {
     for (size_t i = 0; a->hit_from && b->hit_from && a->hit_count == b->hit_count && i < a->hit_count; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_words.c - prints facts as sentences, with the nouns and verbs of cause_places.c. */
+/* cause_words.c - prints facts as sentences. The nouns and verbs are in cause_places.c. */
 #include "cause_words.h"
 #include "cause_places.h"
 #include "number.h"
@@ -19,10 +19,10 @@ static void print_number(FILE *out, double number)
     fputs(text, out);
 }
 
-/* The number of elements that are printed of a long list, such as ids. */
+/* The number of elements that are printed of a list that is longer, such as a list of ids. */
 enum { LONGEST_LIST = 4 };
 
-/* Print "(1, 2, 3)", "(1, 2, 3, 4 and 8 more)", or for a segment "(0, 0, 0) to (9, 9, 9)". */
+/* Print a list: "(1, 2, 3)", "(1, 2, 3, 4 and 8 more)", or for a segment "(0, 0, 0) to (9, 9, 9)". */
 static void print_list(FILE *out, const json_t *list)
 {
     const bool nested = json_is_array(json_array_get(list, 0));
@@ -42,7 +42,7 @@ static bool is_box(const json_t *value)
     return json_object_size(value) == 2 && json_object_get(value, "min");
 }
 
-/* Print a box as its corners, and any other object as its members with their names. */
+/* Print a box as its two corners. Print any other object as its members with their names. */
 static void print_object(FILE *out, json_t *object)
 {
     const char *key;
@@ -60,7 +60,7 @@ static void print_object(FILE *out, json_t *object)
     }
 }
 
-/* Print a value. Texts that are members of an object have quotes. */
+/* Print a value. Quote a text if it is a member of an object. */
 static void print_value(FILE *out, const json_t *value, bool is_member)
 {
     if (json_is_number(value))
@@ -80,8 +80,8 @@ static bool has_members(const json_t *value)
     return json_is_object(value) && !is_box(value);
 }
 
-/* Print "8, was 4". Of objects print each member, and "was" for the changed ones: "radius 101, was 100, at (1, 2, 3)".
- */
+/* Print both values: "8, was 4". For objects print every member, with "was" for changed members: "radius 101, was
+ * 100, at (1, 2, 3)". */
 static void print_change(FILE *out, const json_t *a, const json_t *b, bool is_member)
 {
     const char *key;
@@ -122,14 +122,14 @@ static void print_when(FILE *out, const cause_row *p, const cause_fact *fact)
         fputs(" at every tick", out);
 }
 
-/* Print " in the range query" if the facts are about the answer of that query. */
+/* Print " in the range query" if the facts of the group are about the answer of this query. */
 static void print_query(FILE *out, const cause_group *group)
 {
     if (*group->query)
         fprintf(out, " in %s", group->query);
 }
 
-/* Print what a fact is about: the id of a point, the tick of a key, a node, or a word. */
+/* Print the subject of a fact: the id of a point, the tick of a key, a node, or a word. */
 static void print_subject(FILE *out, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -141,7 +141,8 @@ static void print_subject(FILE *out, const cause_fact *fact)
         print_value(out, value, false);
 }
 
-/* Print " (8, was 4)" or " (point 3: (7, -7, 7), was (7, 7, 7))". Costs and long lists are left to the JSON report. */
+/* Print the values of a fact: " (8, was 4)" or " (point 3: (7, -7, 7), was (7, 7, 7))". Numbers of visited nodes and
+ * long lists are printed only in the JSON report. */
 static void print_values(FILE *out, const cause_row *p, const cause_group *group, const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -171,7 +172,7 @@ static void print_fact(FILE *out, const cause_row *p, const cause_group *group, 
                                              [CAUSE_MORE] = "one more ",
                                              [CAUSE_LESS] = "one ",
                                              [CAUSE_ORDER] = "another order of the "};
-    if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one side has the query */
+    if (strcmp(group->where, "answers") == 0 && group->change != CAUSE_ORDER) { /* only one recording has the query */
         fprintf(out, "%s%s", group->query,
                 group->change == CAUSE_MORE ? " asked only in the frames" : " asked only in the reference");
         return;
@@ -184,11 +185,12 @@ static void print_fact(FILE *out, const cause_row *p, const cause_group *group, 
     print_values(out, p, group, fact);
 }
 
-/* ---- Many of a group ----------------------------------------------------------------------------------------- */
+/* ---- Groups of several facts ----------------------------------------------------------------------------------- */
 
 enum { MINOR_SUBJECTS = 2, BRIEF_SUBJECTS = 3, FULL_SUBJECTS = 5 };
 
-/* The number of facts that are printed by name. "and 1 more" is never printed, since a name is as short. */
+/* Return how many facts of a group are printed with their subjects. If only one fact would be left over, its subject
+ * is printed, too: "and 1 more" would not be shorter. */
 static size_t count_named(const cause_group *group, bool brief)
 {
     const size_t most = brief ? BRIEF_SUBJECTS : FULL_SUBJECTS, count = cause_count_listed(group);
@@ -207,7 +209,8 @@ static void print_subjects(FILE *out, const cause_group *group, bool brief)
         fprintf(out, " and %" PRIu64 " more", group->found - printed);
 }
 
-/* Print "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12 moved from (0, 0, 0) to (1, 2, 3)". */
+/* Print a group with the place's verb: "points 12 and 13 moved", "49 points moved (such as 12)" or "point 12 moved
+ * from (0, 0, 0) to (1, 2, 3)". */
 static void print_verb(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     const cause_fact *fact = &group->listed[0];
@@ -230,7 +233,7 @@ static void print_verb(FILE *out, const cause_row *p, const cause_group *group, 
     }
 }
 
-/* Print "12 more edits (points 3, 4, 5 and 9 more)". */
+/* Print a group of several facts without a verb: "12 more edits (points 3, 4, 5 and 9 more)". */
 static void print_many(FILE *out, const cause_row *p, const cause_group *group, bool brief)
 {
     static const char *const words[] = {
@@ -248,8 +251,8 @@ static void print_many(FILE *out, const cause_row *p, const cause_group *group, 
     fputc(')', out);
 }
 
-/* Print "the query visited other nodes at tick 3 (visited 12, was 9)" or "17 queries visited other nodes, the first at
- * tick 3 (...)". */
+/* Print a group whose facts have no id or word: "the query visited other nodes at tick 3 (visited 12, was 9)" or "17
+ * queries visited other nodes, the first at tick 3 (...)". */
 static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group *group)
 {
     const cause_fact *first = &group->listed[0];
@@ -261,7 +264,7 @@ static void print_unnamed_verb(FILE *out, const cause_row *p, const cause_group 
     print_values(out, p, group, first);
 }
 
-/* Whether a fact can be named by an id or a word, so that many facts fit in one clause. */
+/* Return whether a fact has a subject, an id or a word. Facts with subjects can share one clause. */
 static bool has_subject(const cause_fact *fact)
 {
     const json_t *value = fact->b ? fact->b : fact->a;
@@ -291,11 +294,11 @@ static void print_group(FILE *out, const cause_group *group, bool brief)
         fprintf(out, " and %" PRIu64 " more of that kind", group->found - printed);
 }
 
-/* ---- All of them --------------------------------------------------------------------------------------------- */
+/* ---- All groups ------------------------------------------------------------------------------------------------ */
 
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 {
-    size_t printed[2] = {0, 0}; /* major and minor groups */
+    size_t printed[2] = {0, 0}; /* the numbers of printed major and minor groups */
     for (int minor = 0; minor < 2; minor++) {
         if (minor && brief && printed[0] > 0)
             return;
@@ -315,10 +318,10 @@ void cause_print_facts(FILE *out, const cause_facts *facts, bool brief)
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Print the consequence of another option: the number of differing ticks. */
+/* Print the consequence of a different option: the number of differing ticks. */
 static void print_extent(FILE *out, const cause *c)
 {
-    if (c->differing.count == 0) /* frames may still differ, in shapes and arrows */
+    if (c->differing.count == 0) /* frames may still differ: shapes and arrows are not compared */
         fputs("no tick that both have differs", out);
     else if (c->differing.count == c->compared - c->differing.first)
         fprintf(out, "every tick from %" PRIu64 " differs", c->differing.first);
@@ -327,7 +330,7 @@ static void print_extent(FILE *out, const cause *c)
                 c->compared, verb_ending(c->differing.count), c->differing.first);
 }
 
-/* Print the consequence of another point, key, edit or query: the facts of the first differing tick. */
+/* Print the consequence of a different point, key, edit or query: the facts of the first differing tick. */
 static void print_first(FILE *out, const cause *c)
 {
     const cause_tick *first = cause_find_tick(c, c->differing.first);
@@ -347,8 +350,9 @@ static bool any_option(const cause_facts *facts)
     return false;
 }
 
-/* Print "4 more wrong answers from tick 41 on" or "other wrong answers in 3 ticks from tick 2 on". Print those that
- * begin at the first differing tick or, if `later`, those that begin after it; return whether there are any. */
+/* Print "4 more wrong answers from tick 41 on" or "other wrong answers in 3 ticks from tick 2 on". With `later`,
+ * print the differences that begin after the first differing tick, else the others. Return whether anything was
+ * printed. */
 static bool print_wrong(FILE *out, const cause *c, bool later)
 {
     bool any = false;
@@ -370,7 +374,8 @@ static bool print_wrong(FILE *out, const cause *c, bool later)
     return any;
 }
 
-/* The number of the session's groups that begin after the first differing tick; 0 if all do. The groups are sorted. */
+/* Return the number of groups of the session's facts that begin after the first differing tick. If all groups do,
+ * return 0. The groups are sorted by tick. */
 static size_t count_later(const cause *c)
 {
     size_t count = 0;
@@ -383,8 +388,8 @@ static size_t count_later(const cause *c)
     return count < c->session.count ? count : 0;
 }
 
-/* Wrong answers come first, since users compare recordings to find them. Facts that begin after the first differing
- * tick cannot be its cause and come last. */
+/* Wrong answers are printed first, because users compare recordings to find them. Facts that begin after the first
+ * differing tick cannot be its cause, so they are printed last. */
 void cause_print_headline(FILE *out, const cause *c)
 {
     const bool options = any_option(&c->session);

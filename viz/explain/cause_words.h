@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cause_words.h - prints why two recordings differ as sentences. */
+/* cause_words.h - prints sentences that say why two recordings differ. */
 #ifndef EXPLAIN_CAUSE_WORDS_H
 #define EXPLAIN_CAUSE_WORDS_H
 
@@ -7,14 +7,14 @@
 
 #include <stdio.h>
 
-/* Print a list of facts, separated by commas, and the minor facts after a semicolon: "node 0/3/7 only in the frames,
- * point 12 moved from (0, 0, 0) to (1, 2, 3)". Brief texts leave out positions, minor facts and all groups after the
- * first CAUSE_BRIEF. */
+/* Print facts separated by commas, then minor facts after a semicolon: "node 0/3/7 only in the frames, point 12
+ * moved from (0, 0, 0) to (1, 2, 3)". With `brief`, leave out positions, minor facts and all groups after the first
+ * CAUSE_BRIEF groups. */
 #define CAUSE_BRIEF 4
 void cause_print_facts(FILE *out, const cause_facts *facts, bool brief);
 
-/* Print one line: the differences between the sessions and views, and their consequence. Print nothing if both are
- * equal. */
+/* Print one line: the differences between sessions and views, and their consequence. Print nothing if both sessions
+ * and both views are equal. */
 void cause_print_headline(FILE *out, const cause *c);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* explain.c - explains two sides pair by pair; plays both sessions if the sides are recordings. */
+/* explain.c - explains the differences of two sides pair by pair. If both sides are recordings, it also plays their
+ * sessions. */
 #include "explain.h"
 #include "array.h"
 #include "cause_words.h"
@@ -44,19 +45,19 @@ diff_verdict explanation_verdict(const explanation *e, const diff_result *result
     return e->trouble ? DIFF_TROUBLE : result->verdict;
 }
 
-/* ---- Playing both -------------------------------------------------------------------------------------------- */
+/* ---- Playing both recordings ----------------------------------------------------------------------------------- */
 
-/* A pair that is explained, and the tick of its frames. */
+/* A pair of frames that is explained, and the tick of these frames. */
 typedef struct wanted_pair {
     uint64_t tick;
     const diff_pair *pair;
 } wanted_pair;
 
-/* State while both recordings are played. */
+/* The state while both recordings are played. */
 typedef struct watching {
     explanation *e;
     const diff_options *options;
-    wanted_pair *pairs; /* in ascending order of their ticks */
+    wanted_pair *pairs; /* in ascending order of ticks */
     size_t count;
 } watching;
 
@@ -65,7 +66,7 @@ static const wanted_pair *find_wanted(const watching *w, uint64_t tick)
     return w->count ? bsearch(&tick, w->pairs, w->count, sizeof *w->pairs, compare_uint64) : NULL;
 }
 
-/* Whether a pair of this tick is explained. */
+/* Return whether the pair of frames of this tick is explained. */
 static bool is_wanted(void *context, uint64_t tick)
 {
     return find_wanted(context, tick);
@@ -81,13 +82,13 @@ static bool handle_tick(void *context, const octree_game *const games[2], bool d
     const wanted_pair *wanted = find_wanted(w, tick);
     if (!wanted || !wanted->pair->difference.unlike.pixels)
         return true;
-    /* is_wanted() returned true for this tick, so it is the last in the list. */
+    /* is_wanted() returned true for this tick, so cause_find() has just appended its details. */
     cause_tick *reported = &w->e->cause.ticks[w->e->cause.count - 1];
     return tracer_trace(&w->e->tracer, w->e->sides, games, wanted->pair, w->options, &reported->trace, error);
 }
 
-/* The first tick whose frames differ. All pairs are searched: with more than six digits, the order of names is not the
- * order of ticks. */
+/* Return the first tick whose frames differ. All pairs are searched, because names of ticks with more than six
+ * digits are not sorted by tick. */
 static uint64_t first_drawn(const diff_result *result)
 {
     uint64_t first = CAUSE_NO_TICK;
@@ -99,7 +100,7 @@ static uint64_t first_drawn(const diff_result *result)
     return first;
 }
 
-/* List the first `most` pairs that differ. */
+/* List the first `most` pairs whose frames differ. */
 static bool list_pairs(watching *w, const diff_result *result, uint64_t most)
 {
     w->pairs = malloc((result->count + 1) * sizeof *w->pairs);
@@ -127,7 +128,7 @@ static bool play_both(explanation *e, const diff_result *result, uint64_t most, 
 
 /* ---- The headline -------------------------------------------------------------------------------------------- */
 
-/* Print the warnings of both sides; return whether there are any. */
+/* Print the warnings about both sides. Return whether there are any. */
 static bool print_warnings(FILE *out, const explanation *e)
 {
     bool any = false;
@@ -139,11 +140,12 @@ static bool print_warnings(FILE *out, const explanation *e)
     return any;
 }
 
-/* Print the warnings about files first, then the cause. If sessions and views are equal, the cause is rendering. */
+/* Print the warnings about files, then the cause. If sessions and views are equal, the cause is rendering. */
 static void print_headline(FILE *out, const explanation *e, const diff_result *result)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0;
-    size_t first = e->count, other_scenes = 0; /* the first explained pair; the number of those with different scenes */
+    /* The index of the first explained pair, and the number of explained pairs whose scenes differ. */
+    size_t first = e->count, other_scenes = 0;
     for (size_t i = e->count; i-- > 0;)
         if (e->pairs[i].text) {
             first = i;
@@ -170,7 +172,7 @@ static bool make_headline(explanation *e, const diff_result *result, octreel_err
 
 /* ---- Both kinds of sides ------------------------------------------------------------------------------------- */
 
-/* Whether only one side has the file, or the two files have different bytes. */
+/* Return whether two files with this name differ: only one side has the file, or their bytes differ. */
 static bool file_differs(const diff_side *a, const diff_side *b, const char *name)
 {
     return (folder_contains(a->path, name) || folder_contains(b->path, name)) &&
@@ -204,7 +206,7 @@ static void look_at_pair(size_t i, void *context)
     }
 }
 
-/* Give every pair that differs the key of its cause, and the first `most` pairs a sentence. */
+/* Set the key of each differing pair's cause. For the first `most` pairs also set the sentence. */
 static bool explain_pairs(explanation *e, const diff_result *result, uint64_t most, octreel_error *error)
 {
     looking l = {e, result, calloc(result->count + 1, sizeof *l.looks)};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ignored_layers.c - finds the pixels of ignored layers by drawing the scenes of both recordings again. */
+/* ignored_layers.c - finds the pixels of ignored layers: it plays both recordings and draws their scenes again. */
 #include "ignored_layers.h"
 #include "layer.h"
 #include "letters.h"
@@ -11,13 +11,13 @@
 
 #define TEXT_ALONE (1u << LAYER_TEXT)
 
-/* One byte for each pixel of a frame. */
+/* A mask with one byte for each pixel of a frame. */
 typedef struct frame_mask {
     uint8_t *bytes;
     int width, height;
 } frame_mask;
 
-/* A recording that is played to draw its masks. */
+/* The state while a recording is played to draw the masks of its frames. */
 typedef struct masking {
     replay replay;
     unsigned layers;
@@ -28,7 +28,7 @@ static int clamp(int value, int limit)
     return value < 0 ? 0 : value > limit ? limit : value;
 }
 
-/* Add a box, clipped to the frame. */
+/* Add a box to the mask. The box is clipped to the frame. */
 static void add_box(const draw_box *box, void *context)
 {
     frame_mask *m = context;
@@ -88,8 +88,8 @@ bool ignore_layers(void *context, const diff_side *a, const diff_side *b, diff_p
         return error_set(error, "--ignore-layer needs a recording, and neither %s nor %s is one", a->path, b->path);
     if (count == 0)
         return true;
-    /* Both frames of a pair have the same name, so one order by ticks fits both sides. With more than six digits it is
-     * not the order of names. */
+    /* Sort the pairs by tick. Both frames of a pair have the same name, so the order fits both recordings. Names of
+     * ticks with more than six digits are not sorted by tick. */
     qsort(pairs, count, sizeof *pairs, by_tick);
     return (a->kind != DIFF_RECORDING || add_masks(a, layers, pairs, count, error)) &&
            (b->kind != DIFF_RECORDING || add_masks(b, layers, pairs, count, error));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pair_look.c - finds why two frames differ, from the text chunks in them and from their recordings. */
+/* pair_look.c - finds why two frames differ, from their text chunks and from the recordings that contain them. */
 #include "pair_look.h"
 #include "cause_words.h"
 #include "image_digest.h"
@@ -23,7 +23,7 @@ static bool both_have_texts(const pair_look *l)
     return l->has_texts[0] && l->has_texts[1];
 }
 
-/* Whether a frame has the pixels of the digest in its text chunk. */
+/* Return whether the pixels of a frame have the digest that its text chunk states. */
 static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
 {
     octreel_error ignored;
@@ -31,7 +31,7 @@ static bool is_as_drawn(const diff_frame *frame, const frame_origin *origin)
     uint64_t pixels;
     errno = 0;
     if (!image_digest_png(origin->kind, frame->path, IMAGE_WHITE, &about, &pixels, &ignored))
-        return !check_system_resources(&ignored); /* the digest is unknown, so no fault is reported */
+        return !check_system_resources(&ignored); /* without resources the digest is unknown: report no fault */
     return pixels == origin->pixels;
 }
 
@@ -72,7 +72,7 @@ static bool is_only_drawn(const explanation *e, const pair_look *l)
     return l->same_scene && !has_fault(l) && !cause_facts_show(&e->cause.view, 0);
 }
 
-/* Print why a frame contradicts its text chunks or its recording. */
+/* Print how a frame contradicts its text chunks or its recording. */
 static void print_fault(FILE *out, frame_fault fault, const frame_origin *origin)
 {
     static const char *const words[] = {
@@ -134,15 +134,15 @@ static void print_missing(FILE *out, const recorded *r, uint64_t tick)
         fprintf(out, "%s has no such frame: the recording is damaged or incomplete", r->side->path);
 }
 
-/* Whether there is a known difference that the frame of a tick can show. */
+/* Return whether a difference is known that the frame of a tick can show. */
 static bool differs_at(const explanation *e, const cause_tick *details, uint64_t tick)
 {
     return (details && details->facts.count > 0) || cause_facts_show(&e->cause.view, tick) ||
            cause_facts_show(&e->cause.session, tick);
 }
 
-/* For a tick in which nothing differs: print the differences between the sessions, preferably those that this frame can
- * show. */
+/* Print the cause for frames of a tick that is equal in both sessions: the differences between the sessions. If some
+ * of these differences can be seen in this frame, print only them. */
 static void print_same_tick(FILE *out, const explanation *e, const cause_facts *shown, bool other_view)
 {
     const cause_facts *session = shown->count || other_view ? shown : &e->cause.session;
@@ -172,7 +172,7 @@ static void print_tick(FILE *out, const explanation *e, const cause_tick *detail
     free(session.groups);
 }
 
-/* Print how two frames outside of recordings differ by their text chunks. */
+/* Print how the text chunks of two frames differ, for frames that are not from recordings. */
 static void print_origins(FILE *out, const pair_look *l)
 {
     const frame_origin *a = &l->origins[0], *b = &l->origins[1];
@@ -187,8 +187,8 @@ static void print_origins(FILE *out, const pair_look *l)
                 a->tick);
 }
 
-/* Whether a faulty frame may still show the right picture: it only lacks its text chunks. Then the difference between
- * the ticks is printed as well. */
+/* Return whether a faulty frame may still show the right picture: its only fault is that it lacks text chunks. The
+ * difference between the ticks is then printed as well. */
 static bool may_be_right(const pair_look *l)
 {
     return (l->faults[0] == FAULT_NONE || l->faults[0] == FAULT_TEXTS) &&
@@ -199,7 +199,7 @@ static void print_cause(FILE *out, const explanation *e, const diff_pair *pair, 
 {
     const bool both = pair->a && pair->b, faulty = has_fault(l), drawn = is_only_drawn(e, l);
     const uint64_t tick = diff_pair_tick(pair);
-    const cause_tick *details = cause_find_tick(&e->cause, tick); /* null outside of recordings */
+    const cause_tick *details = cause_find_tick(&e->cause, tick); /* null if the frames are not from recordings */
     const bool prints_tick =
         e->recordings && both && !drawn && (!faulty || (may_be_right(l) && differs_at(e, details, tick)));
     const bool prints_missing = e->recordings && !both;
@@ -232,9 +232,10 @@ bool pair_find_cause(const explanation *e, const diff_pair *pair, const pair_loo
     return (text_stream_end(&s, &cause->text) && begun) || error_no_memory(error);
 }
 
-/* ---- The key of a cause ------------------------------------------------------------------------------------- */
+/* ---- The text that identifies a cause -------------------------------------------------------------------------- */
 
-/* Print a key for a pair of unknown cause: pairs in which the same pixels differ by the same amount form one group. */
+/* Print a key for a pair whose cause is unknown. Pairs in which the same pixels differ by the same amount get the
+ * same key. */
 static void print_tally(FILE *out, const diff_pair *pair)
 {
     const image_tally *t = &pair->difference.unlike;
@@ -242,7 +243,7 @@ static void print_tally(FILE *out, const diff_pair *pair)
             t->largest_channel, t->min_x, t->min_y, t->max_x, t->max_y);
 }
 
-/* Print a key for frames outside of recordings, from their text chunks. */
+/* Print a key from the text chunks of two frames, for frames that are not from recordings. */
 static void print_origins_key(FILE *out, const pair_look *l)
 {
     const frame_origin *a = &l->origins[0], *b = &l->origins[1];
@@ -250,8 +251,8 @@ static void print_origins_key(FILE *out, const pair_look *l)
             b->tick - a->tick);
 }
 
-/* Print the key of a pair. Return false if another pair with the same cause cannot be recognized: for example when only
- * digests are known or a frame is missing. */
+/* Print the key of a pair. Return false if the pair has no key, because pairs with the same cause cannot be
+ * recognized: for example, only digests are known or a frame is missing. */
 static bool print_key(FILE *out, const explanation *e, const diff_pair *pair, const pair_look *l)
 {
     const bool known = e->cause.session.count > 0 || e->cause.view.count > 0, both = pair->a && pair->b;

@@ -26,7 +26,7 @@ static void add_warning(recorded *r, const char *format, ...)
 
 /* ---- Opening ------------------------------------------------------------------------------------------------- */
 
-/* Check that the first frame is of this session. */
+/* Check that the first frame belongs to this session. */
 static void check_session(recorded *r)
 {
     uint64_t tick;
@@ -85,8 +85,9 @@ static bool read_line(recorded *r, uint64_t tick, octreel_error *error)
     return true;
 }
 
-/* The members of a tick's line that do not follow from the tick; `name` has room for the name of its frame. The digest
- * of the scene is that in the frame or else that in the line itself, since no scene is built here. */
+/* Return the values of a tick's line that do not follow from the tick. The result points to `name`, which receives
+ * the name of the tick's frame. No scene is built here, so the digest of the scene is read from the frame or, if the
+ * frame has none, from the line itself. */
 static tick_extras extras_of(const recorded *r, const octree_tick *tick, char name[FRAME_NAME])
 {
     uint64_t scene = 0;
@@ -119,7 +120,8 @@ static bool check_line(recorded *r, const octree_game *game, octreel_error *erro
     return true;
 }
 
-/* Check the lines of both sides. Equal lines of equal ticks need no check: both are right, or both are wrong. */
+/* Check the lines of both recordings. If the ticks are equal and the lines are equal, no check is needed: the lines
+ * are both right or both wrong. */
 bool recorded_check_tick(recorded sides[2], const octree_game *const games[2], bool differs, octreel_error *error)
 {
     const uint64_t tick = octree_game_tick(games[0])->number;

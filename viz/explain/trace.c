@@ -5,11 +5,13 @@
  * drew a pixel.
  *
  * The idea: rebuild the scenes of both frames and draw them once more, with element numbers in place of colours
- * (renderer_pick()). For each differing pixel, look up the elements on both sides and take the upper one, because the
- * one that is drawn on top caused the difference. A node that exists on one side only, because a node above it is
- * divided there, counts for that upper node: one change in the tree is reported once, not once for each descendant.
- * Equal elements are added up in a hash table and sorted by their pixels. Frames that do not show the scene of their
- * tick are not traced. Cost: two drawings, and 8 bytes for each sample of a picture.
+ * (renderer_pick()). For each differing pixel, look up the element in each scene. The element that is drawn on top
+ * caused the difference, so take the upper of the two. If a node is drawn in one scene only because an ancestor is
+ * divided there, its pixels count for that ancestor: one change in the tree is reported once, not once for each
+ * descendant. Pixels of equal elements are added up in a hash table and sorted by their number. Frames that do not show
+ * the scene of their tick are not traced.
+ *
+ * Cost: two drawings, and 8 bytes for each sample of a picture.
  */
 #include "trace.h"
 #include "array.h"
@@ -21,7 +23,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-/* The largest picture that is traced, in samples of 8 bytes each. */
+/* The largest number of samples of a picture that is traced. Each sample needs 8 bytes. */
 #define MOST_SAMPLES ((size_t)1 << 25)
 
 void tracer_close(tracer *t)
@@ -42,10 +44,10 @@ bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *cons
     return true;
 }
 
-/* ---- Parts --------------------------------------------------------------------------------------------------- */
+/* ---- Parts of a scene ------------------------------------------------------------------------------------------ */
 
-/* The highest ancestor of a node, or the node itself, that only one tree has, or that is a leaf in only one tree; 0 if
- * there is none. */
+/* Return the highest changed node among a node and its ancestors. A node is changed if only one tree has it, or if
+ * it is a leaf in only one tree. Return 0 if none is changed. */
 static octree_address changed_node(const octree_game *const games[2], octree_address node)
 {
     const unsigned depth = octree_address_depth(node);
@@ -60,7 +62,8 @@ static octree_address changed_node(const octree_game *const games[2], octree_add
     return 0;
 }
 
-/* The part to which an element belongs. Each point and each node is a part; every other layer is one part. */
+/* Return the part to which an element belongs. In the layers of nodes and points, each node and each point is a
+ * part. Every other layer is one part. */
 static trace_part part_of(const scene *s, uint32_t number, const octree_game *const games[2])
 {
     trace_part part = {.layer = TRACE_BACKGROUND, .pixels = 1};
@@ -78,7 +81,8 @@ static trace_part part_of(const scene *s, uint32_t number, const octree_game *co
     return part;
 }
 
-/* The part that is drawn on top: layers are in painter's order, and the background is below all. */
+/* Return the part that is drawn on top. Layers are numbered in the order in which they are drawn; the background is
+ * below all layers. */
 static trace_part upper_part(trace_part a, trace_part b)
 {
     if (a.layer == TRACE_BACKGROUND || b.layer == TRACE_BACKGROUND)
@@ -98,13 +102,14 @@ typedef struct tracing {
     const octree_game *const *games;
     image frames[2];
     uint32_t *numbers[2]; /* the element numbers of both scenes, one for each sample */
-    size_t samples;       /* of a pixel along each axis */
+    size_t samples;       /* the number of samples of a pixel along each axis */
     trace made;
     size_t room;
-    hash_map map; /* from parts to their places in made.parts */
+    hash_map map; /* maps a part to its index in made.parts */
 } tracing;
 
-/* The part at the first sample of a pixel whose elements differ, or else at the first sample that shows an element. */
+/* Return the part at the first sample of a pixel at which the two scenes show different parts. If no sample differs,
+ * return the part at the first sample that shows an element. */
 static trace_part part_at(const tracing *t, size_t x, size_t y)
 {
     const size_t width = (size_t)t->frames[0].width;
@@ -122,7 +127,7 @@ static trace_part part_at(const tracing *t, size_t x, size_t y)
     return found;
 }
 
-/* ---- Adding up ----------------------------------------------------------------------------------------------- */
+/* ---- Counting pixels ------------------------------------------------------------------------------------------- */
 
 static uint64_t hash_part(const void *part)
 {
@@ -156,7 +161,7 @@ static int by_pixels(const void *a, const void *b)
     return x->layer != y->layer ? x->layer - y->layer : (x->id > y->id) - (x->id < y->id);
 }
 
-/* Count the parts at all pixels that differ and are not ignored. */
+/* Count the pixels of each part, over all pixels that differ and are not ignored. */
 static bool count_parts(tracing *t, const image_tolerance *tolerance)
 {
     const image *frames = t->frames;
@@ -177,7 +182,7 @@ static bool count_parts(tracing *t, const image_tolerance *tolerance)
 
 /* ---- A pair -------------------------------------------------------------------------------------------------- */
 
-/* Draw the element numbers of a scene. If there is no renderer, nothing is traced; the first reason is kept. */
+/* Draw the element numbers of a scene. Without a renderer nothing is traced; t->untraced keeps the first reason. */
 static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
 {
     const renderer_choice choice = {0};
@@ -192,7 +197,7 @@ static bool pick_elements(tracer *t, const scene *s, uint32_t *numbers)
     return false;
 }
 
-/* Read both frames. Return false if one of them does not show the scene of its tick. */
+/* Read both frames. Return false if a frame does not show the scene of its tick. */
 static bool read_frames(const tracer *t, const diff_pair *pair, image frames[2])
 {
     const diff_frame *const files[2] = {pair->a, pair->b};
@@ -274,7 +279,7 @@ void trace_print(FILE *out, const trace *t)
     uint64_t printed = 0;
     char text[TRACE_TEXT];
     fprintf(out, "%" PRIu64 " pixel%s: ", t->pixels, plural_ending(t->pixels));
-    for (int is_text = 0; is_text < 2; is_text++) /* text changes with everything else, so it comes last */
+    for (int is_text = 0; is_text < 2; is_text++) /* text is printed last, since it differs in most frames */
         for (size_t i = 0; i < most; i++) {
             if ((t->parts[i].layer == LAYER_TEXT) != is_text)
                 continue;

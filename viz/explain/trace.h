@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* trace.h - traces the pixels in which two frames of a tick differ to the elements that are drawn there. */
+/* trace.h - finds the elements that are drawn at the pixels in which two frames of a tick differ. */
 #ifndef EXPLAIN_TRACE_H
 #define EXPLAIN_TRACE_H
 
@@ -13,11 +13,11 @@
 
 #include <stdio.h>
 
-/* An element, or all elements of a layer, and the number of differing pixels at which it is drawn. Nodes below a node
- * in which the trees differ count for that node. */
+/* A part of a scene: a node, a point, or all elements of another layer. It has the number of differing pixels at
+ * which it is drawn. If the trees differ in a node, the pixels of all nodes below it count for that node. */
 typedef struct trace_part {
-    int layer;   /* a view_layer, or TRACE_BACKGROUND: nothing is drawn there on either side */
-    uint64_t id; /* the node in LAYER_NODES or the point in LAYER_POINTS; else 0 */
+    int layer;   /* a view_layer; TRACE_BACKGROUND: neither frame shows an element there */
+    uint64_t id; /* in LAYER_NODES the address of the node, in LAYER_POINTS the id of the point; else 0 */
     uint64_t pixels;
 } trace_part;
 
@@ -26,34 +26,35 @@ typedef struct trace_part {
 /* Zeroed: empty. */
 typedef struct trace {
     bool made;
-    trace_part *parts; /* distinct, in descending order of pixels; owned */
+    trace_part *parts; /* each part once, in descending order of pixels; owned */
     size_t count;
     uint64_t pixels; /* the sum over all parts */
 } trace;
 
-/* Draws two games while they are played. Zeroed: before the first tick. */
+/* The state while two games are played and their frames are traced. Zeroed: before the first tick. */
 typedef struct tracer {
     tick_history histories[2];
     scene scenes[2];
-    renderer *renderer; /* opened for the first frame that is traced */
-    char untraced[256]; /* a sentence that says why nothing is traced; else "" */
+    renderer *renderer; /* opened when the first pair of frames is traced */
+    char untraced[256]; /* the reason why nothing is traced, as a sentence; else "" */
 } tracer;
 
 void tracer_close(tracer *t);
 
-/* Add a tick to the histories (heat and close-ups). Call it at every tick. */
+/* Add the current tick of both games to the histories, from which heat and close-ups are drawn. Call this at every
+ * tick. */
 bool tracer_add_tick(tracer *t, const recorded sides[2], const octree_game *const games[2], octreel_error *error);
 
-/* Trace the pair of frames of the games' current tick. It is no error if nothing can be traced: a frame is unreadable
- * or does not show the scene of its tick, sizes differ, or no renderer can be opened. */
+/* Trace the pair of frames of the games' current tick. It is no error if nothing can be traced: a frame is
+ * unreadable or does not show the scene of its tick, the sizes differ, or no renderer can be opened. */
 bool tracer_trace(tracer *t, const recorded sides[2], const octree_game *const games[2], const diff_pair *pair,
                   const diff_options *options, trace *made, octreel_error *error);
 
-/* "node 0/3/7", "point 12" or "text"; it may be stored in `text`. */
+/* Return the name of a part: "node 0/3/7", "point 12" or "text". The name may be stored in `text`. */
 #define TRACE_TEXT (OCTREE_ADDRESS_TEXT + sizeof "node ")
 const char *trace_part_text(const trace_part *part, char text[TRACE_TEXT]);
 
-/* Print "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text": the TRACE_PRINTED largest parts, text last. */
+/* Print the TRACE_PRINTED largest parts, text last: "312 pixels: 180 of node 0/3/7, 90 of point 12, 42 of text". */
 #define TRACE_PRINTED 5
 void trace_print(FILE *out, const trace *t);
 

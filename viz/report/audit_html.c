@@ -149,8 +149,8 @@ static bool is_worse(const chart *c, const audit_tick *a, const audit_tick *than
     return c->ratio ? a->ratio > than->ratio : audit_tick_recall(a) < audit_tick_recall(than);
 }
 
-/* Lay out a chart. Its axis runs from 1 to the worst finite value or the limit. If there are infinite values, the
- * axis is longer by a quarter. */
+/* Lay out a chart. One end of its axis is 1. The other end is the worst finite value or the limit, whichever is worse.
+ * If there are infinite values, the axis is longer by a quarter. */
 static chart chart_of(const audit_kind *kind, bool ratio, const audit_limits *limits)
 {
     chart c = {.kind = kind, .ratio = ratio, .from = 1, .to = 1};

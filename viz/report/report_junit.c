@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* report_junit.c - writes a comparison as JUnit XML: see report.h. A failure contains lines that begin with
- * ATTACHMENT and name a picture. GitLab and Jenkins show the picture if they find the file. */
+/* report_junit.c - writes a comparison as JUnit XML: see report.h. A failure contains lines
+ * [[ATTACHMENT|PATH]]. GitLab and Jenkins show the picture at PATH if they find the file. */
 #include "diff_words.h"
 #include "junit.h"
 #include "report.h"
