@@ -21,10 +21,9 @@
 #include <string.h>
 
 enum {
-    MOST_PORTIONS =
-        /* So each has at least a sixteenth of the points; octree_insert_many() inserts less than a twentieth of a
-         * tree one by one. */
-    16,
+    /* Each portion has at least a sixteenth of the points. octree_insert_many() inserts points one by one if they are
+     * less than a twentieth of the tree. */
+    MOST_PORTIONS = 16,
     LEAST_PORTION = 1 << 16,
     LEVELS = 5, /* how many times the world is halved along each axis */
     SIDE = 1 << LEVELS,
@@ -34,7 +33,7 @@ enum {
 /* The cells of the world, and the portion to which each cell belongs. */
 typedef struct portions {
     double min[3], scale[3];
-    /* Spread[k]: the bits of cell coordinate k, with two zero bits between neighbouring bits. */
+    /* spread[k]: the bits of cell coordinate k, with two zero bits between neighbouring bits. */
     unsigned spread[SIDE];
     size_t points[CELLS];                 /* number of points in each cell */
     unsigned char portion_of_cell[CELLS]; /* index of the portion of each cell */
