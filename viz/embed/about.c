@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Why a query cannot be recorded; null: it can be. A tree accepts infinite boxes and all 64-bit ids; files, which are
- * JSON, do not. */
+/* Returns why a query cannot be recorded, or null if it can. A tree accepts infinite boxes and all 64-bit ids, but the
+ * recorder's files are JSON and cannot hold them. */
 static const char *find_query_error(const octree_query *query, octree_player_kind player)
 {
     const octree_input one = {.queries = query, .query_count = 1};
@@ -29,7 +29,7 @@ static const char *find_query_error(const octree_query *query, octree_player_kin
     return status == OCTREE_OK ? NULL : octree_status_text(status);
 }
 
-/* Queries and shapes are checked one by one, so that the error can name the first invalid one. */
+/* Check the queries and shapes one by one, so that the error can name the first invalid one. */
 octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error)
 {
     if (!about)
@@ -50,7 +50,8 @@ octreel_status about_check(const octreel_tick_info *about, octree_player_kind pl
     return OCTREEL_OK;
 }
 
-/* Files cannot hold ids of SESSION_ID_LIMIT and above. */
+/* Check the foreign nodes, and that their ids are below SESSION_ID_LIMIT, because larger ids do not fit into the
+ * recorder's files. */
 octreel_status about_check_nodes(const octreel_tick_info *about, octreel_error *error)
 {
     size_t place = 0;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* about.h - checks the queries, shapes and foreign nodes that a program gives for a tick. `about` may be null, which is
- * valid. Private to this folder. */
+/* about.h - checks the queries, shapes and foreign nodes that a program passes for a tick. `about` may be null, which
+ * means that there are none. Private to viz/embed. */
 #ifndef EMBED_ABOUT_H
 #define EMBED_ABOUT_H
 
 #include "octreel/recorder.h"
 
-/* Check the queries, for a player of this kind, and the shapes. Errors: NULL_ARGUMENT, BAD_QUERY, BAD_SHAPE. */
+/* Check the queries and the shapes. `player` is the recorder's kind of player, because a query at the player needs one.
+ * Errors: NULL_ARGUMENT, BAD_QUERY, BAD_SHAPE. */
 octreel_status about_check(const octreel_tick_info *about, octree_player_kind player, octreel_error *error);
 
 /* Check the foreign nodes. Errors: BAD_NODE, NO_MEMORY. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.c - one tick of a program on its way to the file: see batch.h. */
+/* batch.c - holds one tick of a program until it is recorded: see batch.h. */
 #include "batch.h"
 #include "session_file.h"
 #include "text.h"
@@ -11,7 +11,8 @@
 
 bool change_make(uint64_t id, const double *from, const double *to, change *made)
 {
-    if (from == to || (from && to && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])) /* -0 equals 0 */
+    /* == is correct here: -0 and 0 are the same position. */
+    if (from == to || (from && to && from[0] == to[0] && from[1] == to[1] && from[2] == to[2]))
         return false;
     change c = {.kind = !to ? OCTREE_EDIT_REMOVE : from ? OCTREE_EDIT_MOVE : OCTREE_EDIT_INSERT, .id = id};
     if (from)
@@ -114,7 +115,7 @@ uint64_t gap_list_ticks(const gap_run *runs, size_t count)
 
 /* ---- Batches ------------------------------------------------------------------------------------------------ */
 
-/* Copy items and add their bytes to the batch. Null if out of memory, or without items. */
+/* Copy an array and add its size to the bytes of the batch. Returns null if memory runs out or the array is empty. */
 static void *copy(batch *b, const void *from, size_t count, size_t item_size)
 {
     void *to = count > 0 && count <= SIZE_MAX / item_size ? malloc(count * item_size) : NULL;
@@ -134,7 +135,7 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
         return false;
     b->queries = copy(b, about->queries, about->query_count, sizeof *about->queries);
     bool whole = b->queries || b->query_count == 0;
-    /* Go on after a failure, so that no query points to the program's memory. */
+    /* After a failure, go on with the other queries, so that no copied query points to the program's memory. */
     for (size_t i = 0; b->queries && i < b->query_count; i++) {
         octree_query *query = &b->queries[i];
         query->answer = whole ? copy(b, query->answer, query->answer_count, sizeof *query->answer) : NULL;
@@ -144,7 +145,7 @@ static bool copy_about(batch *b, const octreel_tick_info *about)
             ids->ids = whole ? copy(b, ids->ids, ids->count, sizeof *ids->ids) : NULL;
             whole = whole && (ids->ids || ids->count == 0);
         }
-        /* A tree has fewer points than this, and files hold no larger k. */
+        /* No tree has as many points as UINT32_MAX, and the recorder's files cannot hold a larger k. */
         if (query->k > UINT32_MAX)
             query->k = UINT32_MAX;
     }

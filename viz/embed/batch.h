@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* batch.h - one tick of a program on its way to the file: its point changes since the tick before, its queries, shapes
- * and foreign nodes, and the gaps before it. Private to this folder. */
+/* batch.h - holds one tick of a program until it is recorded: the point changes since the tick before, the queries, the
+ * shapes, the foreign nodes, and the gaps before the tick. Private to viz/embed. */
 #ifndef EMBED_BATCH_H
 #define EMBED_BATCH_H
 
@@ -9,34 +9,36 @@
 
 typedef struct change {
     octree_edit_kind kind;
-    uint32_t order; /* used by changes_settle() only */
+    uint32_t order; /* the order in which changes were made; used by changes_settle() only */
     uint64_t id;
-    double from[3], to[3]; /* positions; an insertion has no `from`, a removal no `to` */
+    double from[3], to[3]; /* positions before and after the change; an insertion has no `from`, a removal no `to` */
 } change;
 
-/* Find the changes from one list to another, by id. Returns their count; with null `changes` it only counts.
- * Cost: O(before + after). */
+/* Find the changes that turn the list `before` into the list `after`, by id. Returns the number of changes. If
+ * `changes` is null, the changes are only counted. Cost: O(before + after). */
 size_t changes_between(const points *before, const points *after, change *changes);
 
-/* Reduce changes in the order in which they were made to one for each id, sorted by id. Changes that cancel out vanish.
- * Returns the new count; `count` is at most UINT32_MAX. Cost: O(m log m). */
+/* Combine all changes of a point into one change, and sort the changes by id. The changes must be in the order in which
+ * they were made. Changes that cancel each other are removed. Returns the new count. `count` may be at most UINT32_MAX.
+ * Cost: O(m log m) for m changes. */
 size_t changes_settle(change *changes, size_t count);
 
-/* Make the change of a point from one position to another; null: the point does not exist there. False if nothing
- * changes. */
+/* Make the change of a point from position `from` to position `to`. A null `from` makes an insertion, a null `to` a
+ * removal. Returns false if the two positions are equal, so nothing changes. */
 bool change_make(uint64_t id, const double *from, const double *to, change *made);
 
-/* Apply a change to a table, or revert it. The table has room for one more point. */
+/* Apply a change to a table of points, or revert it. The table must have room for one more point. */
 void change_apply(const change *c, point_table *table);
 void change_revert(const change *c, point_table *table);
 
-/* Consecutive refused ticks with the same reason. */
+/* A run of consecutive refused ticks with the same reason. */
 typedef struct gap_run {
     uint64_t ticks;
     char why[OCTREE_GAP_TEXT];
 } gap_run;
 
-/* All ticks that were refused since the last accepted one. When the runs are full, further ticks join the last run. */
+/* All ticks that were refused since the last accepted tick, as runs. When the list has MOST_GAP_RUNS runs, further
+ * ticks are added to the last run, whatever their reason. */
 #define MOST_GAP_RUNS 32
 typedef struct gap_list {
     gap_run runs[MOST_GAP_RUNS];
@@ -46,31 +48,31 @@ typedef struct gap_list {
 void gap_list_add(gap_list *list, const char *why);
 uint64_t gap_list_ticks(const gap_run *runs, size_t count);
 
-/* One tick, or gaps alone. */
+/* One accepted tick with the gaps before it; or gaps without a tick. */
 typedef struct batch {
     struct batch *next;
-    gap_run *gaps; /* before the tick */
+    gap_run *gaps; /* the gaps before the tick */
     size_t gap_count;
-    bool is_gap;     /* holds only the gaps */
-    change *changes; /* in the order in which they were made, until batch_settle() */
+    bool is_gap;     /* true: the batch has gaps but no tick */
+    change *changes; /* in the order in which they were made; batch_settle() sorts them by id */
     size_t change_count;
     octree_query *queries;
     size_t query_count;
     octree_shape *shapes;
     size_t shape_count;
-    bool has_foreign; /* the tick has foreign nodes; else those of the tick before stay */
+    bool has_foreign; /* true: the tick has new foreign nodes; false: the foreign nodes of the tick before stay valid */
     octree_foreign_tree foreign;
-    size_t bytes; /* memory of the batch */
+    size_t bytes; /* memory that the batch uses, in bytes */
 } batch;
 
-/* Make a tick without changes, from copies of the gaps, queries, shapes and foreign nodes; `about` and `foreign` may be
- * null. Null if out of memory. Cost: O(gaps + queries + shapes + nodes). */
+/* Make a batch with a tick that has no changes yet. The gaps, queries, shapes and foreign nodes are copied. `about` and
+ * `foreign` may be null. Returns null if memory runs out. Cost: O(gaps + queries + shapes + nodes). */
 batch *batch_make(const gap_list *gaps, const octreel_tick_info *about, const octree_foreign_tree *foreign);
 
-/* Reduce the changes to one for each id, sorted by id. */
+/* Combine all changes of a point into one change, and sort the changes by id. */
 void batch_settle(batch *b);
 
-/* Make a batch of gaps alone. Null if out of memory. */
+/* Make a batch that has gaps but no tick. Returns null if memory runs out. */
 batch *batch_make_gaps(const gap_list *gaps);
 void batch_release(batch *b);
 
@@ -81,7 +83,8 @@ typedef struct batch_list {
 } batch_list;
 
 void batch_list_add(batch_list *list, batch *b);
-batch *batch_list_take(batch_list *list); /* the first, which the caller then owns; null if empty */
+/* Remove the first batch from the list and return it; the caller then owns it. Returns null if the list is empty. */
+batch *batch_list_take(batch_list *list);
 void batch_list_clear(batch_list *list);
 
 #endif

@@ -30,7 +30,7 @@ static bool is_finite_place(const double at[3])
 
 /* ---- The definition of a tree ------------------------------------------------------------------------------- */
 
-/* Check that a tree has the world and the options that the recorder was opened with. */
+/* Check that a tree has the same world and options as the definition with which the recorder was opened. */
 static octreel_status check_tree(const octree_def *own, const octree *tree, octreel_error *error)
 {
     const octree_def def = octree_definition(tree);
@@ -58,7 +58,8 @@ static octreel_status check_tree(const octree_def *own, const octree *tree, octr
 
 /* ---- The changes of a tick ---------------------------------------------------------------------------------- */
 
-/* Bounds memory while no tick is accepted: changes that cancel out are dropped once they have doubled. */
+/* Combine the pending changes when their number has doubled since the last time. This removes changes that cancel each
+ * other, and so bounds memory while no tick is accepted. */
 static void settle_pending(contents *c)
 {
     enum { FEW = 1024 };
@@ -72,7 +73,8 @@ static bool reserve_changes(contents *c, size_t more)
            array_grow(&c->changes, c->change_count + more, &c->change_room, sizeof *c->changes);
 }
 
-/* Change a point of the table; null: it does not exist. False if out of memory. */
+/* Change a point of the table from one position to another. A null `from` means that the point is inserted, a null `to`
+ * that it is removed. Returns false if memory runs out. */
 static bool change_point(contents *c, uint64_t id, const double *from, const double *to)
 {
     if (!reserve_changes(c, 1) || (!from && !point_table_reserve(&c->table, c->table.count + 1)))
@@ -82,7 +84,7 @@ static bool change_point(contents *c, uint64_t id, const double *from, const dou
     return true;
 }
 
-/* Revert the tick that was read last. */
+/* Revert the changes of the tick that was read last. */
 static void revert_tick(contents *c)
 {
     while (c->change_count > c->kept) {
@@ -92,7 +94,7 @@ static void revert_tick(contents *c)
     }
 }
 
-/* Go over from lists to the table. */
+/* Switch from sorted lists to the table. Returns false if memory runs out. */
 static bool start_table(contents *c)
 {
     if (c->tabled)
@@ -108,12 +110,13 @@ static bool start_table(contents *c)
     return true;
 }
 
-/* Go back to lists: `now` becomes the points before the tick that is read. */
+/* Switch from the table back to sorted lists: `now` becomes the points before the tick that is being read. Returns
+ * false if memory runs out. */
 static bool start_lists(contents *c)
 {
     if (!c->tabled)
         return true;
-    revert_tick(c); /* of which a part may have come from the log */
+    revert_tick(c); /* a part of this tick may already have been read from the change log */
     if (!point_table_list(&c->table, &c->now, &c->spare))
         return false;
     point_table_release(&c->table);
@@ -164,7 +167,7 @@ static octreel_status read_edits(contents *c, const octreel_tick_info *about, oc
 
 /* ---- A list, or a whole tree -------------------------------------------------------------------------------- */
 
-/* Read all points of a tree or, where it is null, of a list. */
+/* Read all points of a tree, or of a list if the tree is null. */
 static octreel_status read_whole(contents *c, const octree *tree, const octree_point *list, size_t count,
                                  octreel_error *error)
 {
@@ -195,7 +198,7 @@ static octreel_status read_list(contents *c, const octree_point *list, size_t co
 
 /* ---- Changes from a tree's log ------------------------------------------------------------------------------ */
 
-/* A name that no log was given before. */
+/* Returns a name for a cursor into a tree's change log that was not used before. It is never 0. */
 static size_t make_log_name(contents *c)
 {
     struct timespec now = {0};
@@ -205,8 +208,8 @@ static size_t make_log_name(contents *c)
     return name ? name : 1;
 }
 
-/* Apply a change from the log. While two points of the tree share an id, the table has one of them: changes of the
- * other are left out. */
+/* Apply a change from a tree's log to the table. If two points of the tree have the same id, the table has only one of
+ * them, and the changes of the other point are ignored. */
 static void apply_logged(const octree_change *logged, void *context)
 {
     contents *c = context;
@@ -220,12 +223,13 @@ static void apply_logged(const octree_change *logged, void *context)
                                        logged->kind == OCTREE_REMOVED ? NULL : logged->to);
 }
 
-/* Apply the changes since the last read. False if the log does not have them, or if the table then lacks a point of the
- * tree, whose id another point has, or is too large for files. */
+/* Apply the changes of a tree since the last read, from the tree's log. Returns false if the log does not reach back
+ * that far, or if the table now has fewer points than the tree. The table lacks a point if another point has the same
+ * id, or if the id is too large for the recorder's files. */
 static bool read_log(contents *c, const octree *tree)
 {
     c->log_incomplete = false;
-    if (c->many_changes) /* let the tree keep no log */
+    if (c->many_changes) /* a cursor of 0 lets the tree stop its log */
         c->mark = (octree_cursor){0};
     if (c->many_changes || (c->mark.log != 0 && !start_table(c)))
         return false;
@@ -244,8 +248,8 @@ static octreel_status read_tree(contents *c, const octree_def *def, const octree
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Find how the program gives its points. If it gives none, the source stays: a list is then empty, and changes are
- * none. */
+/* Find the source of this tick's points: tree, list or changes. If the program passes no points, the source of the tick
+ * before is used: a list is then empty, and changes are none. */
 static octreel_status find_source(contents *c, const octree *tree, const octreel_tick_info *about, octreel_error *error)
 {
     const bool list = about && (about->points || about->point_count);
@@ -298,7 +302,7 @@ void contents_accept(contents *c)
     c->source = c->read_source;
     c->settled = 0;
     if (!c->tabled)
-        points_swap(&c->now, &c->next); /* the next tick is compared with this one */
+        points_swap(&c->now, &c->next); /* the next list is compared with this one */
 }
 
 void contents_refuse(contents *c, octreel_status status)
@@ -306,5 +310,5 @@ void contents_refuse(contents *c, octreel_status status)
     if (c->tabled && status != OCTREEL_NO_MEMORY)
         return;
     revert_tick(c);
-    c->mark = (octree_cursor){0}; /* the tree's log was read up to this tick */
+    c->mark = (octree_cursor){0}; /* the changes of the refused tick are lost, so the log cannot be continued */
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* contents.h - the points of a program, which it supplies as a tree, a list, or changes. Private to this folder. */
+/* contents.h - reads the points of a program, which passes them as a tree, a list or changes, and finds what changed.
+ * Private to viz/embed. */
 #ifndef EMBED_CONTENTS_H
 #define EMBED_CONTENTS_H
 
@@ -8,44 +9,48 @@
 
 typedef enum points_source { FROM_NOTHING, FROM_TREE, FROM_LIST, FROM_CHANGES } points_source;
 
-/* Every source becomes `changes`: what changed since the last accepted tick.
+/* The current points of a program. Every source of points is turned into `changes`: the point changes since the last
+ * accepted tick. There are two ways:
  *
- * - A list, and a tree of which many points change, is read whole into `next` and compared with `now`, at O(n). This
- *   takes a third of the time that looking up each point in a table would take.
- * - Edits of the program, and the change log of its tree, are applied to `table`, which has the points of the tick
- *   that was read last, at O(changes).
+ * - Lists. All points are read into `next` and compared with `now`, in O(n). This is used for lists, and for trees in
+ *   which many points change. It takes a third of the time of looking up each point in a table.
+ * - The table. Changes that the program passes, or that the tree's change log has, are applied to `table`, in
+ *   O(changes). The table has the points of the tick that was read last.
  *
- * Either the lists or the table are in use; contents change over when the source does. Zero-initialized contents are
- * empty. */
+ * Only one of the two is in use at a time; `tabled` is true for the table. A change of the source may switch between
+ * them. A zero-initialized struct has no points. */
 typedef struct contents {
-    points_source source, read_source; /* of the last accepted tick with points, and of the tick that was read last */
-    points now, next, spare;           /* before the tick that was read last, at this tick, and scratch */
+    /* Source of the last accepted tick with points; source of the tick that was read last. */
+    points_source source, read_source;
+    points now, next, spare; /* points before the tick that was read last; points of that tick; scratch */
     bool tabled;
     point_table table;
-    change *changes; /* in the order in which they were made */
+    change *changes; /* changes since the last accepted tick, in the order in which they were made */
     size_t change_count, change_room;
-    size_t settled;      /* count after they were last reduced to one for each id */
-    size_t kept;         /* count before the tick that was read last */
-    octree_cursor mark;  /* in the tree's log: the points were read up to here */
-    uint64_t names;      /* the number of names that were given to logs, from a random start */
-    bool many_changes;   /* of the tree in the tick that was read last: reading it whole is then faster than a log */
-    bool log_incomplete; /* memory ran out for a change of the log */
+    size_t settled;     /* number of changes when they were last combined to one change per point */
+    size_t kept;        /* number of changes before the tick that was read last */
+    octree_cursor mark; /* cursor into the tree's change log: all changes before it are read */
+    uint64_t names;     /* counter for the names of log cursors; starts at a random number */
+    /* True: the tree had so many changes at the last tick that reading all points is faster than its log. */
+    bool many_changes;
+    bool log_incomplete; /* true: memory ran out while changes of the log were applied */
 } contents;
 
 void contents_release(contents *c);
 
-/* Read a tick; `about` may be null. If some changes are invalid, the error is that of the first; the valid ones are
- * kept for the next accepted tick. On any other error nothing changes. Errors: NULL_ARGUMENT, TWO_SOURCES, OTHER_TREE,
- * DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, NO_MEMORY. */
+/* Read the points of a tick. `about` may be null. If some changes are invalid, the error names the first invalid
+ * change, and the valid changes are kept for the next accepted tick. After any other error *c is as before. Errors:
+ * NULL_ARGUMENT, TWO_SOURCES, OTHER_TREE, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, NO_MEMORY. */
 octreel_status contents_read(contents *c, const octree_def *def, const octree *tree, const octreel_tick_info *about,
                              octreel_error *error);
 
-/* Move the changes since the last accepted tick into a batch, or back if the batch is not recorded. */
+/* contents_give_changes() moves the changes since the last accepted tick into a batch. contents_take_changes() moves
+ * them back if the batch could not be recorded. */
 void contents_give_changes(contents *c, batch *b);
 void contents_take_changes(contents *c, batch *b);
 
-/* Mark the tick that was read last as accepted or, with the status of its error, as refused. A list or a whole tree is
- * then forgotten. Edits and logged changes stay for the next accepted tick, except after NO_MEMORY. */
+/* Accept or refuse the tick that was read last. `status` is the reason for the refusal. A refused tick's list or whole
+ * tree is forgotten. Its edits and logged changes are kept for the next accepted tick, except after NO_MEMORY. */
 void contents_accept(contents *c);
 void contents_refuse(contents *c, octreel_status status);
 

@@ -31,7 +31,7 @@ void edit_order_release(edit_order *o)
     *o = (edit_order){0};
 }
 
-/* Each change becomes at most two edits: a removal and an insertion. */
+/* Make room for two edits per change, because a change becomes at most a removal and an insertion. */
 static bool reserve_edits(edit_order *o, size_t changes)
 {
     if (changes <= o->room)
@@ -54,7 +54,7 @@ static bool is_inside(const edit_order *o, const double at[3])
     return inside;
 }
 
-/* Whether a change becomes an edit of this kind: alone, or beside another one. */
+/* Returns true if a change becomes an edit of this kind. A move across the world's bounds may become two edits. */
 static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind kind)
 {
     const bool from = c->kind != OCTREE_EDIT_INSERT && is_inside(o, c->from);
@@ -64,7 +64,8 @@ static bool needs_edit(const edit_order *o, const change *c, octree_edit_kind ki
     return from && to == (kind == OCTREE_EDIT_MOVE);
 }
 
-/* Make a change by an edit of this kind. *made: false if its leaf is full. Returns false if out of memory. */
+/* Try to make a change by an edit of this kind. *made becomes false if the edit finds no room in a full leaf. Returns
+ * false if memory runs out. */
 static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, const change *c, bool *made)
 {
     octree_status status = OCTREE_OK;
@@ -84,8 +85,9 @@ static bool try_change(edit_order *o, uint64_t tick, octree_edit_kind kind, cons
     return status != OCTREE_NO_MEMORY;
 }
 
-/* Make edits of a kind: of all changes that need one or, with `again`, of those that wait. Changes that find no room
- * wait; so do those that were removed to be inserted again. */
+/* Make edits of one kind. Without `again`, try all changes that need an edit of this kind; with `again`, try the
+ * waiting changes. A change waits if its edit found no room in a full leaf, or if its point was removed here to be
+ * inserted by a later pass. Returns false if memory runs out. */
 static bool make_edits(edit_order *o, const batch *b, uint64_t tick, octree_edit_kind kind, bool again)
 {
     const size_t count = again ? o->waiting_count : b->change_count;

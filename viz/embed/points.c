@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* points.c - a program's points by id: see points.h. */
+/* points.c - stores a program's points by id: see points.h. */
 #include "points.h"
 #include "array.h"
 #include "octree/digest.h"
@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The radix sort goes byte by byte from the lowest; ids below SESSION_ID_LIMIT have seven bytes. */
+/* The radix sort takes one byte of the id at a time, from the lowest byte. Ids below SESSION_ID_LIMIT fit into seven
+ * bytes. */
 enum { DIGITS = 7, DIGIT_VALUES = 256 };
 
 void points_release(points *p)
@@ -41,7 +42,8 @@ static unsigned digit_of(uint64_t id, int digit)
     return (unsigned)(id >> (8 * digit)) & (DIGIT_VALUES - 1);
 }
 
-/* Sort by one digit, stably. False, with nothing moved, if all points have the same digit. */
+/* Sort points by one digit of their ids. The sort is stable. Returns false and moves nothing if all ids have the same
+ * digit. */
 static bool sort_by_digit(const points *from, octree_point *to, const size_t counts[DIGIT_VALUES], int digit)
 {
     size_t starts[DIGIT_VALUES], sum = 0;
@@ -102,18 +104,17 @@ octreel_status points_read(points *p, points *spare, const octree *tree, const o
     if (!reserve(p, count) || !reserve(spare, count))
         return OCTREEL_NO_MEMORY;
     if (tree)
-        octree_walk(tree, add_leaf, p); /* the arguments are valid, so it cannot fail */
+        octree_walk(tree, add_leaf, p); /* cannot fail, because its arguments are valid */
     else
         memcpy(p->items, list, count * sizeof *list);
     p->count = count;
     return check_and_sort(p, spare, clash);
 }
 
-/* ---- The table ---------------------------------------------------------------------------------------------- *
+/* ---- The table ----------------------------------------------------------------------------------------------
  *
- * Open addressing with linear probing, at most three quarters full. Removing a point moves later ones up instead of
- * leaving a tombstone, so that long runs with many removals stay fast.
- */
+ * The hash table uses open addressing with linear probing, and at most three quarters of its slots are full. A removal
+ * moves later points of the cluster up and leaves no tombstone, so long runs with many removals stay fast. */
 
 static const uint64_t NO_ID = UINT64_MAX;
 enum { SMALLEST_TABLE = 16 };
@@ -129,7 +130,7 @@ static size_t find_home(const point_table *t, uint64_t id)
     return (size_t)octree_digest_word(0, id) & (t->size - 1);
 }
 
-/* The slot of an id, or the empty slot where it belongs. */
+/* Returns the slot that holds the id. If the id is missing, returns the empty slot where it can be inserted. */
 static size_t find_slot(const point_table *t, uint64_t id)
 {
     size_t slot = find_home(t, id);
@@ -170,7 +171,8 @@ void point_table_put(point_table *t, const octree_point *point)
     *at = *point;
 }
 
-/* Move each later point of the cluster into the hole, unless the hole lies before the point's home slot. */
+/* Remove a point and close the hole that it leaves. Each later point of the cluster moves into the hole, unless the
+ * hole lies before the slot to which the point's id hashes. */
 void point_table_remove(point_table *t, uint64_t id)
 {
     const size_t mask = t->size - 1;

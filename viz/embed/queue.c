@@ -13,7 +13,7 @@ bool queue_init(queue *q, size_t most, size_t most_bytes)
     return false;
 }
 
-/* The caller holds the lock, or is the last user of the queue. */
+/* Release all batches. The caller must hold the lock or be the last user of the queue. */
 static void drop_batches(queue *q)
 {
     if (!q->borrowed)

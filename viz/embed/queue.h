@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* queue.h - the queue of ticks from the program's thread to the recording thread, bounded in count and in bytes.
- * Private to this folder. */
+/* queue.h - the queue of ticks from the program's thread to the recording thread. The number of ticks and their bytes
+ * are limited. Private to viz/embed. */
 #ifndef EMBED_QUEUE_H
 #define EMBED_QUEUE_H
 
@@ -13,36 +13,37 @@ typedef struct queue {
     pthread_cond_t changed;
     batch_list list;
     size_t most, most_bytes;
-    bool borrowed; /* the queue does not own the batches */
+    bool borrowed; /* true: someone else owns and releases the batches */
     bool ended;    /* no more batches will be added */
-    bool broken;   /* recording failed: no more batches are taken */
+    bool broken;   /* recording failed: no more batches are accepted */
     bool begun;    /* the recording's folder exists */
 } queue;
 
 bool queue_init(queue *q, size_t most, size_t most_bytes);
 
-/* No thread may be waiting on the queue. */
+/* Release the queue. No thread may be waiting on it. */
 void queue_release(queue *q);
 
-/* Add a batch. If the queue is full, wait, or return BUSY if `wait` is false. Returns BROKEN after a failure of the
- * recording. On failure the caller still owns the batch. */
+/* Add a batch. If the queue is full, wait until it has room, or return BUSY if `wait` is false. Returns BROKEN if the
+ * recording has failed. If the result is not OK, the caller still owns the batch. */
 octreel_status queue_put(queue *q, batch *b, bool wait);
 
-/* Wait for the next batch and remove it; null after the queue has ended. */
+/* Wait for the next batch and remove it from the queue. Returns null once the queue has ended and is empty. */
 batch *queue_take(queue *q);
 
-/* Release the batch that was taken last, after it was recorded. */
+/* Release the batch that queue_take() returned last. Call this after the batch is recorded. */
 void queue_done(queue *q, batch *b);
 
-/* Signal that the recording has begun. */
+/* Tell waiting threads that the recording has begun. */
 void queue_begin(queue *q);
 
-/* Wait until the recording has begun. False if the queue is broken. */
+/* Wait until the recording has begun. Returns false if it has failed. */
 bool queue_wait_begun(queue *q);
 
 void queue_end(queue *q);
 
-/* Signal a failure: drop the batch that was taken last, the queue, and all later batches. */
+/* Tell waiting threads that the recording has failed. Batch `b`, all batches in the queue and all later batches are
+ * released. */
 void queue_break(queue *q, batch *b);
 
 #endif

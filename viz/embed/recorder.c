@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.c - the public recorder: checks each tick of a program, finds its changes, and passes it to the queue of the
- * recording thread or to the ring. */
+/* recorder.c - the public recorder. It checks each tick of a program, finds the point changes, and passes the tick to
+ * the recording thread's queue or to the ring. */
 #include "octreel/recorder.h"
 #include "about.h"
 #include "contents.h"
@@ -26,18 +26,18 @@
 struct octreel_recorder {
     filmer_settings settings;
     bool never_wait, closed;
-    bool broken; /* recording failed */
+    bool broken; /* true: recording failed, and no more ticks are accepted */
     contents contents;
-    octree_foreign_tree kept; /* foreign nodes of a refused tick, for the next accepted one */
+    octree_foreign_tree kept; /* foreign nodes of a refused tick; the next accepted tick gets them */
     bool has_kept;
-    ring ring; /* most is 0 without a ring; then the queue is used: */
+    ring ring; /* ring.most is 0 if there is no ring; the members below are then used: */
     char *folder;
     queue queue;
     session_filmer filmer;
-    uint64_t put;   /* ticks that were added to the queue */
-    uint64_t ticks; /* all ticks, accepted or refused */
-    losses lost;    /* the refused ticks among them */
-    gap_list gaps;  /* since the last accepted tick */
+    uint64_t put;   /* number of ticks that were added to the queue */
+    uint64_t ticks; /* number of all ticks, accepted or refused */
+    losses lost;    /* summary of the refused ticks */
+    gap_list gaps;  /* ticks that were refused since the last accepted tick */
     octreel_error error;
 };
 
@@ -48,7 +48,7 @@ const char *octreel_recorder_error(const octreel_recorder *recorder)
     return recorder ? recorder->error.text : "";
 }
 
-/* The status and error of a recording that has gaps. */
+/* Returns the status of a finished recording: GAPS with an error text if ticks were refused. */
 static octreel_status report_losses(octreel_recorder *r, const losses *lost, uint64_t ticks)
 {
     if (lost->ticks == 0)
@@ -90,7 +90,7 @@ static octreel_status set_tree(octreel_recorder *r, const octree_def *def)
 {
     octree *tree;
     r->settings.tree = *def;
-    r->settings.tree.allocator = (octree_allocator){0}; /* another thread must not use the program's allocator */
+    r->settings.tree.allocator = (octree_allocator){0}; /* the recording thread must not use the program's allocator */
     if (def->leaf_capacity == OCTREE_AUTO)
         return status_refuse(&r->error, OCTREEL_BAD_OPTION,
                              "tree: leaf_capacity is OCTREE_AUTO; use the capacity of octree_definition(tree)");
@@ -122,7 +122,8 @@ static octreel_status set_player(octreel_recorder *r, const octree_player *playe
     return OCTREEL_OK;
 }
 
-/* Parse the names and numbers by the table of view options, as the command line does. */
+/* Set the view from the names and numbers in the definition. They are parsed by the same table of view options as the
+ * command line. */
 static octreel_status set_view(octreel_recorder *r, const octreel_recorder_def *def)
 {
     view *v = &r->settings.film.view;
@@ -199,7 +200,8 @@ static octreel_status set_all(octreel_recorder *r, const octreel_recorder_def *d
 
 /* ---- Opening ------------------------------------------------------------------------------------------------ */
 
-/* An existing recording that is replaced stays until the first tick is written. */
+/* Check that the recording's folder can be used. With `replace` an existing recording stays until tick 0 of the new one
+ * is filmed. */
 static octreel_status check_folder(octreel_recorder *r, const char *folder)
 {
     errno = 0;
@@ -264,7 +266,8 @@ static octreel_status open_recorder(const octreel_recorder_def *def, octreel_rec
 
 /* ---- A tick ------------------------------------------------------------------------------------------------- */
 
-/* Points of a list need not fit a tree that refuses points: let its leaves grow. */
+/* If the program passes points without a tree, let full leaves grow. Nothing ensures that such points fit into a tree
+ * that refuses points. */
 static octreel_status let_leaves_grow(octreel_recorder *r)
 {
     const bool listed = r->contents.read_source == FROM_LIST || r->contents.read_source == FROM_CHANGES;
@@ -278,7 +281,7 @@ static octreel_status let_leaves_grow(octreel_recorder *r)
     return OCTREEL_OK;
 }
 
-/* Keep the foreign nodes of a refused tick for the next accepted one. False if out of memory. */
+/* Keep the foreign nodes of a refused tick for the next accepted tick. Returns false if memory runs out. */
 static bool keep_foreign_nodes(octreel_recorder *r, const octree_foreign_tree *tree)
 {
     octree_foreign_tree copy;
@@ -290,7 +293,8 @@ static bool keep_foreign_nodes(octreel_recorder *r, const octree_foreign_tree *t
     return true;
 }
 
-/* Points are read first, so that no change is lost if the queries or shapes are refused. */
+/* Read and check a tick. The points are read before the queries and shapes are checked, so that no point change is lost
+ * if a query or shape is invalid. */
 static octreel_status read_tick(octreel_recorder *r, const octree *tree, const octreel_tick_info *about)
 {
     octreel_error why;
@@ -303,8 +307,8 @@ static octreel_status read_tick(octreel_recorder *r, const octree *tree, const o
     return read == OCTREEL_OK ? let_leaves_grow(r) : read;
 }
 
-/* Add a batch to the queue; with the first, wait until the recording has begun. *taken is false if the caller still
- * owns the batch. */
+/* Add a batch to the queue. After the first batch, wait until the recording has begun. *taken becomes false if the
+ * caller still owns the batch. */
 static octreel_status queue_batch(octreel_recorder *r, batch *b, bool *taken)
 {
     const octreel_status status = queue_put(&r->queue, b, !r->never_wait);
@@ -368,7 +372,7 @@ static octreel_status accept_tick(octreel_recorder *r, const octree *tree, const
     return OCTREEL_OK;
 }
 
-/* A refused tick keeps its number and becomes a gap. */
+/* Count a refused tick. It keeps its number and becomes a gap in the recording. */
 static void add_gap(octreel_recorder *r)
 {
     gap_list_add(&r->gaps, r->error.text);
@@ -391,7 +395,7 @@ static octreel_status record_or_add_gap(octreel_recorder *r, const octree *tree,
 
 /* ---- The end ------------------------------------------------------------------------------------------------ */
 
-/* Record the ring. The gaps after its last tick are appended meanwhile. */
+/* Record the ring into a folder. While it is recorded, the gaps after its last tick are a batch at its end. */
 static octreel_status ring_write(octreel_recorder *r, const char *folder)
 {
     ring *all = &r->ring;
@@ -427,12 +431,12 @@ static octreel_status write_recorder(octreel_recorder *r, const char *folder, ui
     return ring_write(r, folder);
 }
 
-/* Add the ticks that were refused after the last accepted one. */
+/* Add the ticks that were refused after the last accepted tick to the queue. */
 static void queue_last_gaps(octreel_recorder *r)
 {
     batch *b = r->gaps.count > 0 ? batch_make_gaps(&r->gaps) : NULL;
     if (b && queue_put(&r->queue, b, true) != OCTREEL_OK)
-        batch_release(b); /* the recording failed, and its error says more */
+        batch_release(b); /* ignore this error: the recording has failed with a more specific one */
 }
 
 static octreel_status close_recorder(octreel_recorder *r)
@@ -457,12 +461,12 @@ static octreel_status close_recorder(octreel_recorder *r)
                                octreel_status_text(OCTREEL_NOTHING), r->lost.why);
 }
 
-/* ---- The public functions ------------------------------------------------------------------------------------ *
+/* ---- The public functions ------------------------------------------------------------------------------------
  *
- * The program may have any floating-point mode: each function sets the default one and restores the program's. The
- * compiler cannot move arithmetic out of the inner calls: they take and return pointers and integers only, and the
- * doubles that those point to may, for all it knows, be read and written by the calls that change the mode.
- */
+ * The program may use any floating-point mode, so each public function sets the default mode and restores the program's
+ * mode at the end. The compiler must not move arithmetic across these changes. It cannot: the inner functions take and
+ * return only pointers and integers, and the compiler must assume that the calls which change the mode read and write
+ * the doubles behind the pointers. */
 
 static fenv_t enter_default_mode(void)
 {

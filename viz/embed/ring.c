@@ -20,7 +20,8 @@ static void clear_changes(batch *b)
     b->change_count = 0;
 }
 
-/* Make a tick the first of the ring: apply its changes to the start, and drop the gaps before it. */
+/* Make a tick the first tick of the ring: apply its changes to the start, and drop the gaps before it. Returns false if
+ * memory runs out. */
 static bool start_at(ring *r, batch *b)
 {
     if (!point_table_reserve(&r->start, r->start.count + b->change_count))
@@ -33,7 +34,8 @@ static bool start_at(ring *r, batch *b)
     return true;
 }
 
-/* Foreign nodes stay valid until a tick has new ones: move them to the next tick if it has none. */
+/* Move foreign nodes from a tick to the next tick if that has none. Foreign nodes stay valid until a tick has new ones.
+ */
 static void pass_foreign_nodes(batch *from, batch *to)
 {
     if (!from->has_foreign || to->has_foreign)
@@ -75,7 +77,7 @@ losses ring_losses(const ring *r, uint64_t *ticks)
     return lost;
 }
 
-/* Give the first tick insertions of the points at the start. False if out of memory. */
+/* Give the first tick an insertion for each point at the start. Returns false if memory runs out. */
 static bool add_insertions(const ring *r)
 {
     batch *first = r->list.first;

@@ -1,34 +1,36 @@
 /* SPDX-License-Identifier: MIT */
-/* ring.h - a ring buffer of a program's last ticks, recorded only on request. Private to this folder. */
+/* ring.h - a ring buffer of a program's last ticks, which is recorded only on request. Private to viz/embed. */
 #ifndef EMBED_RING_H
 #define EMBED_RING_H
 
 #include "session_filmer.h"
 
-/* The last ticks: the points of the first, and for each later one its changes. */
+/* The last ticks of a program. The ring has all points at its first tick, and the changes of each later tick. */
 typedef struct ring {
     size_t most;
     batch_list list;
-    point_table start; /* the points at the first tick; its batch has no changes */
-    uint64_t dropped;  /* count of ticks that the ring no longer has */
+    point_table start; /* all points at the first tick, whose batch therefore has no changes */
+    uint64_t dropped;  /* number of ticks that are no longer in the ring */
 } ring;
 
-/* A summary of refused ticks. */
+/* A summary of refused ticks: how many there are, and the number and reason of the first. */
 typedef struct losses {
     uint64_t ticks, first;
-    char why[OCTREE_GAP_TEXT]; /* reason for the first */
+    char why[OCTREE_GAP_TEXT]; /* reason why the first was refused */
 } losses;
 
 void ring_release(ring *r);
 
-/* Add a tick; a full ring drops its first. On success the ring owns the batch. False, with nothing changed, if out of
- * memory. Cost: O(changes). */
+/* Add a tick. A full ring drops its first tick. On success the ring owns the batch. Returns false and changes nothing
+ * if memory runs out. Cost: O(changes). */
 bool ring_put(ring *r, batch *b);
 
-/* Sum up the gaps in the ring, numbered from its first tick; *ticks is the count of its ticks and gaps. */
+/* Summarize the gaps in the ring. Ticks are numbered from the ring's first tick. *ticks becomes the number of ticks and
+ * gaps in the ring. */
 losses ring_losses(const ring *r, uint64_t *ticks);
 
-/* Record the ring into a folder, in a thread. Errors: those of session_filmer_join(). */
+/* Record the ring into a folder. A thread records; this function waits for it. Errors: those of session_filmer_join().
+ */
 octreel_status ring_film(const ring *r, const filmer_settings *s, const char *folder, octreel_error *error);
 
 #endif

@@ -11,7 +11,7 @@
 
 /* ---- Ticks -------------------------------------------------------------------------------------------------- */
 
-/* Number a batch's items, whose ticks the program does not set. */
+/* Set the tick number of a batch's queries, shapes and foreign nodes, because the program does not set it. */
 static void number_tick(batch *b, uint64_t tick)
 {
     for (size_t i = 0; i < b->query_count; i++)
@@ -21,7 +21,7 @@ static void number_tick(batch *b, uint64_t tick)
     b->foreign.tick = tick;
 }
 
-/* The points that a batch inserts. */
+/* Returns an array with the points that a batch inserts; the caller frees it. */
 static octree_body *make_bodies(const batch *first)
 {
     octree_body *bodies = calloc(first->change_count ? first->change_count : 1, sizeof *bodies);
@@ -38,7 +38,8 @@ static octreel_status refuse_for_memory(session_filmer *f, octreel_status status
     return status;
 }
 
-/* Begin the recording with tick 0: the points of the first batch, with its queries and shapes or with a gap. */
+/* Record tick 0. It has the points that the first batch inserts. It also has the batch's queries and shapes, or it is a
+ * gap if `gap` is not null. */
 static octreel_status film_first_tick(session_filmer *f, const batch *first, const octree_gap *gap)
 {
     const filmer_settings *s = f->settings;
@@ -68,7 +69,8 @@ static octreel_status film_first_tick(session_filmer *f, const batch *first, con
         return OCTREEL_CANNOT_DRAW;
     if (!live_begin(f->live, &f->error))
         return OCTREEL_BAD_FOLDER;
-    queue_begin(f->queue); /* later errors, such as a full disk, can happen at any tick */
+    /* The program need not wait longer: later errors, such as a full disk, can happen at any tick. */
+    queue_begin(f->queue);
     return live_film_first(f->live, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
@@ -77,7 +79,7 @@ static octreel_status film_input(session_filmer *f, const octree_input *input)
     return live_film_tick(f->live, input, &f->error) ? OCTREEL_OK : OCTREEL_BROKEN;
 }
 
-/* `changes` is false if the recording has already begun with the batch's points. */
+/* Record the tick of a batch. `changes` is false if a gap at tick 0 has already used the batch's points. */
 static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
 {
     f->order.count = 0;
@@ -93,7 +95,7 @@ static octreel_status film_next(session_filmer *f, const batch *b, bool changes)
                                          .foreign = b->has_foreign ? &b->foreign : NULL});
 }
 
-/* Record the gaps before a batch. */
+/* Record the gaps before the tick of a batch. */
 static octreel_status film_gaps(session_filmer *f, const batch *b)
 {
     octreel_status status = OCTREEL_OK;
@@ -111,7 +113,7 @@ static octreel_status film_gaps(session_filmer *f, const batch *b)
 static octreel_status film_batch(session_filmer *f, batch *b)
 {
     const bool begun = f->tick > 0;
-    batch_settle(b); /* in this thread, to spare the program's */
+    batch_settle(b); /* done in this thread, to save time in the program's thread */
     octreel_status status = film_gaps(f, b);
     if (status != OCTREEL_OK || b->is_gap)
         return status;
@@ -123,8 +125,8 @@ static octreel_status film_batch(session_filmer *f, batch *b)
 
 /* ---- The thread --------------------------------------------------------------------------------------------- */
 
-/* Record ticks until the queue ends or one fails. f->status is set before a waiting program is woken; after a failure
- * the program does not wait for the last files. */
+/* Record ticks until the queue ends or a tick fails. f->status is set before a waiting program is woken. After a
+ * failure the program does not wait until the last files are written. */
 static void film_queue(session_filmer *f)
 {
     batch *b;
@@ -138,7 +140,7 @@ static void *run(void *context)
 {
     session_filmer *f = context;
     octreel_error late;
-    fesetenv(FE_DFL_ENV); /* a thread inherits the floating-point mode */
+    fesetenv(FE_DFL_ENV); /* set the default floating-point mode; a thread inherits the mode of the program */
     film_queue(f);
     edit_order_release(&f->order);
     const bool whole = f->status == OCTREEL_OK;
@@ -151,7 +153,8 @@ octreel_status session_filmer_start(session_filmer *f)
 {
     sigset_t all, before;
     sigfillset(&all);
-    if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0) /* a thread inherits the signal mask, too */
+    /* Block all signals here; the new thread inherits the signal mask. */
+    if (pthread_sigmask(SIG_SETMASK, &all, &before) != 0)
         return OCTREEL_NO_MEMORY;
     const bool started = pthread_create(&f->thread, NULL, run, f) == 0;
     pthread_sigmask(SIG_SETMASK, &before, NULL);

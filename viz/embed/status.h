@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT */
-/* status.h - statuses with error texts. Private to this folder. */
+/* status.h - returns statuses together with error texts. Private to viz/embed. */
 #ifndef EMBED_STATUS_H
 #define EMBED_STATUS_H
 
 #include "octreel/recorder.h"
 
-/* Write an error text and return the status. */
+/* Write a formatted error text and return the status. */
 octreel_status status_refuse(octreel_error *error, octreel_status status, const char *format, ...);
 
-/* Write the status's own text and return the status. */
+/* Write the status's own text, octreel_status_text(), as the error and return the status. */
 octreel_status status_fail(octreel_error *error, octreel_status status);
 
 #endif
