@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* absent.c - stand-ins for functions that need files, which a page does not have. They fail with an error; the linker
- * takes them in place of file_read.c and the cloud readers. */
+/* absent.c - replaces functions that need files, because a page has no files. These functions fail with an error. They
+ * are linked in place of file_read.c and the cloud readers. */
 #include "cloud.h"
 #include "file.h"
 

@@ -22,7 +22,7 @@ static void write_color(json_writer *w, theme_role role)
     json_write_text_member(w, "color", text);
 }
 
-/* Write the members that queries of a kind have. The member that has the kind's name comes first. */
+/* Write the members of queries of one kind. The member that gives the kind its name comes first. */
 static void write_query_members(json_writer *w, const octree_query_traits *about)
 {
     static const char *const types[] = {[OCTREE_MEMBER_BOX] = "box",

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* choices.h - the choices that the page offers in its controls. Private to this folder. */
+/* choices.h - writes the choices that the page offers in its controls. Private to viz/page/module. */
 #ifndef WEB_CHOICES_H
 #define WEB_CHOICES_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Write the choices of a view, its layers with their colours, and the query kinds with their members, as JSON. Returns
- * true. */
+/* Write the values of each view option, the layers with their colours, and the query kinds with their members, as one
+ * JSON object. Returns true. */
 bool choices_write(FILE *out);
 
 #endif

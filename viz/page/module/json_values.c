@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* json_values.c - the functions of jansson that reading sessions and views needs, for WebAssembly: the page parses a
- * text with JSON.parse() and writes the value into one block of memory as the structures below.
+/* json_values.c - the functions of jansson that are needed to read sessions and views, for WebAssembly.
  *
- * Debian has no jansson for WebAssembly, and the browser has a JSON parser already. The headers are jansson's own, so
- * the code that reads sessions compiles unchanged. viewer/json_values.js is the other half of this file. */
+ * The problem: Debian has no jansson for WebAssembly, but every browser has a JSON parser. The idea: the page parses a
+ * text with JSON.parse() and writes the value into one block of memory, in the form of the structures below. These
+ * functions use jansson's own headers, so the code that reads sessions compiles unchanged. viewer/json_values.js is the
+ * other half of this file. */
 #include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,8 +16,8 @@ typedef struct value {
     union {
         double number;
         struct {
-            size_t count; /* of items, members or bytes */
-            void *first;  /* an array's first value, an object's first entry, or a string's text */
+            size_t count; /* number of items, members or bytes */
+            void *first;  /* first value of an array, first entry of an object, or text of a string */
         };
     };
 } value;
@@ -31,20 +32,22 @@ _Static_assert(sizeof(value) == 16 && offsetof(entry, next) == 16 && offsetof(en
                    offsetof(json_error_t, position) == 8 && offsetof(json_error_t, text) == 92,
                "json_values.js writes these structures");
 
-/* ---- Functions of the page -------------------------------------------------------------------------------------- */
+/* ---- Functions that the page provides ---------------------------------------------------------------------------- */
 
 #define FROM_PAGE(name) __attribute__((import_module("page"), import_name(name)))
 
-/* Parse a text; `alone` refuses bytes after its first value. Returns the bytes that the value takes in memory, and sets
- * error->position to the end of the value; 0 with the line and the reason in *error. */
+/* Parse a text. If `alone` is true, bytes after its first value are an error. Returns the number of bytes that the
+ * value needs in memory, and sets error->position to the end of the value in the text. Returns 0 with the line and the
+ * reason in *error if the text is not JSON. */
 FROM_PAGE("parse_json") size_t page_parse_json(const char *text, size_t size, bool alone, json_error_t *error);
 
-/* Write the value that was parsed last. */
+/* Write the value that page_parse_json() parsed last to `to`. */
 FROM_PAGE("write_json") void page_write_json(value *to);
 
-/* ---- jansson's functions ------------------------------------------------------------------------------------ */
+/* ---- Functions of jansson ------------------------------------------------------------------------------------ */
 
-/* Numbers are always JSON_REAL, and a name that occurs twice in an object is always refused. */
+/* Unlike jansson's function, this one makes every number a JSON_REAL, and always refuses an object that has the same
+ * name twice. */
 json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *error)
 {
     const size_t bytes = page_parse_json(text, size, !(flags & JSON_DISABLE_EOF_CHECK), error);
@@ -52,11 +55,11 @@ json_t *json_loadb(const char *text, size_t size, size_t flags, json_error_t *er
     if (v)
         page_write_json(v);
     else if (bytes)
-        error->line = -1; /* out of memory, as jansson reports it */
+        error->line = -1; /* jansson reports lack of memory in the same way */
     return (json_t *)v;
 }
 
-/* Only for values that json_loadb() returned. */
+/* Free a value. It must be a value that json_loadb() returned, not a part of one. */
 void json_delete(json_t *json)
 {
     free(json);

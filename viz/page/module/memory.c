@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* memory.c - sbrk() that keeps the end of the used memory in that memory itself.
+/* memory.c - an sbrk() that stores the end of the used memory in that memory itself.
  *
- * The page goes back to an earlier state by copying the memory back, but WebAssembly's memory never shrinks.
- * wasi-libc's sbrk() assumes that all memory up to its size is used, so each return to an earlier state would leak
- * all memory that was allocated since. Here the end of the used memory is restored with the rest, and the memory behind
- * it is used again. */
+ * The page returns to an earlier state of the game by copying the memory back. But the memory of WebAssembly never
+ * shrinks, and the sbrk() of wasi-libc assumes that all of it is in use. So each return to an earlier state would leak
+ * all memory that was allocated since that state. Here the end of the used memory is part of the state and is restored
+ * with it, and the memory behind this end is used again. */
 #include <stddef.h>
 #include <stdint.h>
 #include <unistd.h>
@@ -18,8 +18,8 @@ static size_t memory_size(void)
     return (size_t)__builtin_wasm_memory_size(0) * MEMORY_PAGE;
 }
 
-/* The number of bytes from address 0 that hold the module's state. At first that is the whole memory, since newer
- * versions of wasi-libc use the part behind the static data without calling sbrk(). */
+/* Returns the number of bytes, from address 0, that contain the module's state. At first this is the whole memory,
+ * because newer versions of wasi-libc use the part behind the static data without calling sbrk(). */
 size_t web_used(void)
 {
     return end ? end : memory_size();

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* module.c - the functions that a page calls in WebAssembly: they play one session at a time and draw its ticks.
+/* module.c - the functions that a page calls in WebAssembly. They play one session at a time and draw its ticks.
  *
- * The page runs octreel's own code, so that it needs no recorded frame and can show any view of any tick. This file is
- * the border between C and viewer/engine.js. Input: JavaScript asks web_room() for a buffer, writes one or more texts
- * or numbers into it, and passes their sizes to the next call. Output: a function that returns bool leaves its text, or
- * with false its error, in web_text() until the next call; numbers are returned as double, since JavaScript has no
- * 64-bit integer that is convenient; web_draw() returns the address of the pixels. Every function named web_* is
- * exported.
+ * The page runs octreel's own code, so it needs no recorded frames and can show any view of any tick. This file is the
+ * border between C and viewer/engine.js.
  *
- * The pixels equal those of the PNG frames because the same sources decide them: scenes come from double arithmetic in
+ * Input: JavaScript calls web_room() to get a buffer, writes texts or numbers into the buffer, and passes their sizes
+ * to the next call. Output: a function that returns bool stores its text, or its error if it returns false, in
+ * web_text() until the next call. Numbers are returned as double, because 64-bit integers are inconvenient in
+ * JavaScript. web_draw() returns the address of the pixels. Every function named web_* is exported.
+ *
+ * The pixels are the same as those of the PNG frames, because the same code makes them. Scenes use double arithmetic in
  * a fixed order without FMA, which WebAssembly defines bit for bit, and the integer rasterizer fills them without a
- * GPU. All state is in linear memory. A copy of its first web_used() bytes is therefore a state of the game, to which
- * the page returns by copying it back. */
+ * GPU. All state is in linear memory. A copy of its first web_used() bytes is therefore a state of the game; the page
+ * returns to this state by copying the bytes back. */
 #include "choices.h"
 #include "describe.h"
 #include "layer.h"
@@ -30,12 +31,12 @@
 typedef struct web {
     session_file session;
     playback playback;
-    bool open, drawn;       /* the playback is open; its current tick is drawn */
-    bool has_fitted_scale;  /* the point scale was fitted, not given in the view */
-    unsigned summed_layers; /* layers whose sums over all ticks are collected */
+    bool open, drawn;       /* the playback is open; the current tick is drawn */
+    bool has_fitted_scale;  /* true: the point scale was fitted to the points, not given in the view */
+    unsigned summed_layers; /* heat layers, as bits of view_layer, whose sums over all ticks are collected */
     char *room, *text;
     size_t room_size, text_size;
-    uint32_t *rgba; /* the picture: bytes R, G, B, A for each pixel */
+    uint32_t *rgba; /* the picture, 4 bytes per pixel: R, G, B, A */
     octreel_error error;
 } web;
 
@@ -43,7 +44,8 @@ static web page;
 
 /* ---- Texts -------------------------------------------------------------------------------------------------- */
 
-/* The buffer for the input of the next call, at least `size` + 1 bytes; null if out of memory. */
+/* Returns the input buffer for the next call, with room for at least `size` + 1 bytes. Returns null if memory runs out.
+ */
 char *web_room(size_t size)
 {
     if (size + 1 > page.room_size) {
@@ -70,14 +72,15 @@ static void clear_text(void)
     page.text = NULL;
 }
 
-/* Let web_text() return the error. Returns false. */
+/* Make the current error the text that web_text() returns. Returns false. */
 static bool fail(void)
 {
     clear_text();
     return false;
 }
 
-/* Let web_text() return the text that `write` prints. False if it cannot be written, with the error in web_text(). */
+/* Make the output of `write` the text that web_text() returns. Returns false if it fails; web_text() then returns the
+ * error. */
 static bool set_text(bool (*write)(FILE *out))
 {
     text_stream s;
@@ -104,8 +107,8 @@ static void close_all(void)
     page.open = page.drawn = page.has_fitted_scale = false;
 }
 
-/* Open a session and play its tick 0. The room holds the session's text of `session` bytes and then a recording.json of
- * `recording` bytes. A session that was open is closed. */
+/* Open a session and play its tick 0. The input buffer holds `session` bytes of a session.json and, behind them,
+ * `recording` bytes of a recording.json. A session that is already open is closed. */
 bool web_open(size_t session, size_t recording)
 {
     view v;
@@ -124,7 +127,8 @@ bool web_open(size_t session, size_t recording)
     return page.open || fail();
 }
 
-/* Play the next tick with a key; with 0 the tick has the session's own key, edits and queries. */
+/* Play the next tick. `key` is the player's key press. If it is 0, the tick has the session's own key press, edits and
+ * queries. */
 bool web_step(int key)
 {
     const octree_input input = {.key = (char)key};
@@ -142,13 +146,13 @@ double web_tick(void)
     return (double)octree_game_tick(page.playback.game)->number;
 }
 
-/* The number of ticks after tick 0. */
+/* Returns the number of ticks after tick 0. */
 double web_length(void)
 {
     return (double)octree_session_length(&page.session.session);
 }
 
-/* The world's minimum and maximum corner, three doubles each. */
+/* Returns the minimum corner and then the maximum corner of the world, three doubles each. */
 const double *web_world(void)
 {
     return page.session.session.tree.world.min;
@@ -160,7 +164,7 @@ static bool write_facts(FILE *out)
     return true;
 }
 
-/* The tick's line of ticks.jsonl, without the members of its frame. */
+/* Make web_text() return the current tick's line of ticks.jsonl, without the members about its frame. */
 bool web_facts(void)
 {
     return set_text(write_facts);
@@ -168,7 +172,7 @@ bool web_facts(void)
 
 /* ---- The picture -------------------------------------------------------------------------------------------- */
 
-/* Fit a view to the points of tick 0, as when the session was opened. */
+/* Fit a view to the points of tick 0. Opening the session does the same. */
 static bool fit_to_start(view *v)
 {
     octree_game *start;
@@ -180,8 +184,8 @@ static bool fit_to_start(view *v)
     return fitted;
 }
 
-/* Fit a view. Fitting a point scale is slow, and dragging changes the view at every frame: a scale that was fitted
- * before is kept while the filter and the colouring stay the same. */
+/* Fit a view. Fitting a point scale is slow, and dragging changes the view at every frame. So a fitted scale is kept
+ * while the filter and the colouring stay the same. */
 static bool fit_view(view *v)
 {
     const view *now = &page.playback.view;
@@ -195,7 +199,7 @@ static bool fit_view(view *v)
     return picture_fit(v, octree_game_tree(page.playback.game), &page.session.values, &page.error);
 }
 
-/* Set the view from the recording.json in the room. */
+/* Set the view to that of a recording.json, whose `recording` bytes are in the input buffer. */
 bool web_view(size_t recording)
 {
     view v, *now = &page.playback.view;
@@ -213,7 +217,8 @@ bool web_view(size_t recording)
     return true;
 }
 
-/* Whether the view shows sums over all ticks that were not collected; then the session must be opened again with it. */
+/* Returns true if the view shows a heat layer whose sums over all ticks were not collected. The page must then open the
+ * session again with this view. */
 bool web_lacks_sums(void)
 {
     return page.playback.view.layers & VIEW_HEAT_LAYERS & ~page.summed_layers;
@@ -237,8 +242,8 @@ static uint32_t rgba_word(image_color color)
     return word;
 }
 
-/* Convert the pixels of a frame to RGBA. Much of a frame's time is spent here, so pixels are written as whole words,
- * and indices are looked up in a table. */
+/* Convert the pixels of a frame to RGBA. This takes much of a frame's time, so each pixel is written as one 32-bit
+ * word, and palette indices are looked up in a table. */
 static void color_pixels(const image *frame)
 {
     const size_t pixels = (size_t)frame->width * (size_t)frame->height;
@@ -254,7 +259,8 @@ static void color_pixels(const image *frame)
             page.rgba[i] = rgba_word((image_color){from[0], from[1], from[2]});
 }
 
-/* Draw the tick. Returns rows of 4 bytes a pixel, R first, from the top; null with the error in web_text(). */
+/* Draw the current tick. Returns the pixels row by row from the top, 4 bytes each: R, G, B, A. Returns null on failure;
+ * web_text() then returns the error. */
 const uint32_t *web_draw(void)
 {
     playback *p = &page.playback;
@@ -284,13 +290,14 @@ static bool write_digest(FILE *out)
     return true;
 }
 
-/* The digest of the drawn scene. */
+/* Make web_text() return the digest of the drawn scene. */
 bool web_digest(void)
 {
     return set_text(write_digest);
 }
 
-/* Write a camera's center, the pixel that shows it, and the length of a pixel there. */
+/* Write the center of a camera, the pixel at which this center is drawn, and the length of a pixel there in world
+ * units. */
 static void write_center(json_writer *w, const camera *c, const int origin[2])
 {
     json_write_vector_member(w, "center", c->center);
@@ -325,15 +332,16 @@ static bool write_camera(FILE *out)
     return true;
 }
 
-/* The camera of the drawn picture as JSON: its axes, its center with the pixel that shows it, and the length of a pixel
- * there in world units; the same for a close-up, with its window in the picture. */
+/* Make web_text() return the camera of the drawn picture as JSON. It has the camera's axes, its center, the pixel at
+ * which the center is drawn, and the length of a pixel there in world units. A close-up has the same members and its
+ * window in the picture. */
 bool web_camera(void)
 {
     return set_text(write_camera);
 }
 
-/* Project places of the world onto the drawn picture. The room holds three doubles for each place, and afterwards two
- * for its pixel: NaN for a place behind the camera. */
+/* Project positions in the world onto the drawn picture. The input buffer holds three doubles for each position. They
+ * are replaced by two doubles for each position, its pixel; both are NaN if the position is behind the camera. */
 void web_project(size_t count)
 {
     double *numbers = (double *)(void *)page.room;
@@ -369,7 +377,7 @@ static bool write_pick(FILE *out)
     return true;
 }
 
-/* The elements at a pixel of the drawn picture as JSON: see pick.h. */
+/* Make web_text() return the elements at a pixel of the drawn picture as JSON (see pick.h). */
 bool web_pick(int x, int y, int radius)
 {
     picked.x = x;
@@ -380,8 +388,8 @@ bool web_pick(int x, int y, int radius)
     return set_text(write_pick);
 }
 
-/* Answer, at the current tick, the queries in the header of the session in the room. The answers are among the facts
- * until the next tick. */
+/* Answer queries at the current tick. The input buffer holds a session whose header has the queries. The answers are
+ * part of web_facts() until the next tick. */
 bool web_ask(size_t size)
 {
     session_file asked;
@@ -410,7 +418,7 @@ static octree_walk_order find_point(const octree_node *node, void *context)
     return s->found ? OCTREE_WALK_STOP : OCTREE_WALK_ON;
 }
 
-/* The position of the point with an id, three doubles; null if there is none. Cost: O(points). */
+/* Returns the position of the point with this id, three doubles; null if there is no such point. Cost: O(points). */
 const double *web_point(double id)
 {
     point_search s = {.id = (uint64_t)id};
@@ -418,9 +426,9 @@ const double *web_point(double id)
     return s.found ? s.found->position : NULL;
 }
 
-/* ---- Keys of the user ----------------------------------------------------------------------- */
+/* ---- The player's key presses ---------------------------------------------------------------------------------- */
 
-/* Remove the items of ticks after `last`; items of every tick stay. */
+/* Remove all items whose tick is greater than `last`. Items that belong to every tick stay. */
 #define CUT_AFTER(items, count, last)                                                                                  \
     do {                                                                                                               \
         size_t kept = 0;                                                                                               \
@@ -430,8 +438,8 @@ const double *web_point(double id)
         (count) = kept;                                                                                                \
     } while (0)
 
-/* Cut the session off after tick `last`, which must have been played, and append `count` keys from the room. web_step()
- * plays them. */
+/* Remove all ticks after tick `last` from the session, and append `count` key presses from the input buffer. Tick
+ * `last` must have been played. web_step() plays the new ticks. */
 bool web_keys(double last, size_t count)
 {
     octree_session *s = &page.session.session;
@@ -470,13 +478,14 @@ static bool write_session(FILE *out)
     return session_write(&page.session.session, &page.session.values, out);
 }
 
-/* The session as the text of session.json. */
+/* Make web_text() return the session as session.json. */
 bool web_session(void)
 {
     return set_text(write_session);
 }
 
-/* The choices for a view's options, its layers, and the query kinds with their members, as JSON. */
+/* Make web_text() return the values of each view option, the layers, and the query kinds with their members, as JSON.
+ */
 bool web_choices(void)
 {
     return set_text(choices_write);
