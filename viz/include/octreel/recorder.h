@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* recorder.h - record a program from inside. Once per tick of its loop the program passes its points and its queries.
- * The points come from an octree, or from a list or changes if the program has an index of its own. Queries may carry
- * the program's answers, which are checked against the exact ones ("octreel audit" sums up).
+/* recorder.h - records a program from inside. Once per tick of its loop the program passes its points and its queries.
+ * The points come from an octree. A program with an index of its own passes a list of points, or the changes of its
+ * points. Queries may carry the program's own answers. Octreel then compares them with the exact answers; "octreel
+ * audit" prints the result.
  *
- * The recorder writes a session: point changes since the last tick become edits, and the program's queries and shapes
- * are stored beside them. The result is a recording like any other: octreel verifies, joins, compares and replays it,
- * and recording its session.json again gives the same bytes. A worker thread plays and draws beside the program's loop.
- * With `ring` nothing is recorded until the program asks for its last ticks, for example after a failed assertion.
+ * The recorder writes a session. Point changes since the last tick become edits; the program's queries and shapes are
+ * stored beside them. The result is a recording like any other: octreel can verify, join, compare and replay it, and
+ * recording its session.json again gives the same bytes. A worker thread plays and draws beside the program's loop.
+ * With `ring` nothing is recorded until the program requests its last ticks, for example after a failed assertion.
  *
  *     octreel_recorder_def def = octreel_recorder_def_default();
  *     def.folder = "my-flight";
@@ -29,21 +30,22 @@
  *     octreel_recorder_tick(recorder, NULL, &(octreel_tick_info){.changes = &moved, .change_count = 1});
  *
  * Conventions
- *   - The recorder never ends the process, handles signals or keeps globals. Any thread may use it, one at a time, in
- *     any floating-point mode: the files are the same. The program's mode and GL contexts stay as they are: each call
- *     restores the mode, and the recorder draws in its own thread, with all signals blocked. A child of fork() must
- *     not use its parent's recorders.
+ *   - The recorder never ends the process, never handles signals and has no global variables. Any thread may use it,
+ *     but only one thread at a time.
+ *   - The program may use any floating-point mode; the files are the same. Each call restores the program's mode. The
+ *     program's GL contexts are not touched: the recorder draws in its own thread, with all signals blocked.
+ *   - A child of fork() must not use its parent's recorders.
  *   - Functions return a status. octreel_status_text() returns its text; octreel_recorder_error() returns the last
- * error in full.
+ *     error in full.
  *   - Each call of octreel_recorder_tick() is a tick. A refused tick keeps its number and becomes a gap in the
- * recording: it has no frame, and ticks.jsonl holds only the reason. Closing reports the number of gaps. No change is
- * lost: the next accepted tick holds all changes since the last accepted one. After OCTREEL_BROKEN no more ticks are
- * recorded; the earlier ones are complete.
+ *     recording: it has no frame, and ticks.jsonl holds only the reason. octreel_recorder_close() reports the number
+ *     of gaps. No change is lost: the next accepted tick has all changes since the last accepted tick. After
+ *     OCTREEL_BROKEN no more ticks are recorded; the earlier ticks are complete.
  *   - Every function accepts a null recorder, does nothing, and returns OCTREEL_OK.
  *   - n is the number of points.
- *   - While recording, the session is in FOLDER/session.json.live, one tick on each line. After a crash of the program
- *     "octreel record --resume -o FOLDER" completes the recording; only ticks in the queue are lost. Files are not
- * synced to the disk: a power cut may damage one, which "octreel verify" finds.
+ *   - During recording the session is in FOLDER/session.json.live, one tick per line. After a crash of the program
+ *     "octreel record --resume -o FOLDER" completes the recording; only ticks in the queue are lost.
+ *   - Files are not synced to the disk. A power cut may damage a file; "octreel verify" finds this.
  */
 #ifndef OCTREEL_RECORDER_H
 #define OCTREEL_RECORDER_H
@@ -55,7 +57,7 @@
 extern "C" {
 #endif
 
-/* One line per status: its name and its text. */
+/* Every status: its name and its text. */
 #define OCTREEL_STATUS_MAP(X)                                                                                          \
     X(OK, "done")                                                                                                      \
     X(NULL_ARGUMENT, "a required pointer is null")                                                                     \
@@ -88,15 +90,15 @@ typedef enum octreel_status {
         OCTREEL_STATUS_COUNT
 } octreel_status;
 
-/* The text of a status, without a final period. Never null; static storage. */
+/* Returns the text of a status, without a final period. The text is never null and is static. */
 const char *octreel_status_text(octreel_status status);
 
 typedef struct octreel_recorder octreel_recorder;
 
-/* How to record. Start from octreel_recorder_def_default() and change what you need. Names are those that
- * "octreel record --help" lists. */
+/* The options of a recording. Start from octreel_recorder_def_default() and change what you need. "octreel record
+ * --help" lists the values of the options that are names. */
 typedef struct octreel_recorder_def {
-    const char *folder;   /* the recording's folder: new, or without a recording. Null with a ring */
+    const char *folder;   /* folder for the recording: a new folder, or one without a recording. Null with a ring */
     bool replace;         /* the folder may hold a recording, which is removed once tick 0 of the new one is filmed. If
                              that fails, the old recording stays. Other files always stay. BAD_FOLDER if the folder holds
                              files that only look like a recording, or if a process is recording into it */
@@ -105,18 +107,18 @@ typedef struct octreel_recorder_def {
                              Octreel builds to show them; full leaves of that tree grow */
     octree_player player; /* OCTREE_PLAYER_NONE; or OCTREE_PLAYER_BODY: the point whose collisions are found, given by
                              id, box_size and sweep */
-    int width, height;    /* pixels; 1 to 16384 */
+    int width, height;    /* size of a frame in pixels, 1 to 16384 */
     const char *camera;   /* "iso", "orbit", "follow" ... */
     const char *layers;   /* "default", "all", "-text", "nodes,points,shapes" ... */
-    const char *color_by; /* colours of nodes: "depth", "occupancy", "plain" ... */
+    const char *color_by; /* what the colours of nodes show: "depth", "occupancy", "plain" ... */
     const char *show_tree; /* whose nodes are drawn: "own" (Octreel's), "foreign" (those of octreel_tick_info.foreign),
                               "both", or "auto": Octreel's until a tick has foreign nodes, then the foreign ones */
-    const char *color_points; /* "plain", "height", "leaf" ... */
-    const char *shade;        /* of points: "bands", "edl", "none" */
-    const char *diagram;      /* "none", "beside", "only" */
-    bool labels;              /* write paths such as 0/3/7 on nodes where there is room */
-    double lod;               /* pixels: leave out smaller boxes whose ancestor is drawn; 0: none */
-    uint64_t budget;          /* the most boxes, and the most points, in a frame; 0: no limit */
+    const char *color_points; /* what the colours of points show: "plain", "height", "leaf" ... */
+    const char *shade;        /* shading of points: "bands", "edl", "none" */
+    const char *diagram;      /* the tree drawn as a diagram: "none", "beside" the space, "only" the diagram */
+    bool labels;              /* write the addresses of nodes, such as 0/3/7, on nodes where there is room */
+    double lod;               /* leave out boxes smaller than this many pixels if an ancestor is drawn; 0: draw all */
+    uint64_t budget;          /* maximum number of boxes, and of points, in a frame; 0: no limit */
     int aa;                   /* anti-aliasing: 1 (off), 2 or 4 samples on each side of a pixel */
     uint64_t every;           /* film each N-th tick; 0: no frames, since the page can draw every tick itself.
                                  ticks.jsonl has all ticks in any case */
@@ -124,29 +126,34 @@ typedef struct octreel_recorder_def {
                             the cheapest: it never loads OpenGL, which takes 0.2 s of processor time and 85 MB; octreel
                             verify can check the frames later. "checked" compares the first frame, every 100th and the
                             last with OSMesa's, if OpenGL can be loaded */
-    const char *context; /* the OpenGL to load: "auto", "osmesa", "egl" */
+    const char *context; /* the OpenGL library to load: "auto", "osmesa", "egl" */
     bool any_renderer;   /* with "egl": OpenGL draws on any renderer, graphics cards included. Frames may then differ on
                             other machines */
-    size_t queue_ticks;  /* the most ticks that wait for the worker, at least 1 */
-    size_t queue_bytes;  /* the most memory of these ticks together; one tick alone may take more */
+    size_t queue_ticks;  /* maximum number of ticks that wait for the worker thread, at least 1 */
+    size_t queue_bytes;  /* maximum memory of these ticks together, in bytes; a single tick may need more */
     bool never_wait; /* return OCTREEL_BUSY if the queue is full, instead of waiting for the worker; the tick is then a
                         gap. Tick 0 always waits */
     size_t ring;     /* keep the last N ticks in memory, and film them only in octreel_recorder_write(); 0: film every
                         tick. Memory: the points of the oldest tick, and the changes of the others */
 } octreel_recorder_def;
 
-/* No player, 1280 x 720, "iso", the default layers, "integers", 16 ticks or 64 MiB in the queue, no ring. */
+/* Returns the default options: no player, 1280 x 720 pixels, camera "iso", the default layers, fill "integers", 16
+ * ticks or 64 MiB in the queue, no ring. */
 octreel_recorder_def octreel_recorder_def_default(void);
 
-/* A program's queries and shapes at a tick, and its points if it has no octree. The arrays are copied; their `tick` is
- * not read. The recorder answers the queries itself, exactly, at the end of the tick and with each query's `skip` and
- * `epsilon`. The program gets the same answers if it asks after its last change of the tick. To show a query that it
- * asked before a change, pass a tick of its own before that change. A query's own answer is copied and checked.
+/* The queries and shapes of a program at one tick, and its points if it has no octree. All arrays are copied. The
+ * member `tick` of their items is ignored.
  *
- * In one tick the points come from the tree, from `points` or from `changes`. A program may mix lists and changes from
- * tick to tick, but not trees with either. Without any of the three nothing has changed; only a program that passes
- * lists has no points then, since the data of an empty C++ vector may be null. A point outside the world is in no
- * answer; the tick in which it enters or leaves has the event "refused".
+ * The recorder answers each query exactly, at the end of the tick, with the query's `skip` and `epsilon`. The program
+ * gets the same answers if it makes its queries after its last change of the tick. To show a query that the program
+ * made before a change, call octreel_recorder_tick() once before that change. If a query carries the program's own
+ * answer, the answer is copied and checked.
+ *
+ * In one tick the points come from the tree, from `points` or from `changes`. A program may use lists at some ticks and
+ * changes at others, but then it must not use trees. If a tick has none of the three, nothing has changed. The
+ * exception is a program that passed a list before: then it has no points now, because the data pointer of an empty C++
+ * vector may be null. A point outside the world is in no answer. The tick in which it enters or leaves the world has
+ * the event "refused".
  *
  * Shapes are everything in a frame that is not a point or a node, such as walls and goals. */
 typedef struct octreel_tick_info {
@@ -154,57 +161,61 @@ typedef struct octreel_tick_info {
     size_t query_count;
     const octree_shape *shapes;
     size_t shape_count;
-    const octree_point *points; /* all points, in any order, each id once */
+    const octree_point *points; /* all points, in any order; each id occurs once */
     size_t point_count;
-    const octree_edit *changes; /* since the last call, in the order in which they were made. A point may change several
-                                   times. Velocities are not read */
+    const octree_edit *changes; /* point changes since the last call, in the order in which they were made. A point
+                                   may change several times. Velocities are ignored */
     size_t change_count;
     const octree_foreign_tree *foreign; /* the nodes of the program's own index, from this tick on; `visits` of the
                                            queries name the nodes that were visited, left out or hit. Null: as before */
 } octreel_tick_info;
 
-/* Open a recorder. On an error *recorder is null and the text is in *error, which may be null. The definition is
- * copied; the folder is made. Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID (the player's), BAD_FOLDER, NO_MEMORY. Cost: a
- * thread; a ring needs one only while it is written. */
+/* Open a recorder: copy the definition and create the folder. On failure *recorder is null and *error, which may be
+ * null, has the text. Errors: NULL_ARGUMENT, BAD_OPTION, BAD_ID (the player's id), BAD_FOLDER, NO_MEMORY. Cost: one
+ * thread; with a ring the thread exists only during octreel_recorder_write(). */
 octreel_status octreel_recorder_open(const octreel_recorder_def *def, octreel_recorder **recorder,
                                      octreel_error *error);
 
-/* Record a tick: the current points with unique ids, the queries and the shapes; `about` may be null. The first call is
- * tick 0. The points are those of the tree, or with a null tree those of `about`. After a tick with a tree, a null tree
- * is NULL_ARGUMENT. A tree under OCTREE_AUTO is OTHER_TREE after it has changed its capacity. The arguments are not
- * used after the call returns. It waits for the worker if the queue is full, and at tick 0 until the recording has
- * begun.
+/* Record a tick: the current points, the queries and the shapes. The ids of the points must be unique. `about` may be
+ * null. The first call is tick 0. The points are those of the tree; if `tree` is null, they are those of `about`. After
+ * a tick with a tree, a null tree is the error NULL_ARGUMENT. A tree under OCTREE_AUTO that has changed its capacity is
+ * the error OTHER_TREE. The arguments are not used after the call returns. The call waits for the worker thread if the
+ * queue is full, and at tick 0 until the recording has begun.
  *
- * If a tick is refused, its list is ignored, but its changes and foreign nodes stay valid: the next accepted tick has
- * them. Only invalid changes are left out: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
- * insertion of an existing id) and NO_POINT (a move or removal of a missing point); the error names the first. After
- * NO_MEMORY no change is kept: pass the tick again.
+ * If a tick is refused, its list of points is ignored. Its changes and foreign nodes stay valid: the next accepted tick
+ * has them. Invalid changes are dropped: BAD_POINT (a NaN, an infinity, an unknown kind), BAD_ID, DUPLICATE_ID (an
+ * insertion of an existing id) and NO_POINT (a move or removal of a missing point). The error names the first invalid
+ * change. After NO_MEMORY no change is kept: pass the tick again.
  *
  * Errors: NULL_ARGUMENT, OTHER_TREE, TWO_SOURCES, DUPLICATE_ID, BAD_ID, BAD_POINT, NO_POINT, BAD_QUERY, BAD_SHAPE,
- * BAD_NODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY. Cost: of a tree
- * O(changes + queries + shapes), some hundred nanoseconds a change, while few of its points change in a tick: it then
- * keeps its changes for the recorder (octree_changes_since), at 64 bytes each. Of a tree of which more than an eighth
- * changes, of one that is handed over first, tuned, compacted or cleared, and of a list O(nodes + n + queries +
- * shapes), and 96 bytes a point; of changes O(changes log changes + queries + shapes), after the first that follow a
- * list, and up to 128 bytes a point; of foreign nodes O(m log m); and what changed until it is filmed. */
+ * BAD_NODE, BUSY, CANNOT_DRAW and BAD_FOLDER (tick 0), BROKEN, CLOSED, NO_MEMORY.
+ *
+ * Cost by source of the points (q is the number of queries and shapes):
+ *    - a tree of which at most an eighth changes in a tick: O(changes + q), some hundred nanoseconds per change. The
+ *      tree then keeps its changes for the recorder (octree_changes_since), at 64 bytes each.
+ *    - a tree of which more changes, or that is new to the recorder, or was tuned, compacted or cleared; and a list:
+ *      O(nodes + n + q), and 96 bytes per point.
+ *    - changes: O(changes log changes + q), and up to 128 bytes per point. The first changes after a list cost more.
+ *    - in addition, m foreign nodes: O(m log m).
+ * A tick's changes use memory until the tick is filmed. */
 octreel_status octreel_recorder_tick(octreel_recorder *recorder, const octree *tree, const octreel_tick_info *about);
 
-/* Record the ring's ticks and gaps into a folder, and return when that is done. Tick 0 of the recording is tick *first
- * of the recorder; `first` may be null. The ring continues and may be written again into another folder. Errors:
- * NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN, NO_MEMORY; and GAPS after success if the
- * recording has gaps. */
+/* Record the ticks and gaps of the ring into a folder. Returns when the recording is complete. Tick 0 of the recording
+ * is tick *first of the recorder; `first` may be null. The ring is kept and may be written again into another folder.
+ * Errors: NULL_ARGUMENT, NO_RING, NOTHING, CLOSED, BAD_FOLDER, CANNOT_DRAW, BROKEN, NO_MEMORY. GAPS means that the
+ * recording is complete but has gaps. */
 octreel_status octreel_recorder_write(octreel_recorder *recorder, const char *folder, uint64_t *first);
 
-/* Record the rest of the queue and complete the recording with session.json and the page. A ring is dropped. If a tick
- * failed, the earlier ticks are complete, and octreel record --resume continues them. Errors: BROKEN, the error of tick
- * 0, NOTHING, CLOSED; and GAPS after success if ticks were refused: the error has their count, and the first one's
- * number and reason. */
+/* Record the ticks that are still in the queue, and complete the recording with session.json and the page. A ring is
+ * dropped. If a tick failed, the ticks before it are complete, and octreel record --resume continues after them.
+ * Errors: BROKEN, the error of tick 0, NOTHING, CLOSED. GAPS means that the recording is complete but ticks were
+ * refused. The error text then has the number of refused ticks, and the number and reason of the first. */
 octreel_status octreel_recorder_close(octreel_recorder *recorder);
 
 /* Close the recorder if it is open, and free it. */
 void octreel_recorder_destroy(octreel_recorder *recorder);
 
-/* The error of the last call that failed, or "". Valid until the next call. */
+/* Returns the error text of the last call that failed, or "". Valid until the next call. */
 const char *octreel_recorder_error(const octreel_recorder *recorder);
 
 #ifdef __cplusplus
