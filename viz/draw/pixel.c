@@ -324,8 +324,7 @@ static bool can_reach_pixel(const quad *q, const renderer_part *part)
 {
     const int32_t left = part->x * QUAD_SUBPIXELS, right = (part->x + part->width) * QUAD_SUBPIXELS;
     const int32_t top = part->y * QUAD_SUBPIXELS, bottom = (part->y + part->height) * QUAD_SUBPIXELS;
-    int before = 0, after = 0, above = 0,
-        below = 0; /* the number of the quad's corners beyond each side of the pixel */
+    int before = 0, after = 0, above = 0, below = 0; /* the number of corners beyond each side of the pixel */
     for (int i = 0; i < 4; i++) {
         before += q->x[i] < left;
         after += q->x[i] > right;

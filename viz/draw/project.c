@@ -94,8 +94,8 @@ static bool clip_to_picture(const view *v, piece *p)
     for (int axis = 0; axis < 2; axis++)
         if (!clip_to_side(a, b, axis, 1, -CLIP_MARGIN) || !clip_to_side(a, b, axis, -1, size[axis] + CLIP_MARGIN))
             return false;
-    for (int axis = 0; axis < 2;
-         axis++) { /* rounding may move a weighted mean of two numbers outside the interval between them */
+    /* rounding may move a weighted mean of two numbers outside the interval between them */
+    for (int axis = 0; axis < 2; axis++) {
         p->from[axis] = fmin(fmax(a[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
         p->to[axis] = fmin(fmax(b[axis], -CLIP_MARGIN), size[axis] + CLIP_MARGIN);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* camera.c - see camera.h. Only sqrt, fabs, floor, fmod and fmax come from libm: they are exact or correctly rounded,
- * so that every machine computes the same camera. */
+/* camera.c - see camera.h. The only functions of libm in use are sqrt, fabs, floor, fmod and fmax. Their results are
+ * exact or correctly rounded, so that every machine computes the same camera. */
 #include "camera.h"
 #include "filter.h"
 #include "octree/octree.h"
@@ -9,19 +9,20 @@
 #include <math.h>
 #include <string.h>
 
-/* The size of the window divided by the size of the world's picture: leaves room for labels. */
+/* The size of the window divided by the size of the world in the picture. The difference is room for labels. */
 #define MARGIN 1.1
-#define THINNEST 1e-3   /* a world that appears thinner than this is not enlarged further */
-#define ORBIT_TICKS 480 /* ticks for a full turn */
-#define FOCAL 1.6       /* focal length of the camera that follows the player, in half windows */
+#define THINNEST 1e-3   /* the least extent of the world on screen for which the camera still zooms in */
+#define ORBIT_TICKS 480 /* the number of ticks in which the orbiting camera turns once */
+#define FOCAL 1.6       /* the focal length of the camera that follows the player, in halves of the window */
 
-/* Limits within which the rounding errors of is_small_box_below() stay below ROUNDING pixels: how far a box may be off
- * the view axis, relative to its depth, and how far from the eye. */
+/* Limits of the fast path of is_small_box_below(): the greatest distance of a box from the view axis, relative to its
+ * depth, and the greatest depth. Within them, rounding errors stay below ROUNDING pixels. */
 #define ASIDE 1e3
 #define FARTHEST 1e100
 #define ROUNDING 1e-6
 
-/* Taylor series on [0, pi/4], where eight terms are beyond a double's precision. */
+/* Compute the cosine and sine of an angle in [0, pi/4] from their Taylor series. In this range, eight terms are enough
+ * for the precision of a double. */
 static void compute_octant_turn(double angle, double *cosine, double *sine)
 {
     const double square = angle * angle;
@@ -36,18 +37,19 @@ static void compute_octant_turn(double angle, double *cosine, double *sine)
 
 void camera_compute_cosine_sine(double turns, double *cosine, double *sine)
 {
-    const double whole = floor(turns * 4 + 0.5); /* quarter turns */
+    const double whole = floor(turns * 4 + 0.5); /* the number of quarter turns, rounded */
     double c, s;
     compute_octant_turn(fabs(turns * 4 - whole) * 1.5707963267948966, &c, &s);
     s = turns * 4 < whole ? -s : s;
-    const double cosines[4] = {c, -s, -c, s}; /* after 0 to 3 quarter turns; the sine is the cosine a quarter before */
+    /* the cosine after 0 to 3 quarter turns; the sine equals the cosine one quarter turn earlier */
+    const double cosines[4] = {c, -s, -c, s};
     const int quarter = (int)fmod(whole, 4) + 4;
     *cosine = cosines[quarter % 4];
     *sine = cosines[(quarter + 3) % 4];
 }
 
-/* Set the camera's axes. azimuth: the direction of view, 0 along +y, growing to the left; elevation: of the eye. Both
- * in turns. */
+/* Set the camera's axes. The azimuth is the direction of view: 0 is +y, and it grows to the left. The elevation is that
+ * of the eye above the horizon. Both are in turns. */
 static void set_axes(camera *c, double azimuth, double elevation)
 {
     double ca, sa, ce, se;
@@ -58,14 +60,14 @@ static void set_axes(camera *c, double azimuth, double elevation)
     memcpy(c->forward, (double[3]){-sa * ce, ca * ce, -se}, sizeof c->forward);
 }
 
-/* Place the eye at a distance from a target, in unit coordinates. */
+/* Place the eye at a distance behind a target. Both are in unit coordinates. */
 static void place_eye(camera *c, const double target[3], double distance)
 {
     for (int i = 0; i < 3; i++)
         c->eye[i] = target[i] - distance * c->forward[i];
 }
 
-/* Half the extent of a box with these half sizes, along an axis of the camera. */
+/* Half the extent, along an axis of the camera, of a box whose half sizes are `half`. */
 static double find_half_span(const double axis[3], const double half[3])
 {
     return (fabs(axis[0]) * half[0] + fabs(axis[1]) * half[1]) + fabs(axis[2]) * half[2];
@@ -75,7 +77,7 @@ static const struct {
     double azimuth, elevation; /* in turns */
     bool perspective;
 } cameras[CAMERA_COUNT] = {
-    /* Not the true isometric view, in which a cube's nearest corner hides its farthest. */
+    /* not the true isometric view, in which a cube's nearest corner hides its farthest corner */
     [CAMERA_ISO] = {30.0 / 360, 22.0 / 360, false},
     [CAMERA_TOP] = {0, 0.25, false},
     [CAMERA_FRONT] = {0, 0, false},
@@ -84,15 +86,17 @@ static const struct {
     [CAMERA_ORBIT] = {30.0 / 360, 22.0 / 360, true},
 };
 
-/* Zoom of the orbiting camera. The box turns about its vertical axis, and every tick must have the same zoom, so the
- * vertical cylinder around the box is fitted into the window. Each rim of the cylinder appears widest where the line of
- * sight touches it, and reaches highest and lowest at its nearest and farthest points. In perspective it reaches
- * farther down than up: *lift is the shift, in pixels, that centres it. */
+/* Returns the zoom of the orbiting camera. The box turns about its vertical axis, and the zoom must be the same in
+ * every tick. So the vertical cylinder around the box is fitted into the window.
+ *
+ * A rim of the cylinder appears widest where the line of sight touches it. It reaches highest and lowest at its nearest
+ * and farthest points. In perspective the cylinder reaches farther down than up from the view axis: *lift is the shift
+ * in pixels that centres it. */
 static double find_orbit_zoom(const camera *c, camera_window window, double *lift)
 {
     const double radius = sqrt(c->half[0] * c->half[0] + c->half[1] * c->half[1]), rise = c->up[2];
     const double fall = -c->forward[2];
-    double across = THINNEST, up = THINNEST, down = THINNEST; /* from the axis of view, at distance 1 */
+    double across = THINNEST, up = THINNEST, down = THINNEST; /* extents from the axis of view, at distance 1 */
     for (int top = -1; top <= 1; top += 2) {
         const double height = top * c->half[2], depth = c->distance - height * fall;
         across = fmax(across, radius / sqrt(depth * depth - radius * radius * rise * rise));
@@ -108,7 +112,7 @@ static double find_orbit_zoom(const camera *c, camera_window window, double *lif
     return zoom;
 }
 
-/* Zoom of an orthographic camera: the framed box just fits into the window. */
+/* Returns the zoom of an orthographic camera at which the framed box just fits into the window. */
 static double find_zoom(const camera *c, camera_window window)
 {
     const double across = fmax(find_half_span(c->right, c->half), THINNEST),
@@ -163,7 +167,7 @@ camera camera_make(const view *v, camera_window window, const octree_box *world,
     return c;
 }
 
-/* Pixels for each unit of length at the camera's center. */
+/* Pixels per unit of length (unit coordinates) at the camera's center. */
 static double zoom_at_center(const camera *c)
 {
     return c->perspective ? c->zoom / c->distance : c->zoom;
@@ -231,11 +235,16 @@ double camera_box_size_in_pixels(const camera *c, const octree_box *box)
     return fmax(high[0] - low[0], high[1] - low[1]);
 }
 
-/* The corner of a box at offset d from its middle (x, y, depth) is projected off the middle's pixel by
+/* Let (x, y, depth) be the camera coordinates of the box's middle. A corner at offset d from the middle is projected at
+ * this distance in x from the middle's pixel, and likewise in y:
+ *
  *   zoom (d.right - x / depth d.forward) / (depth + d.forward)
- * in x, and likewise in y. The numerator is largest, in size, at two opposite corners; the denominator lies between the
- * depths of the nearest and the farthest corner. This bounds the box's size on screen within their quotient, nearly 1
- * for a small box. Rounding errors are far below ROUNDING when no corner is beside or behind the eye. */
+ *
+ * The absolute value of the numerator is largest at two opposite corners. The denominator lies between the depths of
+ * the nearest and the farthest corner. Together they give a lower and an upper bound of the box's size on screen. For a
+ * small box the ratio of the bounds is nearly 1, so that one of them usually decides.
+ *
+ * Rounding errors are far below ROUNDING if no corner is beside or behind the eye. */
 static bool is_small_box_below(const camera *c, const octree_box *box, double pixels)
 {
     double middle[3], half[3], across = 0, along = 0;
@@ -268,8 +277,8 @@ bool camera_is_box_below(const camera *c, const octree_box *box, double pixels)
 
 /* ---- Framing points ------------------------------------------------------------------------------------------ */
 
-/* The least extent of a fitted box relative to its longest side, so that points on a line or a plane are shown with
- * some of their surroundings. */
+/* The least extent of a fitted box relative to its longest side. Points on a line or a plane are thus shown with some
+ * space around them. */
 #define THINNEST_FIT (1.0 / 16)
 
 typedef struct bounds {
@@ -300,7 +309,7 @@ static octree_walk_order include_shown_points(const octree_node *node, void *con
     return OCTREE_WALK_ON;
 }
 
-/* Halves of extents, since extents can overflow. */
+/* Half of a box's extent on an axis: the whole extent can overflow. */
 static double half_extent(const octree_box *box, int axis)
 {
     return box->max[axis] / 2 - box->min[axis] / 2;

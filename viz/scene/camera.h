@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* camera.h - from world coordinates to pixels, in doubles.
+/* camera.h - converts world coordinates to pixels, in double precision.
  *
- * A camera frames a box: the world, or the box that --fit points computes. A position takes three steps to its pixel:
- * - camera_to_unit_coordinates(): relative to the lowest corner of the box and divided by its size, so that the box
- * lies within [-1, 1] on every axis. Subtracting first keeps precision: a scene at 1e15, or with an extent of 1e-300,
- * looks like the same scene at 0.
- * - camera_transform(): camera coordinates, relative to the eye, along the axes right, up and forward (depth).
- * - camera_project(): pixels, scaled by the zoom, in perspective also divided by the depth; y points down.
+ * A camera frames a box: the world, or the box that --fit points computes. A world position becomes a pixel in three
+ * steps:
  *
- * All steps are in double precision and use no function that differs between machines.
- */
+ * 1. camera_to_unit_coordinates(): subtract the lowest corner of the box and divide by its size. The box then lies
+ * within [-1, 1] on every axis. Subtracting first keeps precision: a scene at 1e15, or with an extent of 1e-300, looks
+ * like the same scene at 0.
+ *
+ * 2. camera_transform(): camera coordinates, relative to the eye, along the axes right, up and forward (depth).
+ *
+ * 3. camera_project(): pixels. Multiply by the zoom; under perspective, divide by the depth; y points down.
+ *
+ * The functions of libm that differ between machines are not used. */
 #ifndef SCENE_CAMERA_H
 #define SCENE_CAMERA_H
 
@@ -22,32 +25,32 @@ typedef struct camera_window {
 } camera_window;
 
 typedef struct camera {
-    double origin[3];                   /* the box's lowest corner, times scale */
-    double scale;                       /* 1, or 1/2 where the box's extent overflows */
-    double size;                        /* the box's largest extent, times scale */
-    double half[3];                     /* half the box's extents, in unit coordinates: 1 on the longest axis */
+    double origin[3]; /* the box's lowest corner, times scale */
+    double scale;     /* 1, or 1/2 where the box's extent overflows */
+    double size;      /* the box's largest extent, times scale */
+    double half[3];   /* half the box's extent on each axis, in unit coordinates: 1 on the longest axis */
     double right[3], up[3], forward[3]; /* an orthonormal basis; forward points away from the eye */
-    double eye[3];                      /* in unit coordinates */
+    double eye[3];                      /* the position of the eye in unit coordinates */
     bool perspective;
-    double zoom;                  /* pixels a unit; under perspective, at distance 1 */
-    double middle[2];             /* the pixel on the axis of view */
+    double zoom;                  /* pixels per unit of length; under perspective, at distance 1 */
+    double middle[2];             /* the pixel at which the axis of view meets the picture */
     double center[3];             /* the world position that the camera looks at; `middle` shows it */
-    double distance;              /* from the eye to the center, in unit coordinates */
+    double distance;              /* the distance from the eye to the center, in unit coordinates */
     double near;                  /* geometry at a smaller depth is clipped */
-    double near_depth, far_depth; /* the box's range of depth, which the depth bands divide */
-    bool clips_depth;             /* geometry outside of that range is clipped */
+    double near_depth, far_depth; /* the range of depths of the framed box; the depth bands divide it */
+    bool clips_depth;             /* geometry outside near_depth to far_depth is clipped */
 } camera;
 
-/* The camera of a tick. The view's look, center and zoom replace the camera's own if they are given. The result depends
- * only on the view, the world, the player's position and the number of the tick. */
+/* Returns the camera of a tick. The view's look, center and zoom, if given, replace the values of view.camera. The
+ * result depends only on the view, the world, the player's position and the number of the tick. */
 camera camera_make(const view *v, camera_window window, const octree_box *world, const double player[3], uint64_t tick);
 
-/* The camera of a close-up: it looks in the direction of c at `place`, which it shows in the middle of `window`,
- * `times` as large as c shows its center. It clips geometry that is farther before or behind the place than the window
- * reaches to the side. */
+/* Returns the camera of a close-up. It looks in the direction of `c` at the world position `place`, which appears in
+ * the middle of `window`, magnified `times` as much as the center of `c`. It clips geometry whose distance from
+ * `place`, along the direction of view, is larger than the window's reach to the side. */
 camera camera_make_close_up(const camera *c, camera_window window, const double place[3], double times);
 
-/* The length of a pixel in world units, at the camera's center. */
+/* Returns the length of a pixel in world units, at the camera's center. */
 double camera_world_length_of_pixel(const camera *c);
 
 static inline double dot_product(const double a[3], const double b[3])
@@ -55,7 +58,7 @@ static inline double dot_product(const double a[3], const double b[3])
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/* Convert to unit coordinates: 2 (p - origin) / size - half. The first function converts one axis. */
+/* Convert a world position to unit coordinates: 2 (p - origin) / size - half. The first function converts one axis. */
 static inline double camera_to_unit_coordinate(const camera *c, int axis, double at)
 {
     return 2 * ((at * c->scale - c->origin[axis]) / c->size) - c->half[axis];
@@ -67,7 +70,8 @@ static inline void camera_to_unit_coordinates(const camera *c, const double posi
         result[i] = camera_to_unit_coordinate(c, i, position[i]);
 }
 
-/* Convert to camera coordinates: distances from the eye along right, up and forward, in units of unit coordinates. */
+/* Convert a world position to camera coordinates: distances from the eye along right, up and forward, in unit
+ * lengths. */
 static inline void camera_transform(const camera *c, const double position[3], double result[3])
 {
     double from_eye[3];
@@ -79,7 +83,7 @@ static inline void camera_transform(const camera *c, const double position[3], d
     result[2] = dot_product(from_eye, c->forward);
 }
 
-/* Camera coordinates to pixels, y down. The depth must be at least `near` under perspective. */
+/* Convert camera coordinates to pixels, y down. Under perspective the depth must be at least `near`. */
 static inline void camera_project(const camera *c, const double seen[3], double pixel[2])
 {
     const double scale = c->perspective ? c->zoom / seen[2] : c->zoom;
@@ -87,23 +91,24 @@ static inline void camera_project(const camera *c, const double seen[3], double 
     pixel[1] = c->middle[1] - seen[1] * scale;
 }
 
-/* The pixel of a position; false when it is not before the camera. */
+/* Find the pixel of a world position. False if the position is not in front of the camera. */
 bool camera_find_pixel(const camera *c, const double position[3], double pixel[2]);
 
-/* The size of a box on screen: the longer side, in pixels, of the axis-aligned rectangle around its projection.
+/* Returns the size of a box on screen in pixels: the longer side of the axis-aligned rectangle around its projection.
  * Infinite if a part of the box is nearer than `near`. Nothing inside the box appears larger. */
 double camera_box_size_in_pixels(const camera *c, const octree_box *box);
 
-/* True if camera_box_size_in_pixels() is below `pixels`. Faster than computing it, unless the size is close to
+/* True if camera_box_size_in_pixels() is below `pixels`. Faster than computing the size, unless it is close to
  * `pixels`. */
 bool camera_is_box_below(const camera *c, const octree_box *box, double pixels);
 
-/* If the view has FIT_POINTS, replace that by FIT_BOX with the box of the points that the view shows in the tree of
- * tick 0; by the box of their leaf if all of them are equal; by FIT_WORLD if there are none. Using tick 0 alone keeps
- * the camera from moving between ticks. Other views do not change. Cost: O(points). */
+/* If the view has FIT_POINTS, replace it by FIT_BOX with the box of the points that the view shows in the tree of tick
+ * 0. If these points are all equal, take the box of their leaf; if there are none, set FIT_WORLD. All ticks use the box
+ * of tick 0, so that the camera does not move between ticks. A view without FIT_POINTS is not changed. Cost:
+ * O(points). */
 void camera_fit_points(view *v, const octree *tree);
 
-/* The cosine and sine of a fraction of a full turn, from polynomials, so that every machine computes the same bits. */
+/* Compute the cosine and sine of an angle in turns, from polynomials, so that every machine gets the same bits. */
 void camera_compute_cosine_sine(double turns, double *cosine, double *sine);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* filter.c - the rules of view filters; see filter.h. */
+/* filter.c - tests nodes and points against a view filter; filter.h states the rules. */
 #include "filter.h"
 #include "number.h"
 

@@ -19,36 +19,38 @@
 
 #include <stdbool.h>
 
-/* All zero shows the whole tree. */
+/* Which nodes and points a view shows. All zero: the whole tree. */
 typedef struct view_filter {
-    char slice;                    /* 'x', 'y' or 'z': only nodes that a plane across this axis cuts; 0: all nodes */
-    double slice_at;               /* the plane's coordinate on this axis */
-    bool by_depth;                 /* only nodes from min_depth to max_depth */
+    char slice;      /* 'x', 'y' or 'z': show only nodes that a plane across this axis cuts; 0: no plane */
+    double slice_at; /* the plane's coordinate on the axis `slice` */
+    bool by_depth;   /* show only nodes from min_depth to max_depth */
     unsigned min_depth, max_depth; /* 0 to OCTREE_MAX_DEPTH */
-    bool leaves;                   /* only leaves */
-    bool by_region;                /* only nodes and points that meet the region */
+    bool leaves;                   /* show only leaves */
+    bool by_region;                /* show only nodes and points that meet the region */
     octree_box region;
 } view_filter;
 
-/* True if a node's box is shown. `world` is the tree's. */
+/* True if the view shows a node's box. `world` is the tree's box. */
 bool filter_shows_node(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* True if a node or anything below it may be shown: slice and region cut off whole branches. */
+/* True if the view may show a node or any of its descendants. The slice and the region exclude whole subtrees. */
 bool filter_shows_subtree(const view_filter *f, const octree_box *world, const octree_node *node);
 
-/* True if a foreign node's box is shown. Unlike nodes of the tree, its box is closed and may be flat: the slice's plane
- * must meet the closed box. A range of depths that ends at OCTREE_MAX_DEPTH includes all greater depths. */
+/* True if the view shows a foreign node's box. Unlike a node of Octreel's tree, a foreign node has a closed box, which
+ * may be flat: the box is shown if the slice's plane meets it, boundary included. A range of depths that ends at
+ * OCTREE_MAX_DEPTH includes all greater depths. */
 bool filter_shows_box(const view_filter *f, const octree_box *box, unsigned depth, bool leaf);
 
-/* A point is shown if both are true: filter_shows_points_of() for its leaf, filter_shows_point() for its position. */
+/* The view shows a point if both functions return true: filter_shows_points_of() for the point's leaf, and
+ * filter_shows_point() for its position. */
 bool filter_shows_points_of(const view_filter *f, const octree_box *world, const octree_node *leaf);
 bool filter_shows_point(const view_filter *f, const double position[3]);
 
 /* True if any part of the filter is set. */
 bool filter_is_set(const view_filter *f);
 
-/* Returns null if the filter can show some node of a tree with this world and depth; otherwise a sentence, in `text`,
- * that says why it can show none. */
+/* Returns null if the filter can show some node of a tree with this world and depth. Otherwise returns `text`, with a
+ * sentence that explains why the filter shows no node. */
 #define FILTER_TEXT 256
 const char *filter_find_problem(const view_filter *f, const octree_def *tree, char text[FILTER_TEXT]);
 

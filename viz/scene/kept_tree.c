@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number of changes above which the cache is not used: each change may cost a walk of its subtree. */
+/* The greatest number of changes for which the cache is used: each change may cost a walk of the subtree that it
+ * changes. */
 static size_t find_change_limit(const octree *tree)
 {
     return 16 + octree_count(tree) / 1024;
@@ -52,7 +53,7 @@ void kept_tree_release(kept_tree *k)
 /* ---- Changes ------------------------------------------------------------------------------------------------ */
 
 /* A key is the address of a cell at the greatest depth. Keys ascend in the order of the walk. The cell of an address
- * has the keys from first_key() on, key_count() of them. */
+ * contains the cells with the keys from first_key() to first_key() + key_count() - 1. */
 static uint64_t first_key(octree_address address)
 {
     return address << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
@@ -63,8 +64,9 @@ static uint64_t key_count(octree_address address)
     return UINT64_C(1) << 3 * (OCTREE_MAX_DEPTH - octree_address_depth(address));
 }
 
-/* Add the key of the leaf at a changed position. If the leaf was deleted, octree_locate() returns the node above it. If
- * that node is above a kept subtree, the subtree no longer exists, and the walk does not look for it. */
+/* Add the key of the leaf that contains a changed position. If this leaf was deleted, octree_locate() returns an
+ * ancestor. The ancestor may lie above a kept subtree: then the kept subtree no longer exists, and the walk does not
+ * look for it. */
 static void add_key(kept_tree *k, const double at[3])
 {
     octree_node leaf;
@@ -84,7 +86,7 @@ static void add_change(const octree_change *change, void *context)
         add_key(k, change->to);
 }
 
-/* Returns a name that no change log of this process had before. */
+/* Returns a name that no other change log of this process has had. */
 static size_t make_unique_log_name(void)
 {
     static atomic_size_t names;
@@ -100,8 +102,10 @@ static bool read_changes(kept_tree *k, const octree *tree)
     return octree_changes_since(tree, make_unique_log_name(), &k->cursor, add_change, k) && !k->lost;
 }
 
-/* Read the changes since the last walk. False if they are unknown or too many. Reading makes the tree log its further
- * changes, which is wasted if there are too many: after each such failure, do not read for a longer number of ticks. */
+/* Read the changes since the last walk. False if they are not known, or if there are too many.
+ *
+ * Reading makes the tree log its next changes. The log is wasted work if there are too many changes, so each failure
+ * suspends reading for more ticks than the failure before. */
 static bool update_changes(kept_tree *k, const octree *tree)
 {
     enum { LONGEST_WAIT = 63 };
@@ -193,7 +197,8 @@ bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node)
     return node->depth >= above && node->address >> 3 * (node->depth - above) == k->open.address;
 }
 
-/* Set the count of each node. From the last node to the first: the counts of a node's children are then known. */
+/* Set the count of each node, from the last node to the first, so that the counts of a node's children are known before
+ * its own. */
 static void count_nodes(kept_subtree *subtree)
 {
     for (uint32_t i = subtree->node_count; i-- > 0;) {
@@ -214,7 +219,7 @@ static digest_run digest_markers(const digest_names *names, const scene_marker *
     return run;
 }
 
-/* If there is no memory, the run is not noted, and scene_digest() digests its elements one by one. */
+/* If memory runs out, the run is not recorded, and scene_digest() hashes its elements one by one. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run)
 {
     if (run.end == 0 || !ARRAY_GROW(runs, 1))

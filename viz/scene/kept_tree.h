@@ -2,15 +2,17 @@
 /* kept_tree.h - a cache of subtrees as they appear in a scene, kept from one tick to the next.
  *
  * The problem: drawing a tick walks the whole tree, although most ticks change few points.
- * The idea: keep, for every leaf and for every subtree of at most KEPT_POINTS points whose parent has more, the boxes
- * and markers that the walk produced, and their digests. Before the next walk, the tree's change log lists the changed
- * positions. They become keys that sort in the order of the walk (depth first, by octant). During the walk, one cursor
- * moves through these keys and one through the kept subtrees. Both only move forward, and together they show whether a
- * subtree is unchanged. An unchanged subtree is copied; a changed one is walked and kept again.
- * The result: the scene is the same with and without the cache.
- * The cost: sorting c changes, O(c log c), and walking the nodes above the kept subtrees. The change log also costs the
- * tree time and memory. If there are too many changes, the cache is emptied, and the log is not used for a number of
- * ticks, which about doubles with each failure. */
+ *
+ * The idea: keep the boxes and markers that the walk produced, and their digests, for small subtrees. A subtree is kept
+ * if it is a leaf, or if it has at most KEPT_POINTS points and its parent has more. Before the next walk, the tree's
+ * change log lists the changed positions. They become keys, sorted in the order of the walk (depth first, by octant).
+ * During the walk, one cursor moves through these keys and another through the kept subtrees. Both only move forward,
+ * and together they show whether a subtree is unchanged. An unchanged subtree is copied; a changed subtree is walked
+ * and kept again. The scene is the same with and without the cache.
+ *
+ * The cost: O(c log c) to sort c changes, and the walk of the nodes above the kept subtrees. The change log also costs
+ * the tree time and memory. If there are too many changes, the cache is emptied, and the log is not used for a number
+ * of ticks, which about doubles with each failure. */
 #ifndef SCENE_KEPT_TREE_H
 #define SCENE_KEPT_TREE_H
 
@@ -18,73 +20,73 @@
 #include "octree/types.h"
 #include "scene_digest.h"
 
-/* The most points of a kept subtree that is not a leaf. */
+/* The most points of a kept subtree, unless it is a leaf. */
 #define KEPT_POINTS 128
 
-/* Trees with fewer points are not cached: walking them is as fast. */
+/* Trees with fewer points are not cached, because walking them takes no longer. */
 #define KEPT_FEWEST 4096
 
-/* The options that determine how a subtree looks. A change of any of them empties the cache. */
+/* The options that determine how a subtree is drawn. A change of any of them empties the cache. */
 typedef struct kept_look {
     view_coloring coloring;
-    bool boxes, points; /* shown */
+    bool boxes, points; /* the view shows boxes of nodes, points */
     size_t capacity;
     uint8_t point_width;
 } kept_look;
 
 typedef struct kept_node {
     scene_box box;
-    uint64_t digest; /* of the box */
-    uint32_t count;  /* number of nodes in its subtree, itself included */
+    uint64_t digest; /* the digest of the box */
+    uint32_t count;  /* the number of nodes in the node's subtree, the node included */
 } kept_node;
 
 typedef struct kept_subtree {
     octree_address address;
-    kept_node *nodes; /* in the order of the walk, root first. One block, which also holds the markers */
+    kept_node *nodes; /* in the order of the walk, root first; owned, in one block of memory with the markers */
     scene_marker *markers;
     uint32_t node_count, marker_count;
-    digest_run run;   /* of the markers, counted from 0 */
-    uint32_t thinned; /* number of points that the sieve drops */
-    uint32_t looser;  /* number of points that a sieve with one bit less keeps */
+    digest_run run;   /* the digest of the markers, which are numbered from 0 */
+    uint32_t thinned; /* the number of points that the sieve drops */
+    uint32_t looser;  /* the number of points that a sieve with one bit less would keep */
 } kept_subtree;
 
 typedef ARRAY(kept_subtree) kept_list;
 
-/* Empty when zeroed. */
+/* The cache. A zeroed struct is empty. */
 typedef struct kept_tree {
     kept_look look;
     uint64_t sieve;         /* the sieve that chose the kept points: node_boxes.h */
-    kept_list now, before;  /* the subtrees of this walk, and of the walk before it; both in the order of the walk */
-    size_t passed;          /* number of subtrees in `before` that the walk has passed */
-    octree_cursor cursor;   /* into the tree's change log */
-    unsigned wait, backoff; /* ticks until the change log is used again; the length of the last wait */
-    const octree *tree;     /* whose changes are being read */
+    kept_list now, before;  /* the subtrees of this walk and of the walk before, each in the order of the walk */
+    size_t passed;          /* the number of subtrees in `before` that the walk has passed */
+    octree_cursor cursor;   /* the position in the tree's change log */
+    unsigned wait, backoff; /* ticks until the change log is used again; the length of the last such wait */
+    const octree *tree;     /* the tree whose changes are being read */
     uint64_t *changed;      /* the keys of changed positions, sorted */
     size_t changed_count, changed_room, next_changed;
-    bool lost;         /* `changed` is incomplete: there were too many changes, or no memory */
+    bool lost;         /* `changed` is incomplete: there were too many changes, or memory ran out */
     kept_subtree open; /* the subtree that is being collected; address 0: none */
     kept_node *nodes;  /* the nodes of `open` so far */
     size_t node_room, first_marker;
     digest_names names;
-    digest_runs box_runs, marker_runs; /* known digests of runs of the scene's elements, for scene_digest() */
+    digest_runs box_runs, marker_runs; /* known digests of runs of the scene's boxes and markers, for scene_digest() */
 } kept_tree;
 
-/* Empty the cache; its arrays keep their memory. */
+/* Empty the cache. Its arrays are not freed. */
 void kept_tree_clear(kept_tree *k);
 
-/* Free all memory and zero the structure. */
+/* Free all memory and zero the struct. */
 void kept_tree_release(kept_tree *k);
 
-/* Begin a walk. Returns true if the walk uses the cache: it calls kept_tree_find_subtree() for each subtree that may be
- * kept. Returns false if the walk must not use it; the cache is then empty. Cost: O(c log c) for c changes. */
+/* Begin a walk. If it returns true, the walk calls kept_tree_find_subtree() for each subtree that may be kept. If it
+ * returns false, the walk must not use the cache, which is then empty. Cost: O(c log c) for c changes. */
 bool kept_tree_begin_walk(kept_tree *k, const octree *tree, const kept_look *look);
 
-/* Find the kept subtree at an address, and keep it for the next walk. Null if it has changed or was not kept. Calls
- * must come in the order of the walk. */
+/* Find the kept subtree at an address, and keep it for the next walk. Null if the subtree has changed or was not kept.
+ * Calls must come in the order of the walk. */
 const kept_subtree *kept_tree_find_subtree(kept_tree *k, octree_address address);
 
-/* Collect a subtree: open it, add its nodes in the order of the walk, and close it. Markers that are appended to the
- * scene in between belong to it. False if there is no memory; the caller then clears the cache. */
+/* Collect a subtree: begin it, add its nodes in the order of the walk, and end it. Markers that are appended to the
+ * scene between begin and end belong to the subtree. False when out of memory; the caller then clears the cache. */
 void kept_tree_begin_subtree(kept_tree *k, octree_address address, const scene *s);
 bool kept_tree_add_node(kept_tree *k, const scene_box *box);
 bool kept_tree_end_subtree(kept_tree *k, const scene *s);
@@ -92,13 +94,13 @@ bool kept_tree_end_subtree(kept_tree *k, const scene *s);
 /* True if a node belongs to the subtree that is being collected. */
 bool kept_tree_is_collecting(const kept_tree *k, const octree_node *node);
 
-/* Note the digest of elements that were copied to the scene, starting at element `first`. */
+/* Record the digest of a run of elements that were copied to the scene from index `first` on. */
 void kept_tree_add_run(digest_runs *runs, size_t first, digest_run run);
 
-/* Drop all known digests of runs, because the scene's elements have moved. */
+/* Drop all known digests of runs, because the indices of the scene's elements have changed. */
 void kept_tree_forget_runs(kept_tree *k);
 
-/* End the walk: free the subtrees that it did not find. */
+/* End the walk: free the subtrees of the last walk that this walk did not find. */
 void kept_tree_end_walk(kept_tree *k);
 
 #endif

@@ -16,10 +16,9 @@
 #include "query_looks.h"
 #include "scene.h"
 
-/* Each layer: its name, what it shows in sentences and in --help, its colour (theme.h), whether it fades with distance
- * as much as the tree does, and whether it is shown by default. In painter's order: later rows lie on top. Scene
- * digests hash the names. Where a layer has several colours, the one here stands for all.
- */
+/* One row for each layer, in painter's order: later rows lie on top. The columns: its name; a phrase for it in
+ * sentences; its description in --help; its colour (theme.h), or the main one if it has several; whether it fades with
+ * distance as much as the tree does; whether it is shown by default. Scene digests hash the names. */
 #define LAYER_MAP(X)                                                                                                   \
     X(WORLD, "world", "the world", "the world's box, the slice and the region, and axes with numbers", ROLE_WORLD,     \
       true, true)                                                                                                      \
@@ -54,12 +53,13 @@ typedef enum view_layer {
     LAYER_MAP(LAYER_ENUM)
 #undef LAYER_ENUM
         LAYER_ALL,
-    LAYER_COUNT = LAYER_CLOSEUP /* the layers that a view selects by view.layers, one bit each */
+    LAYER_COUNT = LAYER_CLOSEUP /* the number of layers that view.layers can select, one bit each */
 } view_layer;
 
 typedef struct layer_row {
-    const char *name, *words, *help; /* "visit-heat"; "pruned nodes"; "nodes that the tick's queries pruned" */
-    uint8_t role;                    /* theme_role */
+    /* such as "visit-heat", "pruned nodes" and "nodes that the tick's queries pruned" */
+    const char *name, *words, *help;
+    uint8_t role; /* theme_role */
     bool fades;
 } layer_row;
 
@@ -71,8 +71,9 @@ extern const layer_row layer_rows[LAYER_ALL];
 #define LAYER_DEFAULT_BIT(layer, name, words, help, role, fades, shown) | (shown ? 1u << LAYER_##layer : 0)
 #define VIEW_DEFAULT_LAYERS ((0u LAYER_MAP(LAYER_DEFAULT_BIT)) & VIEW_ALL_LAYERS)
 
-/* Read a list of layer names separated by commas; "all", "default" and "none" also count as names. "-text" removes a
- * layer; a list that begins with "-" starts from the default layers. On failure *bad points at the unknown name. */
+/* Parse a list of layer names separated by commas. The names "all", "default" and "none" are allowed too. A name after
+ * "-", as in "-text", removes a layer; a list that begins with "-" starts from the default layers. On failure returns
+ * false, and *bad points at the unknown name. */
 bool view_layers_parse(const char *list, unsigned *layers, const char **bad);
 
 static inline bool view_shows_layer(const view *v, view_layer layer)
@@ -82,7 +83,7 @@ static inline bool view_shows_layer(const view *v, view_layer layer)
                                     : v->layers >> layer & 1;
 }
 
-/* Returns the style of an element in the colour of a role, or in its layer's own colour. */
+/* Returns the style of an element: in the colour of a role, or in the colour of its layer. */
 static inline scene_style make_role_style(view_layer layer, unsigned role, scene_stroke stroke, unsigned width)
 {
     return (scene_style){(uint8_t)layer, (uint8_t)role, (uint8_t)stroke, (uint8_t)width};

@@ -6,12 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-#define CLOSEUP_PART 0.32    /* of the space, along its longer side */
-#define CLOSEUP_RATIO 1.3333 /* of its sides, the longer one along the strip */
-#define CLOSEUP_MARGIN 8     /* units of the frame around the close-up */
-#define CLOSEUP_LEAST 90     /* the shortest side, in units: smaller ones have no room for letters */
-#define CAMERA_MARGIN 0.045  /* the part of the width that the camera leaves free at each side of the world */
-#define MOST_NUMBERS 0.1     /* the largest part of the width for numbers at a side */
+#define CLOSEUP_PART 0.32    /* the part of the space view's longer side that a close-up takes */
+#define CLOSEUP_RATIO 1.3333 /* the ratio of the close-up's sides; the longer side runs along the strip */
+#define CLOSEUP_MARGIN 8     /* the margin around the close-up, in units of the frame */
+#define CLOSEUP_LEAST 90     /* the least length of a side, in units: a smaller close-up has no room for letters */
+#define CAMERA_MARGIN 0.045  /* the part of the area's width that the camera leaves free at each side of the world */
+#define MOST_NUMBERS 0.1     /* the largest part of the area's width for the numbers at one side */
 
 int layout_panel_width(const view *v)
 {
@@ -19,14 +19,14 @@ int layout_panel_width(const view *v)
     return view_shows_layer(v, LAYER_TEXT) && v->width >= 2 * width ? width : 0;
 }
 
-/* The picture without the column of text. */
+/* Returns the area of the picture without the column of text. */
 static camera_window find_area_beside_text(const view *v)
 {
     const int column = layout_panel_width(v);
     return (camera_window){column, 0, v->width - column, v->height};
 }
 
-/* The picture without the column of text and the diagram. */
+/* Returns the area of the picture without the column of text and the diagram. */
 static camera_window find_world_area(const view *v)
 {
     camera_window w = find_area_beside_text(v);
@@ -38,7 +38,7 @@ static camera_window find_world_area(const view *v)
     return w;
 }
 
-/* The pixels that a close-up takes from the longer side of the space. */
+/* Returns the number of pixels that a close-up takes from the longer side of the space view. */
 static double find_closeup_strip_size(const camera_window *space)
 {
     return floor(fmax(space->width, space->height) * CLOSEUP_PART);
@@ -57,7 +57,8 @@ camera_window layout_space_area(const scene *s)
 
 int layout_count_number_letters(const octree_box *box)
 {
-    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 }; /* MORE: for a sign or a margin, and for the tick mark */
+    /* MORE: the letters for a sign or a margin, and for the tick mark */
+    enum { FEW_DIGITS = 4, LEAST = 6, MOST = 9, MORE = 3 };
     double most = 0;
     int digits = 1;
     for (int i = 0; i < 3; i++)
@@ -84,8 +85,7 @@ camera_window layout_closeup_area(const view *v)
     const camera_window space = find_world_area(v);
     const int margin = CLOSEUP_MARGIN * view_pixels_per_unit(v), least = CLOSEUP_LEAST * view_pixels_per_unit(v);
     const bool beside = space.width >= space.height;
-    const double across =
-        find_closeup_strip_size(&space) - 2 * margin; /* the extent of the close-up across the strip */
+    const double across = find_closeup_strip_size(&space) - 2 * margin; /* the size of the close-up across the strip */
     const double along = fmin((beside ? space.height : space.width) - 2 * margin, floor(across * CLOSEUP_RATIO));
     camera_window w = {.width = beside ? across : along, .height = beside ? along : across};
     w.x = beside ? space.x + space.width - margin - w.width : space.x + floor((space.width - w.width) / 2);
@@ -108,7 +108,7 @@ camera_window layout_diagram_area(const view *v)
     return w;
 }
 
-/* A text with a margin, from its top left corner. */
+/* Compute the rectangle of a text with its margin: left, top, right, bottom. `corner` is the text's top left corner. */
 static void find_text_box(const scene *s, const char *text, const double corner[2], double box[4])
 {
     const double width = (double)strlen(text) * s->text.width;

@@ -19,12 +19,12 @@ typedef enum text_face {
 
 typedef struct lettering {
     text_face face;
-    int multiple;      /* pixels of the picture for each pixel of the face, on each axis */
-    int width, height; /* of a cell, in pixels */
-    int line;          /* pixels from a line of text to the next */
+    int multiple;      /* the side of the square of picture pixels that shows one pixel of the face */
+    int width, height; /* the width and height of a letter's cell, in pixels of the picture */
+    int line;          /* the distance from one line of text to the next, in pixels of the picture */
 } lettering;
 
-/* The letters of text, or of titles, which are about twice as large. */
+/* Returns the lettering for text or, if `title` is set, for titles, which are about twice as large. */
 lettering lettering_choose(const view *v, bool title);
 
 #endif

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: MIT */
-/* point_scale.c - one walk over the points of tick 0 measures the ranges for colours and the spacing for sizes.
+/* point_scale.c - measures the ranges for colours and the spacing for sizes, in one walk over the points of tick 0.
  *
- * Ranges: a single outlier would take most colours from all other points, so that a range reaches from the 1st to the
- * 99th percentile. Percentiles of all points would need memory for all of them; a sample of at most MOST_SAMPLES points
- * is enough. A point is in the sample if the lowest bits of a hash of its id and position are zero, and the number of
- * bits grows when the sample is full. The sample depends only on the set of points, not on their order or on the tree,
- * so that frames with other leaf capacities have the same colours.
+ * Ranges: with the full range of values, a single outlier would take most colours from all other points. So a range
+ * reaches from the 1st to the 99th percentile. Sorting all points would need memory for all of them; a sample of at
+ * most MOST_SAMPLES points is enough. A point is in the sample if the lowest bits of a hash of its id and position are
+ * zero. When the sample is full, one more bit must be zero. The sample thus depends only on the set of points, not on
+ * their order or on the tree, and frames with other leaf capacities have the same colours.
  *
- * Spacing: points of a scan lie on surfaces. Within a leaf they are taken as a square grid spread over the two longer
- * sides of their box. The result is the median over the leaves, weighted by their points.
+ * Spacing: points of a scan lie on surfaces. The points of a leaf are treated as a square grid that covers the two
+ * longer sides of their box. The result is the median over the leaves, weighted by their number of points.
  *
- * Percentiles and the median come from quickselect with random pivots: O(n) on average, whatever the order.
- */
+ * Percentiles and the median are found by quickselect with random pivots: O(n) on average, for any order of the
+ * values. */
 #include "point_scale.h"
 #include "array.h"
 #include "octree/digest.h"
@@ -20,16 +20,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* One in OUTLIERS points is cut off at each end of a range. */
+/* At each end of a range, one of OUTLIERS points is cut off. */
 #define OUTLIERS 100
 
-/* Leaves with fewer points have no spacing. */
+/* The spacing of a leaf with fewer points is not measured. */
 #define FEWEST 4
 
-/* The most points in the sample: the rank of a percentile is then known to within about a tenth. */
+/* The most points in the sample. With this number, the rank of a percentile is accurate to about a tenth. */
 #define MOST_SAMPLES ((size_t)1 << 16)
 
-/* The visible points of one leaf. */
+/* The spacing of the visible points of one leaf, and their number. */
 typedef struct leaf_spacing {
     double spacing;
     size_t count;
@@ -37,14 +37,14 @@ typedef struct leaf_spacing {
 
 typedef struct sample {
     uint64_t hash;
-    double values[4]; /* the position and the intensity; NaN if the point has no intensity */
+    double values[4]; /* x, y, z and the intensity, which is NaN if the point has none */
 } sample;
 
-/* The points whose hash & mask is 0. */
+/* A sample of the points: those with (hash & mask) == 0. */
 typedef struct samples {
     sample *items;
     size_t count, room;
-    uint64_t mask; /* the fewest low bits with which the sample fits MOST_SAMPLES */
+    uint64_t mask; /* as few low bits as keep the sample within MOST_SAMPLES */
 } samples;
 
 typedef struct gathering {
@@ -68,8 +68,8 @@ static double maximum(double a, double b)
     return a > b ? a : b;
 }
 
-/* The spacing of points in a box: a grid of k x k points has k - 1 spaces along each side. The shortest of the three
- * sides is taken for the thickness of the surface, and ignored. 0 for fewer than FEWEST points. */
+/* Returns the spacing of points in a box. A grid of k x k points has k - 1 spaces along each side. The shortest of the
+ * box's three sides is the thickness of the surface and is ignored. Returns 0 for fewer than FEWEST points. */
 static double find_spacing(const double low[3], const double high[3], size_t count)
 {
     const double a = high[0] - low[0], b = high[1] - low[1], c = high[2] - low[2];
@@ -85,7 +85,7 @@ static uint64_t hash_point(const octree_point *point)
     return hash;
 }
 
-/* Drop samples until there is room again. */
+/* Extend the mask and drop samples until at most MOST_SAMPLES are left. */
 static void discard_samples(samples *s)
 {
     while (s->count > MOST_SAMPLES) {
@@ -167,8 +167,8 @@ static void swap_values(weighted *a, weighted *b)
     *b = kept;
 }
 
-/* Partition: values below the pivot go to [0, *low), values above it to [*high, count). Returns the weight of the
- * values below; adds the weight of the values equal to the pivot to *equal. */
+/* Partition the values: those below the pivot move to [0, *low), those above it to [*high, count). Returns the weight
+ * of the values below the pivot, and adds the weight of the values equal to the pivot to *equal. */
 static size_t partition(weighted *values, size_t count, double pivot, size_t *low, size_t *high, size_t *equal)
 {
     size_t below = 0;
@@ -187,8 +187,8 @@ static size_t partition(weighted *values, size_t count, double pivot, size_t *lo
     return below;
 }
 
-/* Quickselect: the value at a rank, counted in weight from the smallest; the largest value if the rank is beyond the
- * total weight. Reorders the values. Cost: O(count) on average. */
+/* Quickselect: returns the value at a rank, where a value of weight w takes w ranks, from the smallest value on.
+ * Returns the largest value if the rank is beyond the total weight. Reorders the values. Cost: O(count) on average. */
 static double select_value(weighted *values, size_t count, size_t rank)
 {
     uint64_t state = 1;
@@ -209,7 +209,7 @@ static double select_value(weighted *values, size_t count, size_t rank)
     }
 }
 
-/* The percentiles that end the range of one of the four values. `room` has space for all samples. */
+/* Find the two percentiles that bound the range of values[which]. `room` has space for all samples. */
 static void find_percentiles(const samples *s, int which, weighted *room, double *low, double *high)
 {
     size_t count = 0;

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* query_looks.h - how each kind of query is shown and asked on the command line, one row each.
+/* query_looks.h - how each kind of query is drawn, and its option on the command line.
  *
- * A kind is a row of OCTREE_QUERY_MAP (octree/query.h) and a row here. Its layer_type is in viz/layers.
- */
+ * Each kind has a row in OCTREE_QUERY_MAP (octree/query.h), a row here, and a layer_type in viz/layers. */
 #ifndef SCENE_QUERY_LOOKS_H
 #define SCENE_QUERY_LOOKS_H
 
-/* For each kind: its name, its layer in words and in --help, its colour (a row
- * of theme.h, which kinds may share); then its option of octreel inspect:
- * the values in --help (null: the kind has no option of its own), the kind that is asked if one more number is given,
- * the text in --help, and what the option expects, for error messages. In painter's order. Each row calls
- * Y(X, row), so that the tables of layers and options can take their columns. */
+/* One row for each kind of query, in painter's order. The columns of its layer: the name, the phrase for it in
+ * sentences, the description in --help, and the colour (a row of theme.h, which kinds may share).
+ *
+ * The columns of its option of octreel inspect: the option's value in --help (null: the kind has no option of its own),
+ * the kind of query if the value has one more number, the description in --help, and the expected value, for error
+ * messages.
+ *
+ * Each row calls Y(X, row...): the tables of layers and of options pass a Y that selects their columns. */
 #define QUERY_LOOKS(Y, X)                                                                                              \
     Y(X, RANGE, "range", "range queries", "boxes that are asked for, and the points found", ROLE_RANGE,                \
       "X0,Y0,Z0,X1,Y1,Z1", RANGE, "print and draw the points in a box; queries can be given several times",            \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* scene.c - appending elements to the arrays of a scene, and numbering them. */
+/* scene.c - appends elements to the arrays of a scene, and numbers them. */
 #include "scene.h"
 #include "array.h"
 #include "kept_tree.h"
@@ -56,7 +56,8 @@ static bool are_all_finite(const double *values, size_t count)
     return true;
 }
 
-/* True if an element may be added: its layer is shown and its geometry finite. Counts elements that are not finite. */
+/* True if the scene accepts an element: the view shows its layer, and its geometry is finite. Elements that are not
+ * finite are counted in s->refused. */
 static bool accept_element(scene *s, scene_style style, bool finite)
 {
     if (!view_shows_layer(&s->view, style.layer))
@@ -121,8 +122,8 @@ static bool grow_markers(scene *s, size_t count)
     return grown;
 }
 
-/* Reserve room once: a call of scene_add_marker() for each point took 2 % more instructions for the picture of a cloud.
- */
+/* Room for all points is reserved once. Calling scene_add_marker() for each point took 2 % more instructions to draw
+ * the picture of a point cloud. */
 void scene_add_points(scene *s, const octree_point *points, size_t count, scene_shape shape, scene_style style)
 {
     if (!view_shows_layer(&s->view, style.layer) || !grow_markers(s, count))

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* theme.h - the meanings of colours, and the fixed table of at most 256 colours of a frame.
  *
- * A role is a meaning with a colour. Each role has eight shades from 0 (near, full colour) to 7 (far, towards the
- * background), and each shade has an index in the table. Kinds of nodes use four indices each, two shades sharing one,
- * because the table has no more room. Red means collision and nothing else.
- */
+ * A role is a meaning with a colour. Each role has eight shades from 0 (near, full colour) to 7 (far, almost
+ * background), and each shade has an index in the table. The kinds of foreign nodes use only four indices each, one for
+ * two shades, because the table has no more room. Red means collision and nothing else. */
 #ifndef SCENE_THEME_H
 #define SCENE_THEME_H
 
@@ -13,12 +12,15 @@
 
 #define THEME_SHADES 8
 
-/* Each role, its name and its colour on the dark ground. Colours of single
- * meanings are close to the set of Okabe and Ito (2008); a search chose them so that they differ under every kind of
- * colour blindness. Depth is a ramp of growing lightness from blue to pale yellow, after cividis (Nunez et al. 2018),
- * so that it also works in grey. A search chose the kinds of nodes so that they differ from each other, and from what
- * is drawn over them, for every kind of vision. To add a role, add a row before the kinds: `test_theme --propose`
- * prints colours that differ visibly from all others. Scene digests hash the names. */
+/* One row for each role: its name and its colour on the dark background. Scene digests hash the names.
+ *
+ * Roles with a single meaning have colours close to those of Okabe and Ito (2008), chosen by a search so that they
+ * differ under every kind of colour blindness. Depths of nodes have a ramp from blue to pale yellow with growing
+ * lightness, after cividis (Nunez et al. 2018), so that depths also differ in grey. Kinds of nodes have colours, chosen
+ * by a search, that differ for every kind of vision from each other and from the elements drawn over the nodes.
+ *
+ * To add a role, add a row before the kinds: `test_theme --propose` prints colours that differ visibly from all
+ * others. */
 #define THEME_ROLE_MAP(X)                                                                                              \
     X(ROLE_BACKGROUND, "background", 13, 17, 26)                                                                       \
     X(ROLE_PANEL, "panel", 24, 30, 43)                                                                                 \
@@ -32,8 +34,8 @@
     X(ROLE_RADIUS, "radius", 140, 250, 185)                                                                            \
     X(ROLE_KNEAREST, "knearest", 180, 152, 255)                                                                        \
     X(ROLE_NEAREST, "nearest", 255, 172, 222)                                                                          \
-    X(ROLE_WARNING, "warning", 240, 190, 90) /* next to the words refused, full and wrong */                           \
-    X(ROLE_NODE, "node", 84, 98, 150)        /* the root; the rows below are the depths 1 to 9 */                      \
+    X(ROLE_WARNING, "warning", 240, 190, 90) /* beside the words refused, full and wrong */                            \
+    X(ROLE_NODE, "node", 84, 98, 150)        /* the root; the next rows are the depths 1 to 9 */                       \
     X(ROLE_NODE_1, "node-1", 74, 110, 168)                                                                             \
     X(ROLE_NODE_2, "node-2", 62, 122, 176)                                                                             \
     X(ROLE_NODE_3, "node-3", 54, 136, 176)                                                                             \
@@ -44,11 +46,11 @@
     X(ROLE_NODE_8, "node-8", 178, 196, 104)                                                                            \
     X(ROLE_NODE_9, "node-9", 212, 206, 116)                                                                            \
     X(ROLE_SHAPE, "shape", 142, 196, 252)                                                                              \
-    X(ROLE_WRONG, "wrong", 228, 40, 255) /* wrong answers of a foreign index, and the points that they name */         \
+    X(ROLE_WRONG, "wrong", 228, 40, 255) /* wrong answers of a foreign index, and the points in these answers */       \
     X(ROLE_MISSED, "missed", 0, 216, 174)                                                                              \
-    X(ROLE_HIT, "hit", 102, 122, 254)       /* leaves with points that queries found */                                \
-    X(ROLE_CHANGE, "change", 210, 250, 130) /* splits, solid, and merges, dashed */                                    \
-    X(ROLE_KIND, "kind", 112, 208, 136)     /* the first kind of foreign nodes; the rows below are the other kinds */  \
+    X(ROLE_HIT, "hit", 102, 122, 254)       /* leaves in which queries found points */                                 \
+    X(ROLE_CHANGE, "change", 210, 250, 130) /* splits (solid lines) and merges (dashed lines) */                       \
+    X(ROLE_KIND, "kind", 112, 208, 136)     /* the first kind of foreign nodes; the next rows are the other kinds */   \
     X(ROLE_KIND_1, "kind-1", 248, 136, 224)                                                                            \
     X(ROLE_KIND_2, "kind-2", 200, 216, 80)                                                                             \
     X(ROLE_KIND_3, "kind-3", 120, 32, 248)                                                                             \
@@ -56,8 +58,8 @@
     X(ROLE_KIND_5, "kind-5", 56, 112, 88)                                                                              \
     X(ROLE_KIND_6, "kind-6", 144, 56, 176)
 
-#define THEME_NODE_DEPTHS 10 /* deeper nodes share the last */
-#define THEME_NODE_KINDS 7   /* further kinds share the last */
+#define THEME_NODE_DEPTHS 10 /* the number of roles for depths; deeper nodes have the last of them */
+#define THEME_NODE_KINDS 7   /* the number of roles for kinds of foreign nodes; further kinds have the last of them */
 
 #define THEME_ROLE_VALUE(role, ...) role,
 typedef enum theme_role { THEME_ROLE_MAP(THEME_ROLE_VALUE) ROLE_COUNT } theme_role;
@@ -67,19 +69,19 @@ typedef struct theme_color {
     uint8_t r, g, b;
 } theme_color;
 
-/* The name that recording.json gives to this table. */
+/* The name of this table of colours in recording.json. */
 #define THEME_NAME "night"
 
-/* "range", "node-3". */
+/* Returns the name of a role, such as "range" or "node-3". */
 const char *theme_role_name(theme_role role);
 
-/* A shade of a colour. */
+/* Returns a colour in a shade from 0 (full colour) to THEME_SHADES - 1 (almost background). */
 theme_color theme_shade_color(theme_color full, unsigned shade);
 
-/* The colour of an index; the background beyond the last role. */
+/* Returns the colour of an index; for indices beyond the last role, the background. */
 theme_color theme_color_at(uint8_t index);
 
-/* The indices of kinds of nodes, and the number of indices in use. */
+/* The number of indices of each kind of nodes, the first of these indices, and the number of indices in use. */
 #define THEME_KIND_SHADES (THEME_SHADES / 2)
 #define THEME_FIRST_KIND (ROLE_KIND * THEME_SHADES)
 #define THEME_COLORS (THEME_FIRST_KIND + (ROLE_COUNT - ROLE_KIND) * THEME_KIND_SHADES)
@@ -90,42 +92,44 @@ static inline uint8_t theme_color_index(unsigned role, unsigned shade)
                                       : THEME_FIRST_KIND + (role - ROLE_KIND) * THEME_KIND_SHADES + shade / 2);
 }
 
-/* The role of an element that has a colour of its own, beside this table, and the index of its pixels. */
+/* The role of an element whose colour is not in this table, and the index of the element's pixels. */
 #define ROLE_OWN ROLE_COUNT
 #define THEME_OWN THEME_COLORS
 
-/* A colour mixed with the background: 256 parts are the colour itself, 0 the background. */
+/* Mix a colour with the background: 256 parts give the colour, 0 parts the background. */
 theme_color theme_fade_color(theme_color full, int parts);
 
-/* The colour of an amount, which is clamped to 0 to 1: viridis (van der Walt and Smith 2015) without its darkest sixth,
- * which would be invisible on the background. Equal steps look equal, and lightness grows. */
+/* Returns the colour of a value between 0 and 1; other values are clamped. The ramp is viridis (van der Walt and Smith
+ * 2015) without its darkest sixth, which would be invisible on the background. Equal differences of values look equal,
+ * and larger values are lighter. */
 theme_color theme_ramp_color(double part);
 
-/* The number of points on a pixel from which on density has one colour: a power of two. */
+/* With this number of points or more on a pixel, the colour of density does not change further. A power of two. */
 #define THEME_MOST_DENSITY 64
 
-/* Colours that differ for every kind of vision: those of Okabe and Ito without their red, and two greys. */
+/* Colours that differ for every kind of vision: those of Okabe and Ito without their red, and two greys. Used for
+ * classes of points. */
 #define THEME_KINDS 8
 theme_color theme_kind_color(unsigned kind);
 
-/* The colour of a node by its depth, or by any other step of the same ramp. */
+/* Returns the role of a node at this depth. Ramps of other amounts use the same roles. */
 theme_role theme_node_role(unsigned depth);
 
-/* The colour of a kind of nodes. */
+/* Returns the role of a kind of foreign nodes. */
 theme_role theme_node_kind_role(unsigned kind);
 
-/* The step of the ramp for an amount: each step begins at 2^shift times the one before. With a shift of 1 the steps are
- * 0, 1, 2 to 3, 4 to 7 ... 256 and more. The same in every session. */
+/* Returns the step of the ramp for an amount. Each step begins at 2^shift times the amount at which the step before it
+ * begins. With a shift of 1 the steps are 0, 1, 2 to 3, 4 to 7 ... 256 and more. */
 unsigned theme_doubling_step(uint64_t amount, unsigned shift);
 
-/* The step of the ramp for a part of a whole: only 0 has the first step; the other steps divide the whole into equal
- * parts. More than the whole has the last step. `whole` is below 2^60. */
+/* Returns the step of the ramp for a part of a whole. Only the amount 0 has the first step. The other steps divide the
+ * whole into equal parts; more than the whole has the last step. `whole` must be below 2^60. */
 unsigned theme_fraction_step(uint64_t amount, uint64_t whole);
 
 /* The amount at which the last step of theme_doubling_step() begins, with a shift of 1. */
 #define THEME_MOST_POINTS (1u << (THEME_NODE_DEPTHS - 2))
 
-/* The colour of nodes under COLORING_PLAIN. */
+/* The role of nodes under COLORING_PLAIN. */
 #define ROLE_NODE_PLAIN (ROLE_NODE + 3)
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* view.c - units of a view, and the names of its choices; see view.h. */
+/* view.c - the units of a view, and the names of the values of its enumerations; see view.h. */
 #include "view.h"
 
 #include <stddef.h>
