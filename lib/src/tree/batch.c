@@ -8,10 +8,11 @@
  * adjacent, so that one pass over the tree visits each changed leaf once. The pass keeps its path from the root and
  * goes up only as far as the next code requires; it finds six leaves ahead and prefetches them.
  *
- * A pair (position, id) counts once: items with equal codes are compared in a small hashed or plain leaf, and repeated
- * ones get their status from the first. Large batches are divided into tasks (division.h), each with the items of whole
- * subtrees. restructure.c then plans the changes, plan.c makes them. Cost: O(count) radix passes and one visit per
- * leaf.
+ * A point that occurs twice in a batch is changed once. Items with equal codes are compared in a small leaf, which
+ * serves as a table; a repeated item gets its status from the first.
+ *
+ * Large batches are divided into tasks (division.h), each with the items of whole subtrees. restructure.c then plans
+ * the changes, plan.c makes them. Cost: O(count) radix passes and one visit per leaf.
  */
 #include "division.h"
 #include "float_rules.h"
@@ -19,7 +20,7 @@
 
 #include <string.h>
 
-/* Allocate `each` items per point of the batch. */
+/* Allocate memory for `each` items per point of the batch. */
 static morton_item *allocate_items(const batch *b, size_t each)
 {
     /* unreachable: size_t has 64 bits, and a batch has at most UINT32_MAX points */
@@ -33,8 +34,8 @@ static void release_items(const batch *b, morton_item *items, size_t each)
     arena_free(&b->tree->store.memory, items, each * (b->count + 1) * sizeof *items);
 }
 
-/* The lists of a move share one allocation. With several, malloc returns their pages to the system and page faults
- * recur with every batch. */
+/* The number of lists in the one allocation that a batch of moves uses. With several allocations malloc would return
+ * their pages to the system, and every batch would cause page faults again. */
 static size_t shared_list_count(const batch *b)
 {
     return b->to ? 4 : 1;
@@ -83,7 +84,7 @@ static void collect_valid_range(batch *b, size_t first, size_t end)
         collect_valid_points(b, i, end - i < TOGETHER ? end - i : TOGETHER);
 }
 
-/* The list of a part begins at the index of its first point. */
+/* Collect the items of a part. They are stored from the index of the part's first point on. */
 static void collect_valid_part(size_t number, void *context)
 {
     division *d = context;
@@ -93,7 +94,7 @@ static void collect_valid_part(size_t number, void *context)
     collect_valid_range(b, first, share_start(b->count, d->tasks, number + 1));
 }
 
-/* Append the items of a part to those of the parts before it. */
+/* Append the items of a part to the items of the parts before it, so that no gap is left. */
 static void append_part_items(span *all, span part)
 {
     if (part.count > 0 && all->items + all->count != part.items)
@@ -131,15 +132,16 @@ static bool sort_items(batch *b)
 
 enum { LEVELS_BELOW = 6 };
 
-/* Whether full leaves are rare: they cannot refuse, or cells at the maximum depth are much smaller than the grid's. */
+/* Whether full leaves are rare. They are if the tree never refuses a point, or if a cell at the maximum depth is much
+ * smaller than a cell of the grid. */
 static bool rarely_refuses_points(const octree_def *def)
 {
     return def->full_leaf != OCTREE_REFUSE || def->max_depth >= GRID_DEEPEST + LEVELS_BELOW;
 }
 
-/* Decide whether a batch of moves rebuilds the tree. Rebuilding by a grid costs 170 instructions per stored point and
- * pays from a fifth of the points on; without a grid it costs 350 and pays from three tenths on (callgrind, 1e5
- * points). Without a grid, sorting also finds the points that may meet a full leaf. False when there is no memory. */
+/* Decide whether a batch of moves rebuilds the tree. With a grid, a rebuild costs 170 instructions per stored point and
+ * pays if at least a fifth of the points move. Without a grid it costs 350 and pays from three tenths on (callgrind,
+ * 1e5 points); sorting then also finds the points that may meet a full leaf. False when there is no memory. */
 static bool decide_remake(batch *b)
 {
     const size_t stored = b->tree->root.count;
@@ -159,7 +161,7 @@ octree_status prepare_batch(batch *b)
     return b->remakes ? OCTREE_OK : collect_batch_points(b);
 }
 
-/* Find the grid cells of a share of the points. Cells replace items when an empty tree is built. */
+/* Find the grid cells of one task's points. If an empty tree is built, cells take the place of items. */
 static void find_cells_of_share(size_t number, void *context)
 {
     const batch *b = context;
@@ -187,7 +189,7 @@ octree_status collect_batch_points(batch *b)
     return sort_items(b) ? OCTREE_OK : OCTREE_NO_MEMORY;
 }
 
-/* A point that repeats an earlier point of the batch: the indices of both. */
+/* A point that repeats an earlier point of the batch: its index, and the index of the earlier point. */
 typedef struct repetition {
     uint32_t place, first;
 } repetition;
@@ -228,8 +230,8 @@ static bool item_ids_ascend(const batch *b, const morton_item *items, size_t cou
     return true;
 }
 
-/* Among items of equal code, in the caller's order, keep the first of each pair and list the others as repetitions.
- * *kept receives the number of items kept. False when there is no memory. */
+/* Among items of equal code, in the caller's order, keep the first item of each pair (position, id). Add the others to
+ * the list of repetitions. *kept receives the number of items kept. False when there is no memory. */
 static bool drop_repeated_items(batch *b, morton_item *items, size_t count, size_t *kept)
 {
     store *st = &b->tree->store;
@@ -280,15 +282,15 @@ void set_repeated_statuses(const batch *b, octree_status status)
 
 /* ---- Visiting the leaves of the items --------------------------------------------------------------------------- */
 
-/* A leaf with its items; or, with a null node, the items of an octant that has no node. */
+/* A leaf with the items in its cell. A null node means that no node exists for the items' octant. */
 typedef struct visit {
     node *node;
     unsigned depth;
     span items;
 } visit;
 
-/* The number of sorted items in the same cell of this depth as the first one. A linear search: usually there are few.
- */
+/* The number of sorted items in the cell of this depth that contains the first item. A linear search, because the
+ * number is usually small. */
 static size_t count_in_first_cell(const batch *b, span items, unsigned depth)
 {
     const unsigned below = 3 * (OCTREE_MAX_DEPTH - depth);
@@ -298,8 +300,8 @@ static size_t count_in_first_cell(const batch *b, span items, unsigned depth)
     return share;
 }
 
-/* Extend the path down to the leaf of the first item, store that visit in *next, and shorten the path to the deepest
- * node that also contains the item after those of the leaf. */
+/* Extend the path down to the leaf of the first item, and store the leaf with its items in *next. Then shorten the path
+ * to the deepest node that also contains the next leaf's first item. */
 static void find_next_visit(const batch *b, path *p, unsigned top, span *items, visit *next)
 {
     const uint64_t code = items->items[0].code;
@@ -319,7 +321,7 @@ static void find_next_visit(const batch *b, path *p, unsigned top, span *items, 
         p->depth--;
 }
 
-enum { LEAVES_TOGETHER = 6 }; /* the number of leaves prefetched before the first is visited */
+enum { LEAVES_TOGETHER = 6 }; /* the number of leaves that are prefetched before the first of them is visited */
 
 /* Visit the leaves that contain the items, below a node of this depth. */
 static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, leaf_visitor *visitor)
@@ -338,9 +340,8 @@ static void visit_leaves_below(batch *b, node *n, unsigned depth, span items, le
 
 /* ---- Visiting by tasks -------------------------------------------------------------------------------------- */
 
-/* Make jobs of subtrees with their items, each of at most `grain` items or a single leaf. False when there is no
- * memory.
- */
+/* Make jobs: subtrees with the items in them. A job has at most `grain` items or is a single leaf. False when there
+ * is no memory. */
 static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
 {
     if (!n || !n->octants || items.count <= b->division->grain)
@@ -353,12 +354,14 @@ static bool add_visit_jobs(batch *b, const node *n, unsigned depth, span items)
     return true;
 }
 
+/* An empty list that begins at index `before` of the memory of another list. */
 static span empty_span_at(span list, size_t before)
 {
     return (span){list.items ? list.items + before : NULL, 0};
 }
 
-/* The lists of a part begin at the index of its first item, so that parts do not overlap. */
+/* Visit the leaves of one part. The part writes its lists from the index of its first item on, so that parts do not
+ * overlap. */
 static void visit_leaves_of_part(size_t number, void *context)
 {
     division *d = context;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /* batch.h - many changes of a tree at once.
  *
- * The points that leave and those that arrive are sorted by Morton code. restructure_tree() walks the tree once and
- * makes a plan: a leaf with enough room is edited later in place; any other changed node gets a successor; unchanged
- * nodes are shared. Planning allocates and may fail. Carrying out the plan cannot fail, so a batch happens completely
- * or not.
+ * The points that leave their position and the points that arrive at one are sorted by Morton code. restructure_tree()
+ * walks the tree once and makes a plan: a leaf with enough room is edited later in place; any other changed node gets a
+ * successor; unchanged nodes are shared. Planning allocates and may fail. Carrying out the plan cannot fail, so a batch
+ * happens completely or not.
  */
 #ifndef OCTREE_BATCH_H
 #define OCTREE_BATCH_H
@@ -12,7 +12,7 @@
 #include "morton_sort.h"
 #include "tree.h"
 
-/* Items sorted by code; within one leaf in any order. */
+/* Items sorted by code. Items of one leaf may be in any order. */
 typedef struct span {
     morton_item *items;
     size_t count;
@@ -20,32 +20,33 @@ typedef struct span {
 
 typedef struct batch {
     octree *tree;
-    store *store;               /* the allocator of nodes and points: the tree's, or a task's */
-    struct division *division;  /* the division into tasks; null: none */
-    const octree_point *points; /* the caller's array */
-    const double (*to)[3];      /* destinations of a move, else null */
+    store *store;               /* allocates nodes and points: the store of the tree, or of a task */
+    struct division *division;  /* the division of the batch into tasks; null: the batch is not divided */
+    const octree_point *points; /* the caller's points */
+    const double (*to)[3];      /* the destinations if the batch moves points, else null */
     size_t count;
-    octree_status *statuses; /* the caller's array, one for each point; may be null */
-    size_t done;             /* count of points changed */
+    octree_status *statuses; /* the caller's array of statuses, one for each point; may be null */
+    size_t done;             /* the number of points inserted, removed or moved */
 
-    span valid;         /* the points with valid positions */
+    span valid;         /* the items of the points with valid positions */
     bool repeated;      /* some valid points may have equal codes */
-    span leaving;       /* stored points that leave, with their index in the leaf */
-    span arriving;      /* the caller's points that arrive */
-    morton_item *lists; /* one allocation for `valid`; for a move also for leaving, arriving and spare */
+    span leaving;       /* the items of stored points that leave, each with the point's index in its leaf */
+    span arriving;      /* the items of the caller's points that arrive */
+    morton_item *lists; /* the memory of `valid`; for moves also of `leaving`, `arriving` and `spare` */
     morton_item *spare; /* scratch memory for sorting */
     list repetitions;
 
     bool inserts;               /* the batch only inserts: an empty tree may be built by a grid */
-    bool remakes;               /* many points move, so the tree is rebuilt; `valid` is empty at first */
-    bool settled;               /* the moves have their final statuses, and none meets a full leaf */
-    bool may_be_stored;         /* an arriving pair may already be stored: check it */
-    bool duplicate;             /* an arriving pair is already stored */
+    bool remakes;               /* so many points move that the tree is rebuilt; `valid` is then empty at first */
+    bool settled;               /* the statuses of the moves are final, and no move meets a full leaf */
+    bool may_be_stored;         /* an arriving point may already be stored, so this must be checked */
+    bool duplicate;             /* an arriving point is already stored */
     bool overflow;              /* a moved point may meet a full leaf under OCTREE_REFUSE */
     const octree_point *stored; /* the stored points that items refer to by index */
-    size_t stored_count; /* the number of stored points whose cells follow those of the batch's points in `cells` */
-    uint32_t *cells;     /* grid cells of the points, in place of items (grid_fill.h) */
-    unsigned grid;       /* depth of the grid; 0: no grid */
+    /* the number of stored points in `cells`, where their cells follow those of the batch's points */
+    size_t stored_count;
+    uint32_t *cells;     /* the grid cells of the points, used in place of items (grid_fill.h) */
+    unsigned grid;       /* the depth of the grid; 0: there is no grid */
     list patches, edits; /* the plan: nodes to replace, leaves to edit (division.h) */
 } batch;
 
@@ -55,7 +56,7 @@ static inline void set_item_status(const batch *b, const morton_item *item, octr
         b->statuses[item->place] = status;
 }
 
-/* The caller's point of an item, at its destination if it moves. */
+/* The caller's point that an item refers to, at its destination if the batch moves points. */
 static inline octree_point arriving_point(const batch *b, const morton_item *item)
 {
     octree_point point = b->points[item->place];
@@ -64,7 +65,8 @@ static inline octree_point arriving_point(const batch *b, const morton_item *ite
     return point;
 }
 
-/* Prefetch the caller's point of an item: points are in the caller's order, not in that of the items. */
+/* Prefetch the caller's point of an item. The points are in the caller's order, so the processor cannot predict the
+ * address. */
 static inline void prefetch_item(const batch *b, const morton_item *item)
 {
     prefetch_memory(&b->points[item->place]);
@@ -81,14 +83,14 @@ static inline octree_point point_of_item(const batch *b, const morton_item *item
 /* The number of sorted items in the same octant of a cell of this depth as the first one. */
 size_t count_in_first_octant(const morton_item *items, size_t count, unsigned depth);
 
-/* Cells with at most this many items become leaves, whose items need no order. */
+/* A cell with at most this many items becomes a leaf. The items of a leaf need no order. */
 static inline size_t unsorted_limit(const octree *tree)
 {
     return tree->def.leaf_capacity < MORTON_UNSORTED ? tree->def.leaf_capacity : MORTON_UNSORTED;
 }
 
-/* Check all positions, set the statuses, and sort the valid points into `valid`. For a batch that `remakes` the tree,
- * the second step is left to collect_batch_points(). */
+/* prepare_batch() checks all positions, sets the statuses, and sorts the valid points into `valid`. If the batch
+ * `remakes` the tree, it does not fill `valid`; collect_batch_points() does so if the points are needed. */
 octree_status prepare_batch(batch *b);
 octree_status collect_batch_points(batch *b);
 
@@ -98,7 +100,7 @@ static inline octree_status check_in_world(const octree *tree, const double posi
     return box_contains(&tree->def.world, position) ? OCTREE_OK : check_position(tree, position);
 }
 
-/* Complete a code that is MORTON_UNSURE. Returns OK if the position is in the world. */
+/* If a code is MORTON_UNSURE, compute it exactly. Returns OK if the position is in the world, else an error. */
 static inline octree_status complete_code(const octree *tree, const double position[3], uint64_t *code)
 {
     const octree_status status = *code == MORTON_UNSURE ? check_position(tree, position) : OCTREE_OK;
@@ -109,31 +111,34 @@ static inline octree_status complete_code(const octree *tree, const double posit
 
 void release_batch(batch *b);
 
-/* Whether the ids of the batch are strictly ascending, as when a program counts them: then no pair is repeated. */
+/* Whether the ids of the batch are strictly ascending, as sequence numbers are. If so, no point is repeated. */
 bool ids_ascend(const batch *b);
 
-/* Store in *differ whether all ids of the batch differ: then no change depends on another, except where a leaf is full.
- * False when there is no memory. */
+/* Store in *differ whether all ids of the batch differ. If they do, no change depends on another, unless a leaf is
+ * full. False when there is no memory. */
 bool check_ids_differ(const batch *b, bool *differ);
 
-/* Called with items, the leaf of their cell (null if the octant has no node), and the depth of the cell. */
+/* Called with the items of one leaf, this leaf, and the depth of its cell. The leaf is null if no node exists for the
+ * items' octant. */
 typedef void leaf_visitor(batch *b, node *leaf, unsigned depth, span items);
 
-/* Visit the leaves of the valid items, by tasks if there are many. The lists `leaving` and `arriving` of the tasks are
- * concatenated, and `done` is summed. */
+/* Visit the leaves of the valid items, by tasks if there are many items. The lists `leaving` and `arriving` of the
+ * tasks are then joined, and their values of `done` are added. */
 void visit_batch_leaves(batch *b, leaf_visitor *visit);
 
-/* Move the items that repeat an earlier pair to the list of repetitions. False when there is no memory. */
+/* Remove the items that repeat an earlier pair (position, id) from `valid` and list them as repetitions. False when
+ * there is no memory. */
 bool drop_repeated_pairs(batch *b);
 
-/* Set the status of all repetitions, or FULL if a full leaf refused the first of the pair. */
+/* set_repeated_statuses() gives every repetition this status, or FULL if a full leaf refused the first point of the
+ * pair. release_repetitions() frees the list of repetitions. */
 void release_repetitions(batch *b);
 void set_repeated_statuses(const batch *b, octree_status status);
 
-/* Divide the items of a cell of this depth by octant. Returns a mask of the octants that have items. */
+/* Divide the items of a cell of this depth among its octants. Returns a bit mask of the octants that have items. */
 unsigned divide_items_by_octant(span all, unsigned depth, span shares[8]);
 
-/* Whether items sorted by code all lie in one cell that cannot be divided. */
+/* Whether all of these items, sorted by code, lie in one cell that cannot be divided. */
 bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t count);
 
 /* Remove the leaving points from the tree and insert the arriving ones. An insertion that meets a full leaf under
@@ -141,16 +146,18 @@ bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t
  * NO_MEMORY, and for a move if `duplicate` or `overflow` is set. */
 octree_status restructure_tree(batch *b);
 
-/* Whether moves made one after the other, in any order, might meet a full leaf in the cell: whether one indivisible
- * cell might at some time hold more points than the capacity. Also true when there is no memory to decide. */
+/* Whether moves made one after the other, in any order, might meet a full leaf in the cell. This is so if one
+ * indivisible cell might at some time hold more points than the capacity. Also true when there is no memory to
+ * decide. */
 bool can_overflow(const batch *b, const node *old, cell c, span arriving);
 
-/* The same for all moves at once, from the old tree and the rebuilt one: faster, and sometimes true without need.
- * Cost: O(n) for the n points in leaves that hold more than the capacity together with their counterpart. */
+/* Whether moves might meet a full leaf anywhere, found by comparing the old tree with the rebuilt one. Faster than
+ * can_overflow() for each cell, but sometimes true without need. Cost: O(n) for the n points in leaves that, together
+ * with the leaf of the other tree, hold more than the capacity. */
 bool can_overflow_when_rebuilt(const octree *tree, const node *made);
 
-/* Replace all stored points by the points that have grid cells or, without a grid, by the arriving ones. Errors:
- * NO_MEMORY; the tree is then unchanged, also if `overflow` is set. */
+/* Build a new tree and replace the old one. Its points are those that have grid cells; without a grid, the arriving
+ * points. Errors: NO_MEMORY. The tree is unchanged on an error, and if `overflow` is set. */
 octree_status rebuild_from_batch(batch *b);
 
 /* Move the points by rebuilding the tree. *settled becomes false if moves depend on one another; the tree is then

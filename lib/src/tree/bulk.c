@@ -26,7 +26,7 @@ static octree_status insert_valid_points(batch *b)
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* List the items whose points are stored as leaving, with their indices in the leaf. */
+/* Add the items whose points are stored in the leaf to the list `leaving`, with the points' indices in the leaf. */
 static void find_removed_points(batch *b, node *leaf, unsigned depth, span items)
 {
     (void)depth;
@@ -58,8 +58,8 @@ static bool have_same_bits(const double a[3], const double b[3])
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
 
-/* Overwrite a point that stays in its leaf at once, which undo_moves_in_place() reverts without memory; list others as
- * leaving and arriving. */
+/* Move a point that was found in a leaf. If it stays in the leaf, overwrite it now; undo_moves_in_place() can revert
+ * this without memory. Else list it as leaving and arriving. */
 static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *item, uint32_t index)
 {
     const double *to = b->to[item->place];
@@ -81,8 +81,8 @@ static void move_found_point(batch *b, node *leaf, unsigned depth, morton_item *
     b->done++;
 }
 
-/* Find a point in a leaf. A leaf built from a batch keeps the batch's order, so the point after the last is tried
- * first. */
+/* Find a point in a leaf. A leaf that was built from a batch keeps the batch's order, so the search first tries the
+ * point after the one found last. */
 static uint32_t find_in_leaf_after(const node *leaf, uint32_t last, const octree_point *point)
 {
     const uint32_t next = last + 1; /* LEAF_NONE + 1 is 0 */
@@ -107,7 +107,7 @@ static void find_moved_points(batch *b, node *leaf, unsigned depth, span items)
     }
 }
 
-/* Restore the points that were overwritten in place. No node has changed since. */
+/* Restore the points that were overwritten in place. No node has moved or changed since then. */
 static void undo_moves_in_place(batch *b)
 {
     for (size_t i = 0; i < b->valid.count; i++) {
@@ -121,7 +121,7 @@ static void undo_moves_in_place(batch *b)
     }
 }
 
-/* Make moves whose ids differ. *settled becomes false if they depend on one another; the tree is then unchanged. */
+/* Make moves whose ids differ. *settled becomes false if moves depend on one another; the tree is then unchanged. */
 static octree_status make_independent_moves(batch *b, bool *settled)
 {
     b->may_be_stored = true;
@@ -170,7 +170,7 @@ static octree_status check_arguments(const batch *b, octree_change_kind kind)
     return is_visited(b->tree) ? OCTREE_BUSY : OCTREE_OK;
 }
 
-/* Whether the caller's array is part of a leaf: octree_node.points is such an array. */
+/* Whether the caller's array is part of a leaf, as octree_node.points is. */
 static bool lies_in_tree_memory(const octree *tree, const octree_point *points, size_t count)
 {
     if (count == 0 || check_position(tree, points->position) != OCTREE_OK)
@@ -216,7 +216,8 @@ static octree_status change_by_kind(batch *b, octree_change_kind kind)
 
 /* ---- Logging ------------------------------------------------------------------------------------------------ */
 
-/* Only zeros have two representations: a position without zeros has the same bits as the stored one. */
+/* Whether a coordinate is zero. Only zeros have two representations: a position without zeros has the same bits as the
+ * equal stored position. */
 static bool has_zero(const double position[3])
 {
     return position[0] == 0 || position[1] == 0 || position[2] == 0;
@@ -230,7 +231,7 @@ static bool have_zeros(const octree_point *points, size_t count)
     return i < count;
 }
 
-/* Give points the signs that the zeros of the stored positions have. */
+/* Give the zeros in the points' positions the signs that they have in the stored positions. */
 static void copy_stored_signs(const octree *tree, octree_point *points, size_t count)
 {
     found_point found;
@@ -240,15 +241,15 @@ static void copy_stored_signs(const octree *tree, octree_point *points, size_t c
             points[i] = stored_point(&found);
 }
 
-/* The points with zeros that moves of a batch have moved so far, as a leaf: a later move of the batch may start at
- * such a point. */
+/* The points with zero coordinates that earlier moves of the batch have moved, stored as a leaf. A later move of the
+ * batch may start at one of them. */
 typedef struct moved_points {
     store *store;
     node points;
-    bool complete; /* false: no memory */
+    bool complete; /* false: there was no memory for all of the points */
 } moved_points;
 
-/* Log a move from where an earlier move of the batch left the point, if one did. */
+/* Log a move. If an earlier move of the batch left the point at this position, log the start with that move's bits. */
 static void log_move(const batch *b, size_t i, moved_points *moved)
 {
     octree_point old = b->points[i], made = {.id = old.id};
@@ -286,8 +287,8 @@ static void log_changes(const batch *b, octree_change_kind kind)
             change_log_append(b->tree, kind, &b->points[i], b->points[i].position);
 }
 
-/* Make a batch of changes and log them. Points that lie in the tree's own memory are copied first, and so are points
- * whose stored positions may have other bits. */
+/* Make a batch of changes and log them. Points that lie in the tree's own memory are copied first. So are points whose
+ * zeros may have other signs than the stored ones. */
 static octree_status change_many(batch b, octree_change_kind kind, size_t *done)
 {
     octree_status status = check_arguments(&b, kind);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT */
-/* change.c - single changes.
+/* change.c - single changes of a tree.
  *
- * Algorithm 1 (insert): a point descends to its leaf; a full leaf splits, refuses or grows. Algorithm 2 (remove): nodes
- * whose remaining points fit one leaf merge. A move within a leaf overwrites the point; any other is an insertion and a
- * removal. Memory is allocated before anything changes, so that a failure leaves the tree as it was.
+ * Algorithm 1 (insert): a point descends to its leaf. A full leaf splits, refuses the point, or grows beyond its
+ * capacity. Algorithm 2 (remove): a node merges into a leaf if its remaining points fit one. A move within a leaf
+ * overwrites the point; any other move is an insertion and a removal. Memory is allocated before anything changes, so
+ * that a failure leaves the tree as it was.
  */
 #include "float_mode.h"
 #include "tree.h"
@@ -33,14 +34,14 @@ static octree_status add_child_leaf(octree *tree, node *parent, unsigned octant,
     return OCTREE_OK;
 }
 
-/* The distribution of a full leaf's points and a new one to the octants of a cell. */
+/* How the points of a full leaf and a new point are divided among the octants of a cell. */
 typedef struct shares {
     double planes[3]; /* the splitting planes of the cell */
     uint32_t counts[8];
     uint8_t mask;
 } shares;
 
-/* Find the octant of a position by comparing it with the planes. */
+/* Return the octant of a position, by comparing the position with the planes. */
 static unsigned find_octant(const shares *s, const double p[3])
 {
     return (unsigned)(p[0] >= s->planes[0]) << 2 | (unsigned)(p[1] >= s->planes[1]) << 1 |
@@ -65,8 +66,9 @@ static shares count_points_by_octant(const octree *tree, cell c, const node *ful
     return s;
 }
 
-/* Descend from the cell of a full leaf to the first cell whose octants separate its points and the new one; true. False
- * if no divisible cell separates them; *c is then the indivisible cell that holds all. */
+/* Descend from the cell of a full leaf to the first cell whose octants separate the leaf's points and the new point.
+ * Returns true with this cell in *c. Returns false if no divisible cell separates them; *c is then the indivisible cell
+ * that holds them all. */
 static bool find_splitting_cell(const octree *tree, const node *full, const octree_point *point, cell *c, shares *s)
 {
     for (; can_split(tree, *c); *c = cell_child(*c, bits_lowest(s->mask))) {
@@ -105,7 +107,8 @@ static bool make_split_node(octree *tree, node *made, const node *full, const oc
     return true;
 }
 
-/* Make a leaf beyond the capacity from the points of a full leaf and a new one. */
+/* Make a leaf with more points than the capacity: the points of a full leaf and a new one. False when there is no
+ * memory. */
 static bool make_grown_leaf(octree *tree, node *made, const node *full, const octree_point *point)
 {
     if (!leaf_create(&tree->store, made, full->count + 1))
@@ -115,7 +118,8 @@ static bool make_grown_leaf(octree *tree, node *made, const node *full, const oc
     return true;
 }
 
-/* Replace `bottom`, a node of depth `from`, by a chain of single children from depth `to` down to it. */
+/* Replace `bottom`, a node of depth `from`, by a chain of inner nodes with one child each, which starts at depth `to`
+ * and ends at the old bottom. False when there is no memory. */
 static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigned from, unsigned to)
 {
     for (; from > to; from--) {
@@ -131,8 +135,8 @@ static bool make_parent_chain(octree *tree, node *bottom, uint64_t code, unsigne
     return true;
 }
 
-/* Add a point to a full leaf of this depth. The replacement is completed before it takes the leaf's place, so that a
- * shortage of memory changes nothing. */
+/* Add a point to a full leaf of this depth. The replacement is complete before it takes the leaf's place, so that a
+ * lack of memory changes nothing. */
 static octree_status split_or_grow_leaf(octree *tree, node *leaf, const octree_point *point, uint64_t code,
                                         unsigned depth)
 {
@@ -198,10 +202,10 @@ octree_status octree_insert(octree *tree, const double position[3], uint64_t id)
     return status;
 }
 
-/* ---- Removing: allocate first, then change, so that a move can allocate before it changes anything ---------- */
+/* ---- Removing: memory is allocated first, so that a move can allocate before it changes anything ------------ */
 
-/* The depth of the highest node on the path that would fit one leaf with one point less; the leaf's own depth if none.
- */
+/* The depth of the highest node on the path whose points fit one leaf after one point is removed. If there is none, the
+ * depth of the path's leaf. */
 static unsigned find_merge_depth(const octree *tree, const path *p)
 {
     unsigned depth = p->depth;
@@ -210,8 +214,8 @@ static unsigned find_merge_depth(const octree *tree, const path *p)
     return depth;
 }
 
-/* Allocate the leaf into which nodes merge when this point is removed; an empty leaf if none merge. False when there is
- * no memory. */
+/* Allocate the leaf that replaces the merged nodes when this point is removed. *spare stays an empty leaf if no nodes
+ * merge. False when there is no memory. */
 static bool allocate_merged_leaf(octree *tree, const found_point *found, node *spare)
 {
     const unsigned depth = find_merge_depth(tree, &found->path);
@@ -232,7 +236,7 @@ void remove_empty_child(octree *tree, node *parent, node *child)
     parent->octants &= (uint8_t) ~(1u << octant);
 }
 
-/* Remove the point. Cannot fail. Uses or frees the spare leaf. */
+/* Remove a point that was found. Cannot fail. The spare leaf is used or freed. */
 static void remove_found_point(octree *tree, const found_point *found, node *spare)
 {
     const path *p = &found->path;
@@ -272,7 +276,7 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
     octree_status status = check_change(tree, position);
     if (status != OCTREE_OK)
         return status;
-    octree_point removed = {{position[0], position[1], position[2]}, id}; /* `position` may be in the leaf */
+    octree_point removed = {{position[0], position[1], position[2]}, id}; /* a copy: `position` may be in the leaf */
     status = remove_point(tree, &removed);
     if (status == OCTREE_OK && change_log_is_on(&tree->changes))
         change_log_append(tree, OCTREE_REMOVED, &removed, NULL);
@@ -281,8 +285,9 @@ octree_status octree_remove(octree *tree, const double position[3], uint64_t id)
 
 /* ---- Moving ------------------------------------------------------------------------------------------------- */
 
-/* Move a point to another leaf. Only the insertion can be refused, so it comes first; the memory of the removal is
- * allocated before it. That suffices: the insertion only adds points, so no more nodes merge after it than before. */
+/* Move a point to another leaf. Only the insertion can be refused, so it comes first. The memory for the removal is
+ * allocated before the insertion. This memory suffices: the insertion only adds points, so no more nodes merge
+ * afterwards. */
 static octree_status move_to_other_leaf(octree *tree, found_point *found, const octree_point *old,
                                         const octree_point *moved, uint64_t code)
 {
@@ -294,7 +299,8 @@ static octree_status move_to_other_leaf(octree *tree, found_point *found, const 
         leaf_release(&tree->store, &spare);
         return status;
     }
-    find_point(tree, old->position, old->id, found); /* again: the insertion may have moved nodes in memory */
+    find_point(tree, old->position, old->id,
+               found); /* find the point again: the insertion may have moved nodes in memory */
     remove_found_point(tree, found, &spare);
     return OCTREE_OK;
 }

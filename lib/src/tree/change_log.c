@@ -16,7 +16,7 @@
 
 #include <string.h>
 
-/* A reader that missed more changes than a quarter of the points reads the whole tree at the same cost. */
+/* Reading as many changes as a quarter of the points costs no less than reading the whole tree. */
 enum { LEAST_CHANGES = 1024, SHARE = 4 };
 
 uint64_t change_log_limit(const octree *tree)
@@ -31,7 +31,7 @@ void change_log_stop(change_log *log, arena *memory)
     arena_free(memory, log->items, log->room * sizeof *log->items);
     log->items = NULL;
     log->room = 0;
-    log->first = ++log->next; /* invalidates all older cursors */
+    log->first = ++log->next; /* new numbers, so that all older cursors are invalid */
 }
 
 /* ---- Writing ------------------------------------------------------------------------------------------------ */
@@ -50,8 +50,8 @@ static bool grow_ring(change_log *log, arena *memory)
     return true;
 }
 
-/* Make room for one more change. Changes that were read may be overwritten, but only while the unread ones fill less
- * than half of the ring: a second reader that lags behind the first then still finds its changes. */
+/* Make room for one more change. Changes that were read may be overwritten only while the unread changes fill less than
+ * half of the ring. A second reader, which lags behind the first, then still finds its changes. */
 static bool make_room_for_change(change_log *log, arena *memory)
 {
     if (log->next - log->first < log->room)

@@ -2,7 +2,7 @@
 /* change_log.h - the recent changes of a tree's contents, read through octree_changes_since().
  *
  * The log is off until the first read. It turns off again after too many unread changes, when memory is short, and
- * after an operation that replaces all nodes. Readers are then told that the changes are not known.
+ * after an operation that replaces all nodes. octree_changes_since() then returns false.
  */
 #ifndef OCTREE_CHANGE_LOG_H
 #define OCTREE_CHANGE_LOG_H
@@ -13,12 +13,13 @@
 #include <stdatomic.h>
 
 typedef struct change_log {
-    /* Written by readers, concurrently with other readers and with queries: */
-    atomic_size_t name;   /* the log's name, given by the first reader; 0: the log is off */
+    /* Readers write these two members, concurrently with other readers and with queries. */
+    atomic_size_t name;   /* the name that the first reader gave to the log; 0: the log is off */
     atomic_bool was_read; /* a reader has read the log since the last change */
-    /* Written by changes of the tree only. Changes are numbered from 0 on; number i is at items[i % room]. */
+    /* Only changes of the tree write the other members. Changes are numbered from 0 on; number i is at items[i %
+     * room]. */
     uint64_t first, next; /* the numbers of the oldest stored change and of the next change */
-    uint64_t last_read;   /* `next` at the time of the last read */
+    uint64_t last_read;   /* the value of `next` when a reader last read the log */
     octree_change *items;
     size_t room; /* the length of `items`: 0, or a power of two */
 } change_log;
@@ -28,11 +29,12 @@ static inline bool change_log_is_on(const change_log *log)
     return atomic_load_explicit(&log->name, memory_order_relaxed) != 0;
 }
 
-/* Log a change that was made. `old` is the point before a move or removal, or the inserted point; `to` is its position
- * afterwards, not read for a removal. Neither lies in the tree's memory. */
+/* Log a change that was made. `old` is the point before a move or a removal, or the inserted point. `to` is the
+ * position after a move or an insertion; it is not read for a removal. Neither pointer may point into the tree's
+ * memory. */
 void change_log_append(octree *tree, octree_change_kind kind, const octree_point *old, const double to[3]);
 
-/* The number of unread changes at which reading the whole tree costs a reader less than reading the changes. */
+/* A number of changes. From this number on, reading the whole tree costs a reader less than reading the changes. */
 uint64_t change_log_limit(const octree *tree);
 
 /* Discard all changes and turn the log off. */

@@ -18,9 +18,9 @@
 #include <string.h>
 
 enum {
-    CACHED = 300000,   /* trees with fewer points fit a processor's caches, where sorting gains less */
-    FEW = 20,          /* in larger trees, few points are less than a twentieth of the stored ones */
-    FEW_OF_CACHED = 8, /* in trees that fit the caches, less than an eighth */
+    CACHED = 300000,   /* a tree with fewer points fits a processor's caches, where sorting gains less */
+    FEW = 20,          /* in larger trees, a batch is small if it has less than a twentieth of the stored points */
+    FEW_OF_CACHED = 8, /* in trees that fit the caches, it is small if it has less than an eighth */
 };
 
 bool are_few(const octree *tree, size_t count)
@@ -34,7 +34,7 @@ bool are_few(const octree *tree, size_t count)
 
 enum { TOGETHER = 32 };
 
-/* The paths of several points, level by level. A position outside the world has no path. */
+/* The paths of several points, stored level by level. A point whose position is outside the world has no path. */
 typedef struct descents {
     octree_status statuses[TOGETHER];
     uint64_t codes[TOGETHER];
@@ -49,7 +49,7 @@ static void find_point_codes(descents *w, const octree *tree, const octree_point
         w->statuses[i] = complete_code(tree, points[i].position, &w->codes[i]);
 }
 
-/* Descend one level at a time with all points, so that their cache misses overlap. */
+/* Let all points descend together, one level at a time, so that their cache misses overlap. */
 static void descend_together(descents *w, octree *tree, const octree_point *points, size_t count)
 {
     size_t going = 0, left[TOGETHER];
@@ -82,12 +82,12 @@ static void descend_together(descents *w, octree *tree, const octree_point *poin
 typedef struct insertions {
     batch *batch;
     octree_point *full;      /* points that met a full leaf */
-    octree_status *statuses; /* the statuses of all points, then those of the points in `full` */
+    octree_status *statuses; /* the statuses of all points, followed by the statuses of the points in `full` */
     size_t full_count;
 } insertions;
 
-/* Insert a point into the leaf at the end of its path. No node moves in memory, so that other paths stay valid. The
- * count cannot overflow: are_few() has checked it. */
+/* Insert a point into the leaf at the end of its path. No node moves in memory, so the paths of other points stay
+ * valid. The count cannot overflow, because are_few() has checked it. */
 static octree_status insert_at_path_end(octree *tree, const octree_point *point, const descents *w, size_t i)
 {
     node *leaf = w->nodes[w->depths[i]][i];
@@ -102,8 +102,8 @@ static octree_status insert_at_path_end(octree *tree, const octree_point *point,
     return OCTREE_OK;
 }
 
-/* Insert up to TOGETHER points. A point whose path ends at an inner node adds a leaf, which moves nodes in memory; the
- * rest of the group then descends from the root again, point by point. */
+/* Insert up to TOGETHER points. If a point's path ends at an inner node, the node gets a new leaf and nodes move in
+ * memory. The other points of the group then descend from the root again, one by one. */
 static octree_status insert_point_group(insertions *f, size_t first, size_t count)
 {
     descents w;
@@ -165,16 +165,16 @@ octree_status insert_few(batch *b)
 
 /* ---- Removing ----------------------------------------------------------------------------------------------- */
 
-/* A point to remove, with its leaf. No node moves in memory before the last point is removed. */
+/* A point to remove, and its leaf. Nodes do not move in memory until the last point is removed. */
 typedef struct removal {
-    node *leaf, *parent; /* null: the leaf is the root */
+    node *leaf, *parent; /* null as `parent`: the leaf is the root */
     uint32_t place, index;
 } removal;
 
-/* A node that becomes a leaf when all points are removed. */
+/* A node that becomes a leaf when all points of the batch are removed. */
 typedef struct merging {
     node *at;
-    node made; /* an empty leaf with room for the points that stay */
+    node made; /* the new leaf, empty but with room for the points that stay */
 } merging;
 
 typedef struct removals {
@@ -184,7 +184,8 @@ typedef struct removals {
     list mergings;
 } removals;
 
-/* Find up to TOGETHER points. Reduces the counts of the inner nodes above them, as if the points were removed. */
+/* Find up to TOGETHER points. Reduce the counts of the inner nodes above them, as if the points were removed
+ * already. */
 static void find_point_group(removals *r, size_t first, size_t count)
 {
     descents w;
@@ -213,8 +214,8 @@ static path path_to_removal(const removals *r, const removal *found)
     return find_path(r->batch->tree, morton_code(r->batch->tree->axes, r->batch->points[found->place].position));
 }
 
-/* Allocate the leaf for the highest node above a point that now fits one. An inner node with room != 0 already has it.
- */
+/* Allocate a leaf for the highest node above a removed point whose remaining points fit one leaf. An inner node with
+ * room != 0 already has such a leaf. False when there is no memory. */
 static bool plan_merge(removals *r, const removal *found)
 {
     store *s = &r->batch->tree->store;
@@ -257,15 +258,16 @@ static void undo_removals(removals *r)
     }
 }
 
-/* Remove the points from their leaves. Returns the number of leaves that became empty; these come first in `found`. */
+/* Remove the points from their leaves. Returns the number of removals that left an empty leaf. These removals come
+ * first in `found`. */
 static size_t remove_found_points(removals *r)
 {
     size_t emptied = 0;
     for (size_t i = 0; i < r->count; i++) {
         removal *it = &r->found[i];
         const octree_point *point = &r->batch->points[it->place];
-        if (it->index >=
-            it->leaf->count) /* it was the last point of the leaf and has moved into the place of a removed point */
+        /* the leaf's last point has moved to the index of a removed point */
+        if (it->index >= it->leaf->count)
             it->index = leaf_find(it->leaf, point->position, point->id);
         leaf_remove(&r->batch->tree->store, it->leaf, it->index);
         if (it->leaf->count == 0)
@@ -274,7 +276,7 @@ static size_t remove_found_points(removals *r)
     return emptied;
 }
 
-/* Change the tree as planned. Cannot fail. */
+/* Change the tree as planned: the leaves of merges and the removals are known. Cannot fail. */
 static void carry_out_removals(removals *r)
 {
     octree *tree = r->batch->tree;
@@ -287,7 +289,7 @@ static void carry_out_removals(removals *r)
     }
     for (size_t i = 0; i < emptied; i++) {
         const path p = path_to_removal(r, &r->found[i]);
-        if (path_end(&p)->count == 0) /* never the root, since most points stay */
+        if (path_end(&p)->count == 0) /* the node is never the root, because most points of the tree stay */
             remove_empty_child(tree, p.nodes[p.depth - 1], path_end(&p));
     }
 }

@@ -8,10 +8,10 @@
 /* Whether `count` points are few enough for these functions to be faster than sorting. */
 bool are_few(const octree *tree, size_t count);
 
-/* Insert points: those whose leaf has room one by one, the others as one batch at the end. */
+/* Insert points. A point whose leaf has room is inserted at once; the others are inserted as one batch at the end. */
 octree_status insert_few(batch *b);
 
-/* Remove points whose ids all differ. */
+/* Remove points. All ids of the batch must differ. */
 octree_status remove_few(batch *b);
 
 /* Insert any number of points in Morton order (bulk.c). */

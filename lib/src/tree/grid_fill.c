@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-enum { SAMPLE_STEP = 16 }; /* every 16th point is sampled */
+enum { SAMPLE_STEP = 16 }; /* one of 16 points is sampled */
 
 /* A node whose points must be divided further than the grid. */
 typedef struct crowd {
@@ -28,13 +28,14 @@ typedef struct crowd {
 
 typedef struct filling {
     batch *whole;
-    size_t count; /* the number of points of the batch and of copied stored points */
+    size_t count; /* the number of points: those of the batch and the copies of stored points */
     unsigned depth, tasks;
-    uint32_t *counts[GRID_DEEPEST + 1]; /* for each depth, the number of points in each cell */
-    uint32_t *shares;                   /* for each task, the number of its points in each cell of the grid */
-    octree_point **next;                /* for each task and cell, where its next point is written; null in a crowd */
-    list crowds;                        /* in Morton order */
-    size_t crowded;                     /* the number of points in crowds */
+    uint32_t *counts[GRID_DEEPEST + 1]; /* counts[d][i] is the number of points in cell i of depth d */
+    uint32_t *shares; /* for each task and each cell of the grid, the number of the task's points in the cell */
+    /* for each task and each cell, the address for the task's next point; null if the cell is in a crowd */
+    octree_point **next;
+    list crowds;    /* a list of crowd, in Morton order */
+    size_t crowded; /* the number of points in all crowds */
 } filling;
 
 static size_t cell_count_at(unsigned depth)
@@ -42,7 +43,7 @@ static size_t cell_count_at(unsigned depth)
     return (size_t)1 << 3 * depth;
 }
 
-/* Whether this many points form a leaf that is written directly. */
+/* Whether this many points form a leaf that can be written without sorting. */
 static bool fits_direct_leaf(const octree *tree, size_t count)
 {
     return count <= POOL_MAX_UNITS && fits_leaf(tree, count);
@@ -50,7 +51,8 @@ static bool fits_direct_leaf(const octree *tree, size_t count)
 
 /* ---- The grid -------------------------------------------------------------------------------------------------- */
 
-/* The number of sampled points in cells with more than `limit` of them, that is, with twice the points of a leaf. */
+/* The number of sampled points in crowded cells. A cell is crowded if it has more than `limit` samples, which means
+ * twice the points of a leaf. */
 static size_t count_crowded_samples(const batch *b, unsigned depth, uint32_t *counts, size_t limit)
 {
     const size_t stride = b->to ? 3 : sizeof *b->points / sizeof(double), samples = b->count / SAMPLE_STEP;
@@ -105,7 +107,8 @@ void find_grid_cells(const batch *b, const octree_point *points, size_t count, u
     }
 }
 
-/* Make items for adjacent points, which are all the caller's or all copies of stored ones. Returns the number made. */
+/* Make items for adjacent points. They must be all from the caller's array or all from the copies of stored points.
+ * Returns the number of items made. */
 static size_t append_grid_items(const batch *b, size_t first, size_t count, octree_point *const *filter,
                                 morton_item *items)
 {
@@ -170,7 +173,8 @@ static void sum_cell_counts(filling *f)
 
 /* ---- Nodes -------------------------------------------------------------------------------------------------- */
 
-/* Set where the points of a cell are written in its leaf: grid cell by grid cell, in the given order within each. */
+/* Set the addresses at which the points of a cell are written into its leaf. The points of each grid cell are adjacent
+ * there and keep their given order. */
 static void set_write_positions(filling *f, cell c, size_t index, octree_point *to)
 {
     const size_t cells = cell_count_at(f->depth), width = cell_count_at(f->depth - c.depth);
@@ -181,8 +185,8 @@ static void set_write_positions(filling *f, cell c, size_t index, octree_point *
         }
 }
 
-/* Whether build_node() must build a cell: it is a large leaf, the grid does not divide it, or its points may be
- * inseparable under OCTREE_REFUSE. */
+/* Whether build_node() must build the node of a cell. It must if the leaf is large, if the grid is too coarse to divide
+ * the cell, or if the points may be inseparable under OCTREE_REFUSE. */
 static bool needs_sorting(const filling *f, cell c, size_t index)
 {
     const octree *tree = f->whole->tree;
@@ -236,7 +240,7 @@ static bool make_grid_node(filling *f, cell c, size_t index, node *made)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* Write points into their leaves, at their destinations if `to` is not null. */
+/* Write points into their leaves, with the positions `to` if `to` is not null. */
 static void write_points_to_leaves(const uint32_t *cells, const octree_point *points, const double (*to)[3],
                                    size_t count, octree_point **next)
 {
@@ -258,7 +262,7 @@ static void write_points_of_share(size_t number, void *context)
     const batch *b = f->whole;
     octree_point **next = f->next + number * cell_count_at(f->depth);
     const size_t first = share_start(f->count, f->tasks, number), end = share_start(f->count, f->tasks, number + 1);
-    /* The end of the caller's points in this share; the copies of stored points follow. */
+    /* The share may begin with points of the caller's array, up to `middle`; copies of stored points follow. */
     const size_t middle = end < b->count ? end : first < b->count ? b->count : first;
     if (first < middle)
         write_points_to_leaves(b->cells + first, b->points + first, b->to ? b->to + first : NULL, middle - first, next);
@@ -266,7 +270,7 @@ static void write_points_of_share(size_t number, void *context)
         write_points_to_leaves(b->cells + middle, b->stored + (middle - b->count), NULL, end - middle, next);
 }
 
-/* Correct the counts of a node after some points were refused. Returns its count. */
+/* Recompute the counts of a node and the nodes below it after some points were refused. Returns the node's count. */
 static uint32_t correct_counts(node *n)
 {
     const unsigned children = bits_count8(n->octants);
@@ -317,7 +321,8 @@ bool build_from_grid(batch *b, node *made)
     arena *memory = &b->store->memory;
     filling f = {.whole = b, .count = b->count + b->stored_count, .depth = b->grid};
     const size_t cells = cell_count_at(f.depth);
-    const size_t most = f.count / cells + 1; /* with more tasks the tables would be larger than the points */
+    const size_t most =
+        f.count / cells + 1; /* with more tasks the tables of counts would take more memory than the points */
     f.tasks = count_tasks(b->tree, f.count);
     f.tasks = f.tasks < most ? f.tasks : (unsigned)most;
     const size_t size = (cell_count_at(f.depth + 1) / 7 + f.tasks * cells) * sizeof *f.shares;

@@ -5,13 +5,13 @@
 
 #include <string.h>
 
-/* ---- Hashed leaves: open addressing with linear probing; a slot holds an index + 1, or 0 -------------------- */
+/* ---- Hashed leaves: open addressing with linear probing. A slot holds a point's index + 1; 0: it is empty ---- */
 
 #define HASHED_MAX_ROOM (UINT32_C(1) << 31)
 
 typedef struct hashed_header {
     uint32_t room;
-    uint32_t mask; /* slots - 1; slots are a power of two, at least twice the room */
+    uint32_t mask; /* the number of slots - 1. The number is a power of two, at least twice the room */
     uint64_t size; /* the size of the whole block in bytes */
 } hashed_header;
 
@@ -57,7 +57,7 @@ static void release_hashed_block(arena *memory, octree_point *points)
     arena_free(memory, hashed_header_of(points), (size_t)hashed_header_of(points)->size);
 }
 
-/* The slot of a pair, or the empty one where the search ends. */
+/* Return the slot of a pair (position, id), or the empty slot at which the search for it ends. */
 static uint32_t find_slot(const octree_point *points, const double position[3], uint64_t id)
 {
     const uint32_t *slots = hash_slots_of(points);
@@ -77,8 +77,8 @@ uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t i
     return hash_slots_of(points)[find_slot(points, position, id)] - 1;
 }
 
-/* Empty a slot and close the gap: later entries of the run move up, unless that would place them before their home
- * slot. */
+/* Empty a slot and close the gap. Entries after the gap move up, unless that would place them before the slot of their
+ * hash value. */
 static void clear_slot(octree_point *points, uint32_t gap)
 {
     uint32_t *slots = hash_slots_of(points);
@@ -107,7 +107,8 @@ static void remove_from_hashed(octree_point *points, uint32_t count, uint32_t in
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* Block sizes grow by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40 ... 64. */
+/* The size of the block for `count` points. Sizes grow by about a quarter: 1, 2, 3, 4, 6, 8, 12, 16, 20, 24, 28, 32, 40
+ * ... 64. */
 unsigned leaf_block_room(uint32_t count)
 {
     const unsigned step = count <= 4 ? 1 : count <= 8 ? 2 : count <= 32 ? 4 : 8;
@@ -183,7 +184,7 @@ static bool change_leaf_room(store *s, node *leaf, uint32_t count)
 bool leaf_append(store *s, node *leaf, const octree_point *point)
 {
     if (leaf->count == current_room(leaf)) {
-        /* A hashed leaf doubles its room, so that all copying is linear in the number of insertions. */
+        /* A hashed leaf doubles its room, so that the total cost of copying is linear in the number of insertions. */
         /* unreachable: a test would need 2^31 points in one leaf, 64 GiB */
         const uint32_t doubled = leaf->count > UINT32_MAX / 2 ? UINT32_MAX : 2 * leaf->count;
         if (!change_leaf_room(s, leaf, leaf->count < POOL_MAX_UNITS ? leaf->count + 1 : doubled))
@@ -198,7 +199,7 @@ void leaf_remove(store *s, node *leaf, uint32_t index)
     if (is_hashed(leaf)) {
         remove_from_hashed(leaf->below, leaf->count, index);
         leaf->count--;
-        /* Without memory for a smaller block the leaf keeps its block. */
+        /* A smaller block saves memory. If there is no memory for it, the leaf keeps its block. */
         if (leaf->count < hashed_header_of(leaf->below)->room / 4)
             change_leaf_room(s, leaf, leaf->count);
         return;

@@ -12,10 +12,11 @@
 #include "pool.h"
 
 typedef struct node {
-    void *below;     /* inner: struct node[], the children by octant; leaf: octree_point[], null if empty */
+    void *below; /* an inner node: struct node[], its children by octant; a leaf: octree_point[], or null if it is empty
+                  */
     uint32_t count;  /* the number of points in and below the node */
     uint8_t octants; /* bit mask of the octants that have a child; 0 for a leaf */
-    uint8_t room;    /* leaf: the capacity of its block in points, or LEAF_HASHED */
+    uint8_t room;    /* a leaf: the capacity of its block in points, or LEAF_HASHED */
 } node;
 
 #define LEAF_HASHED 255
@@ -24,11 +25,11 @@ typedef struct node {
 /* The memory of a tree. */
 typedef struct store {
     arena memory;
-    pool nodes; /* the groups of sibling nodes */
+    pool nodes; /* allocates the groups of sibling nodes */
     pool points;
 } store;
 
-/* Prepare the pools of a store whose memory is set. */
+/* Initialize the pools of a store. Its member `memory` is already set. */
 void store_init(store *s);
 
 /* Free the nodes below a root, and all blocks of the pools. */
@@ -67,9 +68,9 @@ static inline void prefetch_memory(const void *memory)
 #endif
 }
 
-/* Prefetch the points of a leaf, of a hashed leaf the first ones. The processor's own prefetcher starts some cache
- * lines late, which costs a quarter of a query's time when leaves are not cached. Blocks of eight points keep the
- * loop's branches predictable; prefetching past the last point does no harm. */
+/* Prefetch the points of a leaf; of a hashed leaf only the first points. The processor's own prefetcher starts some
+ * cache lines late, which costs a quarter of a query's time if leaves are not cached. The loop prefetches blocks of
+ * eight points, so that its branches are predictable; prefetching past the last point does no harm. */
 static inline void leaf_prefetch(const node *leaf)
 {
     enum { TOGETHER = 8, A_LINE = 2 };
@@ -79,7 +80,7 @@ static inline void leaf_prefetch(const node *leaf)
             prefetch_memory((const void *)(points + k * sizeof(octree_point)));
 }
 
-/* Prefetch the children or the points of a node. */
+/* Prefetch the children of an inner node or the points of a leaf. */
 static inline void prefetch_node(const node *n)
 {
     if (n->octants)
@@ -88,7 +89,7 @@ static inline void prefetch_node(const node *n)
         leaf_prefetch(n);
 }
 
-/* The index of the pair (position, id), or LEAF_NONE. */
+/* The index of the pair (position, id) in a leaf, or LEAF_NONE. */
 uint32_t leaf_find_hashed(const node *leaf, const double position[3], uint64_t id);
 static inline uint32_t leaf_find(const node *leaf, const double position[3], uint64_t id)
 {
@@ -105,17 +106,17 @@ static inline uint32_t leaf_find(const node *leaf, const double position[3], uin
     return LEAF_NONE;
 }
 
-/* The room of the block that is allocated for `count` points, at most POOL_MAX_UNITS. */
+/* The capacity, in points, of the block that is allocated for `count` points. `count` is at most POOL_MAX_UNITS. */
 unsigned leaf_block_room(uint32_t count);
 
 /* Make an empty leaf with room for `count` points. False when there is no memory. */
 bool leaf_create(store *s, node *leaf, uint32_t count);
 void leaf_release(store *s, const node *leaf);
 
-/* Append a pair that the leaf does not hold yet. False when there is no memory; the leaf is then unchanged. */
+/* Append a point that the leaf does not hold yet. False when there is no memory; the leaf is then unchanged. */
 bool leaf_append(store *s, node *leaf, const octree_point *point);
 
-/* Append a pair that the leaf does not hold yet, to a leaf that has room. Cannot fail. */
+/* Append a point that the leaf does not hold yet, to a leaf that has room. Cannot fail. */
 void leaf_append_hashed(node *leaf, const octree_point *point);
 static inline void leaf_append_in_room(node *leaf, const octree_point *point)
 {
@@ -128,19 +129,20 @@ static inline void leaf_append_in_room(node *leaf, const octree_point *point)
 /* Remove the point at an index; the last point moves into its place. Cannot fail. */
 void leaf_remove(store *s, node *leaf, uint32_t index);
 
-/* Replace the point at an index by a pair that the leaf does not hold yet. Cannot fail. */
+/* Replace the point at an index by a point that the leaf does not hold yet. Cannot fail. */
 void leaf_replace(node *leaf, uint32_t index, const octree_point *point);
 
-/* Append all points in and below a node, except one (may be null), to a leaf that has room for them. */
+/* Append all points in and below the node `from` to a leaf that has room for them. The point `except` is left out; it
+ * may be null. */
 void leaf_append_all(node *leaf, const node *from, const octree_point *except);
 
 /* Copy the points in and below a node, in the order of their leaves. Returns the end of the copies. */
 octree_point *node_copy_points(const node *n, octree_point *to);
 
-/* Free the children or points of a node and everything below; the caller owns the node itself. */
+/* Free everything below a node: its children or its points. The node itself belongs to the caller. */
 void node_release(store *s, const node *n);
 
-/* The same, but keep the blocks that another version of the node, `other`, uses as well. */
+/* Free everything below a node, except the blocks that `other`, another version of the node, uses too. */
 void node_release_unshared(store *s, const node *n, const node *other);
 
 #endif

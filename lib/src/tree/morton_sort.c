@@ -21,11 +21,11 @@
 #define LEVELS 3 /* the greatest number of tree levels per pass: 8^3 buckets */
 
 typedef struct sorter {
-    const octree *tree; /* set only to sort by tasks, like `memory` */
+    const octree *tree; /* the tree, set only to sort by tasks, like `memory` */
     arena *memory;
-    size_t unsorted; /* cells of at most this many items stay unsorted */
-    bool differ;     /* no two items are the same point, so that equal codes need not be adjacent */
-    bool repeated;   /* result: some items may have equal codes */
+    size_t unsorted; /* a cell of at most this many items stays unsorted */
+    bool differ;     /* all items are different points, so equal codes need not be adjacent */
+    bool repeated;   /* a result: true if some items may have equal codes */
 } sorter;
 
 static void insertion_sort(morton_item *items, size_t count)
@@ -62,7 +62,8 @@ static bool has_equal_codes(const morton_item *items, size_t count)
     return false;
 }
 
-/* End the recursion at a cell with `left` levels below it: sort its few items, or leave them unsorted. */
+/* End the recursion at a cell with `left` tree levels below it: sort its items if they are few, or leave them
+ * unsorted. */
 static void sort_small_cell(sorter *s, morton_item *items, size_t count, unsigned left)
 {
     if (left > 0 && count <= s->unsorted && (s->differ || !has_equal_codes(items, count)))
@@ -72,7 +73,7 @@ static void sort_small_cell(sorter *s, morton_item *items, size_t count, unsigne
         insertion_sort(items, count);
 }
 
-/* The number of levels that leave few items in each cell. */
+/* The number of tree levels to sort in one pass, so that each resulting cell has few items. */
 static unsigned choose_levels(const sorter *s, size_t count, unsigned left)
 {
     const size_t wanted = s->unsorted > 4 ? s->unsorted : 4;
@@ -82,8 +83,8 @@ static unsigned choose_levels(const sorter *s, size_t count, unsigned left)
     return levels;
 }
 
-/* Distribute the items by digit. On entry ends[d] is the count of items with digit d; on return it is the end of their
- * range in `to`. */
+/* Distribute the items among the digits of their codes. On entry ends[d] is the number of items with digit d; on return
+ * it is the end of their range in `to`. */
 static void scatter_by_digit(const morton_item *from, morton_item *to, size_t count, unsigned shift, unsigned digits,
                              uint32_t ends[])
 {
@@ -97,7 +98,8 @@ static void scatter_by_digit(const morton_item *from, morton_item *to, size_t co
         to[ends[from[i].code >> shift & (digits - 1)]++] = from[i];
 }
 
-/* Sort the items of a cell with `left` levels below it. The result is in `items` if in_place, else in `other`. */
+/* Sort the items of a cell with `left` tree levels below it. The result is in `items` if in_place is true, else in
+ * `other`. */
 static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place,
                       uint32_t ends[])
 {
@@ -124,7 +126,8 @@ static void sort_cell(sorter *s, morton_item *items, morton_item *other, size_t 
 static void sort_on_this_thread(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left,
                                 bool in_place)
 {
-    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS]; /* one section for each level of the recursion */
+    /* one section of the array for each level of the recursion */
+    uint32_t ends[OCTREE_MAX_DEPTH / LEVELS << 3 * LEVELS];
     sort_cell(s, items, other, count, left, in_place, ends);
 }
 
@@ -142,15 +145,16 @@ enum { DIGITS = 1 << 3 * LEVELS };
 /* One parallel pass and the cells that it produces. */
 typedef struct pass {
     sorter sorter;
-    uint32_t (*counts)[DIGITS]; /* for each task: items per digit, then where its next item of a digit goes */
+    uint32_t (
+        *counts)[DIGITS]; /* for each task and digit: the number of items, and later the index for the next item */
     morton_item *from, *to;
     size_t count;
     unsigned tasks;
-    unsigned left;                     /* levels below the cells */
+    unsigned left;                     /* the number of tree levels below the cells */
     unsigned shift;                    /* the position of the digit in a code, in bits */
-    bool in_place;                     /* sort the cells in place in `to` */
-    size_t ends[DIGITS + 1];           /* cell d spans ends[d] .. ends[d + 1] */
-    unsigned cells[TASKS_AT_MOST + 1]; /* the first cell of each task */
+    bool in_place;                     /* true: the sorted items of each cell stay in `to` */
+    size_t ends[DIGITS + 1];           /* the items of cell d are at the indices ends[d] .. ends[d + 1] - 1 */
+    unsigned cells[TASKS_AT_MOST + 1]; /* the first cell that each task sorts */
     bool repeated[TASKS_AT_MOST];
 } pass;
 
@@ -221,7 +225,7 @@ static void assign_cells_to_tasks(pass *p)
     p->cells[p->tasks] = DIGITS;
 }
 
-/* sort_cell() by tasks; on the calling thread if there is no memory for the counts. */
+/* Do what sort_cell() does, by tasks. Without memory for the counts, call sort_cell() on this thread. */
 static void sort_by_tasks(sorter *s, morton_item *items, morton_item *other, size_t count, unsigned left, bool in_place)
 {
     pass p = {.sorter = *s, .from = items, .to = other, .count = count, .left = left - LEVELS, .in_place = !in_place};

@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A point to sort: its code and where the point is. */
+/* A point to sort: its Morton code and its index. */
 typedef struct morton_item {
     uint64_t code;
-    uint32_t place; /* index of the point in the caller's array */
-    uint32_t index; /* index of a stored point in its leaf; MORTON_NEW for a point that is not stored */
+    uint32_t place; /* the index of the point in the caller's array */
+    uint32_t index; /* the index of a stored point in its leaf; MORTON_NEW for a point that is not stored */
 } morton_item;
 
 #define MORTON_NEW UINT32_MAX
@@ -25,8 +25,8 @@ typedef struct morton_item {
  * Cost: O(count), in up to 21 passes, usually two or three. */
 bool morton_sort(morton_item *items, morton_item *spare, size_t count, unsigned depth, size_t unsorted);
 
-/* Sort the items of the whole world, by tasks if there are many. If all ids `differ`, equal codes need not be adjacent
- * in unsorted cells and are not detected there. */
+/* Sort the items of the whole world, by tasks if there are many. `differ` says that all ids differ: equal codes need
+ * not be adjacent in unsorted cells then, and are not detected there. */
 struct octree;
 struct arena;
 bool morton_sort_tasks(const struct octree *tree, struct arena *memory, morton_item *items, morton_item *spare,

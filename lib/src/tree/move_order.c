@@ -23,19 +23,21 @@
 #define NO_OWNER UINT32_MAX
 #define FIRST_OWNER (UINT32_MAX - 1)
 
-/* A pair (position, id) that a move leaves or goes to. */
+/* A pair (position, id) from which or to which a move goes. */
 typedef struct pair {
     uint64_t code;
-    uint32_t owner; /* index of the move whose point is here, NO_OWNER, or FIRST_OWNER for the point stored at first */
-    uint32_t index; /* index in the leaf at first; MORTON_NEW if the pair was not stored */
+    uint32_t owner; /* the index of the move whose point is at the pair; FIRST_OWNER: the point stored before the batch;
+                       NO_OWNER: no point */
+    uint32_t index; /* the index of the pair in its leaf before the batch; MORTON_NEW: the pair was not stored */
 } pair;
 
 typedef struct simulation {
     batch *batch;
-    node points; /* a leaf with the positions and ids of the pairs */
+    node points; /* a leaf that serves as a hash table of the pairs: its index i is the index of pairs[i] */
     pair *pairs;
-    node cells;       /* a leaf whose ids are the addresses of indivisible cells, at position 0 */
-    uint32_t *counts; /* the current number of points in each of these cells; null if no leaf refuses a point */
+    node cells;       /* a leaf that serves as a hash table of indivisible cells: its ids are the cells' addresses, its
+                         positions are 0 */
+    uint32_t *counts; /* the current number of points in each cell of `cells`; null if no leaf refuses points */
 } simulation;
 
 static uint32_t find_stored_index(const octree *tree, const octree_point *point)
@@ -44,7 +46,7 @@ static uint32_t find_stored_index(const octree *tree, const octree_point *point)
     return find_point(tree, point->position, point->id, &found) ? found.index : MORTON_NEW;
 }
 
-/* The index of a point in a leaf that serves as a table; if it is missing it is added at the end. */
+/* Return the index of a point in a leaf that serves as a table. A missing point is added at the end. */
 static uint32_t find_or_add(node *table, const octree_point *point)
 {
     const uint32_t index = leaf_find(table, point->position, point->id);
@@ -66,7 +68,7 @@ static pair *find_or_add_pair(simulation *r, const octree_point *point)
     return &r->pairs[at];
 }
 
-/* The indivisible cell that contains a code. */
+/* Return the address of the indivisible cell that contains a code. */
 static octree_address find_indivisible_cell(const octree *tree, uint64_t code)
 {
     cell c = root_cell();
@@ -95,8 +97,9 @@ static uint32_t *find_or_add_cell_count(simulation *r, uint64_t code)
     return &r->counts[at];
 }
 
-/* Move the count of a point from one indivisible cell to another. False if the destination is full: a full leaf that
- * cannot split holds the points of one indivisible cell only. */
+/* Subtract a point from the count of one indivisible cell and add it to the count of another. False if the other
+ * cell is full. A full leaf that cannot split holds the points of one indivisible cell only, so the leaf refuses the
+ * point. */
 static bool move_between_cells(simulation *r, uint64_t from, uint64_t to)
 {
     if (!r->counts)
@@ -131,7 +134,7 @@ static int compare_places(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* List the stored points that leave and the points that arrive, from the final owners of the pairs. */
+/* List the stored points that leave and the points that arrive, according to the final owner of each pair. */
 static void list_leaving_and_arriving(const simulation *r)
 {
     batch *b = r->batch;
@@ -180,8 +183,8 @@ bool simulate_moves_in_order(batch *b)
 
 /* ---- Overflow ----------------------------------------------------------------------------------------------- */
 
-/* Whether one indivisible cell of a leaf has more than the capacity of codes among its points, the origins of moves and
- * the destinations of moves. */
+/* Whether an indivisible cell of a leaf might become overfull. It might if more than `capacity` points lie in the cell,
+ * counting the leaf's points, the origins of moves and their destinations. */
 static bool can_overfill_leaf(const batch *b, const node *leaf, cell c, span arriving)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
@@ -227,8 +230,8 @@ bool can_overflow(const batch *b, const node *old, cell c, span arriving)
 
 /* ---- Overflow of a rebuilt tree ---------------------------------------------------------------------------- */
 
-/* Two points farther apart than this on some axis are never in one indivisible cell: such a cell has the greatest
- * depth, or contains no double between its planes. */
+/* Store a distance for each axis. Two points that are farther apart on some axis are never in one indivisible cell:
+ * such a cell has the greatest depth, or contains no double between its planes. */
 static void separating_distance(const octree *tree, double distance[3])
 {
     const octree_box *world = &tree->def.world;
@@ -245,8 +248,8 @@ static bool are_close(const octree_point *a, const octree_point *b, const double
            fabs(a->position[1] - b->position[1]) <= distance[1] && fabs(a->position[2] - b->position[2]) <= distance[2];
 }
 
-/* An upper bound of the number of points in one indivisible cell, among 2 * half points: of two points that are not
- * close at most one counts. */
+/* Return an upper bound of the number of points in one indivisible cell, among 2 * half points. Point i is paired with
+ * point i + half. If the two are not close to each other, at most one of them can lie in the cell. */
 static size_t max_paired_points_in_one_cell(const octree_point *points, uint32_t half, const double distance[3])
 {
     size_t most = half;
@@ -255,7 +258,7 @@ static size_t max_paired_points_in_one_cell(const octree_point *points, uint32_t
     return most;
 }
 
-/* The bound of max_paired_points_in_one_cell() for the points of two leaves together. */
+/* Return an upper bound of the number of points in one indivisible cell, among the points of two leaves together. */
 static size_t max_points_in_one_cell(const node *old, const node *made, const double distance[3])
 {
     const octree_point *before = leaf_points(old), *after = leaf_points(made);

@@ -20,7 +20,8 @@
 
 /* ---- Jobs: the nodes that tasks plan ------------------------------------------------------------------------ */
 
-/* List the jobs of build_node() in its order. False when there is no memory. */
+/* Add the jobs of build_node() to the list, in the order in which build_node() reaches their nodes. False when there is
+ * no memory. */
 static bool add_build_jobs(batch *b, cell c, span items)
 {
     if (items.count <= b->division->grain)
@@ -35,8 +36,8 @@ static bool add_build_jobs(batch *b, cell c, span items)
     return true;
 }
 
-/* List the jobs of change_node() in its order. A leaf with very many arriving items is divided later, by
- * build_node_by_tasks(). False when there is no memory. */
+/* Add the jobs of change_node() to the list, in the order in which change_node() reaches their nodes. A leaf with very
+ * many arriving items is one job, which build_node_by_tasks() divides later. False when there is no memory. */
 static bool add_change_jobs(batch *b, const node *old, cell c, span leaving, span arriving)
 {
     static const node empty = {0};
@@ -74,7 +75,7 @@ static void plan_jobs_of_part(size_t number, void *context)
     }
 }
 
-/* Release the results of the jobs that were not used, and the list. */
+/* Free the list of jobs, and the results that were not used. */
 static void release_jobs(batch *b)
 {
     static const node none = {0};
@@ -86,7 +87,7 @@ static void release_jobs(batch *b)
     *work = (job_list){.ready = false};
 }
 
-/* Run all jobs. False when there is no memory; the jobs are then dropped. */
+/* Run all jobs. False when there is no memory; the jobs are then removed from the list. */
 static bool run_jobs(batch *b)
 {
     job_list *work = &b->division->work;
@@ -114,7 +115,7 @@ bool take_job_result(batch *b, node *made)
     return true;
 }
 
-/* The jobs of one large leaf run while the list of the whole tree is set aside. */
+/* Build the node of one large leaf by jobs of its own. The job list of the whole tree is set aside meanwhile. */
 bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 {
     if (!b->division)
@@ -129,13 +130,14 @@ bool build_node_by_tasks(batch *b, cell c, span items, node *made)
 
 /* ---- The plan ----------------------------------------------------------------------------------------------- */
 
-/* Edit a leaf in place. Arriving points first overwrite leaving ones, then are appended. If more leave than arrive, the
- * last points fill the gaps. */
+/* Edit a leaf in place. Arriving points first overwrite leaving points; the remaining ones are appended. If more points
+ * leave than arrive, the last points of the leaf fill the gaps. */
 static void apply_leaf_edit(batch *b, const edit *e)
 {
     uint32_t count = e->count;
     size_t taken = 0;
-    for (size_t i = e->leaving.count; i-- > 0;) { /* from the last gap on: then the last point is never a leaving one */
+    for (size_t i = e->leaving.count;
+         i-- > 0;) { /* fill the last gap first: then the leaf's last point is never a leaving one */
         octree_point *gap = &e->points[e->leaving.items[i].index];
         *gap = taken < e->arriving.count ? arriving_point(b, &e->arriving.items[taken++]) : e->points[--count];
     }
@@ -176,7 +178,8 @@ static void release_plan_lists(batch *b)
     list_release(&b->store->memory, &b->edits, sizeof(edit));
 }
 
-/* Apply or drop the plans. Those of the parts come first: their nodes lie below those of the batch's own plan. */
+/* Carry out the plans or drop them. The plans of the parts come first, because their nodes lie below the nodes of the
+ * batch's own plan. */
 static void apply_or_drop_plan(batch *b, bool succeeds)
 {
     division *d = b->division;
@@ -204,7 +207,7 @@ static void combine_part_flags(batch *b)
 
 /* ---- Building anew -------------------------------------------------------------------------------------- */
 
-/* Build a tree in new pools, densely packed, and replace the old one if it succeeds. */
+/* Build a densely packed tree in new memory pools. If this succeeds, it replaces the old tree. */
 octree_status rebuild_from_batch(batch *b)
 {
     octree *tree = b->tree;
@@ -233,7 +236,7 @@ octree_status rebuild_from_batch(batch *b)
 
 /* ---- Restructuring ------------------------------------------------------------------------------------------ */
 
-/* Make the plan. False when there is no memory; then only patches and edits remain, to be dropped. */
+/* Make the plan. False when there is no memory; the patches and edits made so far must then be dropped. */
 static bool plan_changes(batch *b)
 {
     octree *tree = b->tree;

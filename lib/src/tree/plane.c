@@ -25,7 +25,8 @@ static void add_exactly(double a, double b, double sum[2])
     sum[1] = (a - (sum[0] - b_part)) + (b - b_part);
 }
 
-/* The 31 most significant bits of a double; their product with the 22 bits of a key is exact. */
+/* Return a double with only the 31 most significant bits of `value`. The product with a key, which has 22 bits, is
+ * exact. */
 static double high_31_bits(double value)
 {
     uint64_t bits;
@@ -35,15 +36,15 @@ static double high_31_bits(double value)
     return value;
 }
 
-/* Set the range of certain guesses. The rounding to fixed point adds one more error. In subnormal worlds no guess is
- * certain, because guesses use another product. */
+/* Set the range of fractions for which a guessed key is certain. Rounding to fixed point adds one more error. In
+ * subnormal worlds no guess is certain, because the guess uses another product. */
 static void set_certain_range(axis *a)
 {
     static const double first = (double)PLANE_GRID;
     const double error = a->guess_error * (double)(UINT64_C(1) << PLANE_FRACTION) + 2;
     const int64_t fraction = INT64_C(1) << PLANE_FRACTION;
     memcpy(&a->sure_from, &first, sizeof first);
-    if (a->subnormal || !(2 * error < (double)fraction)) /* also if `error` is NaN */
+    if (a->subnormal || !(2 * error < (double)fraction)) /* true also if `error` is NaN */
         return;
     a->sure_from += (uint64_t)error;
     a->sure_span = (uint64_t)(fraction - 2 * (int64_t)error);
@@ -91,8 +92,8 @@ static uint32_t search_key(const axis *a, double x)
     return key;
 }
 
-/* The guess is correct except for rounding, so the planes decide between it and its neighbours. In worlds a few ulps
- * wide or with an overflowing extent the guess is useless, and a binary search finds the key. */
+/* Correct a guessed key. The guess has only rounding errors, so the planes decide between it and its neighbours. In
+ * worlds a few ulps wide, or with an overflowing extent, the guess is useless and a binary search finds the key. */
 uint32_t plane_key_near(const axis *a, double x)
 {
     const double guess = plane_guess_key(a, x);
@@ -126,7 +127,7 @@ static inline __m128i spread_two(__m128i x)
     return spread_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
-/* The same for numbers of at most 8 bits. */
+/* Insert two zero bits before each bit of two numbers, each of at most 8 bits. */
 static inline __m128i spread_two_bytes(__m128i x)
 {
     x = spread_step(x, 8, UINT64_C(0x100f00f00f00f00f));
@@ -134,7 +135,7 @@ static inline __m128i spread_two_bytes(__m128i x)
     return spread_step(x, 2, UINT64_C(0x1249249249249249));
 }
 
-/* The constants of an axis, duplicated for two positions. */
+/* The constants of an axis, each stored twice, to process two positions at once. */
 typedef struct axis_pair {
     __m128d min, keys_per_unit;
     __m128i sure_from, sure_last;
@@ -161,13 +162,13 @@ static inline __m128i fixed_of_two(const axis_pair *a, double p, double q, __m12
     return fixed;
 }
 
-/* Each half of the result is all ones if its highest bit is set, else 0. */
+/* For each 64-bit half of a vector: set all bits if the half's highest bit is set, else clear all bits. */
 static inline __m128i all_ones_if_unsure(__m128i unsure)
 {
     return _mm_sub_epi64(_mm_setzero_si128(), _mm_srli_epi64(unsure, 63));
 }
 
-/* The codes of two positions; MORTON_UNSURE where a guess is not certain. */
+/* Compute the Morton codes of two positions. A code is MORTON_UNSURE if a guessed key is not certain. */
 static inline void codes_of_two(const axis_pair axes[3], const double *p, const double *q, uint64_t codes[2])
 {
     __m128i sums = _mm_setzero_si128(), unsure = sums;
@@ -178,8 +179,8 @@ static inline void codes_of_two(const axis_pair axes[3], const double *p, const 
     _mm_storeu_si128((__m128i *)codes, _mm_or_si128(sums, all_ones_if_unsure(unsure)));
 }
 
-/* The grid cells of two positions, from the most significant bits of each key; GRID_UNSURE where a guess is not
- * certain. */
+/* Compute the grid cells of two positions, from the most significant bits of each key. A cell is GRID_UNSURE if a
+ * guessed key is not certain. */
 static inline void cells_of_two(const axis_pair axes[3], unsigned depth, const double *p, const double *q,
                                 uint32_t cells[2])
 {

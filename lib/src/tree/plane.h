@@ -17,15 +17,16 @@
 
 typedef struct axis {
     double min, max;
-    double unit;          /* a power of two: the unit of the terms below */
-    double center[2];     /* (min + max) / 2 as an unevaluated sum */
-    double half[3];       /* (max - min) / 2 as an unevaluated sum; the first term has 31 bits */
-    bool plain;           /* the first terms of `center` and `half` alone are exact */
+    double unit;          /* a power of two, by which the terms below are multiplied */
+    double center[2];     /* (min + max) / 2 as an unevaluated sum of two terms */
+    double half[3];       /* (max - min) / 2 as an unevaluated sum of three terms; the first has 31 bits */
+    bool plain;           /* true: the first terms of `center` and `half` are exact without the others */
     bool subnormal;       /* all coordinates and their differences are subnormal */
-    double keys_per_unit; /* grid planes per unit of length, rounded; may be 0 or infinite in extreme worlds */
-    double guess_error;   /* error bound of a guessed key, in keys; may be infinite or NaN */
-    uint64_t sure_from;   /* fixed point: offset from a plane to the first certain guess above it */
-    uint64_t sure_span;   /* fixed point: length of the range of certain guesses; 0 if none is certain */
+    double keys_per_unit; /* the number of grid planes per unit of length, rounded; may be 0 or infinite in extreme
+                             worlds */
+    double guess_error;   /* an error bound of a guessed key, measured in keys; may be infinite or NaN */
+    uint64_t sure_from;   /* in fixed point: the offset from a plane to the first certain guess above it */
+    uint64_t sure_span;   /* in fixed point: the length of the range of certain guesses; 0: no guess is certain */
 } axis;
 
 axis axis_make(double min, double max);
@@ -33,7 +34,8 @@ axis axis_make(double min, double max);
 /* The plane at center + half * t for t in -1 .. 1, computed from all terms. */
 double plane_at_precisely(const axis *a, double t);
 
-/* The same, from the first terms where they suffice, clamped to the world. Not for the world's own faces. */
+/* The plane at center + half * t, clamped to the world. Only the first terms are used if they suffice. Not valid for
+ * the world's own faces. */
 static inline double plane_inside(const axis *a, double t)
 {
     const double plane = a->plain ? a->center[0] + a->half[0] * t : plane_at_precisely(a, t);
@@ -43,25 +45,28 @@ static inline double plane_inside(const axis *a, double t)
 }
 
 /* The k-th grid plane, 0 <= k <= PLANE_GRID: center + half * t with the exact t = k / 2^20 - 1. The terms are summed to
- * some 80 bits and rounded once. So planes equal the paper's repeated (min + max) / 2 wherever that is a double; they
- * are monotone, because neighbours are 2^-21 of the extent apart; and nothing overflows. */
+ * some 80 bits and rounded once.
+ *
+ * So a plane equals the paper's repeated (min + max) / 2 wherever that is a double. Planes ascend with k, because
+ * neighbours are 2^-21 of the extent apart. Nothing overflows. */
 static inline double plane_at(const axis *a, uint32_t k)
 {
     return k == 0 ? a->min : k == PLANE_GRID ? a->max : plane_inside(a, (double)k * 0x1p-20 - 1);
 }
 
-/* The key of a coordinate as a real number, except for rounding. */
+/* A guess of a coordinate's key, as a double with a fraction. It differs from the real value by rounding errors
+ * only. */
 static inline double plane_guess_key(const axis *a, double x)
 {
     const double above = x - a->min;
     return (a->subnormal ? subnormal_count(above) : above) * a->keys_per_unit;
 }
 
-/* plane_key() for a coordinate near a plane, where the guess may be wrong. */
+/* The key of a coordinate near a plane, where the guessed key may be wrong. plane_key() calls this function. */
 uint32_t plane_key_near(const axis *a, double x);
 
-/* Fixed point: 21 bits of a key and PLANE_FRACTION bits of fraction. Together they are the mantissa of a double in
- * [2^21, 2^22). */
+/* A fixed-point number has 21 bits of a key and PLANE_FRACTION bits of fraction. Together they are the mantissa of a
+ * double in [2^21, 2^22). */
 #define PLANE_FRACTION 31
 #define PLANE_FRACTION_MASK ((UINT64_C(1) << PLANE_FRACTION) - 1)
 #define PLANE_FIXED_BITS (OCTREE_MAX_DEPTH + PLANE_FRACTION)
@@ -75,16 +80,18 @@ static inline uint64_t plane_fixed(const axis *a, double x)
     return bits - a->sure_from;
 }
 
-/* The highest bit of the result is set if the guess is not certain, which includes all coordinates outside the world.
- */
+/* The highest bit of the result is set if the guess is not certain. For a coordinate outside the world it is always
+ * set. */
 static inline uint64_t plane_unsure(uint64_t span, uint64_t fixed)
 {
     return (span - 1 - (fixed & PLANE_FRACTION_MASK)) | (0 - (fixed >> PLANE_FIXED_BITS));
 }
 
-/* The key of a coordinate of the world, 0 <= key < PLANE_GRID. The guess has four roundings of a number below 2^21,
- * less than 2^-29 in all, and a plane is at most one ulp of the world's coordinates off its ideal position. A guess
- * farther than that from an integer is certain. */
+/* The key of a coordinate of the world, 0 <= key < PLANE_GRID.
+ *
+ * A guess is certain if it is farther from an integer than its error. The error has two parts: four roundings of a
+ * number below 2^21, less than 2^-29 in all; and a plane is at most one ulp of the world's coordinates off its ideal
+ * position. */
 static inline uint32_t plane_key(const axis *a, double x)
 {
     const uint64_t fixed = plane_fixed(a, x);
@@ -135,18 +142,21 @@ static inline uint64_t morton_code(const axis axes[3], const double position[3])
     return morton_interleave(keys);
 }
 
-/* In place of a code: the guessed keys of the position are not certain, or it is outside the world. */
+/* Stands in place of a code if the guessed keys of the position are not certain or the position is outside the
+ * world. */
 #define MORTON_UNSURE UINT64_MAX
 
-/* The Morton codes of `count` positions, `stride` doubles apart. Positions without a certain code get MORTON_UNSURE;
- * call morton_code() for those that are in the world. */
+/* Compute the Morton codes of `count` positions, which are `stride` doubles apart. A position whose code is not certain
+ * gets MORTON_UNSURE. If it lies in the world, call morton_code() for it. */
 void compute_morton_codes(const axis axes[3], const double *positions, size_t stride, size_t count, uint64_t *codes);
 
-/* The greatest depth of a grid: 2 million cells, numbered by the most significant bits of their codes. */
+/* The greatest depth of a grid: it has 2 million cells. A cell's number is the most significant bits of its Morton
+ * codes. */
 #define GRID_DEEPEST 7
 #define GRID_UNSURE UINT32_MAX
 
-/* compute_morton_codes() for the cells of a grid; GRID_UNSURE without a certain code. */
+/* Compute the grid cells of `count` positions, which are `stride` doubles apart. A position whose cell is not certain
+ * gets GRID_UNSURE. */
 void compute_grid_cells(const axis axes[3], unsigned depth, const double *positions, size_t stride, size_t count,
                         uint32_t *cells);
 
@@ -156,14 +166,14 @@ static inline uint32_t compute_grid_cell(const axis axes[3], unsigned depth, con
     return (uint32_t)(morton_code(axes, position) >> 3 * (OCTREE_MAX_DEPTH - depth));
 }
 
-/* The octant of a code at a node of this depth. */
+/* The octant, in a node of this depth, that a Morton code belongs to. */
 static inline unsigned morton_octant(uint64_t code, unsigned depth)
 {
     return (unsigned)(code >> (3 * (OCTREE_MAX_DEPTH - 1 - depth))) & 7;
 }
 
-/* Three conversions: the cell of a depth that contains a code, the address of this cell, and the lowest code of the
- * cell at an address. */
+/* Conversions. morton_cell() and morton_address() return the cell of a depth that contains a code, and this cell's
+ * address. morton_of_address() returns the lowest code in the cell at an address. */
 cell morton_cell(uint64_t code, unsigned depth);
 
 static inline octree_address morton_address(uint64_t code, unsigned depth)
@@ -177,7 +187,7 @@ static inline uint64_t morton_of_address(octree_address address)
     return (address ^ UINT64_C(1) << 3 * depth) << 3 * (OCTREE_MAX_DEPTH - depth);
 }
 
-/* For qsort: addresses in the order in which octree_walk() visits nodes, parents first. */
+/* A comparison function for qsort(): the order in which octree_walk() visits nodes, parents first. */
 int compare_addresses(const void *a, const void *b);
 
 /* Whether a word is a valid address: the position of its leading 1 is a multiple of three. */

@@ -6,9 +6,11 @@
  *
  * Idea: slabs of units, and one free list per block size. A block comes from the list of its size, from a larger block
  * that is split, or from the unused end of the newest slab. A freed block only enters a list, which takes a few
- * instructions. When an eighth of the pool is free and half of that was freed recently, adjacent free blocks are
- * joined: all free units are marked in bit maps, and the runs of marks become the new free lists. Buddy allocation was
- * no option: it wastes up to half of a block. Joining costs O(pool), but is amortized over the blocks freed since.
+ * instructions.
+ *
+ * When an eighth of the pool is free and half of that was freed recently, adjacent free blocks are joined: all free
+ * units are marked in bit maps, and the runs of marks become the new free lists. Buddy allocation was no option: it
+ * wastes up to half of a block. Joining costs O(pool), but is amortized over the blocks freed since.
  *
  * Tasks have pools of their own. While the tree's pool has much free memory, they borrow blocks from it under a
  * lock.
@@ -24,7 +26,7 @@
 #define SLAB_MAX_BYTES (1u << 22)
 #define CACHE_LINE 64
 
-/* The header of a slab. One bit per unit follows, used while free blocks are joined, then the units. */
+/* The header of a slab. After it come one bit per unit, used to join free blocks, and then the units. */
 struct slab {
     struct slab *next;
     size_t size; /* the size of the whole slab in bytes */
@@ -54,7 +56,7 @@ octree_allocator default_allocator(void)
     return (octree_allocator){.allocate = default_allocate, .release = default_release};
 }
 
-/* The arena that counts the bytes, locked if tasks share it. */
+/* Return the arena that counts the bytes, and lock it if tasks share it. */
 static arena *lock_owner(arena *a)
 {
     if (a->shared)
@@ -159,7 +161,7 @@ static int compare_slabs(const void *a, const void *b)
 
 enum { FEW_SLABS = 64 };
 
-/* All slabs sorted by address; null if there are few or there is no memory. */
+/* Return an array of all slabs sorted by address. Null if there are few slabs or there is no memory. */
 static struct slab **sort_slabs(pool *p)
 {
     struct slab **sorted = p->slab_count > FEW_SLABS ? arena_allocate(p->memory, p->slab_count * sizeof *sorted) : NULL;
@@ -171,7 +173,7 @@ static struct slab **sort_slabs(pool *p)
     return sorted;
 }
 
-/* The slab that contains a block; `guess` is that of the previous block, which is usually the same. */
+/* Return the slab that contains a block. `guess` is the slab of the previous block, which is usually the same. */
 static struct slab *find_slab(const pool *p, struct slab **sorted, const void *block, struct slab *guess)
 {
     if (is_in_slab(p, guess, block))
@@ -193,7 +195,7 @@ static struct slab *find_slab(const pool *p, struct slab **sorted, const void *b
     return sorted[low];
 }
 
-/* Set `units` bits, at most POOL_MAX_UNITS. */
+/* Set the bits of `units` adjacent units, at most POOL_MAX_UNITS. */
 static void mark_units(uint64_t *bits, size_t first, unsigned units)
 {
     const uint64_t mask = UINT64_MAX >> (POOL_MAX_UNITS - units);
@@ -214,7 +216,7 @@ static void mark_free_blocks(pool *p, struct slab **sorted)
         }
 }
 
-/* The marks of 64 units from `unit` on; 0 beyond the last unit. */
+/* Return the bits of 64 units from `unit` on. Bits beyond the last unit are 0. */
 static uint64_t read_marks(struct slab *slab, size_t unit)
 {
     const uint64_t *bits = unit_bits_of(slab) + unit / 64;
@@ -223,7 +225,7 @@ static uint64_t read_marks(struct slab *slab, size_t unit)
     return bits[0] >> shift | (more ? bits[1] << (64 - shift) : 0);
 }
 
-/* Add the runs of marked units of a slab to the free lists, in blocks of at most POOL_MAX_UNITS. */
+/* Add each run of free units, whose bits are set, to the free lists, in blocks of at most POOL_MAX_UNITS. */
 static void add_free_runs(pool *p, struct slab *slab)
 {
     for (size_t unit = 0; unit < slab->units;) {
@@ -248,8 +250,8 @@ static void join_free_blocks(pool *p)
     arena_free(p->memory, sorted, p->slab_count * sizeof *sorted);
 }
 
-/* A new slab is an eighth of the pool, so that at most an eighth is unused. The first slab of a task's pool has the
- * expected size. */
+/* Return the size of the next slab. It is an eighth of the pool, so that at most an eighth of the pool is unused. The
+ * first slab of a task's pool has the expected size. */
 static size_t next_slab_bytes(const pool *p)
 {
     const size_t least = p->lender ? POOL_MAX_UNITS * p->unit : SLAB_MIN_BYTES;
@@ -267,7 +269,7 @@ static bool add_slab(pool *p)
     struct slab *slab = arena_allocate(p->memory, size);
     if (!slab)
         return false;
-    /* The unused units are fewer than POOL_MAX_UNITS, otherwise no slab would be needed. */
+    /* Fewer than POOL_MAX_UNITS units are unused; with more of them no new slab would be needed. */
     add_free_block(p, p->fresh, (unsigned)p->fresh_units);
     const uintptr_t end_of_header = (uintptr_t)slab + header;
     const size_t skip = (size_t)(-end_of_header & (CACHE_LINE - 1));
@@ -299,7 +301,7 @@ static bool is_worth_joining(const pool *p)
     return p->free_units > p->total_units / 8 && p->freed_units > p->free_units / 2;
 }
 
-/* Take a free block of the lender, or null. */
+/* Take a free block from the lending pool; null if it has none. */
 static void *borrow_block(pool *p, unsigned units)
 {
     arena_lock(p->memory->shared);
@@ -342,7 +344,7 @@ void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units)
     p->borrows = is_much_free(lender);
 }
 
-/* Move the unused units of the newest slab to the free lists, in an order such that its first units are used first. */
+/* Move the unused units of the newest slab to the free lists, such that later allocations use its first units first. */
 static void free_unused_units(pool *p)
 {
     while (p->fresh_units > 0) {
@@ -396,7 +398,8 @@ void *list_append(arena *memory, list *l, size_t item_size)
 {
     if (l->count == l->room) {
         const size_t room = l->room ? 2 * l->room : 16;
-        void *items = arena_allocate(memory, room * item_size); /* no overflow: no allocation exceeds PTRDIFF_MAX */
+        void *items =
+            arena_allocate(memory, room * item_size); /* cannot overflow: no allocation is larger than PTRDIFF_MAX */
         if (!items)
             return NULL;
         if (l->count)

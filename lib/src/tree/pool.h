@@ -15,12 +15,13 @@
 
 #define POOL_MAX_UNITS 64
 
-/* The allocator of a tree or a game and its byte count. The arena of a task uses the tree's arena under a lock. */
+/* The allocator of a tree or a game, and the number of bytes allocated. The arena of a task calls the tree's arena
+ * under a lock. */
 typedef struct arena {
     octree_allocator allocator;
     size_t bytes;
-    struct arena *shared; /* in the arena of a task: the tree's arena; else null */
-    atomic_flag busy;     /* the lock */
+    struct arena *shared; /* for the arena of a task: the tree's arena; else null */
+    atomic_flag busy;     /* the lock that tasks take when they use this arena */
 } arena;
 
 static inline void arena_lock(arena *a)
@@ -38,26 +39,27 @@ static inline void arena_unlock(arena *a)
 /* An allocator that calls malloc and free. */
 octree_allocator default_allocator(void);
 
-/* Allocate memory; null when there is none. Release it with the same size; null is allowed. */
+/* arena_allocate() returns null when there is no memory. arena_free() takes the size that was allocated; `memory` may
+ * be null. */
 void *arena_allocate(arena *a, size_t size);
 void arena_free(arena *a, void *memory, size_t size);
 
 typedef struct pool {
     arena *memory;
-    size_t unit; /* size in bytes, at least that of a pointer */
+    size_t unit; /* the size of a unit in bytes, at least that of a pointer */
     struct slab *slabs;
     size_t slab_count;
-    size_t expected;      /* the number of units needed at first; 0: unknown */
-    unsigned char *fresh; /* units of the newest slab that were never allocated */
+    size_t expected;      /* the number of units that will soon be needed; 0: unknown */
+    unsigned char *fresh; /* the first unit of the newest slab that was never allocated */
     size_t fresh_units;
     size_t total_units;
     size_t free_units;  /* the number of units in the free lists */
-    size_t freed_units; /* units freed since free blocks were last joined */
+    size_t freed_units; /* the number of units freed since free blocks were last joined */
     uint64_t available; /* bit u - 1 is set if free_blocks[u - 1] is not empty */
     struct free_block *free_blocks[POOL_MAX_UNITS];
-    struct free_block *last_free[POOL_MAX_UNITS]; /* the last block of each list that is not empty */
-    struct pool *lender;                          /* in the pool of a task: the tree's pool; else null */
-    bool borrows;                                 /* borrow from the lender before growing */
+    struct free_block *last_free[POOL_MAX_UNITS]; /* the last block of each free list that is not empty */
+    struct pool *lender;                          /* for the pool of a task: the tree's pool; else null */
+    bool borrows;                                 /* true: take blocks from the lender before growing */
 } pool;
 
 void pool_init(pool *p, arena *memory, size_t unit);
@@ -66,17 +68,19 @@ void pool_release(pool *p);
 /* Allocate a block of 1..POOL_MAX_UNITS units; null when there is no memory. */
 void *pool_allocate(pool *p, unsigned units);
 
-/* Free a block, or any run of units within a block. */
+/* Free a block, or some adjacent units of a block. */
 void pool_free(pool *p, void *block, unsigned units);
 
-/* Make a pool for a task. If much of the tree's pool is free, the task borrows blocks from it before it grows; the
- * total memory then depends slightly on the order of tasks. Fixed shares would not, but when points always arrive in
- * one region, the pool of that region would grow with each batch while the shares of the others stay unused. Until
- * pool_join(), only the tasks use the tree's pool. */
+/* Make a pool for a task. If much of the tree's pool is free, the task borrows blocks from it before its own pool
+ * grows. Until pool_join(), only the tasks use the tree's pool.
+ *
+ * With borrowing, the total memory depends slightly on the order of tasks. With a fixed share of the free blocks for
+ * each task it would not, but more memory would be needed: if points always arrive in one region, the pool of that
+ * region would grow with each batch while the shares of other regions stay unused. */
 void pool_borrow(pool *p, arena *memory, pool *lender, size_t expected_units);
 void pool_join(pool *lender, pool *p);
 
-/* Prepare a pool for borrowing: if much of it is free, move all of that into the free lists. */
+/* Prepare a pool for borrowing. If much of it is free, move all of its free units into the free lists. */
 void pool_prepare_lending(pool *p);
 
 /* A growing array. */
@@ -103,8 +107,8 @@ void list_release(arena *memory, list *l, size_t item_size);
 /* Sort all items with qsort(). */
 void list_sort(list *l, size_t item_size, int (*compare)(const void *a, const void *b));
 
-/* For items that begin with a uint64_t: compare two of them for qsort(); and the index of the first of `count`
- * ascending items whose word is not below `word`. */
+/* Functions for items that begin with a uint64_t. compare_first_words() compares two of them, for qsort().
+ * find_first_word() returns the index of the first of `count` ascending items whose word is at least `word`. */
 int compare_first_words(const void *a, const void *b);
 size_t find_first_word(const void *items, size_t item_size, size_t count, uint64_t word);
 

@@ -19,13 +19,13 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* A table of the ids that move, with the stored point of each. Dense ids index it directly; otherwise it is a hash
- * table with linear probing. */
+/* A table of the ids that move, with the address of the stored point of each id. If the ids are dense, they index the
+ * table directly; otherwise it is a hash table with linear probing. */
 typedef struct id_table {
-    const octree_point *_Atomic *stored; /* for each slot from `first` on; null: not found. If two tasks write one slot,
-                                            an id is stored twice and the table is not used */
-    uint64_t *bits;                      /* dense: bit i is set if a move has the id least + i; else null */
-    uint32_t *places;                    /* not dense: for each slot the index + 1 of the move, or 0; else null */
+    const octree_point *_Atomic *stored; /* for each slot from `first` on, the stored point; null: not found. If two
+                                            tasks write one slot, the id is stored twice, and the table is not used */
+    uint64_t *bits;                      /* dense ids: bit i is set if a move has the id least + i; else null */
+    uint32_t *places; /* other ids: for each slot the index + 1 of the move, or 0; null if the ids are dense */
     size_t slot_count, first, stored_count;
     uint64_t least;
 } id_table;
@@ -33,16 +33,17 @@ typedef struct id_table {
 /* The results of one task. */
 typedef struct findings {
     size_t first;           /* index of the first stored point that the task reads */
-    size_t stay, looked_up; /* the numbers of stored points that stay, and of all that the task has read */
-    size_t seen, moved;     /* the numbers of moves whose id is stored, and of valid moves */
+    size_t stay, looked_up; /* the number of stored points that stay, and the number that the task has read */
+    size_t seen, moved;     /* the number of moves whose id is stored, and the number of valid moves */
 } findings;
 
 typedef struct remake {
     batch *whole; /* the batch of moves */
     id_table ids;
-    octree_point *staying; /* copies of the points that stay; those of a task begin at its first point */
-    uint32_t *cells;       /* grid cell of each move, then of each staying point; without a grid 0 */
-    size_t count;          /* the number of moves */
+    /* copies of the points that stay. Each task writes its copies from the index of its first point on */
+    octree_point *staying;
+    uint32_t *cells; /* the grid cell of each move, then of each staying point; without a grid all are 0 */
+    size_t count;    /* the number of moves */
     unsigned move_tasks;
     forest stored; /* the tree before the moves */
     findings found[TASKS_AT_MOST];
@@ -58,7 +59,7 @@ bool ids_ascend(const batch *b)
     return true;
 }
 
-/* The slot of an id in a hash table, or the empty slot where it would be. */
+/* Return the slot of an id in a hash table. For an id that is not in the table, return the empty slot for it. */
 static size_t find_id_slot(const id_table *t, const octree_point *points, uint64_t id)
 {
     size_t slot = (size_t)((id ^ id >> 32) * UINT64_C(0x9e3779b97f4a7c15) >> 16) & (t->slot_count - 1);
@@ -67,7 +68,7 @@ static size_t find_id_slot(const id_table *t, const octree_point *points, uint64
     return slot;
 }
 
-/* The entry for the stored point of an id; null if no move has this id. */
+/* Return the table entry of an id, which holds the address of its stored point. Null if no move has this id. */
 static inline const octree_point *_Atomic *find_stored_entry(const id_table *t, const octree_point *points, uint64_t id)
 {
     size_t slot = (size_t)(id - t->least);
@@ -92,8 +93,8 @@ static void release_id_table(arena *memory, id_table *t)
     *t = (id_table){0};
 }
 
-/* Set the bits of all ids, within a range around the first id. False if an id is outside. *differ becomes false if an
- * id occurs twice before that. */
+/* Set the bits of all ids, which must lie within a range around the first id. False if an id is outside the range.
+ * *differ becomes false if an id occurs twice before the end. */
 static bool set_id_bits(const batch *b, id_table *t, bool *differ)
 {
     size_t least = SIZE_MAX, most = 0;
@@ -123,14 +124,13 @@ static bool enter_ids_by_hash(const batch *b, id_table *t)
     return true;
 }
 
-/* Enter the ids of a batch into an empty table, which becomes dense if they are all among the `reach` * count ids
- * around the first one. False when there is no memory. *differ becomes false if two ids are equal; the table is then
- * unusable.
- */
+/* Enter the ids of a batch into an empty table. The table becomes dense if all ids are among the `reach` * count ids
+ * around the first one. False when there is no memory. *differ becomes false if two ids are equal; the table must
+ * then not be used. */
 static bool fill_id_table(const batch *b, id_table *t, size_t reach, bool *differ)
 {
     arena *memory = &b->tree->store.memory;
-    t->least = b->points[0].id - reach / 2 * b->count; /* modulo 2^64 */
+    t->least = b->points[0].id - reach / 2 * b->count; /* the difference wraps around modulo 2^64 */
     t->slot_count = reach * b->count;
     t->bits = arena_allocate(memory, bit_map_size(t));
     if (!t->bits)
@@ -184,7 +184,8 @@ static void find_staying_cells(const remake *r, size_t first, size_t count)
 
 static void separate_moving_in_leaf(const remake *r, const node *leaf, findings *f)
 {
-    const id_table ids = r->ids; /* a local copy: the compiler then knows that the stores below do not change it */
+    const id_table ids =
+        r->ids; /* a local copy, because the compiler then knows that the stores below do not change it */
     const octree_point *moves = r->whole->points;
     for (uint32_t i = 0; i < leaf->count; i++) {
         const octree_point *point = &leaf_points(leaf)[i];
@@ -224,7 +225,7 @@ static void separate_moving_of_share(size_t number, void *context)
 
 /* ---- The moves ---------------------------------------------------------------------------------------------- */
 
-/* Find out why a move is invalid. */
+/* Return the error of an invalid move. */
 static octree_status find_move_error(const batch *b, size_t place)
 {
     octree_status status = check_in_world(b->tree, b->points[place].position);
@@ -247,7 +248,7 @@ static bool is_valid_move(const remake *r, size_t place, const octree_point *sto
     return true;
 }
 
-/* Check a group of moves. Their stored points are prefetched first, so that cache misses overlap. */
+/* Check a group of moves. Their stored points are prefetched before the first check, so that cache misses overlap. */
 static void check_move_group(const remake *r, size_t first, size_t count, findings *f)
 {
     const batch *b = r->whole;
@@ -285,7 +286,8 @@ static void check_moves_of_share(size_t number, void *context)
 
 /* ---- The new tree ------------------------------------------------------------------------------------------ */
 
-/* Add the stored points of invalid moves to the staying ones, in the parts of tasks that have room. */
+/* Add the stored points of invalid moves to the staying points. They are stored in the parts of tasks that have
+ * room. */
 static void keep_points_of_invalid_moves(remake *r)
 {
     unsigned task = 0;
@@ -303,7 +305,7 @@ static void keep_points_of_invalid_moves(remake *r)
     }
 }
 
-/* Sort all points and build the tree from them; this decides exactly whether a leaf may be full. */
+/* Sort all points and build the tree from them. Sorting also decides exactly whether a leaf may be full. */
 static octree_status sort_and_build(batch *b, size_t total)
 {
     arena *memory = &b->store->memory;
@@ -323,7 +325,7 @@ static octree_status build_moved_tree(remake *r, bool *settled)
     const batch *whole = r->whole;
     const size_t total = whole->tree->root.count;
     batch b = *whole;
-    b.statuses = NULL; /* the caller's statuses are final */
+    b.statuses = NULL; /* the caller's statuses are final and must not change */
     b.stored = r->staying;
     b.stored_count = total;
     b.cells = r->cells;
@@ -358,7 +360,7 @@ static octree_status check_moves_and_build(remake *r, bool *settled)
         seen += r->found[i].seen;
         b->done += r->found[i].moved;
     }
-    *settled = looked_up - stay == seen; /* if not, an id that moves is stored twice */
+    *settled = looked_up - stay == seen; /* if the numbers differ, an id that moves is stored twice */
     return *settled && b->done > 0 ? build_moved_tree(r, settled) : OCTREE_OK;
 }
 

@@ -60,8 +60,8 @@ static void sort_by_index(span s)
 
 /* ---- Leaves ------------------------------------------------------------------------------------------------- */
 
-/* The order of insertion: stored points come first, then the caller's in the given order. A leaf then refuses the same
- * points as with single insertions. */
+/* Compare by the order of insertion: stored points come first, then the caller's points in their given order. In this
+ * order a leaf refuses the same points as with single insertions. */
 static int compare_insertion_order(const void *a, const void *b)
 {
     const morton_item *p = a, *q = b;
@@ -69,7 +69,8 @@ static int compare_insertion_order(const void *a, const void *b)
     return p_new != q_new ? p_new - q_new : (p->place > q->place) - (p->place < q->place);
 }
 
-/* Make a leaf of the items. Under OCTREE_REFUSE it takes as many as the capacity and refuses the others. */
+/* Make a leaf of the items. Under OCTREE_REFUSE the leaf takes items up to its capacity and refuses the rest of the
+ * items. False when there is no memory. */
 static bool make_leaf_of_items(batch *b, span items, node *made)
 {
     const size_t capacity = b->tree->def.leaf_capacity;
@@ -97,7 +98,7 @@ static bool make_leaf_of_items(batch *b, span items, node *made)
     return true;
 }
 
-/* Append the points of a leaf to another leaf, except the leaving ones, which are sorted by index. */
+/* Append the points of one leaf to another leaf, except the leaving points. The list `leaving` is sorted by index. */
 static void append_staying(node *made, const node *leaf, span leaving)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
@@ -127,7 +128,7 @@ static bool remake_leaf(batch *b, const node *old, span leaving, span arriving, 
     return true;
 }
 
-/* Plan to edit a leaf in place: its block has room for the resulting points. */
+/* Plan to edit a leaf in place. Its block must have room for the resulting points. False when there is no memory. */
 static bool plan_leaf_edit(batch *b, const node *old, span leaving, span arriving, node *made)
 {
     edit *e = list_append(&b->store->memory, &b->edits, sizeof *e);
@@ -155,8 +156,8 @@ bool is_inseparable(const octree *tree, cell c, const morton_item *items, size_t
 /* Build an inner node from items only. */
 static bool build_children(batch *b, cell c, span items, node *made);
 
-/* Under OCTREE_REFUSE inseparable items stay in one leaf, which refuses those beyond its capacity: nodes never split
- * for refused points. Separable items fill more than one leaf, so that the split is needed. */
+/* Under OCTREE_REFUSE, inseparable items stay in one leaf, which refuses the items beyond its capacity. A node never
+ * splits only because of refused points. Separable items fill more than one leaf, so the node must split. */
 bool must_be_leaf(const batch *b, cell c, span items)
 {
     const octree_def *def = &b->tree->def;
@@ -190,8 +191,8 @@ static bool build_children(batch *b, cell c, span items, node *made)
     return true;
 }
 
-/* Divide a leaf: build a node from its staying points and the arriving ones. If the cell is indivisible, the result is
- * a hashed leaf, whose items need no order. */
+/* Divide a leaf: build a node from its staying points and the arriving items. If the cell is indivisible, the node is a
+ * hashed leaf. The items of a hashed leaf need no order. */
 static bool divide_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const size_t sum = old->count - leaving.count + arriving.count, room = 2 * sum * sizeof(morton_item);
@@ -233,7 +234,7 @@ static bool is_leaving(span leaving, uint32_t index)
     return low < leaving.count && leaving.items[low].index == index;
 }
 
-/* Drop the arriving items that the leaf already holds and that do not leave it. */
+/* Remove from `arriving` the items that the leaf already holds and that are not leaving it. */
 static void drop_already_stored(batch *b, const node *leaf, span leaving, span *arriving)
 {
     size_t left = 0;
@@ -250,7 +251,7 @@ static void drop_already_stored(batch *b, const node *leaf, span leaving, span *
     arriving->count = left;
 }
 
-/* Set `overflow` if arriving points, moved one by one in some order, may meet a full leaf. */
+/* Set `overflow` if arriving points may meet a full leaf when they are moved one by one in some order. */
 static void note_overflow(batch *b, const node *old, cell c, span arriving)
 {
     b->overflow = b->overflow || (b->to && can_overflow(b, old, c, arriving));
@@ -272,7 +273,7 @@ static bool change_leaf(batch *b, const node *old, cell c, span leaving, span ar
     return remake_leaf(b, old, leaving, arriving, made);
 }
 
-/* Append the staying points in and below a node to a leaf. */
+/* Append the points that stay in and below a node to a leaf. */
 static void append_staying_below(const node *old, unsigned depth, span leaving, node *made)
 {
     if (!old->octants) {
@@ -287,7 +288,7 @@ static void append_staying_below(const node *old, unsigned depth, span leaving, 
             append_staying_below(child_at(old, octant), depth + 1, shares[octant], made);
 }
 
-/* Merge a node whose points fit one leaf. */
+/* Merge a node whose points fit one leaf into this leaf, *made. False when there is no memory. */
 static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     note_overflow(b, old, c, arriving);
@@ -302,7 +303,8 @@ static bool merge_into_leaf(batch *b, const node *old, cell c, span leaving, spa
 
 bool plan_replacement(batch *b, node *at, const node *made)
 {
-    if (at->below == made->below && at->count == made->count) /* unchanged: equal blocks imply equal octants and room */
+    if (at->below == made->below &&
+        at->count == made->count) /* the child is unchanged: if the blocks are equal, so are octants and room */
         return true;
     const patch p = {at, *made};
     if (list_push(&b->store->memory, &b->patches, &p, sizeof p))
@@ -311,7 +313,8 @@ bool plan_replacement(batch *b, node *at, const node *made)
     return false;
 }
 
-/* Make the successor of the child in an octant in *made; if `made` is null, plan a patch of the child instead. */
+/* Make the successor of one child of a node, in *made. If `made` is null, plan to replace the child instead. False when
+ * there is no memory. */
 static bool change_child(batch *b, const node *old, cell c, unsigned octant, const span leaving[8],
                          const span arriving[8], node *made, uint32_t *count)
 {
@@ -327,7 +330,7 @@ static bool change_child(batch *b, const node *old, cell c, unsigned octant, con
     return ok && plan_replacement(b, child, &successor);
 }
 
-/* Change some children of a node whose set of octants stays the same. */
+/* Change some children of a node. The node keeps the same set of octants. False when there is no memory. */
 static bool change_same_children(batch *b, const node *old, cell c, const span leaving[8], const span arriving[8],
                                  node *made)
 {
@@ -343,7 +346,7 @@ static bool change_same_children(batch *b, const node *old, cell c, const span l
     return true;
 }
 
-/* Prefetch the leaves in which items arrive, and the first of these items. */
+/* Prefetch the leaves in which items arrive, and the first of the items for each leaf. */
 static void prefetch_arrival_leaves(const batch *b, const node *parent, const span arriving[8])
 {
     for (unsigned octant = 0; octant < 8; octant++) {
@@ -379,7 +382,7 @@ static bool change_children(batch *b, const node *old, cell c, span leaving, spa
     return true;
 }
 
-/* A node of which no point stays is built from the arriving items only. */
+/* If no point of a node stays, the successor is built from the arriving items only. */
 bool change_node(batch *b, const node *old, cell c, span leaving, span arriving, node *made)
 {
     const bool is_emptied = leaving.count == old->count;

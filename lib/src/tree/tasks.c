@@ -20,10 +20,12 @@ typedef struct tasks {
     octree_task *task;
     void *context;
     unsigned count;
-    atomic_bool started[TASKS_AT_MOST]; /* an executor that repeats a number must not run the task twice */
+    atomic_bool started[TASKS_AT_MOST]; /* started[i] is set when task i starts: an executor that repeats a number must
+                                           not run the task twice */
 } tasks;
 
-/* A thread of the executor may have any mode. The compiler knows neither the task nor its arguments here. */
+/* Run one task in the default floating-point mode, because a thread of the executor may have any mode. The call goes
+ * through a pointer, so the compiler cannot move the task's arithmetic out of it. */
 static void run_task(size_t number, void *context)
 {
     tasks *all = context;
@@ -60,7 +62,7 @@ void run_tasks(const octree *tree, octree_task *task, unsigned count, void *cont
     end_visit(begun);
 }
 
-/* Replace a subtree by those of its children. */
+/* Replace a subtree in the list by the subtrees of its children. */
 static void divide_subtree(forest *f, size_t at)
 {
     const subtree whole = f->subtrees[at];

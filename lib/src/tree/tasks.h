@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* tasks.h - divides large work into tasks for the executor of a tree.
  *
- * The division depends on the number of points only, so that memory does not depend on the number of threads.
+ * The division depends on the number of points only. So the memory use does not depend on the number of threads.
  */
 #ifndef OCTREE_TASKS_H
 #define OCTREE_TASKS_H
@@ -10,14 +10,16 @@
 
 enum { TASKS_AT_MOST = 64 };
 
-/* The number of tasks for work on this many points; 1 without an executor. */
+/* The number of tasks into which work on this many points is divided; 1 without an executor. */
 unsigned count_tasks(const octree *tree, size_t points);
 
-/* Run a task once for each number below `count`, at most TASKS_AT_MOST, in the default floating-point mode on every
- * thread. A task that the executor does not run runs on the calling thread at the end. */
+/* Run a task once for each number below `count`, which is at most TASKS_AT_MOST. The task runs in the default
+ * floating-point mode on every thread. If the executor leaves out a number, the task for it runs on the calling thread
+ * at the end. */
 void run_tasks(const octree *tree, octree_task *task, unsigned count, void *context);
 
-/* The index of the first of `things` in the share of a task; the share ends where the next begins. */
+/* Divide `things` items among tasks: return the index of the first item of task `number`. Its items end where those of
+ * the next task begin. */
 static inline size_t share_start(size_t things, unsigned tasks, size_t number)
 {
     const size_t more = things % tasks;
@@ -34,7 +36,7 @@ typedef struct subtree {
 
 enum { SUBTREES_AT_MOST = 8 * TASKS_AT_MOST };
 
-/* A tree divided into subtrees of about half a task's share, in Morton order. */
+/* A tree divided into subtrees in Morton order. A subtree has about half the points that a task works on. */
 typedef struct forest {
     const octree *tree;
     unsigned tasks;
@@ -42,13 +44,14 @@ typedef struct forest {
     subtree subtrees[SUBTREES_AT_MOST];
 } forest;
 
-/* Called with each node before it is divided. Returns false to leave the node whole. */
+/* Called with each node before the node is divided into its children. Returns false to keep the node undivided. */
 typedef bool subtree_opener(const subtree *divided, void *context);
 
-/* Divide a tree among the tasks for its points. `open` may be null. */
+/* Divide a tree into subtrees for the tasks. The number of tasks depends on the number of points. `open` may be
+ * null. */
 void divide_tree(forest *f, const octree *tree, subtree_opener *open, void *context);
 
-/* The first subtree of a task; its subtrees end where those of the next task begin. */
+/* The first subtree of a task. The task's subtrees end at the first subtree of the next task. */
 const subtree *first_subtree(const forest *f, size_t number);
 
 #endif

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Below this number of points, choosing a capacity gains nothing. */
+/* In a tree with fewer points, choosing a capacity gains nothing. */
 #define TUNE_LEAST 1024
 
 /* ---- Creating and destroying ------------------------------------------------------------------------------------- */
@@ -38,7 +38,7 @@ static octree_status check_definition(const octree_def *def)
 
 static octree_def clamp_definition(octree_def def)
 {
-    /* The capacity until the tree has points. */
+    /* The capacity that is used until the tree has points. */
     if (def.leaf_capacity == OCTREE_AUTO)
         def.leaf_capacity = octree_def_default().leaf_capacity;
     if (def.leaf_capacity > UINT32_MAX)
@@ -159,7 +159,8 @@ octree_status rebuild_tree(octree *tree, const octree_def *def)
     octree_point *points = arena_allocate(&other->store.memory, size);
     status = OCTREE_NO_MEMORY;
     if (points) {
-        const unsigned begun = begin_visit(tree); /* its executor runs tasks of the other tree */
+        const unsigned begun =
+            begin_visit(tree); /* a visit of `tree`, because its executor runs tasks of the other tree */
         node_copy_points(&tree->root, points);
         status = insert_all_points(other, points, count);
         end_visit(begun);
@@ -204,7 +205,7 @@ octree_status check_position(const octree *tree, const double position[3])
 
 path find_path(const octree *tree, uint64_t code)
 {
-    /* const is cast away here only: callers that change nodes have a tree that is not const. */
+    /* const is cast away only here. A caller that changes nodes has a tree that is not const. */
     path p;
     p.nodes[0] = (node *)(uintptr_t)&tree->root;
     for (p.depth = 0; path_end(&p)->octants; p.depth++) {

@@ -2,7 +2,7 @@
 /* tree.h - the tree, its canonical form, and the path from the root to a leaf.
  *
  * Canonical form: a node is an inner node if and only if it holds more points than the capacity and its cell is
- * divisible. So the nodes are a function of the contents, whatever the order of changes.
+ * divisible. So the nodes depend on the contents only, not on the order of changes.
  */
 #ifndef OCTREE_TREE_H
 #define OCTREE_TREE_H
@@ -12,8 +12,8 @@
 #include "plane.h"
 #include "visits.h"
 
-/* The choice of the capacity under OCTREE_AUTO. A function pointer, so that a program without OCTREE_AUTO does not link
- * tune.c through insertion. */
+/* How the capacity is chosen under OCTREE_AUTO. Insertion calls this function pointer and not octree_tune(), so that a
+ * program without OCTREE_AUTO does not link tune.c. */
 typedef struct tuning {
     octree_status (*choose)(octree *tree, const octree_mix *mix); /* null: the capacity is fixed */
     octree_mix mix;
@@ -43,7 +43,7 @@ static inline bool can_split(const octree *tree, cell c)
     return c.depth < tree->def.max_depth && cell_divisible(tree->axes, c);
 }
 
-/* Whether this many points fit one leaf: then nodes merge; otherwise they split where they may. */
+/* Whether this many points fit one leaf. If so, nodes merge; if not, they split wherever their cell is divisible. */
 static inline bool fits_leaf(const octree *tree, size_t count)
 {
     return count <= tree->def.leaf_capacity;
@@ -52,34 +52,36 @@ static inline bool fits_leaf(const octree *tree, size_t count)
 /* Check whether a position is in the world. Returns OK, NULL_ARGUMENT, NOT_FINITE or OUTSIDE. */
 octree_status check_position(const octree *tree, const double position[3]);
 
-/* The same for a change of the tree: also BUSY. */
+/* Check the position for a change of the tree. Returns the statuses of check_position(), or BUSY inside a callback of
+ * the tree. */
 static inline octree_status check_change(const octree *tree, const double position[3])
 {
     const octree_status status = check_position(tree, position);
     return status == OCTREE_OK && is_visited(tree) ? OCTREE_BUSY : status;
 }
 
-/* Insert a point with a valid position and its code. Returns OK, DUPLICATE, FULL, NO_MEMORY or TOO_MANY. Unless
- * `divides`, a leaf that is at its capacity is FULL even if it could split; removing the point again then needs no
- * memory. */
+/* Insert a point with a valid position and its Morton code. Returns OK, DUPLICATE, FULL, NO_MEMORY or TOO_MANY. If
+ * `divides` is false, a leaf at its capacity returns FULL even if it could split; removing the point again then needs
+ * no memory. */
 octree_status insert_point(octree *tree, const octree_point *point, uint64_t code, bool divides);
 
-/* Remove a point whose position is in the world; *point receives the stored position, whose zeros may have other signs.
- * Returns OK, NOT_FOUND or NO_MEMORY. */
+/* Remove a point whose position is in the world. *point receives the stored position, in which zeros may have other
+ * signs. Returns OK, NOT_FOUND or NO_MEMORY. */
 octree_status remove_point(octree *tree, octree_point *point);
 
-/* Remove an empty leaf from its parent's group of children; the end of the group's block is freed. */
+/* Remove an empty leaf from its parent's group of children. The unused end of the group's block is freed. */
 void remove_empty_child(octree *tree, node *parent, node *child);
 
-/* Choose the capacity if it is due after an insertion. Without memory it stays the same. */
+/* After an insertion, choose the capacity again if the tree has reached the number of points for it. Without memory the
+ * capacity stays the same. */
 void tune_if_due(octree *tree);
 
 /* Rebuild the tree with another definition. Errors: those of octree_create, OUTSIDE, FULL, NO_MEMORY; the tree is then
  * unchanged. */
 octree_status rebuild_tree(octree *tree, const octree_def *def);
 
-/* The existing nodes from the root towards a code. The last one is a leaf, or an inner node without a child in the
- * code's octant. */
+/* The existing nodes on the way from the root to the cell of a code. The last node is a leaf, or an inner node that has
+ * no child in the code's octant. */
 typedef struct path {
     node *nodes[OCTREE_MAX_DEPTH + 1];
     unsigned depth; /* the depth of the last node */
@@ -92,7 +94,7 @@ static inline node *path_end(const path *p)
     return p->nodes[p->depth];
 }
 
-/* Where a pair (position, id) is stored. */
+/* The place at which a pair (position, id) is stored. */
 typedef struct found_point {
     path path;
     uint32_t index; /* the point's index in the leaf at the path's end */

@@ -9,7 +9,7 @@
  * that changes run alone, and is not detected.
  *
  * Why not a counter in the tree: queries take a const tree and run on many threads, which would compete for the
- * counter's cache line at every query. The list is not shared, so that it needs no atomics and cannot race.
+ * counter's cache line at every query. Threads do not share their lists, so the lists need no atomics.
  *
  * Cost: a walk, a query of a region or a traced search writes three words of its thread's memory (15 instructions), a
  * change reads one. Other queries pay nothing.
@@ -19,19 +19,19 @@
 
 #include "octree/types.h"
 
-/* Where the C library reserves room for it, thread-local memory is read without a function call in the shared library,
- * too. */
+/* With glibc, thread-local memory of this model is read without a function call, in the shared library too. glibc
+ * reserves room for it. */
 #if defined(__GLIBC__) && defined(__GNUC__)
 #define THREAD_LOCAL _Thread_local __attribute__((tls_model("initial-exec")))
 #else
 #define THREAD_LOCAL _Thread_local
 #endif
 
-/* Deeper visits are not listed; every tree then counts as visited. */
+/* Visits nested deeper than this are not listed; every tree then counts as visited. */
 enum { VISITS_AT_MOST = 15 };
 
 typedef struct visits {
-    const octree *trees[VISITS_AT_MOST]; /* nested visits: a visitor may ask this or another tree */
+    const octree *trees[VISITS_AT_MOST]; /* the trees of nested visits: a visitor may ask this or another tree */
     unsigned depth;
 } visits;
 

@@ -16,8 +16,9 @@ static inline void prefetch_below(const node *n)
 /* Add one node to the statistics. */
 void count_node(octree_stats *stats, const node *n, unsigned depth);
 
-/* The digest of a tree is computed from the sum of the digests of its nodes. So the order of nodes and points does not
- * matter, and the sum of an unchanged subtree can be reused. The digest of a leaf includes its points. */
+/* The digest of one node; that of a leaf includes its points. The digest of a tree is computed from the sum of the
+ * digests of its nodes. So the order of nodes and points does not matter, and the sum of an unchanged subtree can be
+ * reused. */
 uint64_t digest_node(const node *n, octree_address address);
 uint64_t digest_of_tree(const octree *tree, uint64_t sum);
 
