@@ -46,7 +46,7 @@ static const command_option options[] = {
     {0},
 };
 
-/* Writes today's date in the local time zone. Returns `text`. */
+/* Writes today's date in the local time zone as YYYY-MM-DD. Returns `text`. */
 static const char *format_today(char text[11])
 {
     const time_t now = time(NULL);

@@ -12,13 +12,13 @@
 #include <string.h>
 #include <strings.h>
 
-/* The files that the command writes. */
+/* The files that the command can write. */
 enum { HTML, JUNIT, OUTPUTS };
 
 typedef struct arguments {
     audit_limits limits;
     output_file outputs[OUTPUTS];
-    const char *folder; /* of --html DIR, or null */
+    const char *folder; /* the folder of --html DIR, or null */
     bool json;
 } arguments;
 
@@ -28,14 +28,15 @@ static bool read_limits(const command_option *option, const char *text, void *in
     return audit_limits_parse(text, into, &error) || refuse("--%s: %s", option->name, error.text);
 }
 
-/* True for the name of a page, false for the name of the folder that is to hold it. */
+/* Returns whether the value of --html is the name of an HTML page. Otherwise it is the folder into which the page is
+ * written. */
 static bool is_page(const char *path)
 {
     const char *dot = strrchr(path, '.');
     return file_is_standard_stream(path) || (!is_folder(path) && dot && strcasecmp(dot, ".html") == 0);
 }
 
-/* A name without the ending of a file names a folder, as for the options of other commands. */
+/* Reads the value of --html. As with the options of other commands, a name without a file ending is a folder. */
 static bool read_page(const command_option *option, const char *text, void *into)
 {
     if (is_page(text) || is_folder(text) || output_kind_of_name(text) == NAME_OPEN)
@@ -64,7 +65,7 @@ static const command_option options[] = {
 
 /* ---- Files -------------------------------------------------------------------------------------------------- */
 
-/* No output may overwrite an input or another output. */
+/* Checks that no output overwrites an input or another output. */
 static bool check_files(const char *path, const output_file outputs[OUTPUTS], octreel_error *error)
 {
     char *session = path_join(path, "session.json");
@@ -76,7 +77,8 @@ static bool check_files(const char *path, const output_file outputs[OUTPUTS], oc
     return ok;
 }
 
-/* Prints a verdict into a file. `from` is the folder of that file, for relative links. False: out of memory. */
+/* Prints a verdict to the file `out`. Relative links start at `from`, the folder of that file. Returns false if
+ * memory runs out. */
 typedef bool printer(FILE *out, const audit_verdict *verdict, const char *from);
 
 static bool print_junit(FILE *out, const audit_verdict *verdict, const char *from)

@@ -15,18 +15,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The output files. The folder of --output counts as one, its page. */
+/* The output files. PAGE is report.html in the folder of --output and stands for the whole folder. */
 enum { PAGE, JUNIT, MARKDOWN, OUTPUTS };
 
 typedef struct arguments {
     diff_options options;
-    unsigned layers;              /* the ignored layers: bits 1 << view_layer */
+    unsigned layers;              /* bits 1 << view_layer of the ignored layers */
     image_rectangle *ignored;     /* owned */
-    output_file outputs[OUTPUTS]; /* PAGE has no path: the folder is known instead */
-    const char *folder, *store;   /* of --output and --store; null: not given */
-    uint64_t causes;              /* the number of frames and ticks that are explained */
+    output_file outputs[OUTPUTS]; /* outputs[PAGE] has no path; `folder` is set instead */
+    const char *folder, *store;   /* the values of --output and --store; null: not given */
+    uint64_t causes;              /* the number of differing frames and ticks to explain */
     bool has_causes;              /* --causes was given */
-    size_t lines;                 /* the number of groups that are listed: at least as many as --causes says */
+    size_t lines;                 /* the number of groups that are listed; at least the value of --causes */
     bool json, each, annotate;
 } arguments;
 
@@ -146,8 +146,8 @@ static const command_option options[] = {
     {0},
 };
 
-/* Print the error of the first unreadable frame and the number of others, or the error that prevented an explanation.
- */
+/* Prints the error of the first unreadable frame and the number of other unreadable frames. If all frames are
+ * readable, prints the error that prevented an explanation. */
 static int print_first_error(const diff_result *result, const explanation *why)
 {
     size_t i = 0;
@@ -181,7 +181,7 @@ static void print_report(const arguments *a, const diff_report *report)
         diff_report_json(stdout, report);
     else if (!is_standard_output_taken(a->outputs, OUTPUTS) &&
              (report->result->count != 1 ||
-              report->result->found[FOUND_UNREADABLE] == 0)) /* else standard error has the only message */
+              report->result->found[FOUND_UNREADABLE] == 0)) /* standard error has a single frame's error */
         diff_report_text(stdout, report);
 }
 
@@ -210,7 +210,7 @@ static int write_reports(const arguments *a, diff_report *all)
     return verdict == DIFF_TROUBLE ? print_first_error(all->result, all->why) : statuses[verdict];
 }
 
-/* Check that no output overwrites a compared file or another output. */
+/* Checks that no output overwrites a compared file or another output. */
 static bool check_files(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     char *page = a->folder ? path_join(a->folder, EVIDENCE_PAGE) : NULL;
@@ -223,7 +223,7 @@ static bool check_files(const arguments *a, const diff_side sides[2], octreel_er
     return ok;
 }
 
-/* Check everything before the folder of evidence is changed. */
+/* Checks everything that can be checked before the folder of evidence is changed. */
 static bool check_before_writing(const arguments *a, const diff_side sides[2], octreel_error *error)
 {
     return diff_check(&sides[0], &sides[1], &a->options, error) && check_files(a, sides, error) &&
@@ -265,7 +265,7 @@ static int run(int argc, char **argv)
     a.annotate = a.annotate || getenv("GITHUB_ACTIONS");
     a.lines = a.has_causes && a.causes > LIST_LINES ? (size_t)a.causes : LIST_LINES;
     if (a.folder && !a.has_causes)
-        a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows a cause beside each frame */
+        a.causes = DIFF_REPORT_PAGE_FRAMES; /* the page shows this many frames, each with its cause */
     if (status == COMMAND_GO_ON)
         status = check_standard_output(a.outputs, OUTPUTS, a.json)
                      ? compare(&a, (const char *[]){argv[optind], argv[optind + 1]})

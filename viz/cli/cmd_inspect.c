@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_inspect.c - octreel inspect: builds the tree of a point cloud and prints or draws it, its nodes and query
- * answers. */
+/* cmd_inspect.c - octreel inspect: builds the tree of a point cloud, and prints or draws the tree, its nodes and the
+ * answers to queries. */
 #include "cloud.h"
 #include "command.h"
 #include "file.h"
@@ -24,7 +24,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The files that the command writes. */
+/* The files that the command can write. */
 enum { PICTURE, NODES, OUTPUTS };
 
 typedef struct arguments {
@@ -117,12 +117,12 @@ static const command_option options[] = {
 /* Everything that the command prints and draws. */
 typedef struct report {
     const arguments *a;
-    const char *name; /* the last part of the cloud's path */
+    const char *name; /* the cloud's file name: the last part of its path */
     const inspection *made;
     octree_node node;
     inspect_answers answers;
-    view view;                   /* of the picture */
-    char chosen[INSPECT_CHOICE]; /* a sentence that names the view options chosen by the program, or "" */
+    view view;                   /* the view of the picture */
+    char chosen[INSPECT_CHOICE]; /* a sentence about the view options that the program chose, or "" */
 } report;
 
 static bool draw_picture(const report *r, octreel_error *error)
@@ -149,7 +149,7 @@ static bool draw_picture(const report *r, octreel_error *error)
              point_scale_missing_value(&r->view, &r->made->values), view_point_color_name(r->view.point_color));
     if (drawn.over_budget)
         note("%s leaves out %s beyond --budget", picture, film_left_out_text(drawn.beyond, left_out));
-    if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT)) /* the text layer prints this in the picture */
+    if (drawn.below_lod && !view_shows_layer(&a->view, LAYER_TEXT)) /* the text layer would contain this note */
         note("%s leaves out %s smaller than --lod", picture, film_left_out_text(drawn.small, left_out));
     if (drawn.left_out)
         note("%" PRIu64 " element%s too far away to be drawn in %s", drawn.left_out, plural_ending(drawn.left_out),
@@ -157,7 +157,7 @@ static bool draw_picture(const report *r, octreel_error *error)
     return true;
 }
 
-/* Prints "wrote tree.png: " and returns `out`. */
+/* Prints "wrote ", the path and ": ". Returns `out`. */
 static FILE *print_wrote(const char *path, FILE *out)
 {
     fputs("wrote ", out);
@@ -166,7 +166,8 @@ static FILE *print_wrote(const char *path, FILE *out)
     return out;
 }
 
-/* --node and queries replace the statistics. With --json, the files are not mentioned: the output is one object. */
+/* Prints the node of --node and the answers to queries or, if neither was asked for, the statistics. With --json,
+ * the written files are not mentioned, so that the output is JSON only. */
 static void print_report(const report *r)
 {
     const arguments *a = r->a;
@@ -185,7 +186,7 @@ static void print_report(const report *r)
         fputs("all nodes\n", print_wrote(nodes, out));
 }
 
-/* Checks everything that can fail before it writes the first file. */
+/* Makes the report. Everything else that can fail is checked before the first file is written. */
 static bool make_report(report *r, octreel_error *error)
 {
     const arguments *a = r->a;
@@ -209,7 +210,7 @@ static bool make_report(report *r, octreel_error *error)
 
 typedef struct reading {
     progress bar;
-    double size; /* bytes read */
+    double size; /* the number of bytes that were read */
 } reading;
 
 static void show_read_bytes(uint64_t done, uint64_t total, void *context)
@@ -225,7 +226,7 @@ static void show_parsed_part(double fraction, void *context)
     progress_show((uint64_t)(r->size * fraction / 1000), (uint64_t)(r->size / 1000), &r->bar);
 }
 
-/* Reads the cloud and builds its tree. Shows a progress bar meanwhile. */
+/* Reads the cloud and builds its tree. Meanwhile shows a progress bar. */
 static bool build_tree(const arguments *a, inspection *made, octreel_error *error)
 {
     reading r = {.bar = progress_start("kB read")};
@@ -264,7 +265,7 @@ static int inspect(const arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* Refuses picture options without -o, because they would have no effect. */
+/* Refuses options of the picture if -o is missing, because they would have no effect. */
 static bool check_picture(const arguments *a)
 {
     const char *first = find_first_view_option(&a->view_options);
@@ -277,7 +278,7 @@ static bool check_picture(const arguments *a)
     return refuse("--%s changes the picture, but no picture is drawn: add -o FILE.png", first);
 }
 
-/* Neither output may be the cloud, and the outputs must be two different files. */
+/* Checks that no output is the cloud, and that the outputs are different files. */
 static bool check_outputs(const arguments *a)
 {
     octreel_error error;
@@ -295,7 +296,7 @@ static int run(int argc, char **argv)
                    .def = octree_def_default(),
                    .view = view_make_default(),
                    .renderer.fill = DRAW_FILL_CHECKED};
-    a.view.fit = FIT_POINTS; /* the world is a cube, and few clouds fill a cube */
+    a.view.fit = FIT_POINTS; /* fit the points: few clouds fill the world, which is a cube */
     const int status = command_read_arguments(&command_inspect, &a, argc, argv);
     if (status != COMMAND_GO_ON)
         return status;

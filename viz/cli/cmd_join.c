@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_join.c - octreel join: completes a recording that was filmed in chunks. */
+/* cmd_join.c - octreel join: completes a recording whose chunks were filmed by several processes. */
 #include "command.h"
 #include "film_report.h"
 #include "join.h"

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* cmd_pick.c - octreel pick: lists what is drawn at a pixel of a frame. */
+/* cmd_pick.c - octreel pick: lists the elements that are drawn at a pixel of a frame. */
 #include "command.h"
 #include "pick.h"
 
 #include <stdio.h>
 
-/* Larger than any picture, because the error for a pixel outside of the picture is to name the size of the picture. */
+/* The limit is larger than any picture. Coordinates outside of the picture are refused later, by an error that can
+ * name the size of the picture. */
 enum { MOST_COORDINATE = 1000000000 };
 
 static bool read_coordinate(const char *name, const char *text, int *value)

@@ -36,7 +36,7 @@ static const command_option options[] = {
 
 /* ---- Where the page goes ------------------------------------------------------------------------------------- */
 
-/* The default name of the page: "walk.html" for "sessions/walk.json". */
+/* Makes the default name of the page: "walk.html" for "sessions/walk.json". */
 static void make_page_name(const char *session, char name[NAME_MAX + 1])
 {
     const char *base = session && !file_is_standard_stream(session) ? path_base_name(session) : "octreel",
@@ -53,7 +53,7 @@ static bool is_recording_page(const char *path)
     return folder_is_recording_file(base) && access(beside, F_OK) == 0;
 }
 
-/* Only a page that this command has written may be overwritten. */
+/* Checks that the page overwrites no other file. Only a page that this command wrote earlier may be overwritten. */
 static bool check_page(const arguments *a)
 {
     const output_file output = {"-o", a->page};
@@ -70,7 +70,7 @@ static bool check_page(const arguments *a)
            refuse("%s: exists and was not written by octreel play; name another file with -o", a->page);
 }
 
-/* Writes a path as a part of a URL (RFC 3986): other bytes become %XX. */
+/* Prints a path as a part of a URL (RFC 3986): characters that a URL cannot contain become %XX. */
 static void print_url_path(FILE *out, const char *path)
 {
     for (const unsigned char *at = (const unsigned char *)path; *at; at++)
@@ -93,7 +93,7 @@ static void print_page_address(const char *page, uint64_t ticks)
 
 /* ---- The page ------------------------------------------------------------------------------------------------ */
 
-/* Returns false with an error when it fails and when it is stopped by a signal. */
+/* Writes the page. Returns false with an error if writing fails or a signal stops it. */
 static bool write_page(const arguments *a, const octree_session *session, FILE *page, film_summary *summary,
                        octreel_error *error)
 {

@@ -104,7 +104,7 @@ static int film_to_folder(arguments *a, const octree_session *session)
 
 /* ---- A session from standard input ------------------------------------------------------------------ */
 
-/* Returns the reason why these options do not work with a session from standard input; null where they do. */
+/* Returns the reason why the given options do not work with a session from standard input, or null if they work. */
 static const char *explain_stream_conflict(const arguments *a)
 {
     if (a->film.resume)
@@ -161,7 +161,7 @@ static int film_standard_input(arguments *a)
 
 /* ---- The command line --------------------------------------------------------------------------------------- */
 
-/* Returns the name of the session in the folder; null: there is none. */
+/* Returns the name of the session file in the folder, or null if the folder has none. */
 static const char *find_stored_session(const char *folder)
 {
     return folder_contains(folder, "session.json")        ? "session.json"
@@ -169,8 +169,8 @@ static const char *find_stored_session(const char *folder)
                                                           : NULL;
 }
 
-/* With --resume, the recording supplies the options that the command line leaves out. If the command line has none, the
- * recording must have a session and a view. */
+/* With --resume, takes session and view options from the recording if the command line leaves them out. If the
+ * command line gives none of these options, the recording must contain its session and its view. */
 static bool complete_film_options(arguments *a)
 {
     octreel_error error;
@@ -214,7 +214,8 @@ static int film_session_file(arguments *a)
     return status;
 }
 
-/* True for the current folder and for every folder above it. Frames there would mix with unrelated files. */
+/* Returns whether a folder is the current folder or contains it. Frames in such a folder would mix with unrelated
+ * files. */
 static bool contains_current_folder(const char *folder)
 {
     struct stat named, here, before = {0};
@@ -222,7 +223,7 @@ static bool contains_current_folder(const char *folder)
     bool is = false, more = stat(folder, &named) == 0;
     for (size_t length = 1; more && !is && length + sizeof "/.." < sizeof up; before = here) {
         more = stat(up, &here) == 0 &&
-               (length == 1 || !is_same_file(&here, &before)); /* the parent of the root is the root */
+               (length == 1 || !is_same_file(&here, &before)); /* stop at the root, which is its own parent */
         is = more && is_same_file(&named, &here);
         length += (size_t)snprintf(up + length, sizeof up - length, "/..");
     }

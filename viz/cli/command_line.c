@@ -10,7 +10,9 @@
 #include <string.h>
 
 #define MOST_OPTIONS 64
-#define OPTION 1024 /* getopt's number for the option in row 0; row n has OPTION + n, above all letters */
+/* The number by which getopt identifies the option in row 0. The option in row n has the number OPTION + n. These
+ * numbers are larger than any character. */
+#define OPTION 1024
 
 /* ---- The options of a command -------------------------------------------------------------------------------- */
 
@@ -50,7 +52,7 @@ bool command_option_at(const command *c, size_t n, command_option *option)
     return common_option_row(n, option);
 }
 
-/* Finds the option with this letter. False: the command has none. */
+/* Finds the option with this letter. Returns false if the command has none. */
 static bool find_option_by_letter(const command *c, char letter, command_option *option)
 {
     for (size_t n = 0; command_option_at(c, n, option); n++)
@@ -59,7 +61,8 @@ static bool find_option_by_letter(const command *c, char letter, command_option 
     return false;
 }
 
-/* Lists the options as getopt_long wants them. Too many rows are a bug in the tables: the first run must fail. */
+/* Lists the options in the form that getopt_long() needs. If a table has too many rows, which is a bug, the program
+ * aborts on its first run. */
 static void fill_getopt_tables(const command *c, struct option all[MOST_OPTIONS], char letters[MOST_OPTIONS])
 {
     size_t count = 0, used = 1;
@@ -83,7 +86,8 @@ static void fill_getopt_tables(const command *c, struct option all[MOST_OPTIONS]
 
 /* ---- Mistakes ------------------------------------------------------------------------------------------------ */
 
-/* Reports "--s is ambiguous: --size, --slice". False: fewer than two options begin like this. */
+/* Reports an abbreviation that fits several options: "--s is ambiguous: --size, --slice". Returns false if fewer
+ * than two options begin with `name`. */
 static bool report_ambiguous(const command *c, const struct option *all, const char *name, size_t length)
 {
     char matches[256] = "";
@@ -99,7 +103,8 @@ static bool report_ambiguous(const command *c, const struct option *all, const c
     return true;
 }
 
-/* Reports an unknown option, a missing value, or a value that an option does not take. */
+/* Reports one of three mistakes: an unknown option, an option without its value, or a value for an option that takes
+ * none. */
 static int refuse_option(const command *c, const struct option *all, bool missing, const char *typed)
 {
     char meant[HINT_TEXT];
@@ -126,21 +131,22 @@ static int refuse_option(const command *c, const struct option *all, bool missin
                        hint_format(&h, "--", meant), hint_program_name(), c->name);
 }
 
-/* True for a value that looks like an option: the value of the option before it was probably forgotten. */
+/* Returns whether the value of an option looks like an option. The user then probably forgot the value. */
 static bool looks_like_option(const char *value)
 {
     return (strncmp(value, "--", 2) == 0 && value[2]) ||
            (value[0] == '-' && value[1] && !value[2] && strchr("ohq", value[1]));
 }
 
-/* Finds the row of getopt_long's result. False: the result is the digit of a negative number. */
+/* Finds the option for the result of getopt_long(). Returns false if the result is a digit: the argument is a
+ * negative number. */
 static bool find_option(const command *c, int number, command_option *option)
 {
     return number >= OPTION ? command_option_at(c, (size_t)(number - OPTION), option)
                             : find_option_by_letter(c, (char)number, option);
 }
 
-/* Returns COMMAND_GO_ON or the exit status. */
+/* Reads one option. Returns COMMAND_GO_ON or the exit status. */
 static int read_option(const command *c, const command_option *o, char **argv, void *arguments)
 {
     if (strcmp(o->name, "help") == 0)
@@ -172,7 +178,8 @@ static int read_options(const command *c, int argc, char **argv, void *arguments
     return status;
 }
 
-/* Reports an argument beyond those that the command takes. A file name may have been meant for -o. */
+/* Reports that there are more arguments than the command takes. If the surplus argument could be an output file,
+ * suggests -o. */
 static int refuse_surplus(const command *c, const char *word, bool has_output)
 {
     command_option output;
@@ -188,7 +195,8 @@ static int refuse_surplus(const command *c, const char *word, bool has_output)
                        hint_program_name(), c->name);
 }
 
-/* Reports a file of a recording where the folder is expected, and names the folder. False: not such a file. */
+/* Reports that a file of a recording was given where the recording's folder is expected, and names the folder.
+ * Returns false if the path is not such a file. */
 static bool refuse_recording_part(const command *c, const char *path, file_kind kind)
 {
     char *folder = path_parent_folder(path);
@@ -199,7 +207,8 @@ static bool refuse_recording_part(const command *c, const char *path, file_kind 
     return found;
 }
 
-/* Standard input works for a file, but not for a folder or for a file that the command may create. */
+/* Checks whether the input may be standard input: the command must expect a file, not a folder or a file that it may
+ * create. */
 static bool check_standard_input(const command *c, file_kinds taken)
 {
     const file_kinds files = FILE_KIND(SESSION) | FILE_KIND(CLOUD) | FILE_KIND(PNG) | FILE_KIND(BASELINE);

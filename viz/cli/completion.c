@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /* completion.c - writes completion scripts for bash, zsh and fish.
  *
- * Scripts written by hand go stale when an option is added. These are generated from the tables by which the command
- * line is read: an option's placeholder says what its value is (FILE, DIR, LIST or one of `names`), and a command's
- * `inputs` say which file endings it takes. Each shell is a row of templates, which put_template() fills in. The
- * scripts differ because bash runs a function that must parse the words before the cursor itself: its script is a case
- * for each command and option. zsh's _arguments and fish's complete take declarations, one for each option, with a
- * description, which is cut to its first clause. */
+ * Scripts written by hand go stale when an option is added. These scripts are generated from the tables by which the
+ * command line is read. The placeholder of an option says how its value is completed: FILE, DIR, LIST, or else one of
+ * `names`. The `inputs` of a command say which file endings it takes.
+ *
+ * Each shell is a row of templates, which put_template() fills in. The scripts differ in form. For bash, the script is
+ * a function that parses the words before the cursor itself, with a case for each command and option. For zsh's
+ * _arguments and fish's complete, the script is a list of declarations, one for each option. A declaration contains the
+ * first clause of the option's description.
+ */
 #include "completion.h"
 #include "cloud.h"
 #include "command.h"
@@ -18,19 +21,19 @@
 /* How the value of an option is completed. */
 typedef enum value_kind { VALUE_NONE, VALUE_ANY, VALUE_ONE, VALUE_LIST, VALUE_FILE, VALUE_FOLDER, VALUES } value_kind;
 
-/* The templates of a script. They are shell code with markers; put_marker() is the list of markers. */
+/* The templates of a shell's script. They are shell code with markers such as %c; put_marker() lists the markers. */
 typedef struct shell {
     const char *name;
-    const char *head, *summary, *middle; /* `summary` is written for each command, between `head` and `middle` */
-    const char *command;                 /* the start of a command's part; its options follow */
-    const char *option, *short_option;   /* an option without and with a letter */
-    const char *files, *folders;         /* the end of a command's part: the command takes files, or only folders */
+    const char *head, *summary, *middle; /* `summary` is repeated for each command, between `head` and `middle` */
+    const char *command;                 /* begins a command's part of the script; the command's options follow */
+    const char *option, *short_option;   /* an option without a letter, and an option with a letter */
+    const char *files, *folders;         /* end a command's part: for a command that takes files, or only folders */
     const char *tail;
-    const char *ending, *separator; /* an ending of file names, and the text between two of them */
+    const char *ending, *separator; /* a file ending, and the text between two file endings */
     struct {
         const char *before, *after;
-    } values[VALUES];    /* what is written around the possible values of an option */
-    const char *escaped; /* characters that need a backslash inside of quotation marks */
+    } values[VALUES];    /* the text before and after an option's possible values */
+    const char *escaped; /* characters that need a backslash inside quotation marks */
 } shell;
 
 static const shell shells[] = {
@@ -178,7 +181,7 @@ static value_kind find_value_kind(const command_option *o)
     return strncmp(o->value, "FILE", 4) == 0 ? VALUE_FILE : strcmp(o->value, "DIR") == 0 ? VALUE_FOLDER : VALUE_ANY;
 }
 
-/* File endings by kind of input. Folders are always offered too, because they lead to files. */
+/* The endings of files, by the kind of input. Folders are always offered as well, because the file may lie in one. */
 static const struct {
     file_kinds kind;
     const char *endings;
@@ -194,7 +197,7 @@ static bool takes_files(const command *c)
     return (c->inputs[0] | c->inputs[1]) & ~(FILE_KIND(RECORDING) | FILE_KIND(FOLDER) | FILE_KIND(MISSING));
 }
 
-/* Returns the length of the first clause of a description. */
+/* Returns the length of the first clause of an option's description. */
 static size_t brief_length(const char *help)
 {
     size_t length = strcspn(help, ";:(");
@@ -208,18 +211,19 @@ static size_t brief_length(const char *help)
 
 /* ---- Templates ----------------------------------------------------------------------------------------------- */
 
-/* The place in a script, which decides what markers stand for. */
+/* The current position in a script. Markers are replaced by data of this command, option and file ending. */
 typedef struct script {
     FILE *out;
     const shell *shell;
     const command *command;
     command_option option;
-    const char *ending; /* not ended by a zero: the next ending follows */
+    const char *ending; /* not zero-terminated: the next file ending follows */
 } script;
 
 static void put_template(const script *s, const char *template);
 
-/* Writes a text within '', with a backslash before each special character; "'\''" is every shell's quoted '. */
+/* Writes a text that is quoted by '. A backslash is written before each character that is special to the shell. A
+ * quote in the text becomes '\'', which all three shells understand. */
 static void put_quoted(const script *s, const char *text, size_t length)
 {
     for (size_t i = 0; i < length; i++)
@@ -229,7 +233,7 @@ static void put_quoted(const script *s, const char *text, size_t length)
             fprintf(s->out, "%s%c", strchr(s->shell->escaped, text[i]) ? "\\" : "", text[i]);
 }
 
-/* Writes the option's value: which words or files complete it. */
+/* Writes the shell code that completes the option's value by words or files. */
 static void put_value(const script *s)
 {
     const value_kind kind = find_value_kind(&s->option);
@@ -239,7 +243,7 @@ static void put_value(const script *s)
     put_template(s, s->shell->values[kind].after);
 }
 
-/* Writes the endings of the files that the command takes. */
+/* Writes the file endings that the command takes. */
 static void put_endings(script s)
 {
     const file_kinds kinds = s.command->inputs[0] | s.command->inputs[1];
@@ -279,13 +283,13 @@ static void put_marker(const script *s, char marker)
     const command *c = s->command;
     const command_option *o = &s->option;
     switch (marker) {
-    case 'C': /* the names of all commands, each with a space behind it */
+    case 'C': /* the names of all commands, each followed by a space */
         put_command_names(s->out);
         break;
     case 'T': /* the names of all help topics */
         put_topic_names(s->out);
         break;
-    case 'c': /* the command: its name, its description, its arguments */
+    case 'c': /* the command: %c its name, %d its description, %t its arguments */
         fputs(c->name, s->out);
         break;
     case 'd':
@@ -294,16 +298,16 @@ static void put_marker(const script *s, char marker)
     case 't':
         put_quoted(s, c->takes, strcspn(c->takes, ","));
         break;
-    case 'O': /* all its options, and all its file endings */
+    case 'O': /* the command: %O the names of all its options, %E all its file endings */
         put_option_names(s);
         break;
     case 'E':
         put_endings(*s);
         break;
-    case 'e': /* one ending */
+    case 'e': /* one file ending of the command */
         fprintf(s->out, "%.*s", (int)strcspn(s->ending, "."), s->ending);
         break;
-    case 'n': /* the option: its name, letter, placeholder, description, value */
+    case 'n': /* the option: %n name, %l letter, %p placeholder, %h description, %v value */
         fputs(o->name, s->out);
         break;
     case 'l':
@@ -318,16 +322,16 @@ static void put_marker(const script *s, char marker)
     case 'v':
         put_value(s);
         break;
-    case '+': /* itself, if the option has a value */
+    case '+': /* %+ and %= become "+" and "=" if the option takes a value, else nothing */
     case '=':
         fputs(o->value ? (char[]){marker, 0} : "", s->out);
         break;
-    default: /* %% */
+    default: /* %% becomes "%" */
         putc(marker, s->out);
     }
 }
 
-/* Writes a template; null: nothing. */
+/* Writes a template with its markers filled in. A null template writes nothing. */
 static void put_template(const script *s, const char *template)
 {
     for (const char *at = template ? template : ""; *at; at++)

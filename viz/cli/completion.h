@@ -6,10 +6,10 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Returns the name of the n-th supported shell; null: n is beyond the last. */
+/* Returns the name of the n-th supported shell; null if n is beyond the last. */
 const char *completion_shell(int n);
 
-/* Write the completion script of a shell. False: the shell is not supported. */
+/* Writes the completion script of a shell. Returns false if the shell is not supported. */
 bool completion_write(FILE *out, const char *shell);
 
 #endif

@@ -16,7 +16,7 @@ static void fill(FILE *out, const char *text, int column)
     prose_fill(out, text, strlen(text), column, column);
 }
 
-/* Prints the possible values of an option, one a line, below its description. */
+/* Prints the possible values of an option below its description, one on each line. */
 static void print_choices(FILE *out, const command_option *option)
 {
     for (int i = 0; option->names(i); i++) {
@@ -25,7 +25,7 @@ static void print_choices(FILE *out, const command_option *option)
     }
 }
 
-/* "  -o, --output DIR      where the recording goes" */
+/* Prints an option: "  -o, --output DIR      where the recording goes". */
 static void print_option(FILE *out, const command_option *option)
 {
     const char letter = option_letter(option->name), short_form[] = {'-', letter, ',', 0};
@@ -85,7 +85,7 @@ static void print_statuses(FILE *out, const command *c)
         }
 }
 
-/* The program is named as the user has called it. */
+/* Prints examples. "octreel" is replaced by the name by which the user called the program. */
 static void print_examples(FILE *out, const char *examples)
 {
     fputs("Examples:\n", out);
@@ -119,7 +119,7 @@ int help_print(FILE *out, const command *c)
 
 /* ---- The version -------------------------------------------------------------------------------------------- */
 
-/* Prints the renderer of a kind of context, or why the context cannot be opened. Returns true if it can. */
+/* Prints the renderer of a kind of context. If the context cannot be opened, prints why and returns false. */
 static bool print_renderer(draw_context kind)
 {
     const renderer_choice choice = {.context = kind, .fill = DRAW_FILL_GL};

@@ -5,10 +5,10 @@
 
 #include "command.h"
 
-/* Prints the help of a command; of command_octreel with a list of all commands. Returns EXIT_DONE. */
+/* Prints the help of a command. For command_octreel, also prints a list of all commands. Returns EXIT_DONE. */
 int help_print(FILE *out, const command *c);
 
-/* Prints the version and the available renderers. Returns EXIT_TROUBLE if no renderer works. */
+/* Prints the version and the available renderers. Returns EXIT_TROUBLE if no renderer can be opened. */
 int version_print(void);
 
 #endif

@@ -70,7 +70,8 @@ static const help_topic *find_help_topic(const char *name)
     return NULL;
 }
 
-/* Reports an unknown command or, with `help`, an unknown help topic, and suggests the nearest known word. */
+/* Reports an unknown command and suggests the nearest one. With `help`, reports an unknown help topic; commands are
+ * help topics, too. */
 static int report_unknown_word(const char *word, bool help)
 {
     static const char *const other_words[] = {"help", "--help", "--version"};
@@ -93,7 +94,7 @@ static int report_unknown_word(const char *word, bool help)
                        hint_format(&h, "", meant), hint_program_name(), help ? "topics" : "commands");
 }
 
-/* Prints the help of a command or topic, or its manual for man(1). */
+/* Prints the help of a command or topic. With `manual`, prints its manual as the input of man(1). */
 static int print_help(const char *name, bool manual)
 {
     const help_topic *topic = find_help_topic(name);
@@ -121,7 +122,7 @@ static int print_completions(const char *shell)
                        json_list_names(completion_shell, known, sizeof known));
 }
 
-/* octreel help [COMMAND | TOPIC], octreel help --man NAME, octreel help --complete SHELL */
+/* Runs `octreel help [COMMAND | TOPIC]`, `octreel help --man NAME` or `octreel help --complete SHELL`. */
 static int help(int argc, char **argv)
 {
     if (argc == 3 && strcmp(argv[1], "--man") == 0)
@@ -156,7 +157,7 @@ static void report_context_fallback(const char *name, const char *instead_of, co
     note("drawing with %s, because %s does not work: %s", name, instead_of, why);
 }
 
-/* Output that cannot be written is an error, whatever the command returned. */
+/* If standard output cannot be written completely, the program fails, even if the command succeeded. */
 int main(int argc, char **argv)
 {
     hint_set_program(argc > 0 ? argv[0] : NULL);

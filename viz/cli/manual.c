@@ -6,7 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
-enum { LINE = 78 }; /* characters of a source line */
+enum { LINE = 78 }; /* the most characters in a line of roff source */
 
 /* ---- Text --------------------------------------------------------------------------------------------------- */
 
@@ -15,8 +15,8 @@ typedef struct literal {
     char text[5];
 } literal;
 
-/* Returns the notation that prints a character exactly. A plain - or ' would be typeset as a hyphen or a quotation
- * mark. */
+/* Returns the roff notation that prints a character unchanged. Roff would typeset a plain - as a hyphen and a plain
+ * ' as a closing quotation mark. */
 static literal escape_literal(char c)
 {
     static const char from[] = "\\-'`^~";
@@ -25,7 +25,7 @@ static literal escape_literal(char c)
     return found ? to[found - from] : (literal){{c}};
 }
 
-/* Protects a line of text that begins like a macro. */
+/* Protects a line of text whose first character would make it a roff macro. */
 static void begin_line(FILE *out, char first)
 {
     if (first == '.' || first == '\'')
@@ -45,7 +45,8 @@ static void put_bold(FILE *out, const char *text, size_t length)
     fputs("\\fR", out);
 }
 
-/* Returns the length of the option at the start of a word: "--size" in "--size,", "-o"; 0: none. */
+/* Returns the length of the option with which a word begins: 6 for "--size,", 2 for "-o". Returns 0 if the word is
+ * not an option. */
 static size_t option_length(const char *word, size_t length)
 {
     size_t end = 0;
@@ -55,14 +56,15 @@ static size_t option_length(const char *word, size_t length)
     return named || (end == 2 && word[0] == '-' && isalpha((unsigned char)word[1])) ? end : 0;
 }
 
-enum { WORD = 512 }; /* in roff notation */
+enum { WORD = 512 }; /* room for a word in roff notation, in bytes */
 
 static void append(char set[WORD], const char *text)
 {
     strncat(set, text, WORD - 1 - strlen(set));
 }
 
-/* Formats a word of a sentence: options and text between backquotes are bold, and hyphens inside words stay hyphens. */
+/* Formats a word of a sentence in roff notation. Options and text between backquotes become bold. Hyphens inside
+ * words stay hyphens. *code is true between two backquotes. */
 static void format_word(char set[WORD], const char *word, size_t length, bool *code)
 {
     const size_t before = strspn(word, "(\""), quoted = before < length ? before : 0;
@@ -80,7 +82,7 @@ static void format_word(char set[WORD], const char *word, size_t length, bool *c
     }
 }
 
-/* Writes words in lines of at most LINE characters. */
+/* Writes words as source lines of at most LINE characters. */
 static void put_words(FILE *out, const char *text, size_t length)
 {
     const char *at = text, *word;
@@ -120,7 +122,7 @@ static void put_lines(FILE *out, const char *text, size_t length, int indent)
     fputs(".EE\n", out);
 }
 
-/* The name ends at the end of its line. */
+/* Begins a section. `name` ends at its line end. */
 static void put_section(FILE *out, const char *name)
 {
     fputs(".SH ", out);
@@ -138,7 +140,7 @@ static void put_term(FILE *out, const char *term, size_t length)
 static void put_text(FILE *out, const char *text)
 {
     prose_block block;
-    bool begins = true; /* true after .SH, which begins a paragraph itself */
+    bool begins = true; /* true after .SH, because .SH begins a paragraph itself */
     for (const char *at = text; prose_next_block(&at, &block);) {
         switch (block.kind) {
         case PROSE_HEADING:
@@ -172,7 +174,7 @@ static void put_text_section(FILE *out, const char *name, const char *text)
 
 /* ---- Sections ----------------------------------------------------------------------------------------------- */
 
-/* "octreel-record"; "octreel" for the program itself. */
+/* Writes the name of a command's manual: "octreel-record", or "octreel" for the program itself. */
 static void put_page_name(FILE *out, const char *name)
 {
     fputs("octreel", out);
@@ -191,7 +193,7 @@ static void put_title(FILE *out, const char *name, int section, const char *line
     put_sentence(out, line);
 }
 
-/* Options are bold, placeholders are italic. */
+/* Writes a usage line with bold options and italic placeholders. */
 static void put_usage(FILE *out, const char *usage)
 {
     for (const char *at = usage; *at;) {
@@ -227,7 +229,7 @@ static void put_option(FILE *out, const command_option *o)
     put_sentence(out, o->help);
     if (!o->words)
         return;
-    fputs(".RS\n.PD 0\n", out); /* no empty lines between the values */
+    fputs(".RS\n.PD 0\n", out); /* print no empty lines between the values */
     for (int i = 0; o->names(i); i++) {
         put_term(out, o->names(i), strlen(o->names(i)));
         put_sentence(out, o->words(i));
@@ -257,7 +259,7 @@ static void put_statuses(FILE *out, const command *c)
         }
 }
 
-/* True if a text of the command contains these words, such as "octreel join". */
+/* Returns whether the help texts of a command contain some words, such as "octreel join". */
 static bool mentions(const command *c, const char *words)
 {
     const char *const texts[] = {c->about, c->more, c->examples, c->files};
@@ -271,7 +273,7 @@ static bool mentions(const command *c, const char *words)
     return false;
 }
 
-/* Writes a reference to a page, unless it is the page `own` itself. */
+/* Writes a reference to a manual, unless it is the manual `own` that is being written. */
 static void put_reference(FILE *out, const char *name, int section, const char *own, bool *begun)
 {
     if (strcmp(name, own) == 0)
@@ -282,7 +284,8 @@ static void put_reference(FILE *out, const char *name, int section, const char *
     *begun = true;
 }
 
-/* References to the program, to the mentioned commands, and to all topics, for the page of a command or of a topic. */
+/* Writes the section SEE ALSO of a command or a topic. It refers to octreel(1), to the mentioned commands, and to
+ * all topics. */
 static void put_see_also(FILE *out, const command *c, const help_topic *topic)
 {
     const char *own = c ? c->name : topic->name;

@@ -5,10 +5,10 @@
 
 #include "command.h"
 
-/* Write octreel-NAME(1) for a command, or octreel(1) for command_octreel. */
+/* Writes the manual octreel-NAME(1) of a command, or octreel(1) for command_octreel. */
 void manual_write(FILE *out, const command *c);
 
-/* Write octreel-NAME(5) for a topic. */
+/* Writes the manual octreel-NAME(5) of a topic. */
 void manual_write_topic(FILE *out, const help_topic *topic);
 
 #endif

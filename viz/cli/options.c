@@ -14,7 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Prints one line on standard error. Control characters, which file names may contain, become question marks. */
+/* Prints one line on standard error. Control characters, which file names may contain, are printed as question
+ * marks. */
 static void print_sentence(const char *format, va_list arguments)
 {
     char sentence[1 << 14];
@@ -260,7 +261,7 @@ static bool read_view_text(const command_option *option, const char *text, void 
     return true;
 }
 
-/* Skips rows without a name, which only recording.json has. */
+/* Fills in the row of the n-th view option. Options that only recording.json has, which have no name, are skipped. */
 bool view_option_row(size_t n, command_option *option)
 {
     const view_option *row;

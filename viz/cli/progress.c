@@ -15,8 +15,8 @@
 
 /* ---- The bar ------------------------------------------------------------------------------------------------ */
 
-#define MOST_BAR 32 /* characters */
-#define LEAST_BAR 8 /* a shorter bar is not drawn */
+#define MOST_BAR 32 /* most characters of the bar */
+#define LEAST_BAR 8 /* fewest characters of the bar; if fewer fit, no bar is drawn */
 #define LINE 512
 #define SECONDS_BETWEEN_UPDATES 0.1
 
@@ -27,7 +27,7 @@ static double read_clock(void)
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-/* True if standard error is a terminal that can overwrite a line. */
+/* Returns whether standard error is a terminal that can overwrite a line. */
 static bool can_overwrite_line(void)
 {
     const char *term = getenv("TERM");
@@ -51,7 +51,7 @@ double progress_seconds(const progress *p)
     return read_clock() - p->started;
 }
 
-/* Overwrites with spaces where the last line is longer than the new one. */
+/* If the new line is shorter than the line on the terminal, overwrites the rest of the old line with spaces. */
 static void erase_longer_line(progress *p, int length, int columns)
 {
     const int end = p->length < columns ? p->length : columns;
@@ -59,7 +59,8 @@ static void erase_longer_line(progress *p, int length, int columns)
     p->length = length;
 }
 
-/* Prints one line that fits the window: first the bar shrinks, then the text is cut. */
+/* Prints one line that fits the terminal's width. If the line is too long, the bar shrinks; if that is not enough,
+ * the text is cut. */
 static void print_line(progress *p, const char *text)
 {
     char bar[MOST_BAR + 1];
@@ -124,7 +125,7 @@ static const int stop_signals[] = {SIGHUP, SIGINT, SIGTERM};
 
 #define STOP_SIGNALS (sizeof stop_signals / sizeof stop_signals[0])
 
-static sigset_t blocked, mask_before; /* `blocked` has the signals that block_stop_signals() blocked */
+static sigset_t blocked, mask_before; /* `blocked`: the signals that block_stop_signals() blocked */
 
 void block_stop_signals(void)
 {

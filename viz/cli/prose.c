@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: MIT */
 /* prose.c - splits help texts into blocks and wraps their words.
  *
- * One source text serves --help and man pages, which lay it out differently, so the text must say what each part is.
- * Its indentation does, as in prose.h; markup would make the C strings unreadable. A block is recognized by its first
- * line and continues while the following lines have the indentation that fits its kind. Wrapping is greedy: a word goes
- * on the current line if it fits into 80 columns, else it starts the next one. That gives the fewest lines, in one pass
- * and without a buffer; optimal-fit wrapping (Knuth and Plass) would only make right margins more even. Cost: O(text).
+ * One source text serves --help and man pages, which lay it out differently. The text must therefore say what each of
+ * its parts is. The indentation of its lines says so, as prose.h describes; markup would make the C strings unreadable.
+ * The first line of a block decides its kind. The block continues while the following lines have the indentation of
+ * this kind.
+ *
+ * Wrapping is greedy: a word goes on the current line if it fits into 80 columns, otherwise on the next line. Greedy
+ * wrapping gives the fewest lines, in one pass and without a buffer. Optimal-fit wrapping (Knuth and Plass) would only
+ * make the right margin more even. Cost: O(length of the text).
  */
 #include "prose.h"
 
@@ -42,14 +45,14 @@ static bool is_heading(const char *line)
     return true;
 }
 
-/* Returns the start of an item's description; null: the line begins no item. */
+/* Returns the start of an item's description, or null if the line does not begin an item. */
 static const char *find_item_text(const char *line)
 {
     const char *term = line + count_indent(line), *gap = strstr(term, "  ");
     return gap && gap < line + line_length(line) ? gap + count_indent(gap) : NULL;
 }
 
-/* True if a line continues_block the block. */
+/* Returns whether a line belongs to the block that precedes it. */
 static bool continues_block(const prose_block *block, const char *line)
 {
     const int indent = count_indent(line);
@@ -146,7 +149,8 @@ void prose_fill_column(FILE *out, int width, const char *text, size_t length, in
     prose_fill(out, text, length, column, column);
 }
 
-/* Column of the descriptions, relative to the indentation; shorter terms share a line with theirs. */
+/* The column of an item's description, counted from the item's indentation. If the term before it is too long, the
+ * description begins on the next line. */
 enum { SHORT_TERM = 14 };
 
 static void print_item(FILE *out, const prose_block *block)
@@ -163,7 +167,7 @@ static void print_lines(FILE *out, const prose_block *block)
         fprintf(out, "%.*s\n", (int)length, line);
 }
 
-/* An empty line separates blocks, except after a heading and between items. */
+/* Returns whether an empty line separates two blocks. It does, except after a heading and between two items. */
 static bool needs_empty_line(prose_kind before, prose_kind kind)
 {
     return before != PROSE_HEADING && !(before == PROSE_ITEM && kind == PROSE_ITEM);

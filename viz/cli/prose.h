@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* prose.h - formats help texts. The indentation of a line says what it is:
+/* prose.h - formats help texts. The indentation of a line says which kind of block it belongs to:
  *
  *     HEADING, a line without lower-case letters
  *     a paragraph; an empty line ends it
@@ -15,36 +15,39 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* Width of wrapped lines. */
+/* The most columns of a wrapped line. */
 #define PROSE_WIDTH 80
 
 typedef enum prose_kind { PROSE_HEADING, PROSE_PARAGRAPH, PROSE_ITEM, PROSE_VERBATIM } prose_kind;
 
-/* A block of a text. `text` still contains its line ends and indentation. */
+/* A block of a help text. Its lines are in `text`, with their line ends and indentation. */
 typedef struct prose_block {
     prose_kind kind;
-    int indent; /* indentation of its first line */
+    int indent; /* the indentation of the block's first line, in columns */
     const char *term, *text;
     size_t term_length, length;
 } prose_block;
 
-/* Read the next block at *at and move *at past it. False: end of the text. */
+/* Reads the next block at *at and moves *at past it. Returns false at the end of the text. */
 bool prose_next_block(const char **at, prose_block *block);
 
-/* Read the next word at *at and move *at past it. Null: `end` is reached. */
+/* Returns the next word at *at, sets its length, and moves *at past it. Returns null if there is no word before
+ * `end`. */
 const char *prose_next_word(const char **at, const char *end, size_t *length);
 
-/* Read the next line and strip up to `indent` spaces of indentation. Null: `end` is reached. */
+/* Returns the next line at *at without up to `indent` spaces at its start, sets its length, and moves *at past it.
+ * Returns null at `end`. */
 const char *prose_next_line(const char **at, const char *end, int indent, size_t *length);
 
-/* Write words, wrapped at PROSE_WIDTH. The output is at `column`; further lines are indented by `indent` spaces. */
+/* Writes words, wrapped at PROSE_WIDTH. `column` is the column at which the output already is. Further lines are
+ * indented by `indent` spaces. */
 void prose_fill(FILE *out, const char *text, size_t length, int column, int indent);
 
-/* Write wrapped words at `column`, beside a term of `width` characters that is already written; on the next line if
- * fewer than two spaces would lie between. */
+/* Writes wrapped words at `column`, beside a term of `width` characters that is already written. If fewer than two
+ * spaces would separate term and words, the words begin on the next line. */
 void prose_fill_column(FILE *out, int width, const char *text, size_t length, int column);
 
-/* Write a whole text. */
+/* Writes a whole help text. */
 void prose_print(FILE *out, const char *text);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* query_options.c - the options that ask queries, one for each row of query_looks.h with a placeholder. The numbers of
- * an option are the members of its kind of query, in the order of OCTREE_QUERY_MEMBER_MAP. */
+/* query_options.c - the options that ask queries: --nearest, --radius and --range. Each kind of query in
+ * query_looks.h that has a placeholder has an option. The numbers in an option's value are the members of the query,
+ * in the order of OCTREE_QUERY_MEMBER_MAP. */
 #include "query_options.h"
 #include "number.h"
 #include "octree/octree.h"
@@ -13,10 +14,10 @@
 
 static const struct {
     octree_query_kind kind;
-    const char *value;           /* in --help; null: no option */
-    octree_query_kind with_more; /* the kind that is asked if one more number is given */
-    const char *help;            /* in --help */
-    const char *takes;           /* in error messages */
+    const char *value;           /* the placeholder in --help; null: the kind has no option */
+    octree_query_kind with_more; /* the kind of query if the option's value has one more number */
+    const char *help;            /* the option's description in --help */
+    const char *takes;           /* the expected value, for errors */
 } rows[] = {
 #define QUERY_OPTION(X, kind, name, words, layer_help, role, value, with_more, help, takes)                            \
     {OCTREE_QUERY_##kind, value, OCTREE_QUERY_##with_more, help, takes},
@@ -40,7 +41,7 @@ static size_t count_numbers_of_kind(octree_query_kind kind)
     return count;
 }
 
-/* Set the members of the query's kind. False if a count is not a whole number in range. */
+/* Sets the members of a query from numbers. Returns false if a count is not a whole number in its range. */
 static bool set_members(octree_query *query, const double *numbers)
 {
     for (size_t i = 0; i < OCTREE_QUERY_MEMBERS; i++) {
@@ -62,7 +63,7 @@ static bool set_members(octree_query *query, const double *numbers)
 static bool read_query(const command_option *option, const char *text, void *into)
 {
     query_options *queries = into;
-    const size_t row = option->min; /* index in `rows` */
+    const size_t row = option->min; /* index in `rows`, which query_option_row() stored */
     const char *name = option->name;
     octree_query query = {.kind = rows[row].kind};
     double values[MOST_NUMBERS];
@@ -83,7 +84,7 @@ static bool read_query(const command_option *option, const char *text, void *int
     return true;
 }
 
-/* The n-th option. The rows are listed in reverse order. */
+/* Fills in the n-th option. The options are in the reverse order of `rows`. */
 bool query_option_row(size_t n, command_option *option)
 {
     for (size_t i = sizeof rows / sizeof rows[0]; i-- > 0;) {

@@ -8,7 +8,7 @@
 
 #define MOST_QUERIES 100
 
-/* The queries of a command line, in the order given. */
+/* The queries on a command line, in the order in which they were given. */
 typedef struct query_options {
     octree_query items[MOST_QUERIES];
     size_t count;
