@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* bytes.h - compares and searches bytes eight at a time, without alignment or byte-order requirements. */
+/* bytes.h - compares and searches bytes eight at a time. The functions work for any alignment and on machines of any
+ * byte order. */
 #ifndef IMAGE_BYTES_H
 #define IMAGE_BYTES_H
 
@@ -7,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Load eight bytes as a little-endian word on every machine. Compilers turn this into one load. */
+/* Load eight bytes as a little-endian word, on machines of any byte order. Compilers turn this into one load. */
 static inline uint64_t bytes_load_word(const uint8_t *at)
 {
     return (uint64_t)at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24 |
@@ -26,7 +27,8 @@ static inline void bytes_store_word(uint8_t *to, uint64_t word)
     to[7] = (uint8_t)(word >> 56);
 }
 
-/* Returns the number of zero bytes at the start of a word that is not zero: its lowest bytes. */
+/* Returns the number of zero bytes at the start of a little-endian word, that is, in its lowest bytes. The word must
+ * not be 0. */
 static inline size_t bytes_count_zeros_at_start(uint64_t word)
 {
 #ifdef __GNUC__
@@ -46,7 +48,7 @@ static inline uint64_t bytes_mark_zero_bytes(uint64_t word)
     return ~(((word & low) + low) | word | low);
 }
 
-/* Returns the length of the common prefix of a and b, at most `size`. */
+/* Returns the length of the common prefix of a and b, which have `size` bytes each. */
 static inline size_t bytes_common_prefix_length(const uint8_t *a, const uint8_t *b, size_t size)
 {
     size_t at = 0;

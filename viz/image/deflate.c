@@ -2,17 +2,19 @@
 /* deflate.c - finds the repeats in a picture's rows; deflate_block.c writes them.
  *
  * Deflate (RFC 1951) describes bytes as literals and as repeats (length, distance) of bytes up to 32768 back. General
- * encoders find repeats by hashing every position, which costs most of their time. In a drawn picture nearly all
- * useful repeats lie at two known distances: one pixel back (a run of one colour) and one row back (the row above). So
- * this encoder compares with these two places first, eight bytes at a time, and skips over equal bytes without looking
- * at each. Only RGB pictures, whose pixels cost three literals, also use a small hash table for other distances. Where
- * the next position has a clearly better repeat, one literal is written first (lazy matching, as in zlib).
+ * encoders find repeats by hashing every position, which costs most of their time. In a drawn picture nearly all useful
+ * repeats lie at two known distances: one pixel back (a run of one colour) and one row back (the row above). So this
+ * encoder compares with these two places first, eight bytes at a time, and skips equal bytes without examining each.
  *
- * The Adler-32 checksum costs nothing for bytes that equal the row above: both of its sums are linear in the bytes, so
+ * Only RGB pictures, whose pixels cost three literals, also use a small hash table, for other distances. If the repeat
+ * at the next position is better than the repeat at the current position, one literal is written first (lazy matching,
+ * as in zlib).
+ *
+ * The Adler-32 checksum costs nothing for bytes that equal the row above. Both of its sums are linear in the bytes, so
  * only the change from one row to the next is added; see add_row_to_sums().
  *
- * Cost: O(bytes). Result: smaller than zlib level 6 and faster than level 1 on indexed line drawings.
- */
+ * Cost: O(bytes). On indexed line drawings, the result is smaller than that of zlib's level 6, and the encoder is
+ * faster than level 1. */
 #include "deflate.h"
 #include "bytes.h"
 #include "deflate_block.h"
@@ -21,49 +23,51 @@
 #include <string.h>
 
 enum {
-    CHUNK = 32 << 10, /* bytes collected before they are encoded: they fit the L1 cache */
-    WORD = 8,         /* readable bytes after the window's end; their values do not matter */
+    CHUNK = 32 << 10, /* the most bytes that are collected before they are encoded: they fit the L1 cache */
+    WORD = 8,         /* bytes after the window's end that may be read; their values do not matter */
 
-    /* Estimated sizes in bits, used to choose among repeats: of a literal, and of a repeat of the last pixel, of the
-     * row above, and at any other distance. */
+    /* Estimated sizes in bits, used to choose among repeats: of a literal, of a repeat of the last pixel, of a repeat
+     * of the row above, and of a repeat at any other distance. */
     BYTE_BITS = 3,
     RUN_BITS = 6,
     ABOVE_BITS = 14,
     FAR_BITS = 16,
-    LONG_REPEAT = 64, /* a repeat of at least this length is used without looking for a better one */
+    LONG_REPEAT = 64, /* if a repeat is at least this long, no better repeat is searched */
 
     HASH_BITS = 12,
-    HASHED = 6, /* bytes per hash: two RGB pixels */
+    HASHED = 6, /* the number of bytes that are hashed: two RGB pixels */
     ADLER_BASE = 65521,
 };
 
 struct deflater {
     size_t stride, rows, pixel;
     size_t kept; /* bytes of history that slide_window() keeps in the window */
-    size_t room; /* size of the window */
-    size_t end;  /* end of the bytes in the window */
-    size_t at;   /* the first byte without a token */
+    size_t room; /* size of the window in bytes */
+    size_t end;  /* number of bytes in the window */
+    size_t at;   /* index in the window of the first byte that is not encoded yet */
     bool begun;
-    bool above;            /* the row above is near enough to be repeated */
-    size_t block;          /* where the current block's bytes begin in the window */
+    bool above;            /* the row above is within deflate's largest distance */
+    size_t block;          /* index in the window of the current block's first byte */
     bool block_whole;      /* all bytes of the current block are still in the window */
-    size_t unsummed;       /* the first byte whose change is not yet in the sums */
-    size_t row;            /* where the row of `unsummed` begins */
-    size_t rows_left;      /* the number of rows from that row on, itself included */
-    int64_t row_change;    /* sum of (byte - byte above) over the summed part of that row */
-    int64_t row_by_column; /* sum of (byte - byte above) * column over the same part */
+    size_t unsummed;       /* index in the window of the first byte that is not in the Adler-32 sums yet */
+    size_t row;            /* index in the window of the first byte of the row that contains `unsummed` */
+    size_t rows_left;      /* number of rows of the picture from this row on, this row included */
+    int64_t row_change;    /* sum of (byte - byte above) over the bytes of this row before `unsummed` */
+    int64_t row_by_column; /* sum of (byte - byte above) * column over the same bytes */
     int64_t sums[2];       /* the two sums of Adler-32, without their initial values */
     deflate_blocks blocks;
-    uint32_t heads[1 << HASH_BITS]; /* RGB only: the last position of bytes with each hash; 0: none */
-    uint8_t *window;                /* begins with a row of zeros, the row above the first row */
+    uint32_t heads[1 << HASH_BITS]; /* RGB only: for each hash, the last position of bytes with this hash; 0: none */
+    uint8_t *window;                /* begins with a row of zeros, which stands for the row above the first row */
 };
 
 /* ---- Adler-32 ------------------------------------------------------------------------------------------------ */
 
 /* Add the changes of a row to the two sums of Adler-32. Both sums are linear in the bytes, so a byte equal to the byte
- * above costs nothing. A change c from the byte above, at column x, persists through the remaining m rows (this one
- * included). It adds m * c to the first sum and (m * (m + 1) / 2 * stride - m * x) * c to the second, which weights
- * each byte by its distance from the end. */
+ * above costs nothing.
+ *
+ * Let a byte at column x differ by c from the byte above, and let m be the number of remaining rows, this row included.
+ * The change persists through these m rows. It adds m * c to the first sum. It adds (m * (m + 1) / 2 * stride - m * x)
+ * * c to the second sum, which weights each byte by its distance from the end. */
 static void add_row_to_sums(deflater *d)
 {
     const int64_t m = (int64_t)d->rows_left--, plain = d->row_change % ADLER_BASE;
@@ -87,7 +91,8 @@ static void add_span_changes(deflater *d, size_t from, size_t end)
     d->row_by_column += by_place + (int64_t)(from - d->row) * plain;
 }
 
-/* Sum the changes of all bytes up to `end`, except bytes skipped as repeats of the row above. */
+/* Add the changes of the bytes from `unsummed` up to `end` to the sums of the row. Bytes in repeats of the row above
+ * are skipped, because they have no change. */
 static void add_changes(deflater *d, size_t end)
 {
     enum { MOST = 256 }; /* the sum of this many products fits 32 bits */
@@ -104,7 +109,8 @@ static void add_changes(deflater *d, size_t end)
 static uint32_t finish_adler32(deflater *d)
 {
     add_row_to_sums(d);
-    const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE; /* the first sum's initial 1, added per byte */
+    /* the first sum begins with 1, which is added to the second sum once for each byte */
+    const int64_t each = (int64_t)(d->stride * d->rows) % ADLER_BASE;
     const int64_t first = (d->sums[0] + 1 + ADLER_BASE) % ADLER_BASE;
     const int64_t second = (d->sums[1] + each + ADLER_BASE) % ADLER_BASE;
     return (uint32_t)second << 16 | (uint32_t)first;
@@ -125,7 +131,8 @@ static void add_literals(deflater *d, size_t count)
     d->at += count;
 }
 
-/* True if the next `size` bytes repeat the pixel before them; such a repeat takes the fewest bits. */
+/* True if each of the next `size` bytes equals the byte one pixel before it. A repeat of the last pixel takes the
+ * fewest bits. */
 static inline bool repeats_last_pixel(const deflater *d, size_t size)
 {
     const uint8_t *bytes = d->window + d->at, *before = bytes - d->pixel;
@@ -150,8 +157,8 @@ static void add_repeat(deflater *d, size_t length, size_t distance)
     }
 }
 
-/* Returns the number of literals, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin.
- * */
+/* Returns the number of bytes, at most DEFLATE_GROUP, before the next byte at which a repeat of 3 bytes may begin. They
+ * become literals. */
 static inline size_t count_literals(const deflater *d)
 {
     const uint8_t *at = d->window + d->at;
@@ -166,7 +173,7 @@ static inline size_t count_literals(const deflater *d)
 
 typedef struct repeat {
     size_t length, distance;
-    int64_t gain; /* estimated bits saved; a repeat with a gain <= 0 is not used */
+    int64_t gain; /* estimated number of bits saved; used only if positive */
 } repeat;
 
 static inline repeat measure_repeat(const deflater *d, size_t at, size_t distance, int64_t cost)
@@ -176,7 +183,8 @@ static inline repeat measure_repeat(const deflater *d, size_t at, size_t distanc
     return (repeat){length, distance, (int64_t)length * BYTE_BITS - cost};
 }
 
-/* Returns the last position with the same hash, and replaces it by `at`. Returns `at` if there is none within reach. */
+/* Returns the last position whose bytes have the same hash as the bytes at `at`, and records `at` in its place. Returns
+ * `at` if there is no such position within deflate's largest distance. */
 static inline size_t find_last_position(deflater *d, size_t at)
 {
     const uint64_t bytes = bytes_load_word(d->window + at) << (8 * (WORD - HASHED));
@@ -186,7 +194,7 @@ static inline size_t find_last_position(deflater *d, size_t at)
     return place > 0 && at - place <= DEFLATE_FARTHEST ? place : at;
 }
 
-/* Find the repeat at `at` with the largest estimated gain. */
+/* Find the repeat at position `at` with the largest estimated gain. */
 static inline repeat find_repeat(deflater *d, size_t at)
 {
     repeat best = {.gain = 0};
@@ -204,8 +212,8 @@ static inline repeat find_repeat(deflater *d, size_t at)
     return far.gain > best.gain ? far : best;
 }
 
-/* Encode the next literals or the next repeat. An index costs few bits as a literal, so looking for repeats at every
- * index does not pay: the literals before the next possible repeat are skipped together. */
+/* Encode the next literals or the next repeat. A palette index as a literal costs few bits, so searching a repeat at
+ * every index does not pay: all bytes before the next possible repeat become literals together. */
 static void encode_next_bytes(deflater *d)
 {
     if (d->pixel == 1) {
@@ -240,7 +248,7 @@ static void encode_window(deflater *d)
 
 /* ---- The window ---------------------------------------------------------------------------------------------- */
 
-/* Move the history to the window's beginning. */
+/* Move the last `kept` bytes to the window's beginning. */
 static void slide_window(deflater *d)
 {
     if (d->end <= d->kept)
@@ -248,7 +256,7 @@ static void slide_window(deflater *d)
     const size_t by = d->end - d->kept;
     memmove(d->window, d->window + by, d->kept);
     d->block_whole = d->block_whole && d->block >= by;
-    d->block -= by; /* may wrap around: only its distance from `at` is used then */
+    d->block -= by; /* may wrap around below 0: from then on only differences from `at` are used */
     d->row -= by;
     d->at -= by;
     d->unsummed -= by;
@@ -268,7 +276,7 @@ void deflater_add_row(deflater *d, const uint8_t *pixels)
     d->end += d->stride;
     if (d->begun)
         return;
-    add_literals(d, d->pixel); /* no pixel precedes the first bytes, so they are literals */
+    add_literals(d, d->pixel); /* the first pixel has no pixel before it to repeat, so its bytes are literals */
     encode_window(d);
     d->begun = true;
     d->above = d->stride <= DEFLATE_FARTHEST;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* deflate.h - compresses the rows of a picture into a zlib stream (RFC 1950 and 1951) in one pass.
  *
- * The encoder is tuned for drawn pictures, where most of a row repeats the row above or is a run of one colour. The
- * same rows produce the same bytes on every machine.
- */
+ * The encoder is tuned for drawn pictures: most of a row repeats the row above or is a run of one colour. The same rows
+ * produce the same bytes on every machine. */
 #ifndef IMAGE_DEFLATE_H
 #define IMAGE_DEFLATE_H
 
@@ -11,7 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Receives the next bytes of the stream. It may leave by longjmp(); afterwards the encoder can only be closed. */
+/* A function that receives the next bytes of the stream. It may leave by longjmp(); then the encoder must be closed
+ * without further calls. */
 typedef void deflate_sink(void *context, const uint8_t *bytes, size_t size);
 
 typedef struct deflater deflater;
@@ -21,7 +21,8 @@ typedef struct deflater deflater;
 deflater *deflater_open(size_t row_size, size_t rows, size_t pixel, deflate_sink *sink, void *context);
 void deflater_close(deflater *d); /* null is allowed */
 
-/* Append the next row: PNG's filter byte 0 (no filter) and then row_size - 1 bytes of pixels. */
+/* Append the next row. The first byte of `pixels` is PNG's filter type 0 (no filter); row_size - 1 bytes of pixels
+ * follow. */
 void deflater_add_row(deflater *d, const uint8_t *pixels);
 
 /* Call after the last row to pass the rest of the stream to the sink. */

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: MIT */
-/* deflate_block.c - entropy coding of deflate (RFC 1951, 3.2): tokens become a block of bits.
+/* deflate_block.c - entropy coding of deflate (RFC 1951, 3.2): writes the tokens of a block as bits.
  *
  * Each block may have its own Huffman codes, one for literals and lengths and one for distances. The block's header
- * lists the lengths of their code words, run-length encoded and themselves Huffman coded (the "precode"). For each
- * block this file counts the symbols, builds both codes, computes the exact size of the block with these codes, with
- * the fixed codes of the standard, and stored without compression, and writes the smallest.
+ * lists the lengths of their code words. These lengths are run-length encoded and then Huffman coded with a third code,
+ * the "precode".
+ *
+ * For each block this file counts the symbols and builds both codes. It computes the exact size of the block in three
+ * forms: with these codes, with the fixed codes of the standard, and stored without compression. The smallest form is
+ * written.
  *
  * Bits are collected in a 64-bit word and moved to the output in whole bytes (output_whole_bytes()). Literals and
- * repeats take the same path without a branch, because the kind of the next token is unpredictable:
- * list_token_prefixes() prepares, for each of the 512 token kinds, the bits of the symbol together with the extra bits
- * of a length.
- */
+ * repeats are written by the same code without a branch, because a processor cannot predict the kind of the next token.
+ * For this, list_token_prefixes() prepares, for each of the 512 kinds of tokens, the bits of the symbol together with
+ * the extra bits of a length. */
 #include "deflate_block.h"
 #include "bytes.h"
 
@@ -20,11 +22,12 @@ enum {
     PRECODE_SYMBOLS = 19,
     LONGEST_PRECODE = 7,
     HEADER_ROOM = DEFLATE_LITERALS + DEFLATE_DISTANCES,
-    /* The largest block in bytes: at most 48 bits a token and 16 bits a code length, rounded up generously. */
+    /* the greatest size of a block in bytes: at most 48 bits per token and 16 bits per code length, rounded up
+     * generously */
     MOST_OF_BLOCK = 6 * (BLOCK_TOKENS + BLOCK_SPARE) + 2 * HEADER_ROOM + 64
 };
 
-/* RFC 1951, 3.2.5: the smallest length or distance of each symbol, and the number of extra bits. */
+/* RFC 1951, 3.2.5: the smallest length or distance of each symbol, and the symbol's number of extra bits. */
 
 static const uint16_t length_bases[] = {3,  4,  5,  6,  7,  8,  9,  10, 11,  13,  15,  17,  19,  23, 27,
                                         31, 35, 43, 51, 59, 67, 83, 99, 115, 131, 163, 195, 227, 258};
@@ -68,14 +71,14 @@ void deflate_flush_output(deflate_blocks *b)
         b->sink(b->context, b->output, size);
 }
 
-/* Append bits. At most 56 may be appended between two calls of output_whole_bytes(). */
+/* Append `count` bits. At most 56 bits may be appended between two calls of output_whole_bytes(). */
 static inline void append_bits(bit_writer *w, uint32_t bits, int count)
 {
     w->bits |= (uint64_t)bits << w->count;
     w->count += count;
 }
 
-/* Move whole bytes to the output, where deflate_write_block() reserved room for the block. */
+/* Move all whole bytes to the output. deflate_write_block() has reserved room for the block. */
 static inline void output_whole_bytes(bit_writer *w)
 {
     bytes_store_word(w->to, w->bits);
@@ -109,7 +112,8 @@ void deflate_write_bytes(deflate_blocks *b, const uint8_t *bytes, size_t size)
 
 /* ---- Block headers ------------------------------------------------------------------------------------------- */
 
-/* The code lengths of both codes, run-length encoded: symbols of the precode and the extra bits of each. */
+/* The lengths of all code words of both codes, run-length encoded: symbols of the precode, and the extra bits of each
+ * symbol. */
 typedef struct header {
     uint8_t symbols[HEADER_ROOM], extra[HEADER_ROOM];
     size_t count;
@@ -118,7 +122,7 @@ typedef struct header {
     uint32_t counts[PRECODE_SYMBOLS];
 } header;
 
-static const uint8_t extra_of_run[] = {2, 3, 7}; /* number of extra bits of the precode symbols 16 to 18 */
+static const uint8_t extra_of_run[] = {2, 3, 7}; /* the number of extra bits of the precode's symbols 16 to 18 */
 
 static void append_length_symbol(header *h, unsigned symbol, size_t extra)
 {
@@ -249,13 +253,14 @@ static void count_symbols(deflate_blocks *b)
         b->literal_counts[DEFLATE_END + 1 + b->length_symbols[more]] += kinds[DEFLATE_REPEAT + more];
 }
 
-/* Bits that are written by one append_bits(). */
+/* Bits that one call of append_bits() writes. */
 typedef struct bit_string {
     uint32_t bits;
     int32_t count;
 } bit_string;
 
-/* List the first bits of each kind of token: the code word of its symbol, then the extra bits of a length. */
+/* List, for each kind of token, the bits with which it begins: the code word of its symbol, then the extra bits of a
+ * length. */
 static void list_token_prefixes(bit_string of[TOKEN_KINDS], const deflate_blocks *b)
 {
     const huffman_code *code = &b->literals;
@@ -300,7 +305,7 @@ static void write_stored_block(deflate_blocks *b, const uint8_t *bytes, size_t s
     deflate_write_bytes(b, bytes, size);
 }
 
-/* `h`: the header of the block's own codes; null for the fixed codes. */
+/* Write the tokens with the block's own codes, which `h` describes, or with the fixed codes if `h` is null. */
 static void write_coded_block(deflate_blocks *b, const header *h, bool last)
 {
     append_bits(&b->writer, (uint32_t)(last | (h ? DYNAMIC : FIXED) << 1), 3);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* deflate_block.h - collects literals and repeats as tokens, and writes them as deflate blocks in the shortest code. */
+/* deflate_block.h - collects literals and repeats as tokens, and writes them as deflate blocks, each in its shortest
+ * form. */
 #ifndef IMAGE_DEFLATE_BLOCK_H
 #define IMAGE_DEFLATE_BLOCK_H
 
@@ -10,16 +11,16 @@
 enum { HUFFMAN_MOST_SYMBOLS = 288, HUFFMAN_LONGEST = 15 };
 
 typedef struct huffman_code {
-    uint16_t bits[HUFFMAN_MOST_SYMBOLS];   /* code words; the lowest bit is written first */
-    uint8_t lengths[HUFFMAN_MOST_SYMBOLS]; /* length of each code word in bits; 0: the symbol has none */
+    uint16_t bits[HUFFMAN_MOST_SYMBOLS];   /* code word of each symbol; its lowest bit is written first */
+    uint8_t lengths[HUFFMAN_MOST_SYMBOLS]; /* length of each code word in bits; 0: the symbol has no code word */
 } huffman_code;
 
-/* Build a Huffman code for symbols that occur counts[i] times, with code words of at most `longest` bits, which must be
- * enough for `count` symbols. The code is complete: if fewer than two symbols occur, two still get code words. Equal
- * counts give equal codes on every machine. */
+/* Build a Huffman code for `count` symbols; symbol i occurs counts[i] times. Code words have at most `longest` bits,
+ * which must be enough for `count` symbols. The code is complete: if fewer than two symbols occur, two symbols still
+ * get code words. Equal counts give equal codes on every machine. */
 void huffman_build_code(huffman_code *code, const uint32_t *counts, size_t count, int longest);
 
-/* Compute the canonical code words of symbols whose lengths are set. */
+/* Compute the canonical code words from the lengths in code->lengths. */
 void huffman_assign_code_words(huffman_code *code, size_t count);
 
 /* ---- Blocks: deflate_block.c ---------------------------------------------------------------------------------- */
@@ -28,40 +29,46 @@ enum {
     DEFLATE_SHORTEST = 3,     /* length of the shortest repeat */
     DEFLATE_LONGEST = 258,    /* length of the longest repeat */
     DEFLATE_FARTHEST = 32768, /* largest distance of a repeat */
-    DEFLATE_LITERALS = 288,   /* symbols for bytes, the end of a block, and lengths; the last two are never used */
-    DEFLATE_DISTANCES = 30,   /* symbols for distances */
+    DEFLATE_LITERALS = 288,   /* number of symbols for bytes, the block's end, and lengths; the last two are unused */
+    DEFLATE_DISTANCES = 30,   /* number of symbols for distances */
     DEFLATE_END = 256,        /* the symbol that ends a block */
     BLOCK_TOKENS = 4096,      /* a block with this many tokens is full */
-    BLOCK_SPARE = 16,         /* tokens that may be added to a full block before it is written */
-    DEFLATE_GROUP = 6,        /* literals that are added together */
+    BLOCK_SPARE = 16,         /* number of tokens that may be added to a full block before it is written */
+    DEFLATE_GROUP = 6,        /* the most literals that are added by one call */
 };
 
-/* A literal or a repeat, packed. The lowest 9 bits hold the byte, or DEFLATE_REPEAT + (length - DEFLATE_SHORTEST); the
- * bits from DISTANCE_AT on hold the symbol of the distance, and those from DISTANCE_EXTRA_AT on its extra bits. A
- * literal has the distance symbol DEFLATE_DISTANCES, whose code has length 0: append_tokens() needs no branch. */
+/* A literal or a repeat, packed. The lowest 9 bits hold the byte, or DEFLATE_REPEAT + (length - DEFLATE_SHORTEST). The
+ * bits from DISTANCE_AT on hold the symbol of the distance. The bits from DISTANCE_EXTRA_AT on hold the extra bits of
+ * the distance.
+ *
+ * A literal has the distance symbol DEFLATE_DISTANCES, whose code word has no bits, so that append_tokens() needs no
+ * branch. */
 typedef uint32_t deflate_token;
 enum { DEFLATE_REPEAT = 256, TOKEN_KINDS = 512, DISTANCE_AT = 9, DISTANCE_EXTRA_AT = 14 };
 
 typedef struct bit_writer {
-    uint64_t bits; /* bits not yet in the output, the first one lowest */
-    int count;     /* number of these bits; below 8 between tokens */
+    uint64_t bits; /* bits that are not in the output yet; the first is the lowest */
+    int count;     /* number of bits in `bits`; below 8 between tokens */
     uint8_t *to;   /* address of the next output byte */
 } bit_writer;
 
 typedef struct deflate_blocks {
     deflate_sink *sink;
     void *context;
-    bit_writer writer;                                                                 /* writes into `output` */
-    size_t count;                                                                      /* tokens in `tokens` */
-    uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1]; /* symbols in the tokens */
+    bit_writer writer; /* writes into `output` */
+    size_t count;      /* number of tokens in `tokens` */
+    /* how often each symbol occurs in the tokens */
+    uint32_t literal_counts[DEFLATE_LITERALS], distance_counts[DEFLATE_DISTANCES + 1];
     huffman_code literals, distances;
-    uint8_t length_symbols[TOKEN_KINDS - DEFLATE_REPEAT]; /* by length - DEFLATE_SHORTEST: the symbol - 257 */
-    uint8_t distance_symbols[512]; /* by distance - 1 up to 255; from 256 on by 256 + (distance - 1) / 128 */
+    /* symbol - 257 of each length; index: length - DEFLATE_SHORTEST */
+    uint8_t length_symbols[TOKEN_KINDS - DEFLATE_REPEAT];
+    /* symbol of each distance; index: distance - 1 below 256, else 256 + (distance - 1) / 128 */
+    uint8_t distance_symbols[512];
     deflate_token tokens[BLOCK_TOKENS + BLOCK_SPARE];
     uint8_t output[1 << 16];
 } deflate_blocks;
 
-/* Initialize `b`, whose memory is all zero. */
+/* Initialize a struct that is all zero. */
 void deflate_begin_blocks(deflate_blocks *b, deflate_sink *sink, void *context);
 
 static inline bool deflate_is_block_full(const deflate_blocks *b)
@@ -69,7 +76,7 @@ static inline bool deflate_is_block_full(const deflate_blocks *b)
     return b->count >= BLOCK_TOKENS;
 }
 
-/* Add `count` literals, at most DEFLATE_GROUP. DEFLATE_GROUP bytes are read even if `count` is smaller. */
+/* Add `count` literals, at most DEFLATE_GROUP. Reads DEFLATE_GROUP bytes even if `count` is smaller. */
 static inline void deflate_add_literals(deflate_blocks *b, const uint8_t *bytes, size_t count)
 {
     for (size_t i = 0; i < DEFLATE_GROUP; i++)
@@ -80,8 +87,8 @@ static inline void deflate_add_literals(deflate_blocks *b, const uint8_t *bytes,
 void deflate_add_repeat(deflate_blocks *b, size_t length, size_t distance);
 
 /* Write the collected tokens as one block in its shortest form: with its own Huffman codes, with deflate's fixed codes,
- * or stored. `bytes` are the `size` bytes that the tokens encode, needed to store them; null if they are no longer
- * available. */
+ * or stored. `bytes` are the `size` bytes that the tokens encode. If they are no longer available, `bytes` is null, and
+ * the block is not stored. */
 void deflate_write_block(deflate_blocks *b, const uint8_t *bytes, size_t size, bool last);
 
 /* Pad the stream to a whole byte, and write bytes outside of any block. */

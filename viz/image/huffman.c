@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: MIT */
-/* huffman.c - Huffman codes in three steps, all in arrays of at most 288 entries.
+/* huffman.c - builds Huffman codes in three steps, all in arrays of at most 288 entries.
  *
- * 1. Sort the symbols by count and compute the optimal code lengths in place (Moffat and Katajainen, 1995): the array
- *    of weights is overwritten first with parent indices, then with depths, so that no tree is allocated.
- * 2. Limit the lengths to what deflate allows. Lengths that are too long are cut; the code then needs more space than
- *    there is, so a shorter code word is split into two, one level deeper, until the space is used up exactly.
- * 3. Give out canonical code words by length, then by symbol, so that only the lengths need to be sent.
+ * 1. Sort the symbols by count and compute the optimal code lengths in place (Moffat and Katajainen, 1995). The array
+ * of weights is overwritten first with parent indices, then with depths, so that no tree is allocated.
  *
- * The limited code is not always optimal, as one by package-merge would be, but deflate's limit of 15 bits is reached
- * so rarely in blocks of 4096 tokens that the difference does not show.
- */
+ * 2. Limit the lengths to the longest code word that deflate allows. Longer lengths are cut. The code words then need
+ * more code space than exists. So a shorter code word is split into two code words, one level deeper, and one of the
+ * longest code words takes one of them. This is repeated until the code space is used up exactly.
+ *
+ * 3. Assign canonical code words by length, then by symbol, so that only the lengths need to be sent.
+ *
+ * The limited code is not always optimal; a code by package-merge would be. But blocks of 4096 tokens reach deflate's
+ * limit of 15 bits so rarely that the difference does not matter. */
 #include "deflate_block.h"
 
 #include <string.h>
 
-/* A sort key is a count in the high bits and a symbol in the low ones: keys sort by count, then by symbol. */
+/* A sort key holds a count in its high bits and a symbol in its low bits: keys sort by count, then by symbol. */
 enum { SYMBOL_BITS = 9, SYMBOL_MASK = (1 << SYMBOL_BITS) - 1 };
 
 /* Shellsort: short, and faster than qsort() for 288 keys. */
@@ -31,7 +33,8 @@ static void sort_keys(uint32_t *keys, size_t count)
         }
 }
 
-/* List the symbols that occur, rarest first; at least two. Returns their number. */
+/* List the keys of the symbols that occur, rarest first. Returns the number of keys. If fewer than two symbols occur,
+ * two keys are listed. */
 static size_t list_used_symbols(const uint32_t *counts, size_t count, uint32_t *keys)
 {
     size_t used = 0;
@@ -45,8 +48,8 @@ static size_t list_used_symbols(const uint32_t *counts, size_t count, uint32_t *
     return used;
 }
 
-/* Replace n >= 2 weights in ascending order by their code lengths, in descending order. Source: Moffat and Katajainen,
- * "In-place calculation of minimum-redundancy codes". */
+/* Replace n >= 2 weights, in ascending order, by the code lengths of their symbols, in descending order. Source: Moffat
+ * and Katajainen, "In-place calculation of minimum-redundancy codes". */
 static void find_code_lengths(uint32_t *a, size_t n)
 {
     a[0] += a[1];
@@ -64,7 +67,7 @@ static void find_code_lengths(uint32_t *a, size_t n)
     a[n - 2] = 0;
     for (size_t i = n - 2; i-- > 0;)
         a[i] = a[a[i]] + 1;
-    size_t available = 1, used = 0, next = n, root = n - 1; /* inner nodes before `root` are not yet counted */
+    size_t available = 1, used = 0, next = n, root = n - 1; /* inner nodes from `root` on are counted */
     for (uint32_t depth = 0; available > 0; depth++, available = 2 * used, used = 0) {
         for (; root > 0 && a[root - 1] == depth; root--)
             used++;
@@ -73,9 +76,9 @@ static void find_code_lengths(uint32_t *a, size_t n)
     }
 }
 
-/* Count the code words of each length after limiting them to `longest` bits. `space` is the part of the code space in
- * use, in units of 2^-longest: while it exceeds 1, the longest code word that can grow is split into two, and one of
- * the words of `longest` bits takes the second half. */
+/* Count the code words of each length after limiting lengths to `longest` bits. `space` is the code space that all code
+ * words need, in units of 2^-longest. While it exceeds 1, a code word is split in two: the longest code word that is
+ * shorter than `longest`. One of the code words of `longest` bits takes the second half. */
 static void count_limited_lengths(const uint32_t *lengths, size_t count, int longest, uint32_t *of_length)
 {
     uint32_t space = 0;
@@ -102,8 +105,8 @@ static uint16_t reverse_bits(uint32_t bits, int count)
     return (uint16_t)made;
 }
 
-/* The last loop runs from the last symbol to the first: in ascending order, GCC 12 for 64-bit Arm concludes wrongly
- * that this function writes nothing, and drops the call. */
+/* The last loop must run from the last symbol to the first. With the opposite order, GCC 12 for 64-bit Arm concludes
+ * wrongly that this function writes nothing, and drops the call. */
 void huffman_assign_code_words(huffman_code *code, size_t count)
 {
     uint32_t of_length[HUFFMAN_LONGEST + 1] = {0}, ends[HUFFMAN_LONGEST + 1] = {0}, first = 0;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* image.h - a picture in memory.
  *
- * An image is either indexed (one byte a pixel, an index into a palette) or RGB (three samples a pixel; 8 bits each, or
- * 16 if it was read from such a file). Rows run from the top down, without padding.
- */
+ * An image is either indexed or RGB. An indexed image has one byte per pixel, an index into its palette. An RGB image
+ * has three samples per pixel, of 8 bits each, or of 16 bits if it was read from a file with 16 bits per sample. Rows
+ * run from the top down, without padding. */
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
@@ -22,31 +22,31 @@ typedef struct image_color {
 } image_color;
 
 typedef struct image_palette {
-    image_color colors[256]; /* entries from count on are unused and must be zero */
-    int count;               /* 1 to 256 */
+    image_color colors[256]; /* entries from index `count` on are unused and must be zero */
+    int count;               /* number of colours, 1 to 256 */
 } image_palette;
 
 typedef struct image {
     int width, height;
     int channels;          /* 1: indices into the palette; 3: r, g, b */
     bool wide;             /* samples have 16 bits in the machine's byte order; only if channels is 3 */
-    bool transparent;      /* the file has transparent pixels; they were blended with a background */
-    uint64_t color_space;  /* digest of the file's gamma, colour profile and similar chunks, which are not applied to
-                              pixels; 0: none */
-    image_palette palette; /* used if channels is 1 */
-    uint8_t *pixels;       /* width * height * image_pixel_size() bytes, owned */
+    bool transparent;      /* the file had transparent pixels, which were blended with a background */
+    uint64_t color_space;  /* digest of the file's chunks for gamma, colour profile and the like, which are not applied;
+                              0: none */
+    image_palette palette; /* used only if channels is 1 */
+    uint8_t *pixels;       /* owned; width * height * image_pixel_size() bytes */
 } image;
 
-/* Bytes per pixel: 1, 3 or 6. */
+/* Returns the number of bytes per pixel: 1, 3 or 6. */
 static inline size_t image_pixel_size(const image *image)
 {
     return (size_t)image->channels * (image->wide ? 2 : 1);
 }
 
-/* Allocate pixels and palette, all zero. Returns false and a zeroed image if memory runs out, a side is outside
- * 1..IMAGE_MAX_SIDE, or channels is neither 1 nor 3. */
+/* Allocate the pixels and zero them and the palette. Returns false and a zeroed image if memory runs out, if a side is
+ * outside 1..IMAGE_MAX_SIDE, or if channels is neither 1 nor 3. */
 bool image_create(image *image, int width, int height, int channels);
-/* Free the pixels and zero the image; a zeroed image is allowed. */
+/* Free the pixels and zero the struct. It may be zeroed already. */
 void image_release(image *image);
 
 /* Returns the colour of the pixel (x, y), which must be inside the image. Samples of 16 bits are rounded to 8. */
@@ -56,9 +56,11 @@ image_color image_color_at(const image *image, int x, int y);
 bool image_has_valid_indices(const image *image);
 
 /* Fill the RGB image `small` from an indexed image whose sides are `factor` (1 to 16) times as long. Each pixel becomes
- * the mean of factor * factor pixels, rounded to nearest. An index beyond the palette takes its colour from `own`,
- * which holds r, g, b for each pixel of `from`; `own` may be null if no index is beyond the palette. Returns false and
- * changes nothing if the sizes or formats do not match. */
+ * the mean of factor * factor pixels, rounded to nearest.
+ *
+ * A pixel whose index is beyond the palette takes its colour from `own`, which holds r, g, b for each pixel of `from`.
+ * `own` may be null if no index is beyond the palette. Returns false and changes nothing if the sizes or formats do not
+ * match. */
 bool image_shrink(const image *from, const uint8_t *own, int factor, image *small);
 
 #endif

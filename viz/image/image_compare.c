@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* image_compare.c - counting differing pixels, forgiving some of them, and drawing the result.
+/* image_compare.c - counts differing pixels, decides which of them are forgiven, and draws the result.
  *
- * The common case is two equal images. If both are stored alike (same format, same palette), equal bytes mean equal
- * colours: spans are compared by memcmp, and within a differing span the common prefix is skipped eight bytes at a
- * time. Only differing pixels are expanded to r, g, b and measured; neighbours often have the same pair of colours, so
- * the last measurement is kept. An identical picture thus costs about as much as reading it.
+ * The common case is two equal images. If both have the same format and palette, equal bytes mean equal colours. Then
+ * spans of pixels are compared by memcmp, and in a differing span the common prefix is skipped eight bytes at a time.
+ * Only differing pixels are converted to r, g, b and measured. Neighbouring pixels often have the same pair of colours,
+ * so the last measurement is kept. Comparing equal pictures thus costs about as much as reading them.
  *
- * Colour distances are computed with sums and products of doubles only and stay squared until the very end, so that
- * every machine gets the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see below.
- */
+ * Colour distances are computed with sums and products of doubles, and stay squared until the end, so that every
+ * machine gets the same number. Anti-aliased edges are detected as in pixelmatch and odiff; see below. */
 #include "image_compare.h"
 #include "bytes.h"
 
@@ -30,24 +29,24 @@ static int minimum(int a, int b)
 
 /* ---- Pixels as r, g, b, whatever the image's format ---------------------------------------------------------- */
 
-/* The largest squared distance of two colours with 8 bits a sample. */
+/* The largest squared distance of two colours with 8 bits per sample. */
 #define LARGEST 35215.0
 
-/* Colours are compared in spans of this many pixels, which fit the stack and the L1 cache. */
+/* Pixels are compared in spans of this length. The samples of a span fit the stack and the L1 cache. */
 #define SPAN 128
 
-/* Red, green and blue of a pixel, with 8 or 16 bits each. */
+/* The red, green and blue samples of a pixel, of 8 or 16 bits each. */
 typedef struct pixel_samples {
     uint16_t of[3];
 } pixel_samples;
 
-/* Returns the largest sample value to which the samples of both images are scaled. */
+/* Returns the sample range for both images, 255 or 65535: the largest value of a scaled sample. */
 static int common_sample_range(const image *a, const image *b)
 {
     return a->wide || b->wide ? 65535 : 255;
 }
 
-/* Read `count` pixels from the n-th pixel on, and scale their samples to the range. */
+/* Read `count` pixels from the n-th pixel on, and scale their samples to 0..range. */
 static void read_samples(const image *image, size_t n, int count, int range, pixel_samples *span)
 {
     const size_t step = image_pixel_size(image);
@@ -70,8 +69,9 @@ static bool samples_equal(const pixel_samples *a, const pixel_samples *b)
     return a->of[0] == b->of[0] && a->of[1] == b->of[1] && a->of[2] == b->of[2];
 }
 
-/* Returns the squared distance in units of IMAGE_DELTA_UNIT. The conversion to YIQ is linear, so the difference is
- * converted instead of the colours: equal samples give exactly 0, and no precision is lost by cancellation. */
+/* Returns the squared distance of two colours, in units of IMAGE_DELTA_UNIT. The conversion to YIQ is linear, so the
+ * difference of the colours is converted instead of each colour. Equal samples then give exactly 0, and no precision is
+ * lost by cancellation. */
 static double squared_color_distance(const pixel_samples *a, const pixel_samples *b, int range)
 {
     const double r = a->of[0] - b->of[0], g = a->of[1] - b->of[1], u = a->of[2] - b->of[2];
@@ -91,14 +91,14 @@ static double squared_color_distance(const pixel_samples *a, const pixel_samples
  * as one equal neighbour.
  */
 
-/* The number of equal neighbours that make a patch. */
+/* The number of neighbours of the same colour that make a patch. */
 #define PATCH 3
 
-/* A pixel and the part of its 3 x 3 neighbourhood inside the image. */
+/* A pixel, and the bounds of the part of its 3 x 3 neighbourhood that is inside the image. */
 typedef struct window {
     int x, y;
     int left, right, top, bottom;
-    int equal_outside; /* 1 at the image's border, else 0 */
+    int equal_outside; /* 1 if a part of the neighbourhood is outside the image, else 0 */
 } window;
 
 static window find_window(const image *image, int x, int y)
@@ -112,7 +112,7 @@ static window find_window(const image *image, int x, int y)
     return w;
 }
 
-/* Returns luma in units of 1e-8 of a level: integers make comparisons exact. */
+/* Returns the luma of a pixel in units of 1e-8 of a sample value. It is an integer, so that comparisons are exact. */
 static int64_t luma_at(const image *image, int x, int y)
 {
     const image_color color = image_color_at(image, x, y);
@@ -123,7 +123,7 @@ static bool is_in_patch(const image *image, int x, int y)
 {
     const window w = find_window(image, x, y);
     const image_color own = image_color_at(image, x, y);
-    int equal = w.equal_outside - 1; /* the loop counts the pixel itself, too */
+    int equal = w.equal_outside - 1; /* -1, because the loop also counts the pixel itself */
     for (int j = w.top; j <= w.bottom; j++) {
         for (int i = w.left; i <= w.right; i++) {
             const image_color color = image_color_at(image, i, j);
@@ -133,14 +133,15 @@ static bool is_in_patch(const image *image, int x, int y)
     return equal >= PATCH;
 }
 
-/* A neighbour, and how much brighter it is than the pixel. */
+/* A neighbour of a pixel, and how much brighter than the pixel it is. */
 typedef struct neighbor {
     int x, y;
     int64_t brighter;
 } neighbor;
 
-/* Find the darkest and the brightest neighbour; among equals the first, column by column. Returns false if no neighbour
- * is darker, none is brighter, or PATCH neighbours are as bright as the pixel. */
+/* Find the darkest and the brightest neighbour of a pixel. Among equal neighbours take the first, column by column.
+ * Returns false if no neighbour is darker, if no neighbour is brighter, or if at least PATCH neighbours are as bright
+ * as the pixel. */
 static bool find_slope(const image *image, int x, int y, neighbor *darkest, neighbor *brightest)
 {
     const window w = find_window(image, x, y);
@@ -168,7 +169,8 @@ static bool is_on_antialiased_edge(const image *of, const image *other, int x, i
             (is_in_patch(of, brightest.x, brightest.y) && is_in_patch(other, brightest.x, brightest.y)));
 }
 
-/* True if the pixel lies on an anti-aliased edge of either image; both have the same size. Reads 5 x 5 pixels. */
+/* True if a pixel lies on an anti-aliased edge of either image. Both images have the same size. Reads the 5 x 5 pixels
+ * around the pixel. */
 static bool is_antialiased(const image *a, const image *b, int x, int y)
 {
     return is_on_antialiased_edge(a, b, x, y) || is_on_antialiased_edge(b, a, x, y);
@@ -176,13 +178,14 @@ static bool is_antialiased(const image *a, const image *b, int x, int y)
 
 /* ---- Counting ------------------------------------------------------------------------------------------------ */
 
-/* A band of rows of both images. */
+/* A band: some consecutive rows of both images. */
 typedef struct rows {
     const image *a, *b;
-    int first; /* the y of the band's first row */
+    int first; /* number of the band's first row in the images */
 } rows;
 
-/* True if equal bytes mean equal colours. Palettes can be compared as a whole because unused entries are zero. */
+/* True if equal bytes of the two images mean equal colours. Palettes can be compared as a whole, because unused entries
+ * are zero. */
 static bool have_same_storage(const image *a, const image *b)
 {
     if (a->channels != b->channels || a->wide != b->wide)
@@ -190,7 +193,7 @@ static bool have_same_storage(const image *a, const image *b)
     return a->channels == 3 || memcmp(a->palette.colors, b->palette.colors, sizeof a->palette.colors) == 0;
 }
 
-/* Measure a pair of colours into c->last_square and c->last_channel. */
+/* Measure the difference of two colours into c->last_square and c->last_channel. */
 static void measure_colors(image_comparison *c, const pixel_samples *a, const pixel_samples *b)
 {
     if (memcmp(a, c->last[0], sizeof *a) == 0 && memcmp(b, c->last[1], sizeof *b) == 0)
@@ -217,13 +220,13 @@ static void add_to_tally(image_tally *tally, int x, int y, const image_compariso
     tally->largest_channel = maximum(tally->largest_channel, c->last_channel);
     tally->min_x = minimum(tally->min_x, x);
     tally->max_x = maximum(tally->max_x, x);
-    tally->max_y = y; /* rows come in order */
+    tally->max_y = y; /* rows are added from the top down */
 }
 
 typedef enum verdict { COUNTED, IGNORED, CLOSE, ANTIALIASED } verdict;
 
-/* Decide if a differing pixel counts, or why it is forgiven. `y` is its row in the band, `square` its squared colour
- * distance. */
+/* Decide if a differing pixel is counted, or for which reason it is ignored or forgiven. `y` is its row in the band,
+ * `square` the squared distance of its colours. */
 static verdict judge_pixel(const image_tolerance *t, const rows *r, int x, int y, double square)
 {
     if (image_is_pixel_ignored(t, r->a->width, x, r->first + y))
@@ -248,7 +251,7 @@ static void count_pixel(image_comparison *c, const rows *r, int x, int y, const 
         add_to_tally(&difference->counted, x, r->first + y, c);
 }
 
-/* Count the differing pixels among `count` pixels from (x, y) on. */
+/* Count the differing pixels in a span of `count` pixels that begins at (x, y). */
 static void count_span(image_comparison *c, const rows *r, int x, int y, int count)
 {
     const size_t n = (size_t)y * (size_t)r->a->width + (size_t)x, size = image_pixel_size(r->a);
@@ -266,7 +269,7 @@ static void count_span(image_comparison *c, const rows *r, int x, int y, int cou
         read_samples(r->a, n + (size_t)i, some, c->difference.channel_range, a);
         read_samples(r->b, n + (size_t)i, some, c->difference.channel_range, b);
         for (int j = 0; j < some; j++)
-            if (!samples_equal(&a[j], &b[j])) /* a palette may contain a colour twice */
+            if (!samples_equal(&a[j], &b[j])) /* different indices may have the same colour */
                 count_pixel(c, r, x + i + j, y, &a[j], &b[j]);
     }
 }
@@ -328,12 +331,13 @@ bool image_is_within_tolerance(const image_difference *difference, const image_t
 
 /* ---- The picture of the difference --------------------------------------------------------------------------- */
 
-/* Indices of the palette: greys, then forgiven pixels, pixels of one image only, and differences by size. */
+/* The ranges of the palette: greys, one index for forgiven pixels, one for pixels that only one image has, and colours
+ * for counted differences by size. */
 enum { GREYS = 64, FORGIVEN = GREYS, OUTSIDE, HEAT, HEATS = 256 - HEAT };
 
 static const image_color FORGIVEN_COLOR = {70, 140, 255}, OUTSIDE_COLOR = {74, 46, 104};
 
-/* Colours that differ from the greys even under colour blindness, in order of brightness. */
+/* Colours for counted differences, darkest first. They differ from the greys even under colour blindness. */
 static const image_color HEAT_COLORS[] = {{255, 96, 40}, {255, 190, 20}, {255, 255, 214}};
 
 static uint8_t interpolate(int from, int to, int part, int whole)
@@ -366,14 +370,14 @@ image_palette image_make_difference_palette(void)
 static uint8_t grey_index(const pixel_samples *p, int range)
 {
     const double luma = (77.0 * p->of[0] + 150.0 * p->of[1] + 29.0 * p->of[2]) / (256.0 * range);
-    return (uint8_t)((GREYS - 1) * sqrt(luma)); /* the square root keeps dark pictures legible */
+    return (uint8_t)((GREYS - 1) * sqrt(luma)); /* the square root keeps dark pictures recognizable */
 }
 
 static uint8_t difference_index(const rows *r, const image_tolerance *tolerance, int x, int y, double square)
 {
     if (judge_pixel(tolerance, r, x, y, square) != COUNTED)
         return FORGIVEN;
-    /* With the square root of the distance, half of the colours are for barely visible differences. */
+    /* With the square root of the distance, half of the colours show barely visible differences. */
     return (uint8_t)(HEAT + (int)((HEATS - 1) * sqrt(sqrt(square))));
 }
 

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /* image_digest.c - digests of a picture's colours, by two algorithms.
  *
- * A digest must not depend on the palette, on how many rows are decoded at a time, or on the machine, and it should
- * cost far less than drawing the frame. Hashing every pixel in order is slow and serial. Two observations help: a drawn
- * frame is mostly background, and most of a row equals the row above.
+ * A digest must not depend on the palette, on the number of rows that are decoded at a time, or on the machine. It
+ * should cost far less than drawing the frame. Hashing every pixel in order is slow and serial. Two observations help:
+ * a drawn frame is mostly background, and most of a row equals the row above.
  *
- * "runs" (the older algorithm) hashes the length and colour of each run of equal pixels in reading order.
+ * "runs", the older algorithm, hashes the length and colour of each run of equal pixels in reading order.
  *
- * "rows" cuts each row into groups of 8 pixels. A group's number is a sum over its pixels of a hash of (place in the
- * group, colour), hashed with the group's place in the row; a row's number is the sum of its groups' numbers; the row
- * numbers are hashed in order. Sums can be updated: a group that equals the one above keeps its number and is skipped,
- * and a changed one replaces its old number in the row's sum. For indexed images, the pixel hashes come from a table of
- * 8 * 256 entries. Cost: one comparison per 64 pixels that repeat the row above, 8 table look-ups per changed group.
- */
+ * "rows" cuts each row into groups of 8 pixels. Each pixel gets a hash of its place in the group and its colour. The
+ * sum of these hashes is hashed with the group's place in the row and gives the group's number. A row's number is the
+ * sum of the numbers of its groups. The numbers of the rows are hashed in order.
+ *
+ * Sums can be updated. A group that equals the group above keeps its number and is skipped. A changed group replaces
+ * its old number in the row's sum. For indexed images, the pixel hashes come from a table of 8 * 256 entries.
+ *
+ * Cost of "rows": one comparison per 64 pixels that repeat the row above, and 8 table look-ups per changed group. */
 #include "image_digest.h"
 #include "bytes.h"
 #include "octree/digest.h"
@@ -71,14 +73,14 @@ bool image_digest_parse(const char *text, image_digest_kind *kind, uint64_t *dig
 
 enum { GROUP = 8 };
 
-/* The state of a digest between bands of rows. */
+/* The state of a digest after some of the picture's rows. */
 typedef struct digest_state {
     image_digest_kind kind;
     uint64_t digest;
     bool wide;
-    uint64_t color;                /* runs: the colour of the current run */
-    size_t length;                 /* runs: its length so far */
-    uint64_t of_index[GROUP][256]; /* rows: the hash of each index at each place of a group */
+    uint64_t color;                /* algorithm "runs": the colour of the current run */
+    size_t length;                 /* algorithm "runs": the number of pixels of the current run so far */
+    uint64_t of_index[GROUP][256]; /* algorithm "rows": the hash of each palette index at each place of a group */
 } digest_state;
 
 static uint64_t pack_color(image_color color)
@@ -86,7 +88,7 @@ static uint64_t pack_color(image_color color)
     return (uint64_t)color.r << 16 | (uint64_t)color.g << 8 | color.b;
 }
 
-/* Returns the colour of a pixel as one word, with 8 or 16 bits a sample. */
+/* Returns the colour of a pixel as one word, with 8 or 16 bits per sample. */
 static uint64_t pixel_color_word(const image *image, const uint8_t *at)
 {
     if (image->wide) {
@@ -97,7 +99,8 @@ static uint64_t pixel_color_word(const image *image, const uint8_t *at)
     return pack_color(image->channels == 1 ? image->palette.colors[*at] : (image_color){at[0], at[1], at[2]});
 }
 
-/* Returns the end of the run of pixels equal to pixel `start`: up to there, bytes equal the bytes one pixel earlier. */
+/* Returns the end of the run of pixels that equal the pixel `start`. Within a run, each byte equals the byte one pixel
+ * before it. */
 static size_t find_run_end(const image *image, size_t start, size_t pixel_count)
 {
     const size_t step = image_pixel_size(image);
@@ -115,8 +118,8 @@ static uint64_t digest_run(uint64_t digest, size_t length, uint64_t color, bool 
     return octree_digest_word(digest, (uint64_t)length << 24 | color);
 }
 
-/* Runs of different indices with the same colour are joined, and a run may continue in the next band. So the digest
- * depends neither on the palette nor on the height of bands. */
+/* Runs of different palette indices with the same colour are joined, and a run may continue in the next band. So the
+ * digest depends neither on the palette nor on the height of bands. */
 static void digest_runs(digest_state *d, const image *rows)
 {
     const size_t pixel_count = (size_t)rows->width * (size_t)rows->height;
@@ -152,7 +155,7 @@ static uint64_t sum_group_hashes(const digest_state *d, const image *rows, const
     return sum;
 }
 
-/* sum_group_hashes() for GROUP indices in one word. */
+/* The same result as sum_group_hashes(), for GROUP palette indices in one word. */
 static inline uint64_t sum_index_hashes(const digest_state *d, uint64_t word)
 {
     return d->of_index[0][word & 255] + d->of_index[1][word >> 8 & 255] + d->of_index[2][word >> 16 & 255] +
@@ -160,7 +163,7 @@ static inline uint64_t sum_index_hashes(const digest_state *d, uint64_t word)
            d->of_index[6][word >> 48 & 255] + d->of_index[7][word >> 56];
 }
 
-/* The numbers of the current row's groups, and their sum. */
+/* The numbers of the groups of the current row, and the sum of these numbers. */
 typedef struct row_groups {
     uint64_t sum, of_group[IMAGE_MAX_SIDE / GROUP];
 } row_groups;
@@ -172,7 +175,7 @@ static inline void set_group_sum(row_groups *g, size_t group, uint64_t sum)
     g->of_group[group] = digest;
 }
 
-enum { BLOCK = 8 }; /* number of groups that are compared with the row above at a time */
+enum { BLOCK = 8 }; /* the number of groups that are compared with the row above together */
 
 static inline bool block_differs(const uint8_t *row, const uint8_t *above)
 {
@@ -182,8 +185,9 @@ static inline bool block_differs(const uint8_t *row, const uint8_t *above)
     return differ != 0;
 }
 
-/* List the groups that differ from the row above; returns their number. Whole blocks that are equal are skipped.
- * Within other blocks, groups are listed without a branch, because which of them differ is unpredictable. */
+/* List the groups that differ from the row above, and return their number. Blocks of BLOCK groups that are equal are
+ * skipped. In other blocks the groups are listed without a branch, because a processor cannot predict which groups
+ * differ. */
 static size_t list_changed_groups(uint16_t *changed, const uint8_t *row, const uint8_t *above, size_t groups)
 {
     size_t count = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* png_read.c - reads PNG files through libpng, strictly: a damaged file is an error, never a picture. */
+/* png_read.c - reads PNG files through libpng. It is strict: a damaged file gives an error, never a picture. */
 #include "png_read.h"
 #include "array.h"
 #include "file.h"
@@ -11,11 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Limits against hostile files: the bytes of a chunk without pixels, and the number of such chunks. */
+/* Limits against hostile files: the largest chunk that does not hold pixels, in bytes, and the greatest number of such
+ * chunks. */
 #define LARGEST_CHUNK 8000000
 #define MOST_TEXTS 1000
 
-/* The highest compression ratio of deflate: at least two bits for 258 bytes. */
+/* The highest compression ratio of deflate: 258 bytes take at least two bits. */
 #define MOST_BYTES_A_BYTE 1032
 
 /* Compressed bytes are passed to zlib in pieces of this size. */
@@ -29,16 +30,16 @@ struct image_source {
     FILE *file;
     uint64_t file_size;
     image_color background;
-    bool whole;                 /* all rows are read at once: requested, or required by the format */
-    png_byte color_type, depth; /* bits per sample and colour type in the file */
-    size_t samples;             /* per pixel, as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
+    bool whole;                 /* all rows are read together, by request or because the format requires it */
+    png_byte color_type, depth; /* the colour type and the bits per sample in the file */
+    size_t samples;             /* samples per pixel as libpng delivers them: 1 (index or grey), 3, or 4 with alpha */
     int passes;                 /* 7 if the file is interlaced, else 1 */
-    image about;                /* the image's description; pixels only if `whole` */
-    image *wanted;              /* the rows that decode_band() reads */
-    uint8_t *band;              /* pixels of the last band */
+    image about;                /* the image's description; it has pixels only if `whole` is set */
+    image *wanted;              /* the rows that the next decode_band() reads */
+    uint8_t *band;              /* the pixels of the last band */
     size_t band_room;           /* capacity of `band` in bytes */
-    int next_y;                 /* the first row of the next band */
-    bool beyond;                /* an index beyond the palette occurred; reported after the last row */
+    int next_y;                 /* number of the next band's first row */
+    bool beyond;                /* an index beyond the palette was found; it is reported after the last row */
     bool failed;
 };
 
@@ -50,7 +51,7 @@ static bool fail_reading(image_source *s, const char *reason)
 
 /* ---- libpng -------------------------------------------------------------------------------------------------- */
 
-/* A step of reading; an error of libpng aborts it. */
+/* A step of reading, which an error of libpng aborts. */
 typedef void step(image_source *s);
 
 static void read_bytes(png_structp png, png_bytep bytes, size_t size)
@@ -66,14 +67,14 @@ static void ignore_warning(png_structp png, png_const_charp message)
     (void)message;
 }
 
-/* libpng's error handler: keep the reason and jump back to run_png_step(). */
+/* libpng's error handler: store the reason and jump back to run_png_step(). */
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
     fail_reading(png_get_error_ptr(png), message);
     png_longjmp(png, 1);
 }
 
-/* Run a step; returns false if libpng fails. No local variable changes between setjmp and longjmp. */
+/* Run a step. Returns false if libpng fails. No local variable changes between setjmp and longjmp. */
 static bool run_png_step(image_source *s, step *task)
 {
     if (setjmp(png_jmpbuf(s->png)) != 0)
@@ -82,12 +83,13 @@ static bool run_png_step(image_source *s, step *task)
     return true;
 }
 
-/* Chunks that define the meaning of colours: libpng keeps their bytes but does not apply them. */
+/* The chunks that define the meaning of colours. libpng keeps their bytes but does not apply them. */
 static const uint8_t color_chunks[] = "gAMA\0cHRM\0sRGB\0iCCP\0cICP";
 
-/* Strict rules, because a damaged file must not be compared as a picture: wrong CRCs and broken streams are errors. The
- * Adler-32 inside the stream, a fifth of the reading time, is skipped if libpng can do so (Debian 12's can, 13's
- * cannot): the CRCs cover the same bytes. Chunks that affect no pixel are skipped, except color_chunks. */
+/* A damaged file must not be compared as a picture, so wrong CRCs and broken zlib streams are errors. The CRCs cover
+ * the same bytes as the stream's Adler-32, which takes a fifth of the reading time. The Adler-32 is therefore skipped
+ * if libpng can skip it (libpng of Debian 12 can, that of Debian 13 cannot). Chunks that affect no pixel are skipped,
+ * except color_chunks. */
 static void set_reading_rules(png_structp png, FILE *file)
 {
     png_set_read_fn(png, file, read_bytes);
@@ -100,13 +102,14 @@ static void set_reading_rules(png_structp png, FILE *file)
     png_set_chunk_cache_max(png, MOST_TEXTS);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, color_chunks, (sizeof color_chunks) / 5);
-    /* No limit here: check_size() tests the sides and names the reason, where libpng says only "Invalid IHDR data". */
+    /* No limit here: check_size() tests the sides and names the reason. libpng's message would only be "Invalid IHDR
+     * data". */
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
 }
 
 /* ---- Before the pixels --------------------------------------------------------------------------------------- */
 
-/* Returns a digest of the color_chunks, independent of their order. */
+/* Returns a digest of the file's color_chunks. It does not depend on their order. */
 static uint64_t digest_color_chunks(png_structp png, png_infop info)
 {
     png_unknown_chunkp chunks = NULL;
@@ -128,8 +131,8 @@ static bool is_indexed(const image_source *s)
     return s->color_type == PNG_COLOR_TYPE_PALETTE || (s->color_type == PNG_COLOR_TYPE_GRAY && s->depth <= 8);
 }
 
-/* Have libpng deliver whole samples without loss. Blending with the background is done here, because libpng 1.6.39
- * turns the white of 16-bit files into 254. */
+/* Make libpng deliver samples of 8 or 16 bits without loss. This file itself blends them with the background, because
+ * libpng 1.6.39 turns the white of 16-bit files into 254. */
 static void set_conversion(image_source *s)
 {
     s->color_type = png_get_color_type(s->png, s->info);
@@ -161,7 +164,7 @@ static void check_size(const image_source *s)
         png_error(s->png, "the file is truncated, or claims more pixels than it can hold");
 }
 
-/* Blend a sample with the background; alpha is 0 to `most`. */
+/* Blend a sample with the background. `alpha` ranges from 0 to `most`. */
 static unsigned blend_sample(unsigned value, unsigned ground, unsigned alpha, unsigned most)
 {
     return (value * alpha + ground * (most - alpha) + most / 2) / most;
@@ -174,7 +177,7 @@ static image_color blend_color(image_color color, image_color ground, unsigned a
                          (uint8_t)blend_sample(color.b, ground.b, alpha, 255)};
 }
 
-/* Fill the palette with the colours of the file's indices or grey levels, blended with the background. */
+/* Fill the image's palette with the colours of the file's palette or grey levels, blended with the background. */
 static void set_palette(image_source *s)
 {
     image_palette *palette = &s->about.palette;
@@ -201,7 +204,7 @@ static void set_palette(image_source *s)
     }
 }
 
-/* Returns the bytes of a row as libpng delivers it; the converted row is never longer. */
+/* Returns the number of bytes of a row as libpng delivers it. The converted row is never longer. */
 static size_t find_row_size(const image_source *s)
 {
     return (size_t)s->about.width * s->samples * (s->depth == 16 ? 2 : 1);
@@ -226,13 +229,13 @@ static void read_description(image_source *s)
         png_error(png, "libpng did not expand the pixels to 8 or 16 bits a sample");
     if (s->samples == 1)
         set_palette(s);
-    /* Interlaced rows arrive in passes, and whether 16 bits a sample are needed shows only when all rows are read. */
+    /* Interlaced rows arrive in passes. Only all rows together show whether 16 bits per sample are needed. */
     s->whole = s->whole || s->passes > 1 || s->about.wide;
 }
 
 /* ---- Pixels -------------------------------------------------------------------------------------------------- */
 
-/* Blend r, g, b, alpha with the background to r, g, b, in place. */
+/* Blend pixels of r, g, b, alpha with the background. The results r, g, b overwrite them. */
 static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     for (size_t n = 0; n < count; n++) {
@@ -242,7 +245,8 @@ static void blend_pixels(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-/* True if 8 bits hold each of these 16-bit samples without loss: both bytes are equal, a multiple of 257. */
+/* True if all of these 16-bit samples can be stored in 8 bits without loss: each is a multiple of 257, so that its two
+ * bytes are equal. */
 static bool fits_8_bits(const uint8_t *samples, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -251,8 +255,8 @@ static bool fits_8_bits(const uint8_t *samples, size_t count)
     return true;
 }
 
-/* blend_pixels() for samples of 16 bits. Blending rounds. A pixel that fits 8 bits is rounded to 8 bits, so that a
- * picture gives the same colours whether it is stored with 8 or 16 bits. */
+/* Like blend_pixels(), for samples of 16 bits. Blending rounds. A pixel whose samples fit 8 bits is rounded to 8 bits,
+ * so that a picture has the same colours whether its file has 8 or 16 bits per sample. */
 static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
 {
     const unsigned grounds[3] = {ground.r * 257u, ground.g * 257u, ground.b * 257u};
@@ -266,7 +270,7 @@ static void blend_wide_pixels(uint8_t *pixels, size_t count, image_color ground)
     }
 }
 
-/* Convert to 8 bits a sample if no precision is lost, so that equal pictures are stored alike. */
+/* Convert to 8 bits per sample if no precision is lost, so that equal pictures have the same format. */
 static void narrow_to_8_bits_if_exact(image *band)
 {
     const size_t count = 3 * (size_t)band->width * (size_t)band->height;
@@ -277,7 +281,7 @@ static void narrow_to_8_bits_if_exact(image *band)
     band->wide = false;
 }
 
-/* Convert a band, in place, from libpng's samples to the image's format. */
+/* Convert a band in place, from the samples that libpng delivers to the image's format. */
 static void convert_band(image_source *s, image *band)
 {
     const size_t count = (size_t)band->width * (size_t)band->height;
@@ -288,7 +292,7 @@ static void convert_band(image_source *s, image *band)
     narrow_to_8_bits_if_exact(band);
 }
 
-/* Read the rows of s->wanted. After the last row, read to the end of the file to check it. */
+/* Read the rows of s->wanted. After the picture's last row, read on to the end of the file, to check it. */
 static void decode_band(image_source *s)
 {
     image *band = s->wanted;
@@ -387,7 +391,7 @@ void image_source_close(image_source *s)
     image_release(&s->about);
     free(s->band);
     if (s->file)
-        fclose(s->file); /* the file was only read: closing it loses nothing */
+        fclose(s->file); /* no error to report: the file was only read */
     free(s);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* png_write.c - writes PNG files: libpng writes the chunks, deflate.h compresses the pixels. */
+/* png_write.c - writes PNG files: libpng writes the chunks, and deflate.h compresses the pixels. */
 #include "png_write.h"
 #include "deflate.h"
 #include "file.h"
@@ -20,7 +20,7 @@ typedef struct output {
     octreel_error *error;
 } output;
 
-/* Returns the reason why an image cannot be written, or null. */
+/* Returns the reason why an image cannot be written, or null if it can. */
 static const char *find_reason_to_refuse(const image *image)
 {
     if (image->wide)
@@ -52,7 +52,7 @@ static void set_header(png_structp png, png_infop info, const image_rows *rows)
                  indexed ? PNG_COLOR_TYPE_PALETTE : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_BASE,
                  PNG_FILTER_TYPE_BASE);
     if (indexed) {
-        png_color colors[256]; /* has the same three bytes as image_color */
+        png_color colors[256]; /* png_color has the same three bytes as image_color */
         memcpy(colors, palette->colors, sizeof colors);
         png_set_PLTE(png, info, colors, palette->count);
     }
@@ -61,7 +61,7 @@ static void set_header(png_structp png, png_infop info, const image_rows *rows)
 static void set_texts(png_structp png, png_infop info, const image_text *texts, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        /* libpng copies both strings, although its parameters are not const. */
+        /* libpng copies the keyword and the text, although its parameters are not const. */
         png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
                          .key = (png_charp)texts[i].keyword,
                          .text = (png_charp)texts[i].text};
@@ -69,17 +69,17 @@ static void set_texts(png_structp png, png_infop info, const image_text *texts, 
     }
 }
 
-/* libpng's error handler: keep the reason and jump back to write_chunks(). */
+/* libpng's error handler: store the reason and jump back to write_chunks(). */
 static _Noreturn void raise_error(png_structp png, png_const_charp message)
 {
     const output *out = png_get_error_ptr(png);
-    char reason[200]; /* a printable copy: the message may quote a keyword */
+    char reason[200]; /* a printable copy of the message, which may quote a keyword */
     snprintf(reason, sizeof reason, "%s", message);
     error_set(out->error, "%s: cannot be written: %s", out->file.path, make_printable(reason));
     png_longjmp(png, 1);
 }
 
-/* Write all chunks; returns false if libpng fails. No local variable changes between setjmp and longjmp. */
+/* Write all chunks. Returns false if libpng fails. No local variable changes between setjmp and longjmp. */
 static bool write_chunks(png_structp png, png_infop info, const output *out)
 {
     if (setjmp(png_jmpbuf(png)) != 0)
@@ -95,7 +95,7 @@ static bool write_chunks(png_structp png, png_infop info, const output *out)
     return true;
 }
 
-/* libpng's warnings are treated as errors: it warns when it changes its input, such as an invalid keyword. */
+/* libpng's warnings are treated as errors: libpng warns if it changes its input, for example an invalid keyword. */
 static bool encode_png(output *out)
 {
     const size_t pixel = out->rows->palette ? 1 : 3, row_size = (size_t)out->rows->width * pixel + 1;
@@ -108,8 +108,8 @@ static bool encode_png(output *out)
     return whole;
 }
 
-/* True for a missing file, a regular file, and a folder (opening it fails with its own error). Opening a pipe would
- * block. */
+/* True if `path` is a standard stream, a regular file, a folder, or missing. For a folder, the later opening fails with
+ * its own error. Anything else is refused, because opening a pipe would block. */
 static bool is_replaceable(const char *path)
 {
     struct stat status;
@@ -142,7 +142,7 @@ bool image_write_png(const image *image, const char *path, const image_text *tex
                              .height = image->height,
                              .palette = image->channels == 1 ? &image->palette : NULL,
                              .row = get_image_row,
-                             .context = (void *)image}; /* get_image_row() only reads it */
+                             .context = (void *)image}; /* get_image_row() only reads the image */
     return write_file(&(output){.rows = &rows, .texts = texts, .text_count = text_count, .error = error}, path);
 }
 
