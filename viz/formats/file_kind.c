@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* file_kind.c - detection by first bytes, by the first JSON member, and by the files in a folder. */
+/* file_kind.c - detects the kind of a file by its first bytes or by its first JSON member, and the kind of a folder
+ * by the files in it. */
 #include "file_kind.h"
 #include "cloud.h"
 #include "folder.h"
@@ -32,14 +33,15 @@ static const struct {
      KIND_PACKED},
 };
 
-/* Skip white space and then a word. Returns null if the word does not follow. */
+/* Skips white space and then a word. Returns the position after the word, or null if the text does not contain the
+ * word there. */
 static const char *skip_word(const char *at, const char *word)
 {
     at += strspn(at, " \t\r\n");
     return strncmp(at, word, strlen(word)) == 0 ? at + strlen(word) : NULL;
 }
 
-/* Find the kind of a JSON text of Octreel: its first object has the member "octreel" or begins with "tick". */
+/* Finds the kind of a JSON text that Octreel wrote: its first object has the member "octreel" or begins with "tick". */
 static file_kind find_json_kind(const char *text)
 {
     const char *at = skip_word(text, "{"), *name;
@@ -79,7 +81,8 @@ file_kind file_kind_of_input(const char *path)
     return find_content_kind(first, size);
 }
 
-/* One file of a recording is enough: if others are missing, the command that reads it reports them. */
+/* A folder with at least one file of a recording is a recording. If other files are missing, the command that reads
+ * the recording reports them. */
 static file_kind find_folder_kind(const char *path)
 {
     for (size_t i = 0; recording_files[i]; i++)

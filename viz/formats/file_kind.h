@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT */
-/* file_kind.h - detects the kind of a file or folder from its content, never from its name; and finds the format that
- * the name of an output file requests. */
+/* file_kind.h - detects the kind of a file or folder from its content, never from its name. Also finds the format
+ * that the name of an output file requests. */
 #ifndef FORMATS_FILE_KIND_H
 #define FORMATS_FILE_KIND_H
 
 #include <stdbool.h>
 
-/* The columns: the kind, its name in messages, a command of octreel that reads it (may be null), and what the command
- * does or other advice. */
+/* Columns: the kind; its name in messages; a command of octreel that reads such a file, or null; what the command
+ * does or, without a command, what the user can do. */
 #define FILE_KIND_MAP(X)                                                                                               \
     X(UNKNOWN, NULL, NULL, NULL)                                                                                       \
     X(MISSING, NULL, NULL, NULL)                                                                                       \
@@ -28,16 +28,16 @@ typedef enum file_kind {
 #undef FILE_KIND_ENUM
 } file_kind;
 
-/* A set of kinds. Every set includes UNKNOWN: the reader of an unknown file reports the error. */
+/* A set of kinds of files. Every set contains UNKNOWN: the reader of a file of unknown kind reports the error. */
 typedef unsigned file_kinds;
 #define FILE_KIND(kind) (1u << KIND_##kind)
 
-/* Find the kind of a path. UNKNOWN if it cannot be opened, and for anything but regular files and folders: pipes and
- * standard input, "-", are not read. */
+/* Returns the kind of a path. Returns UNKNOWN if the path cannot be opened or is not a regular file or a folder.
+ * Pipes and standard input ("-") are not read. */
 file_kind file_kind_of(const char *path);
 
-/* Find the kind of a file that will be read. Unlike file_kind_of(), this also reads pipes and standard input ("-"), and
- * keeps the bytes for the next reader. */
+/* Returns the kind of a file that will be read afterwards. Unlike file_kind_of(), this also reads pipes and standard
+ * input ("-"). It keeps the bytes for the next reader. */
 file_kind file_kind_of_input(const char *path);
 
 typedef struct file_kind_row {
@@ -46,11 +46,11 @@ typedef struct file_kind_row {
 
 extern const file_kind_row file_kind_rows[];
 
-/* The format requested by the suffix of an output file's name. OPEN: the suffix is missing or unknown. */
+/* The format that the ending of an output file's name requests. NAME_OPEN: the ending is missing or unknown. */
 typedef enum output_kind { NAME_OPEN, NAME_PNG, NAME_PICTURE, NAME_FILM, NAME_FILE } output_kind;
 output_kind output_kind_of_name(const char *path);
 
-/* The first bytes of every baseline. */
+/* Every baseline begins with these bytes. */
 #define DIGEST_FILE_BEGINNING "octreel-digests "
 
 #endif

@@ -100,7 +100,7 @@ bool folder_write_file(const char *folder, const char *name, const char *bytes, 
     file_writer file;
     bool ok = path ? file_writer_open_replacing(&file, path, error) : error_no_memory(error);
     if (ok) {
-        fwrite(bytes, 1, size, file.stream); /* file_writer_close() reports errors */
+        fwrite(bytes, 1, size, file.stream); /* ignoring the result: file_writer_close() reports errors */
         ok = file_writer_close(&file, error);
     }
     free(path);
@@ -117,8 +117,9 @@ void folder_remove_recording_files(const char *folder)
     }
 }
 
-/* True if a suffix marks an incomplete file: "part" while it is written; "live" for the session of a running program;
- * or the name of a chunk, with or without ".part", when several processes record chunks. */
+/* Returns whether a suffix marks an incomplete file. Such a suffix is "part" while the file is written, "live" for
+ * the session of a running program, or the name of a chunk, with or without ".part", while several processes record
+ * chunks. */
 static bool is_unfinished_suffix(const char *ending)
 {
     char word[CHUNK_NAME];

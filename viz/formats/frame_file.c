@@ -15,7 +15,7 @@ static const char tick_keyword[] = "octreel-tick", session_keyword[] = "octreel-
                   scene_keyword[] = FRAME_SCENE_KEYWORD, pixels_keyword[] = FRAME_PIXELS_KEYWORD,
                   left_out_keyword[] = "octreel-left-out";
 
-#define NUMBER_SIZE 24 /* size of a PNG text: any number or digest fits */
+#define NUMBER_SIZE 24 /* the size of a PNG text that holds a number or a digest, in bytes */
 
 char *frame_print_name(uint64_t tick, char name[FRAME_NAME])
 {
@@ -43,7 +43,8 @@ bool frame_is_name_of_recording(const char *name, uint64_t ticks, uint64_t every
     return frame_parse_name(name, &tick) && tick < ticks && frame_is_due(tick, every);
 }
 
-/* Fails if the path has PATH_MAX bytes or more, which the system would refuse. */
+/* Prints the path of a tick's frame. Returns false with an error if the path has PATH_MAX or more bytes, which the
+ * system would refuse. */
 static bool print_frame_path(const char *folder, uint64_t tick, char path[PATH_MAX], octreel_error *error)
 {
     char name[FRAME_NAME];
@@ -67,7 +68,8 @@ bool frame_write(const char *folder, const image *picture, const frame_origin *o
     return print_frame_path(folder, origin->tick, path, error) && image_write_png(picture, path, texts, count, error);
 }
 
-/* Parse a frame's text with the number of its tick. Fails unless frame_write() would print the same text. */
+/* Parses a frame's PNG text with the number of its tick. Returns false with an error unless frame_write() would
+ * write the same text for the number. */
 static bool parse_tick(const char *path, const char *text, uint64_t *tick, octreel_error *error)
 {
     char again[NUMBER_SIZE];
@@ -77,14 +79,14 @@ static bool parse_tick(const char *path, const char *text, uint64_t *tick, octre
            error_set(error, "%s: its PNG text %s is not the number of a tick", path, tick_keyword);
 }
 
-/* Read a frame's text with a keyword. A missing text is an error. */
+/* Reads the PNG text with a keyword from a frame. Returns false with an error if the text is missing. */
 static bool read_text(const char *path, const char *keyword, char text[NUMBER_SIZE], octreel_error *error)
 {
     return image_read_text(path, keyword, text, NUMBER_SIZE) ||
            error_set(error, "%s: has no PNG text %s; another program may have saved the file", path, keyword);
 }
 
-/* Check that a frame's text with a keyword is the expected digest; otherwise the error is `message`. */
+/* Checks that a frame's PNG text with a keyword is the expected digest. If it is not, sets the error to `message`. */
 static bool check_digest(const char *path, const char *keyword, uint64_t expected, const char *message,
                          octreel_error *error)
 {
@@ -96,7 +98,7 @@ static bool check_digest(const char *path, const char *keyword, uint64_t expecte
 static const char pixels_changed[] =
     "its pixels do not match its PNG text octreel-pixels: the file was changed after drawing";
 
-/* Read the digest of the pixels from a frame's text. If the text is no digest, *kind is unchanged. */
+/* Reads the stated digest of the pixels from a frame's PNG text. If the text is not a digest, *kind is unchanged. */
 static bool read_pixels(const char *path, image_digest_kind *kind, uint64_t *stated, octreel_error *error)
 {
     char text[NUMBER_SIZE];
@@ -124,7 +126,7 @@ static bool check_tick(const char *path, uint64_t expected, octreel_error *error
            (tick == expected || error_set(error, "%s: is the frame of tick %" PRIu64, path, tick));
 }
 
-/* The pixels are checked first: if they are damaged, the texts may be, too. */
+/* The pixels are checked before the PNG texts: if the pixels are damaged, the texts may be damaged, too. */
 bool frame_check_file(const char *path, frame_origin *origin, octreel_error *error)
 {
     char text[NUMBER_SIZE];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* recording_file.c - reads and writes recording.json by the rows of view_options.c, and reads the session beside it. */
+/* recording_file.c - reads and writes recording.json by the rows of view_options.c, and reads session.json in the
+ * same folder. */
 #include "recording_file.h"
 #include "file.h"
 #include "octree/digest.h"
@@ -10,13 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The contents of the file. The view comes first, so that offsets in it are also offsets in this structure. */
+/* The contents of recording.json. The view is the first member, so that offsets in the view are also offsets in this
+ * structure. */
 typedef struct recorded {
     view view;
     uint64_t every;
 } recorded;
 
-/* The members before and after the options of the view: the first two come before. */
+/* Members of recording.json that are not view options. The first two come before the view options, the others after. */
 static const json_member fixed_members[] = {
     {"octreel", &json_constant, .required = true, .about = "recording"},
     {"version", &json_version, .required = true, .max = RECORDING_VERSION, .about = "recording"},
@@ -29,7 +31,7 @@ static const json_member fixed_members[] = {
 #define FIXED_MEMBERS (sizeof fixed_members / sizeof fixed_members[0])
 #define MOST_MEMBERS 32
 
-/* All members of the file in their order, each on a line of its own. */
+/* Lists all members of recording.json in their order. Each member is written on a line of its own. */
 static void list_members(json_member members[MOST_MEMBERS])
 {
     size_t count = 0;
@@ -90,7 +92,7 @@ bool recording_read(const char *folder, view *v, uint64_t *every, octreel_error 
 
 /* ---- session.json --------------------------------------------------------------------------------------------- */
 
-/* `live`: ignore a last line without a newline; its writer died while writing it. */
+/* Reads a session. With `live`, a last line without a newline is ignored, because its writer ended while writing it. */
 static bool read_session(const char *folder, const char *name, bool live, session_file *file, uint64_t *digest,
                          octreel_error *error)
 {

@@ -13,8 +13,8 @@
 
 #define BODIES SESSION_LISTS
 
-/* The lists, and after them the bodies: the offset of the pointer to the items in octree_session (their count follows
- * it), and the size of an item. An item of a list begins with its tick. */
+/* For each list of octree_session: the offset `at` of the pointer to its items, which the count of items follows,
+ * and the size of an item. An item begins with its tick. The last row is about the bodies, which have no tick. */
 static const struct {
     size_t at, size;
 } rows[SESSION_LISTS + 1] = {
@@ -67,7 +67,8 @@ static bool report_no_memory(octreel_error *error)
     return error_set(error, "out of memory for the session");
 }
 
-/* Replace *items by a copy, or by null if there are none. When out of memory, returns false and sets null. */
+/* Replaces *items by a copy, or by null if there are no items. If memory runs out, sets *items to null and returns
+ * false. */
 static bool duplicate_items(const void **items, size_t count, size_t item_size)
 {
     const void *from = *items;
@@ -102,7 +103,7 @@ void query_release_ids(octree_query *query)
         free((uint64_t *)query->visits[met].ids);
 }
 
-/* Free the memory owned by queries and foreign trees, but not the arrays of both. */
+/* Frees the memory that queries and foreign trees own, but not the arrays that hold the queries and trees. */
 static void release_owned_memory(const octree_session *session)
 {
     for (size_t i = 0; i < session->query_count; i++)
@@ -111,7 +112,7 @@ static void release_owned_memory(const octree_session *session)
         foreign_tree_release((octree_foreign_tree *)&session->foreign[i]);
 }
 
-/* Replace the memory owned by queries and foreign trees, which were copied bytewise, by copies. */
+/* Gives queries and foreign trees that were copied bytewise their own copies of the memory that the originals own. */
 static bool duplicate_owned_memory(const octree_session *session)
 {
     bool whole = true;
@@ -196,7 +197,7 @@ bool session_check_is_text(json_reader *r)
 
 static bool read_objects(json_reader *r)
 {
-    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* some editors write a byte order mark before UTF-8 */
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* some editors write a byte order mark before UTF-8 text */
     if (r->limit - r->at >= 3 && memcmp(r->at, byte_order_mark, 3) == 0)
         r->at += 3;
     if (!session_check_is_text(r))
@@ -211,7 +212,7 @@ static bool read_objects(json_reader *r)
     return true;
 }
 
-/* Add the header's items of a list to the items of single ticks: before or after them. */
+/* Moves the header's items of a list into the list of single ticks: before the items there or after them. */
 static bool append_header_list(json_reader *r, int list, bool before)
 {
     session_loader *s = r->context;
@@ -230,7 +231,7 @@ static bool append_header_list(json_reader *r, int list, bool before)
     return true;
 }
 
-/* Foreign nodes come first, because those of the header apply from tick 0 on. */
+/* The header's foreign nodes come before the others, because they apply from tick 0 on. */
 bool session_append_header_lists(json_reader *r)
 {
     return append_header_list(r, SESSION_QUERIES, false) && append_header_list(r, SESSION_SHAPES, false) &&
@@ -301,7 +302,8 @@ static uint64_t get_tick(const json_counted_array *list, int kind, size_t index)
     return *(const uint64_t *)get_item(list, kind, index);
 }
 
-/* Queries and shapes of every tick are at the end of the session's arrays. */
+/* Queries and shapes that apply to every tick are written in the header. They are at the end of the session's
+ * arrays. */
 void session_write_header(const octree_session *session, const point_values *values, FILE *out)
 {
     octree_session every_tick = {.keys = NULL};
@@ -328,7 +330,7 @@ void session_write_tick(uint64_t tick, const octree_input *input, const point_va
     json_write_end_line(&writer);
 }
 
-/* Returns the first tick with items that are not written yet; OCTREE_EVERY_TICK if there is none. */
+/* Returns the first tick that has unwritten items, or OCTREE_EVERY_TICK if all items are written. */
 static uint64_t find_next_tick(const json_counted_array unwritten[SESSION_LISTS])
 {
     uint64_t next = OCTREE_EVERY_TICK;
@@ -345,7 +347,7 @@ bool session_write(const octree_session *session, const point_values *values, FI
         unwritten[i] = get_session_list(session, i);
     session_write_header(session, values, out);
     for (uint64_t tick; (tick = find_next_tick(unwritten)) != OCTREE_EVERY_TICK;) {
-        octree_session now = {.keys = NULL}; /* the items of this tick */
+        octree_session now = {.keys = NULL}; /* the items of this tick only */
         for (int i = 0; i < SESSION_LISTS; i++) {
             json_counted_array *list = &unwritten[i];
             size_t count = 0;

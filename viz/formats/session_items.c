@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_items.c - reads and writes lists of edits, queries and shapes. Each object of such a list has a member with
- * the name of its kind, such as "insert". */
+/* session_items.c - reads and writes lists of edits, queries and shapes. An item of such a list is an object with a
+ * member whose name is the kind of the item, such as "insert". */
 #include "array.h"
 #include "session_members.h"
 
@@ -9,14 +9,15 @@
 
 #define MOST_MEMBERS (12 + OCTREE_QUERY_MEMBERS)
 
-/* The type of a list's items. An item begins with its tick. */
+/* A type of list: edits, queries or shapes. An item in memory begins with its tick. */
 struct session_items {
-    int list;          /* index in session_loader.lists */
-    const char *words; /* for errors: "a list of edits" */
+    int list;          /* the index in session_loader.lists */
+    const char *words; /* a noun for errors: "a list of edits" */
     json_name *kinds;
-    const json_member (*members)[2]; /* the members of each kind, beginning with the one that names it; null:
-                                        list_query_members() lists them */
-    size_t size, kind;               /* the size of an item, and the offset of its kind */
+    /* For each kind of item, the members of its object; the first member names the kind. Null: list_query_members()
+     * lists the members. */
+    const json_member (*members)[2];
+    size_t size, kind; /* the size of an item, and the offset of its kind, in bytes */
 };
 
 /* ---- Edits -------------------------------------------------------------------------------------------------- */
@@ -45,7 +46,7 @@ static bool is_player_word(const json_t *value)
     return json_is_string(value) && strcmp(json_string_value(value), "player") == 0;
 }
 
-/* Read "player" in place of a position. The session must have a player. */
+/* Reads the text "player", which a query may have in place of a position. The session must have a player. */
 static bool read_player_target(json_reader *r, const json_place *at, octree_query *query)
 {
     const session_loader *s = r->context;
@@ -78,7 +79,7 @@ static bool read_box_at_player(json_reader *r, json_t *value, const json_place *
     return is_player_word(value) ? read_player_target(r, at, into) : json_fail_expected(r, value, at, "\"player\"");
 }
 
-/* "skip" is an id, or this word, which skips all points exactly at the target. */
+/* The value of "skip" is an id or this word. The word skips all points exactly at the target. */
 static const char coincident[] = "coincident";
 
 static bool read_skip(json_reader *r, json_t *value, const json_place *at, void *into)
@@ -109,7 +110,8 @@ static bool uses_precision(const octree_query *query)
     return query->answered || query->visits[OCTREE_NODE_PRUNED].count > 0;
 }
 
-/* "answer" and "pruned" precede the mode in the table, so they have been read. */
+/* Check the mode of a query. Its members "answer" and "pruned" have been read, because they precede the mode in the
+ * table. */
 static bool check_mode(json_reader *r, const json_place *at, void *structure)
 {
     return uses_precision(structure) ||
@@ -121,7 +123,7 @@ static bool has_mode(const void *structure)
     return uses_precision(structure) && ((const octree_query *)structure)->precision != OCTREE_DOUBLES;
 }
 
-/* An epsilon of -0 is not written either. */
+/* Return whether the epsilon of a query is written. Neither 0 nor -0 is written. */
 static bool has_epsilon(const void *structure)
 {
     return ((const octree_query *)structure)->epsilon > 0;
@@ -129,7 +131,7 @@ static bool has_epsilon(const void *structure)
 
 JSON_NAMES(query_name, octree_query_name, octree_query_kind)
 
-/* Make the table row of a query's member. A target may also be "player". */
+/* Make the table row for a member of a query. A target may be a position or "player". */
 static json_member make_query_member(const octree_query_member_traits *member)
 {
     static const json_codec *const codecs[] = {[OCTREE_MEMBER_BOX] = &json_box,
@@ -156,7 +158,7 @@ JSON_NAMES(precision_name, octree_precision_name, octree_precision)
         name, &json_ids, QUERY(visits[kind]), JSON_IF(octree_query, visits[kind].count)                                \
     }
 
-/* The members of every kind of query. */
+/* The members that all kinds of queries have. */
 static const json_member general_members[] = {
     {"skip", JSON_CODEC(read_skip, write_skip), .offset = 0, JSON_IF(octree_query, skip)},
     {"epsilon", &json_nonnegative, QUERY(epsilon), .is_set = has_epsilon},
@@ -167,8 +169,8 @@ static const json_member general_members[] = {
     {"mode", &json_choice, QUERY(precision), .names = precision_name, .is_set = has_mode, .check = check_mode},
 };
 
-/* Fill the table with the members of a kind of query, as its traits list them. A box without a target can be relative
- * to the player. */
+/* Fill the table with the members of a kind of query, as its traits list them. If a kind has a box and no target,
+ * its box can be relative to the player. */
 static void list_query_members(int kind, json_member table[MOST_MEMBERS])
 {
     const octree_query_traits *about = octree_query_about((octree_query_kind)kind);
@@ -207,7 +209,8 @@ static void write_segment(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* The members of each kind of shape, beginning with the one that names it. `at` and `to` are the corners of a box. */
+/* The members of each kind of shape. The first member names the kind. The members `at` and `to` are the corners of a
+ * box. */
 _Static_assert(offsetof(octree_shape, to) - offsetof(octree_shape, at) == offsetof(octree_box, max), "not like a box");
 static const json_member shape_members[OCTREE_SHAPE_KINDS][2] = {
     [OCTREE_SHAPE_BOX] = {{"box", &json_box, offsetof(octree_shape, at), .required = true}},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_members.c - the tables of the header and of the object of a tick, with the world, the tree, the player, keys,
- * ticks and gaps. */
+/* session_members.c - the tables of the members of the header and of a tick's object, and the codecs of the world,
+ * the tree, the player, keys, ticks and gaps. */
 #include "octree/octree.h"
 #include "session_members.h"
 
@@ -19,8 +19,8 @@ static double find_default_box_size(double step)
     return 0.6 * step;
 }
 
-/* Place the player at the centre of the world. Halving before adding avoids overflow in any world, and the rounded sum
- * of the halves still lies in the world. */
+/* Places the player at the centre of the world. The corners are halved before they are added, which avoids overflow
+ * in any world. The rounded sum of the halves still lies in the world. */
 static void set_default_player(octree_player *player, const octree_box *world)
 {
     double longest = 0;
@@ -78,7 +78,7 @@ static bool check_position(json_reader *r, const json_place *at, void *structure
     return true;
 }
 
-/* The default box size follows from the step; "box_size" is read later. */
+/* Sets the default size of the player's box, which follows from its step. The member "box_size" is read later. */
 static bool set_default_box_size(json_reader *r, const json_place *at, void *structure)
 {
     octree_player *player = structure;
@@ -106,7 +106,7 @@ static void write_player_is_body(json_writer *w, const void *from)
 #define BOX_SIZE "box_size", &json_nonnegative, .offset = offsetof(octree_player, box_size)
 #define SWEEP "sweep", &json_bool, .offset = offsetof(octree_player, sweep), JSON_IF(octree_player, sweep)
 
-/* A player that is a body has no position and step of its own: it is the point with its id. */
+/* The members of a player that is a body: the point with its id. It has no position and no step of its own. */
 static const json_member body_player_members[] = {{ID}, {BODY}, {BOX_SIZE}, {SWEEP}, {0}};
 static const json_member player_members[] = {
     {ID},
@@ -175,11 +175,12 @@ static bool has_tick_count(const void *structure)
     return ((const session_header *)structure)->session.ticks != SESSION_ENDLESS;
 }
 
-/* The largest distance of ticks between two objects. All ticks between them are played and filmed, so a larger distance
- * is probably a wrong number. */
+/* The largest number of ticks between two successive objects. All ticks between the objects are played and filmed,
+ * so a larger number is probably a mistake. */
 #define MOST_TICKS_BETWEEN 1000000
 
-/* True if a tick is too far after the last object. No tick up to the end of "keys" or "ticks" is too far. */
+/* Returns whether a tick is too far after the last object. A tick up to the end of "keys" is never too far. If the
+ * header has "ticks", no tick is too far. */
 static bool is_too_far_ahead(const session_loader *s, uint64_t tick)
 {
     const char *keys = s->header.session.keys;
@@ -229,14 +230,15 @@ octree_session session_make_default_header(void)
 {
     octree_session session = {.tree = octree_def_default()};
     session.tree.leaf_capacity = 8;
-    session.tree.full_leaf = OCTREE_REFUSE; /* what files of this version mean without "full" */
+    session.tree.full_leaf = OCTREE_REFUSE; /* the meaning of a missing "full" in this version of the format */
     set_default_player(&session.player, &session.tree.world);
     return session;
 }
 
 #define HEADER(where) .offset = offsetof(session_header, where), .line = true
 
-/* In the order of reading: the player needs the world, points need the player, and velocities need the points. */
+/* The members of the header, in the order of reading. The player needs the world, points need the player, and
+ * velocities need the points. */
 const json_member session_header_members[] = {
     {"octreel", &json_constant, .required = true, .about = "session"},
     {"version", &json_version, .required = true, .max = 2, .about = "session",

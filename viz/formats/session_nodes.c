@@ -9,7 +9,8 @@
 
 /* ---- Memory ------------------------------------------------------------------------------------------------- */
 
-/* Allocate one block for nodes and, after them, the ids of their points. Null also for 0 nodes. */
+/* Allocates one block for nodes and, behind them, the ids of their points. Returns null if memory runs out or there
+ * are 0 nodes. */
 static octree_foreign_node *allocate_nodes(size_t nodes, size_t ids)
 {
     const size_t most = SIZE_MAX / 2 / sizeof(octree_foreign_node);
@@ -19,7 +20,7 @@ static octree_foreign_node *allocate_nodes(size_t nodes, size_t ids)
 
 bool foreign_tree_duplicate(const octree_foreign_tree *from, octree_foreign_tree *to)
 {
-    const octree_foreign_node *source = from->nodes; /* from and to may be the same */
+    const octree_foreign_node *source = from->nodes; /* `from` and `to` may be the same tree */
     const size_t count = from->node_count;
     size_t ids = 0;
     for (size_t i = 0; i < count; i++)
@@ -72,7 +73,7 @@ static size_t count_ids(const json_t *nodes)
     return ids;
 }
 
-/* Check that the nodes form trees. Otherwise returns false, with an error that names the wrong node. */
+/* Checks that the nodes form trees. Otherwise returns false with an error that names the invalid node. */
 static bool check_foreign_tree(json_reader *r, const octree_foreign_tree *tree, const json_place *at)
 {
     size_t wrong;
@@ -109,7 +110,7 @@ static bool read_foreign_tree(json_reader *r, json_t *value, const json_place *a
     return check_foreign_tree(r, tree, at);
 }
 
-/* Read the nodes of the header, which apply from tick 0 on, or of a tick. */
+/* Reads the foreign nodes of a tick or of the header. The header's nodes apply from tick 0 on. */
 static bool read_foreign_nodes(json_reader *r, json_t *value, const json_place *at, void *into)
 {
     session_loader *s = r->context;
@@ -127,7 +128,7 @@ static bool read_foreign_nodes(json_reader *r, json_t *value, const json_place *
     return read_foreign_tree(r, value, at, tree);
 }
 
-/* Nodes that apply from tick 0 on are written in the object of tick 0, not in the header. */
+/* Foreign nodes that apply from tick 0 on are written in the object of tick 0, not in the header. */
 static void write_foreign_nodes(json_writer *w, const void *from)
 {
     const octree_foreign_tree *tree = *(const octree_foreign_tree *const *)from;

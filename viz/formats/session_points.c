@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* session_points.c - reads and writes the points of a session: a list, a file of points or a sample; and their
+/* session_points.c - reads and writes the points of a session, which are a list, a point file or a sample; and their
  * velocities. */
 #include "cloud.h"
 #include "file.h"
@@ -20,13 +20,14 @@ uint32_t session_find_body(const session_loader *s, uint64_t id)
     return hash_map_find(&s->values.body_ids, &by_id, s->bodies, &id);
 }
 
-/* True if the player is not one of the session's points. No point may then have the player's id. */
+/* Returns whether the player is separate from the session's points. No point may then have the player's id. */
 static bool is_player_separate(const octree_player *player)
 {
     return player->kind == OCTREE_PLAYER_KEYS;
 }
 
-/* Returns the default id of a point: its index counted from 1, plus one from the player's id on. */
+/* Returns the default id of a point. Default ids are 1, 2, 3 and so on in the order of the points; the player's id
+ * is skipped. */
 static uint64_t find_default_id(const session_loader *s, size_t place)
 {
     const octree_player *player = &s->header.session.player;
@@ -34,7 +35,7 @@ static uint64_t find_default_id(const session_loader *s, size_t place)
     return is_player_separate(player) && player->id != 0 && id >= player->id ? id + 1 : id;
 }
 
-/* Allocate the bodies of all points. */
+/* Allocates the bodies for `count` points. */
 static bool allocate_bodies(json_reader *r, const json_place *at, size_t count)
 {
     session_loader *s = r->context;
@@ -47,7 +48,7 @@ static bool allocate_bodies(json_reader *r, const json_place *at, size_t count)
 
 /* ---- A list ------------------------------------------------------------------------------------------------- */
 
-/* Read [x, y, z] or [x, y, z, id], followed by one value for each column. */
+/* Reads a row [x, y, z] or [x, y, z, id], which one value for each column follows. */
 static bool read_point_row(json_reader *r, json_t *row, const json_place *at, octree_body *body)
 {
     const session_values *values = &((const session_loader *)r->context)->values;
@@ -96,7 +97,7 @@ bool session_map_bodies(json_reader *r, const json_place *at)
         if (first != HASH_MAP_NONE)
             return json_fail(r, &place, "id %" PRIu64 " already belongs to points[%" PRIu32 "] in line %zu", id, first,
                              json_find_line(r, &(json_place){at, NULL, first}));
-        hash_map_add(map, &by_id, s->bodies); /* there is room */
+        hash_map_add(map, &by_id, s->bodies); /* cannot fail, because the map has room */
     }
     const uint32_t clash = is_player_separate(player) ? session_find_body(s, player->id) : HASH_MAP_NONE;
     return clash == HASH_MAP_NONE ||
@@ -112,7 +113,7 @@ static bool read_point_list(json_reader *r, json_t *list, const json_place *at)
 
 /* ---- Files of points and samples ---------------------------------------------------------------------------- */
 
-/* Make bodies of the points of a cloud. Default ids count the rows of its file. */
+/* Makes bodies of the points of a point file. Their default ids count all rows of the file, including skipped rows. */
 static bool copy_cloud_points(json_reader *r, const json_place *at, const cloud *from)
 {
     session_loader *s = r->context;
@@ -125,7 +126,8 @@ static bool copy_cloud_points(json_reader *r, const json_place *at, const cloud 
     return true;
 }
 
-/* Returns the path of a file named in the session; the caller frees it. "-" is a file here, not standard input. */
+/* Returns the path of a file that the session names; the caller frees it. The name "-" is a file here, not standard
+ * input. */
 static char *join_file_path(const char *folder, const char *file)
 {
     if (!*folder && file_is_standard_stream(file))
@@ -138,7 +140,7 @@ static char *join_file_path(const char *folder, const char *file)
     return path;
 }
 
-/* Note which columns were guessed or ignored, and which values were out of range. */
+/* Writes a note: which columns were guessed or ignored, and which values were out of range. */
 static void write_values_note(session_loader *s, const char *name)
 {
     char beyond[CLOUD_OUT_OF_RANGE_TEXT];
@@ -148,7 +150,8 @@ static void write_values_note(session_loader *s, const char *name)
         snprintf(s->note, sizeof s->note, "%.200s: %s%s%s", name, columns, *columns && *beyond ? "; " : "", beyond);
 }
 
-/* Refuse files and samples in a recording: whoever opens the recording would read or generate them. */
+/* Refuses point files and samples in a recording. Otherwise opening a recording would read other files or generate
+ * points. */
 static bool check_files_allowed(json_reader *r, const json_place *at)
 {
     const session_loader *s = r->context;
@@ -156,7 +159,7 @@ static bool check_files_allowed(json_reader *r, const json_place *at)
            json_fail(r, at, "the session of a recording must list its points; files and samples are not allowed");
 }
 
-/* Read the file of points into the loader, unless it was already read for the world. */
+/* Reads the point file into s->points, unless it was already read to compute the world. */
 static bool load_point_file(json_reader *r, const json_t *value, const json_place *at)
 {
     session_loader *s = r->context;
@@ -184,13 +187,14 @@ static bool is_point_file(const json_t *value)
     return json_is_string(value) && json_string_length(value) > 0;
 }
 
-/* Use the values of the file for the default ids of its rows: row 0 has the id 1, and the player's id is skipped. */
+/* Gives the points of the point file their values. The values of row 0 belong to id 1 and so on; the player's id is
+ * skipped. */
 static bool set_file_values(json_reader *r, const json_place *at)
 {
     session_loader *s = r->context;
     point_values *values = &s->points.values;
     const octree_player *player = &s->header.session.player;
-    const uint64_t place = player->id - 1; /* in rows */
+    const uint64_t place = player->id - 1; /* the row that would get the player's id */
     if (is_player_separate(player) && player->id != 0 && place < values->count &&
         !point_values_insert_empty_row(values, (size_t)place))
         return json_fail(r, at, "out of memory for %zu points", s->points.count);
@@ -211,8 +215,8 @@ static bool read_point_file(json_reader *r, json_t *value, const json_place *at,
     return done;
 }
 
-/* The player needs the world, and "points" is read after the player, so the file of points is read early. Mistakes in
- * "points" are reported later, when the member is read. */
+/* The point file is read before the other members: the player needs the world, and "points" is read after the
+ * player. Errors in the member "points" are reported later, when the member itself is read. */
 bool session_find_file_world(json_reader *r, json_t *header)
 {
     session_loader *s = r->context;
@@ -288,7 +292,7 @@ static bool read_points(json_reader *r, json_t *value, const json_place *at, voi
                      "expected a list of points, {\"file\": ...} or {\"sample\": ..., \"count\": ..., \"seed\": ...}");
 }
 
-/* Points without velocity are written as short rows; -0 counts as a velocity. */
+/* Writes a point with a velocity as an object, and any other point as a row. A velocity of -0 counts as a velocity. */
 static void write_point(json_writer *w, const octree_body *body)
 {
     if (json_has_nonzero_byte(body->velocity, sizeof body->velocity)) {
@@ -319,11 +323,11 @@ const json_codec session_points_codec = {read_points, write_points};
 
 /* ---- Velocities --------------------------------------------------------------------------------------------- */
 
-/* [id, vx, vy, vz] */
+/* Reads a row of "velocities": [id, vx, vy, vz]. */
 static bool read_velocity(json_reader *r, json_t *row, const json_place *at, void *into)
 {
     const session_loader *s = r->context;
-    bool *given = into; /* for each body, whether it has a velocity */
+    bool *given = into; /* for each body, whether it was given a velocity */
     uint64_t id;
     if (json_array_size(row) != 4)
         return json_fail_expected(r, row, at, "[id, vx, vy, vz]");

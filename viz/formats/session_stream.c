@@ -14,9 +14,9 @@ struct session_stream {
     json_reader reader;
     session_loader loader;
     octree_session start;
-    session_stream_state first;  /* the state after the object that follows the header */
-    bool has_pending;            /* session_stream_read_tick() still has to return `first` and its object */
-    octreel_error pending_error; /* the error of `first`, if it is SESSION_STREAM_BROKEN */
+    session_stream_state first;  /* the result of reading the object that follows the header */
+    bool has_pending;            /* session_stream_read_tick() has not yet returned `first` and the object */
+    octreel_error pending_error; /* the error, if `first` is SESSION_STREAM_BROKEN */
 };
 
 session_stream *session_stream_open(int file, const char *name, bool (*keep_going)(void *context), void *context)
@@ -64,7 +64,7 @@ static octree_input make_tick_input(const session_loader *s)
     return session_collect_input(&all);
 }
 
-/* The object is checked here as well as in the game, because only here its line is known. */
+/* The object is checked here as well as in the game, because only here its line is known for errors. */
 static session_stream_state read_tick(session_stream *s, octreel_error *error)
 {
     const size_t line = s->reader.line;

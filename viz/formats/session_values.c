@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* session_values.c - reads and writes the colour, intensity and class of points: as members of a point's object, or as
- * columns of its row. */
+/* session_values.c - reads and writes colours, intensities and classes of points, either as members of a point's
+ * object or as columns of its row. */
 #include "array.h"
 #include "number.h"
 #include "session_members.h"
@@ -98,7 +98,7 @@ bool session_set_value(json_reader *r, const json_place *at, uint64_t id, const 
                      id);
 }
 
-/* Record the id of a point that was inserted without values. */
+/* Stores the id of a point that was inserted without values. */
 static bool add_valueless_id(session_values *s, uint64_t id)
 {
     if (hash_map_find(&s->plain_ids, &plain_by_id, s->plain, &id) != HASH_MAP_NONE)
@@ -109,8 +109,9 @@ static bool add_valueless_id(session_values *s, uint64_t id)
     return hash_map_add(&s->plain_ids, &plain_by_id, s->plain);
 }
 
-/* Set the values of an inserted point. An id that occurred without values cannot get any later: if a session is filmed
- * while it is written, a tick's frame is drawn before the next tick is read, so a later tick must not change it. */
+/* Set the values of an inserted point. An id that was used without values cannot get values later. The reason: if a
+ * session is filmed while it is written, the frame of a tick is drawn before the next tick is read, so a later tick
+ * must not change it. */
 static bool set_inserted_value(json_reader *r, const json_place *at, uint64_t id, const point_value *value)
 {
     session_loader *s = r->context;
@@ -154,7 +155,7 @@ void session_release_values(session_values *values)
 
 /* ---- Points as objects -------------------------------------------------------------------------------------- */
 
-/* A point with its values, as its JSON object has them. */
+/* A body and its values, which are the members of its JSON object. */
 typedef struct valued_body {
     octree_body body;
     point_value value;
@@ -165,7 +166,7 @@ typedef struct valued_body {
 
 enum { FIRST_VALUE = 3 };
 
-/* The row of a point_value_kind is FIRST_VALUE rows further. */
+/* The row of a point_value_kind is rows[FIRST_VALUE + kind]. */
 const json_member session_body_members[] = {
     {"id", &json_uint64, POINT(body.id), .max = JSON_LARGEST_WHOLE},
     {"position", &json_vector, POINT(body.position), .required = true},
@@ -266,7 +267,7 @@ bool session_read_column_value(json_reader *r, json_t *value, const json_place *
     return row->codec->read(r, value, at, (char *)into + (row->offset - POINT(value)));
 }
 
-/* A point without values has a short row. */
+/* Writes nothing for a point without values, so that its row is short. */
 void session_write_column_values(json_writer *w, uint64_t id)
 {
     const unsigned kinds = point_values_kinds(w->context);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* ticks_write.c - the tables of the members of a line of ticks.jsonl, and functions that write their values. */
+/* ticks_write.c - the tables of the members of a line of ticks.jsonl, and the functions that write their values. */
 #include "ticks_write.h"
 #include "frame_file.h"
 #include "json_table.h"
@@ -16,7 +16,7 @@ char *digest_print(uint64_t digest, char text[DIGEST_TEXT])
     return text;
 }
 
-/* Members that are written but never read have a codec without a reader. */
+/* A codec without a reader, for members that are written but never read. */
 #define WRITE(how) JSON_CODEC(NULL, how)
 
 JSON_NAMES(precision_name, octree_precision_name, octree_precision)
@@ -57,7 +57,8 @@ static void write_addresses(json_writer *w, const void *from)
     json_write_end_array(w);
 }
 
-/* Write the nodes that split or merged: a list, or the count and a digest if there are more than TICK_LISTED. */
+/* Writes the nodes that split or merged in a tick. Up to TICK_LISTED nodes are written as a list, more nodes as
+ * their count and a digest. */
 static void write_nodes(json_writer *w, const void *from)
 {
     const json_counted_array addresses = json_get_counted_array(from);
@@ -113,7 +114,7 @@ static bool has_neighbors(const void *structure)
 
 #define JUDGED(member) .offset = offsetof(octree_answer, judgement.member)
 
-/* The answer of the foreign index and the judgement of it. */
+/* The members about a foreign index: its answer, and how the answer was judged. */
 static const json_member judgement_members[] = {
     {"answer", &json_ids, JUDGED(given)},
     {"mode", &json_choice, .offset = offsetof(octree_answer, precision), .names = precision_name,
@@ -135,8 +136,8 @@ static const json_member last_answer_members[] = {
     {0},
 };
 
-/* Several neighbours are written as a list. A single neighbour is written as members of the answer, with "id" null if
- * there is none. */
+/* Writes the result of a query. Several neighbours are written as a list. A single neighbour is written as members
+ * of the answer, with "id" null if no neighbour was found. */
 static void write_result(json_writer *w, const octree_answer *answer, const octree_query_traits *about)
 {
     static const json_member list = {.members = neighbor_members, .size = sizeof(octree_neighbor)};
@@ -232,7 +233,7 @@ static const json_member wrong_node_members[] = {
     {0},
 };
 
-/* Write the number of wrong nodes, in total and of each kind, and the first few. */
+/* Writes how many nodes are wrong, in total and of each kind, and the first few wrong nodes. */
 static void write_wrong_nodes(json_writer *w, const void *from)
 {
     const octree_foreign_state *foreign = from;
@@ -275,8 +276,8 @@ static void write_key(json_writer *w, const void *from)
 
 #define TICK(member) .offset = offsetof(octree_tick, member)
 
-/* The numbers of nodes that all queries of the tick visited, accepted whole and pruned, and of leaves with points
- * found. */
+/* The numbers of nodes that all queries of the tick visited, accepted as a whole and pruned, and the number of
+ * leaves in which points were found. */
 static const json_member visit_members[] = {
     {"visited", &json_size, TICK(touched[OCTREE_TRACE_VISITED])},
     {"taken", &json_size, TICK(touched[OCTREE_TRACE_TAKEN])},
@@ -291,7 +292,7 @@ static const json_member tree_members[] = {
     {"digest", WRITE(write_digest), TICK(tree_digest)}, {0},
 };
 
-/* The positions of the player are null if the tick has no player. */
+/* The members of a line. The positions of the player are null if the tick has no player. */
 static const json_member line_members[] = {
     {"tick", &json_uint64, TICK(number)},
     {"key", WRITE(write_key), TICK(key)},
@@ -312,7 +313,7 @@ static const json_member line_members[] = {
     {0},
 };
 
-/* The members of a tick that is a gap. */
+/* The members of a line whose tick is a gap. */
 static const json_member gap_members[] = {
     {"tick", &json_uint64, TICK(number)},
     {"gap", WRITE(json_write_text), TICK(gap)},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* view_options.c - the table of view options; see view_options.h. Each section below holds the functions of a few rows;
- * the rows themselves are at the end. */
+/* view_options.c - the table of view options; see view_options.h. The rows are at the end of the file. Each section
+ * before them holds the functions of a few rows. */
 #include "view_options.h"
 #include "file_kind.h"
 #include "hint.h"
@@ -24,7 +24,7 @@ static const char *layer_description(int n)
     return n < LAYER_COUNT ? layer_rows[n].help : NULL;
 }
 
-/* The values of view_fit that a user can choose. FIT_BOX is the result of --fit points. */
+/* The values of view_fit that a user can choose. FIT_BOX is not among them: camera_fit_points() sets it. */
 static const char *const fits[][2] = {
     [FIT_WORLD] = {"world", "the whole world, the default of record"},
     [FIT_POINTS] = {"points", "the points shown at tick 0, the default of inspect"},
@@ -40,7 +40,7 @@ static const char *fit_description(int n)
     return (size_t)n < sizeof fits / sizeof fits[0] ? fits[n][1] : NULL;
 }
 
-/* Report, for example: there is no camera "iss", did you mean iso? there are iso, top, ... */
+/* Reports an unknown name, for example: there is no camera "iss", did you mean iso? there are iso, top, ... */
 static bool report_unknown_name(const view_option *option, const char *text, size_t length, octreel_error *error)
 {
     char known[320], meant[HINT_TEXT];
@@ -73,7 +73,8 @@ static bool parse_choice(const view_option *option, const char *text, view *v, o
     return true;
 }
 
-/* On the command line a switch takes no value: giving it sets the opposite of its default. */
+/* Sets a switch. On the command line a switch takes no value: an option that is given gets the opposite of its
+ * default. */
 static bool parse_switch(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     (void)error;
@@ -89,7 +90,7 @@ static bool parse_whole(const view_option *option, const char *text, view *v, oc
     return true;
 }
 
-/* Read numbers separated by commas. The limits of the member apply to a single number only. */
+/* Parses numbers separated by commas. The limits of the member apply only to options with a single number. */
 static bool parse_numbers(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const json_member *m = &option->member;
@@ -159,7 +160,8 @@ static bool check_look(json_reader *r, const json_place *at, void *structure)
 
 /* ---- Points ------------------------------------------------------------------------------------------------- */
 
-/* The point scale depends on the colouring: discard the scale that --camera-from has read. */
+/* Sets the coloring of points. The scale that --camera-from has read belongs to another coloring, so it is
+ * discarded. */
 static bool parse_point_color(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     v->point_scale.given = false;
@@ -202,7 +204,7 @@ static void write_slice(json_writer *w, const void *from)
     json_write_end_object(w);
 }
 
-/* Read "2:5", "2:", ":5" or "3". */
+/* Parses a range of depths: "2:5", "2:", ":5" or "3". */
 static bool parse_depths(const view_option *option, const char *text, view *v, octreel_error *error)
 {
     const char *at = text;
@@ -282,7 +284,7 @@ static bool check_point_scale(json_reader *r, const json_place *at, void *struct
     return s->spacing >= 0 || json_fail(r, at, "the spacing is below 0");
 }
 
-/* A point_scale is eleven doubles. */
+/* The members of "derived". A point_scale is written as eleven doubles. */
 const json_member view_derived_members[] = {
     {"focus", &json_box, offsetof(view, focus), .is_set = has_focus, .check = check_focus},
     {"point_scale", &json_numbers, offsetof(view, point_scale.of), .given = offsetof(view, point_scale.given),
@@ -295,10 +297,11 @@ const json_member view_derived_members[] = {
 
 #define MOST_PIXELS NUMBER_DIGITS(VIEW_MAX_SIDE)
 
-/* A member of recording.json: its name, its codec, and the offset of its value in `view`. */
+/* Sets the member of recording.json: its name, its codec, and the offset of its value in `view`. */
 #define MEMBER(text, how, field) .member.name = text, .member.codec = how, .member.offset = offsetof(view, field)
 
-/* null is written until the user sets the option, which also sets this bool of the view. */
+/* Makes the member nullable: null is written until the user sets the option. `flag` is the bool of the view that is
+ * then true. */
 #define UNSET_UNTIL(flag) .member.nullable = true, .member.given = offsetof(view, flag)
 
 static const view_option rows[] = {
@@ -368,11 +371,11 @@ static const view_option rows[] = {
      MEMBER("region", &json_box, filter.region), UNSET_UNTIL(filter.by_region)},
     {"labels", NULL, NULL, "write paths such as 0/3/7 on nodes that have room for them", parse_switch,
      MEMBER("labels", &json_bool, labels), .standard = "off", .noun = "rule for labels"},
-    /* With 100,000 points, frames with any lod up to 4 look the same: smaller boxes are specks. */
+    /* Up to --lod 4, frames of 100,000 points look the same, because the boxes left out are only specks. */
     {"lod", "PX", "pixels from 0 to " MOST_PIXELS,
      "leave out boxes smaller than PX pixels if an ancestor's box is drawn (default 2; 0: draw all)", parse_numbers,
      MEMBER("lod", &json_number, lod), .standard = "2", .member.max = VIEW_MAX_SIDE, .noun = "level of detail"},
-    /* The default costs at worst about 300 MB and a few seconds a frame. */
+    /* With the default budget, a frame needs at worst about 300 MB and a few seconds. */
     {"budget", "N", "a whole number below 2^53",
      "at most N boxes, N points and N/1000 arrows a frame; the frame says what is left out (default 250000; 0: no "
      "limit)",
